@@ -1,0 +1,1 @@
+"""Packwork arranges shapes so that they fill a container of any form."""

@@ -1,0 +1,1 @@
+"""Images derived from images: distances, box sums."""

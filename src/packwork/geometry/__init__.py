@@ -1,0 +1,1 @@
+"""Exact plane geometry: curves, outlines, polygons; no pixels."""

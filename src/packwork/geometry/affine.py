@@ -1,0 +1,58 @@
+"""Affine maps of the plane as 2 x 3 matrices.
+
+``matrix @ (x, y, 1)`` maps a point, so the SVG ``matrix(a, b, c, d, e, f)`` is
+``[[a, c, e], [b, d, f]]``.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+
+
+def identity() -> FloatArray:
+    """Map that leaves every point where it is.
+
+    Examples
+    --------
+    >>> identity().tolist()
+    [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]
+    """
+    return np.array([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]])
+
+
+def similarity(x: float, y: float, angle_rad: float, scale: float) -> FloatArray:
+    """Map that scales, turns clockwise on screen, then moves to ``(x, y)``.
+
+    Examples
+    --------
+    >>> similarity(5, 7, 0.0, 2.0).tolist()
+    [[2.0, -0.0, 5.0], [0.0, 2.0, 7.0]]
+    """
+    cosine, sine = scale * np.cos(angle_rad), scale * np.sin(angle_rad)
+    return np.array([[cosine, -sine, x], [sine, cosine, y]])
+
+
+def compose(outer: FloatArray, inner: FloatArray) -> FloatArray:
+    """Map that does ``inner`` first and ``outer`` after it.
+
+    Examples
+    --------
+    >>> compose(similarity(1, 0, 0, 1), similarity(0, 0, 0, 2)).tolist()
+    [[2.0, 0.0, 1.0], [0.0, 2.0, 0.0]]
+    """
+    result = outer[:, :2] @ inner
+    result[:, 2] += outer[:, 2]
+    return result
+
+
+def apply(matrix: FloatArray, points: FloatArray) -> FloatArray:
+    """Images of ``(n, 2)`` points under the map.
+
+    Examples
+    --------
+    >>> apply(similarity(1, 2, 0.0, 3.0), np.array([[1.0, 1.0]])).tolist()
+    [[4.0, 5.0]]
+    """
+    return np.asarray(points @ matrix[:, :2].T + matrix[:, 2])

@@ -1,0 +1,64 @@
+"""Curves to polylines, each with a stated tolerance.
+
+A cubic's chord error over a parameter step ``h`` is at most ``h**2 / 8`` times the
+largest second derivative, so the number of equal steps is known beforehand
+(Goldman, "Curvature formulas"; the bound is the standard interpolation error).
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+
+MAX_STEPS = 2_000
+"""Steps in one curve at most: larger costs memory on hostile files, smaller loosens
+the tolerance on curves thousands of times larger than it. Chosen."""
+
+
+def flatten_cubic(
+    p0: FloatArray, p1: FloatArray, p2: FloatArray, p3: FloatArray, tolerance: float
+) -> FloatArray:
+    """Points ``(k, 2)`` along a cubic Bezier, its first point left out, its last kept.
+
+    The polyline is within ``tolerance`` of the curve (up to ``MAX_STEPS`` steps).
+
+    Examples
+    --------
+    >>> straight = [np.array([float(i), 0.0]) for i in range(4)]
+    >>> flatten_cubic(*straight, tolerance=0.1).tolist()
+    [[3.0, 0.0]]
+    """
+    bend = max(
+        float(np.hypot(*(p0 - 2 * p1 + p2))),
+        float(np.hypot(*(p1 - 2 * p2 + p3))),
+    )
+    steps = math.ceil(math.sqrt(6 * bend / (8 * tolerance))) if bend > 0 else 1
+    steps = min(max(steps, 1), MAX_STEPS)
+    t = np.arange(1, steps + 1)[:, None] / steps
+    s = 1 - t
+    return np.asarray(s**3 * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t**3 * p3)
+
+
+def arc_points(
+    centre: tuple[float, float],
+    radius: float,
+    start_rad: float,
+    sweep_rad: float,
+    tolerance: float,
+) -> FloatArray:
+    """Points ``(k, 2)`` on a circular arc, both ends kept, within ``tolerance`` of it.
+
+    Examples
+    --------
+    >>> arc_points((0, 0), 1.0, 0.0, np.pi, 0.5).round(3).tolist()
+    [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]
+    """
+    step = 2 * math.acos(max(-1.0, 1 - min(tolerance / radius, 1.0)))
+    count = min(max(math.ceil(abs(sweep_rad) / max(step, 1e-9)), 1), MAX_STEPS)
+    angles = start_rad + sweep_rad * np.arange(count + 1) / count
+    return np.column_stack(
+        [centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)]
+    )

@@ -1,0 +1,118 @@
+"""The outline: a closed region as flattened, oriented rings."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+import shapely
+from shapely.geometry import LinearRing, MultiLineString, Polygon
+
+from packwork.arrays import FloatArray, IntArray, as_points, as_starts
+from packwork.errors import ShapeError
+from packwork.geometry import affine
+from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, signed_area
+
+
+@dataclass(frozen=True, eq=False)
+class Outline:
+    """Closed region: rings that neither cross themselves nor each other.
+
+    Outer rings run clockwise on screen (positive area), holes the other way. Curves
+    have been flattened by whoever made the outline, to a tolerance stated there.
+
+    Parameters
+    ----------
+    points
+        ``(n, 2)`` vertices of all rings, one after another, rings unclosed.
+    starts
+        Index of each ring's first vertex, and ``n`` at the end.
+
+    Examples
+    --------
+    >>> square = Outline.from_rings([np.array([[0, 0], [2, 0], [2, 2], [0, 2.0]])])
+    >>> square.area, square.centroid.tolist(), len(square.rings)
+    (4.0, [1.0, 1.0], 1)
+    """
+
+    points: FloatArray
+    starts: IntArray
+
+    def __post_init__(self) -> None:
+        points = as_points(self.points)
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "starts", as_starts(self.starts, len(points)))
+        if len(points) < 3:
+            raise ShapeError("an outline needs at least three points")
+
+    @classmethod
+    def from_rings(cls, rings: Sequence[FloatArray]) -> Outline:
+        """Outline of rings that are already simple and oriented."""
+        starts = np.concatenate([[0], np.cumsum([len(r) for r in rings])]).astype(np.int64)
+        return cls(np.concatenate(rings), starts)
+
+    @classmethod
+    def from_region(cls, shape: Region) -> Outline:
+        """Outline of a valid Shapely polygon or multipolygon.
+
+        Raises
+        ------
+        ShapeError
+            If the region has no area.
+        """
+        rings = oriented_rings(shape)
+        if not rings:
+            raise ShapeError("the region has no area")
+        return cls.from_rings(rings)
+
+    @cached_property
+    def rings(self) -> list[FloatArray]:
+        """One ``(k, 2)`` array per ring, views of ``points``."""
+        return np.split(self.points, self.starts[1:-1])
+
+    @cached_property
+    def area(self) -> float:
+        """Area in squared units of the points, holes taken off."""
+        return sum(signed_area(r) for r in self.rings)
+
+    @cached_property
+    def centroid(self) -> FloatArray:
+        """Centre of mass ``(x, y)``."""
+        return np.array(shapely.get_coordinates(self.region.centroid)[0])
+
+    @cached_property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """Smallest upright box ``(left, top, right, bottom)``."""
+        low, high = self.points.min(axis=0), self.points.max(axis=0)
+        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+    @cached_property
+    def extent(self) -> float:
+        """Longer side of the bounds."""
+        left, top, right, bottom = self.bounds
+        return max(right - left, bottom - top)
+
+    @cached_property
+    def radius(self) -> float:
+        """Largest distance of a vertex from the origin of the outline's own units."""
+        return float(np.hypot(self.points[:, 0], self.points[:, 1]).max())
+
+    @cached_property
+    def region(self) -> Region:
+        """The same region as a Shapely polygon or multipolygon."""
+        if len(self.rings) == 1:
+            return Polygon(self.rings[0])
+        # Even-odd nesting of rings that do not cross: holes, and islands inside holes.
+        return shapely.build_area(MultiLineString([LinearRing(r) for r in self.rings]))
+
+    def mapped(self, matrix: FloatArray) -> Outline:
+        """Image under an affine map (2 x 3) that does not mirror."""
+        return Outline(affine.apply(matrix, self.points), self.starts)
+
+    def without_holes(self) -> Outline:
+        """Silhouette: every hole filled, parts that lay in holes absorbed."""
+        return Outline.from_region(
+            shapely.union_all([Polygon(p.exterior) for p in polygon_parts(self.region)])
+        )

@@ -1,0 +1,45 @@
+"""Fewer points for the same region, within a stated distance."""
+
+from __future__ import annotations
+
+import shapely
+from shapely.geometry import Polygon
+
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import polygon_parts
+
+
+def simplified(outline: Outline, tolerance: float) -> Outline:
+    """Outline with fewer vertices, its boundary within ``tolerance`` of the old one.
+
+    Never collapses: if simplifying would leave no area, the outline comes back as it
+    was. Rings stay simple (Douglas-Peucker with topology kept, by GEOS).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.linspace(0, 2 * np.pi, 400, endpoint=False)
+    >>> circle = Outline.from_rings([np.column_stack([np.cos(t), np.sin(t)])])
+    >>> len(simplified(circle, 0.05).points) < 20
+    True
+    """
+    if tolerance <= 0:
+        return outline
+    region = shapely.simplify(outline.region, tolerance, preserve_topology=True)
+    if not polygon_parts(region):
+        return outline
+    return Outline.from_region(region)
+
+
+def hull(outline: Outline) -> Outline:
+    """Convex hull of the outline.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> dart = Outline.from_rings([np.array([[0, 0], [4, 2], [0, 4], [1, 2.0]])])
+    >>> len(hull(dart).points)
+    3
+    """
+    shape = shapely.convex_hull(outline.region)
+    return Outline.from_region(shape) if isinstance(shape, Polygon) else outline

@@ -1,0 +1,1 @@
+"""Density image to value and adjoint."""

@@ -1,0 +1,1 @@
+"""Files to items and containers; the gate stands before every parser."""

@@ -1,0 +1,83 @@
+"""One thing to be placed: an outline and an appearance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from packwork.arrays import FloatArray
+from packwork.geometry.outline import Outline
+
+
+@dataclass(frozen=True)
+class FlatArt:
+    """The item is its ink, filled with one colour (any CSS colour)."""
+
+    fill: str = "#4a5568"
+
+
+@dataclass(frozen=True, eq=False)
+class VectorArt:
+    """An SVG fragment that has been through the gate.
+
+    Parameters
+    ----------
+    markup
+        Well-formed elements, fit to stand inside one ``<g>`` of any SVG document: ids,
+        references and style rules are scoped so that two fragments never meet, and
+        nothing in it reaches outside the document.
+    matrix
+        2 x 3 map from the fragment's user units to the item's own units.
+    """
+
+    markup: str
+    matrix: FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class PictureArt:
+    """Pixels with transparency.
+
+    Parameters
+    ----------
+    png
+        A complete PNG file (RGBA).
+    width, height
+        Its size in pixels.
+    matrix
+        2 x 3 map from its pixels (x right, y down) to the item's own units.
+    """
+
+    png: bytes
+    width: int
+    height: int
+    matrix: FloatArray
+
+
+Art: TypeAlias = FlatArt | VectorArt | PictureArt
+
+
+@dataclass(frozen=True, eq=False)
+class Item:
+    """One thing to be placed.
+
+    Parameters
+    ----------
+    name
+        What people call it: the file's stem or the built-in's name.
+    source
+        Where it came from, as the user gave it.
+    outline
+        The region that must not overlap: the silhouette, or with its holes where they
+        are kept. In the item's own units, centroid at the origin.
+    ink
+        What is really drawn, holes and gaps taken off; same units and origin.
+    art
+        How it is drawn.
+    """
+
+    name: str
+    source: str
+    outline: Outline
+    ink: Outline
+    art: Art

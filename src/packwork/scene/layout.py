@@ -1,0 +1,65 @@
+"""Container, items and poses: the result, and what is saved."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.errors import ShapeError
+from packwork.geometry.outline import Outline
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.pose import Poses
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Container + items + poses.
+
+    Parameters
+    ----------
+    container
+        The region that was filled.
+    items
+        One entry per placed item; copies repeat the same ``Item`` object.
+    poses
+        As many as items.
+    weights
+        ``(n,)`` share of area asked for each item; all ones if none were given.
+    manifest
+        What the run did: version, recipe, seed, seconds and metrics per level.
+    """
+
+    container: Container
+    items: tuple[Item, ...]
+    poses: Poses
+    weights: FloatArray
+    manifest: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        if not len(self.items) == len(self.poses) == len(self.weights):
+            raise ShapeError(
+                f"a layout needs as many poses and weights as items ({len(self.items)}), "
+                f"not {len(self.poses)} and {len(self.weights)}"
+            )
+
+    @cached_property
+    def outlines(self) -> tuple[Outline, ...]:
+        """Each item's outline in place, canvas units."""
+        return tuple(item.outline.mapped(self.poses.matrix(k)) for k, item in enumerate(self.items))
+
+    @cached_property
+    def inks(self) -> tuple[Outline, ...]:
+        """Each item's ink in place, canvas units."""
+        return tuple(item.ink.mapped(self.poses.matrix(k)) for k, item in enumerate(self.items))
+
+    @cached_property
+    def areas(self) -> FloatArray:
+        """Area of each item in place, squared canvas units."""
+        own = np.array([item.outline.area for item in self.items])
+        return np.asarray(own * self.poses.scale**2)

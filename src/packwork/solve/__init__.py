@@ -1,0 +1,1 @@
+"""Poses to better poses: levels, Adam, the herder."""
