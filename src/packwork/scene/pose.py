@@ -35,6 +35,7 @@ class Poses:
 
         Examples
         --------
+        >>> import numpy as np
         >>> one = np.ones(1)
         >>> Poses(2 * one, 3 * one, 0 * one, one).matrix(0)[:, 2].tolist()
         [2.0, 3.0]
