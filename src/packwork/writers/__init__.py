@@ -1,1 +1,23 @@
 """Layouts to files, all through one atomic writer."""
+
+from packwork.writers.atomic import check_writable, write_atomic
+from packwork.writers.diagnose import diagnose_png
+from packwork.writers.geojson import geojson_text
+from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.registry import WRITERS, WriteOptions, check_output, write
+from packwork.writers.svg import SvgOptions, svg_text
+
+__all__ = [
+    "WRITERS",
+    "PngOptions",
+    "SvgOptions",
+    "WriteOptions",
+    "check_output",
+    "check_writable",
+    "diagnose_png",
+    "geojson_text",
+    "png_bytes",
+    "svg_text",
+    "write",
+    "write_atomic",
+]

@@ -1,0 +1,51 @@
+"""The frozen set: four containers by formula, the same 100 icons, seeds 0 to 2.
+
+Every figure of this project that speaks of "the frozen set" comes from here. Do not
+change it; add another set beside it.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from packwork.geometry.outline import Outline
+from packwork.scene.container import Container
+
+SIDE = 600.0
+COUNT = 100
+SEEDS = (0, 1, 2)
+
+
+def round_container() -> Container:
+    """A disc of radius 0.46 of the canvas."""
+    disc = shapely.Point(300, 300).buffer(276, quad_segs=128)
+    return Container("round", "frozen", Outline.from_region(disc), SIDE, SIDE)
+
+
+def concave_container() -> Container:
+    """A five-lobed flower: r = 205 + 75 cos 5 a, concave between its petals."""
+    a = np.linspace(0, 2 * np.pi, 720, endpoint=False)
+    r = 205 + 75 * np.cos(5 * a - np.pi / 2)
+    points = np.column_stack([300 + r * np.cos(a), 300 + r * np.sin(a)])
+    return Container("concave", "frozen", Outline.from_rings([points]), SIDE, SIDE)
+
+
+def thin_container() -> Container:
+    """A tube of width 110 along a sine wave of two and a half turns."""
+    t = np.linspace(0, 1, 600)
+    spine = np.column_stack([75 + 450 * t, 300 + 200 * np.sin(2.5 * 2 * np.pi * t + np.pi / 2)])
+    tube = shapely.LineString(spine).buffer(40, quad_segs=64)
+    return Container("thin", "frozen", Outline.from_region(tube), SIDE, SIDE)
+
+
+def letter_container() -> Container:
+    """A slab letter Z with strokes of 150."""
+    points = [
+        (40, 40), (560, 40), (560, 190), (270, 410), (560, 410), (560, 560),
+        (40, 560), (40, 410), (330, 190), (40, 190),
+    ]  # fmt: skip
+    return Container("letter", "frozen", Outline.from_region(shapely.Polygon(points)), SIDE, SIDE)
+
+
+CONTAINERS = (round_container, concave_container, thin_container, letter_container)

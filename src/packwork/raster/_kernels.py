@@ -1,0 +1,365 @@
+"""Compiled loops of the renderer: plain arithmetic on arrays that were checked outside.
+
+The signed area that a directed edge sweeps *downward* adds up, so all edges of all
+items go into one accumulation buffer and one running sum down the columns turns it into
+the density image. Rows are contiguous, so that running sum is a sum of whole rows.
+
+Every edge is walked once, cell by cell. The walk leaves its deposit in the buffer and
+writes down the cells and the parameters at which it left them; the pullback and the
+area integrals read that record and never walk again.
+
+Deposits are multiples of a small power of two: sums of them are then exact in the
+buffer's own precision, in any order, and a closed ring leaves exactly zero behind it.
+"""
+
+from __future__ import annotations
+
+from numba import njit
+
+ABOVE = -2
+"""Record of a piece above the canvas in column c: ``ABOVE - c``. Other pieces off the
+canvas are recorded as -1."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="never")
+def _walk(
+    x0, y0, x1, y1, u_begin, u_end, cell_x, cell_y, end_x, end_y,
+    x_magic, area_magic, width, buffer, cells, leaves, k,
+):  # fmt: skip
+    """Walk one edge piece that lies on the canvas; return the record's new length."""
+    cell = cell_y * width + cell_x
+    dx = x1 - x0
+    dy = y1 - y0
+    u_span = u_end - u_begin
+    steps_x = abs(end_x - cell_x)
+    steps_y = abs(end_y - cell_y)
+    step_x = 1 if dx > 0 else -1
+    step_y = 1 if dy > 0 else -1
+    row_step = step_y * width
+    next_x = float(cell_x + 1 if dx > 0 else cell_x)
+    row_bottom = float(cell_y + 1)
+    t_x = 2.0
+    t_y = 2.0
+    pace_x = 0.0
+    pace_y = 0.0
+    if steps_x > 0:
+        t_x = (next_x - x0) / dx
+        pace_x = step_x / dx
+    if steps_y > 0:
+        t_y = (float(cell_y + 1 if dy > 0 else cell_y) - y0) / dy
+        pace_y = step_y / dy
+    x = x0
+    y = y0
+    for _ in range(steps_x + steps_y):
+        # The two branches repeat the deposit: one unpredictable branch, not two.
+        if t_x < t_y:
+            y_next = y0 + dy * t_x
+            swept = next_x - x
+            area = (swept * (row_bottom - 0.5 * (y + y_next)) + area_magic) - area_magic
+            buffer[cell] += area
+            buffer[cell + width] += swept - area
+            cells[k] = cell
+            leaves[k] = u_begin + t_x * u_span
+            x = next_x
+            next_x += step_x
+            cell += step_x
+            steps_x -= 1
+            t_x = t_x + pace_x if steps_x > 0 else 2.0
+        else:
+            y_next = y0 + dy * t_y
+            x_next = ((x0 + dx * t_y) + x_magic) - x_magic
+            swept = x_next - x
+            area = (swept * (row_bottom - 0.5 * (y + y_next)) + area_magic) - area_magic
+            buffer[cell] += area
+            buffer[cell + width] += swept - area
+            cells[k] = cell
+            leaves[k] = u_begin + t_y * u_span
+            x = x_next
+            row_bottom += step_y
+            cell += row_step
+            steps_y -= 1
+            t_y = t_y + pace_y if steps_y > 0 else 2.0
+        y = y_next
+        k += 1
+    swept = x1 - x
+    area = (swept * (row_bottom - 0.5 * (y + y1)) + area_magic) - area_magic
+    buffer[cell] += area
+    buffer[cell + width] += swept - area
+    cells[k] = cell
+    leaves[k] = u_end
+    return k + 1
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="never")
+def _walk_above(x0, x1, u_begin, u_end, x_magic, width, buffer, cells, leaves, k):
+    """Deposit a piece above the canvas: it covers its columns from row 0 on."""
+    dx = x1 - x0
+    step = 1 if dx > 0 else -1
+    column = min(max(int(x0), 0), width - 1)
+    last = min(max(int(x1), 0), width - 1)
+    x = x0
+    while column != last:
+        border = float(column + 1 if dx > 0 else column)
+        buffer[column] += border - x
+        cells[k] = ABOVE - column
+        leaves[k] = u_begin + (border - x0) / dx * (u_end - u_begin)
+        k += 1
+        x = border
+        column += step
+    buffer[column] += x1 - x
+    cells[k] = ABOVE - column
+    leaves[k] = u_end
+    return k + 1
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="never")
+def _walk_clipped(
+    x0, y0, x1, y1, x_magic, area_magic, width, height, buffer, cells, leaves, k
+):  # fmt: skip
+    """Walk an edge that may leave the canvas: cut it at the canvas' four lines."""
+    dx = x1 - x0
+    dy = y1 - y0
+    enter = 0.0
+    leave = 1.0
+    if dx != 0.0:
+        u_left = (0.0 - x0) / dx
+        u_right = (width - x0) / dx
+        enter = min(max(min(u_left, u_right), 0.0), 1.0)
+        leave = min(max(max(u_left, u_right), 0.0), 1.0)
+    elif x0 < 0.0 or x0 >= width:
+        leave = 0.0
+    if leave <= enter:
+        cells[k] = -1
+        leaves[k] = 1.0
+        return k + 1
+    if enter > 0.0:
+        cells[k] = -1
+        leaves[k] = enter
+        k += 1
+    u_top = 2.0
+    u_bottom = 2.0
+    if dy != 0.0:
+        u_top = (0.0 - y0) / dy
+        u_bottom = (height - y0) / dy
+    u_first = min(max(min(u_top, u_bottom), enter), leave)
+    u_second = min(max(max(u_top, u_bottom), enter), leave)
+    for piece in range(3):
+        u_a = enter if piece == 0 else (u_first if piece == 1 else u_second)
+        u_b = u_first if piece == 0 else (u_second if piece == 1 else leave)
+        if u_b <= u_a:
+            continue
+        # The ends are exact on the canvas' lines, so that a ring leaves nothing behind.
+        x_a = x0 if u_a == 0.0 else min(max(((x0 + dx * u_a) + x_magic) - x_magic, 0.0), width)
+        x_b = x1 if u_b == 1.0 else min(max(((x0 + dx * u_b) + x_magic) - x_magic, 0.0), width)
+        y_middle = y0 + dy * 0.5 * (u_a + u_b)
+        if y_middle >= height:
+            cells[k] = -1
+            leaves[k] = u_b
+            k += 1
+        elif y_middle < 0.0:
+            k = _walk_above(x_a, x_b, u_a, u_b, x_magic, width, buffer, cells, leaves, k)
+        else:
+            y_a = min(max(y0 + dy * u_a, 0.0), height)
+            y_b = min(max(y0 + dy * u_b, 0.0), height)
+            k = _walk(
+                x_a, y_a, x_b, y_b, u_a, u_b,
+                min(int(x_a), width - 1), min(int(y_a), height - 1),
+                min(int(x_b), width - 1), min(int(y_b), height - 1),
+                x_magic, area_magic, width, buffer, cells, leaves, k,
+            )  # fmt: skip
+    if leave < 1.0:
+        cells[k] = -1
+        leaves[k] = 1.0
+        k += 1
+    return k
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def sweep(
+    points, starts, height, width, x_magic, area_magic, buffer, cells, leaves, first
+):  # fmt: skip
+    """Deposit every edge in ``buffer`` and record its walk.
+
+    ``buffer`` is flat, ``(height + 1) * width``, zero on entry. ``first[v]`` receives
+    where the record of the edge that begins at vertex v begins.
+    """
+    k = 0
+    for ring in range(starts.shape[0] - 1):
+        begin = starts[ring]
+        end = starts[ring + 1]
+        for v in range(begin, end):
+            w = v + 1 if v + 1 < end else begin
+            first[v] = k
+            x0 = (points[v, 0] + x_magic) - x_magic
+            x1 = (points[w, 0] + x_magic) - x_magic
+            y0 = points[v, 1]
+            y1 = points[w, 1]
+            if (
+                min(x0, x1) < 0.0
+                or max(x0, x1) >= width
+                or min(y0, y1) < 0.0
+                or max(y0, y1) >= height
+            ):
+                k = _walk_clipped(
+                    x0, y0, x1, y1, x_magic, area_magic, width, height, buffer, cells, leaves, k
+                )
+                continue
+            cell_x = int(x0)
+            cell_y = int(y0)
+            end_x = int(x1)
+            end_y = int(y1)
+            if cell_x == end_x and cell_y == end_y:
+                cell = cell_y * width + cell_x
+                swept = x1 - x0
+                area = (swept * (cell_y + 1 - 0.5 * (y0 + y1)) + area_magic) - area_magic
+                buffer[cell] += area
+                buffer[cell + width] += swept - area
+                cells[k] = cell
+                leaves[k] = 1.0
+                k += 1
+            else:
+                k = _walk(
+                    x0, y0, x1, y1, 0.0, 1.0, cell_x, cell_y, end_x, end_y,
+                    x_magic, area_magic, width, buffer, cells, leaves, k,
+                )  # fmt: skip
+    first[points.shape[0]] = k
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def record_bound(points, height, width):
+    """Upper bound of the record's length for these points, all rings closed anywhere."""
+    total = 0.0
+    n = points.shape[0]
+    for v in range(n):
+        x = min(max(points[v, 0], 0.0), float(width))
+        y = min(max(points[v, 1], 0.0), float(height))
+        w = v - 1 if v > 0 else n - 1
+        total += abs(x - min(max(points[w, 0], 0.0), float(width)))
+        total += abs(y - min(max(points[w, 1], 0.0), float(height)))
+    return total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def accumulate(buffer, density):
+    """Running sum down the columns; ``buffer`` (height + 1 rows) is cleared behind it."""
+    height = density.shape[0]
+    width = density.shape[1]
+    for c in range(width):
+        density[0, c] = buffer[0, c]
+        buffer[0, c] = 0.0
+    for r in range(1, height):
+        for c in range(width):
+            density[r, c] = density[r - 1, c] + buffer[r, c]
+            buffer[r, c] = 0.0
+    for c in range(width):
+        buffer[height, c] = 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def pullback(points, starts, cells, leaves, first, adjoint, beyond, gradient):
+    """Vertex gradients of the sum of adjoint x coverage, exactly.
+
+    For an edge a -> b with outward normal n (unnormalised):
+    dL/da = n * integral of A (1 - u) du, dL/db = n * integral of A u du.
+    """
+    n = points.shape[0]
+    for v in range(n):
+        gradient[v, 0] = 0.0
+        gradient[v, 1] = 0.0
+    for ring in range(starts.shape[0] - 1):
+        begin = starts[ring]
+        end = starts[ring + 1]
+        for v in range(begin, end):
+            w = v + 1 if v + 1 < end else begin
+            u0 = 0.0
+            total = 0.0
+            moment = 0.0
+            for k in range(first[v], first[v + 1]):
+                u1 = float(leaves[k])
+                cell = cells[k]
+                part = (u1 - u0) * (adjoint[cell] if cell >= 0 else beyond)
+                total += part
+                moment += part * (u0 + u1)
+                u0 = u1
+            moment *= 0.5
+            normal_x = points[w, 1] - points[v, 1]
+            normal_y = points[v, 0] - points[w, 0]
+            gradient[v, 0] += normal_x * (total - moment)
+            gradient[v, 1] += normal_y * (total - moment)
+            gradient[w, 0] += normal_x * moment
+            gradient[w, 1] += normal_y * moment
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def ring_integrals(points, starts, cells, leaves, first, image, prefix, totals):
+    """Integral of a pixelwise constant image over each ring's inside, by Green's theorem.
+
+    ``prefix[r, c]`` is the sum of column c above row r, row ``height`` included.
+    """
+    height = image.shape[0]
+    width = image.shape[1]
+    for ring in range(starts.shape[0] - 1):
+        begin = starts[ring]
+        end = starts[ring + 1]
+        total = 0.0
+        for v in range(begin, end):
+            w = v + 1 if v + 1 < end else begin
+            dx = points[w, 0] - points[v, 0]
+            dy = points[w, 1] - points[v, 1]
+            u0 = 0.0
+            for k in range(first[v], first[v + 1]):
+                u1 = float(leaves[k])
+                cell = cells[k]
+                if cell >= 0:
+                    row = cell // width
+                    column = cell - row * width
+                    y = points[v, 1] + dy * 0.5 * (u0 + u1)
+                    above = prefix[row, column] + (y - row) * image[row, column]
+                    total += dx * (u1 - u0) * (prefix[height, column] - above)
+                elif cell <= ABOVE:
+                    total += dx * (u1 - u0) * prefix[height, ABOVE - cell]
+                u0 = u1
+        totals[ring] = total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def count_centres(points, starts, counts):
+    """Add, for each pixel, the winding of all rings round its centre.
+
+    ``counts`` has one row more than the image and receives differences down the
+    columns; a running sum turns them into counts. A boundary through a centre counts
+    the item below and to the right of it.
+    """
+    height = counts.shape[0] - 1
+    width = counts.shape[1]
+    for ring in range(starts.shape[0] - 1):
+        begin = starts[ring]
+        end = starts[ring + 1]
+        for v in range(begin, end):
+            w = v + 1 if v + 1 < end else begin
+            sign = 1
+            a = v
+            b = w
+            if points[w, 0] < points[v, 0]:
+                sign = -1
+                a = w
+                b = v
+            left = points[a, 0] - 0.5
+            right = points[b, 0] - 0.5
+            if right <= 0.0 or left >= width or left == right:
+                continue
+            column = max(int(left), 0)
+            if column < left:
+                column += 1
+            slope = (points[b, 1] - points[a, 1]) / (points[b, 0] - points[a, 0])
+            while column < width and column < right:
+                y = points[a, 1] + slope * (column - left) - 0.5
+                row = 0
+                if y >= height:
+                    row = height
+                elif y > 0.0:
+                    row = int(y)
+                    if row < y:
+                        row += 1
+                counts[row, column] += sign
+                column += 1

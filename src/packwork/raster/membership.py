@@ -1,0 +1,41 @@
+"""Which pixels belong to how many items, judged by their centres."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from packwork.arrays import as_points, as_starts
+from packwork.errors import ShapeError
+from packwork.raster import _kernels
+
+
+def centre_count(
+    points_px: npt.ArrayLike, starts: npt.ArrayLike, shape: tuple[int, int]
+) -> npt.NDArray[np.int32]:
+    """Number of outlines that hold each pixel's centre.
+
+    Parameters
+    ----------
+    points_px
+        ``(n, 2)`` vertices in pixels; rings may leave the image.
+    starts
+        Ring starts, as in :class:`packwork.geometry.outline.Outline`.
+    shape
+        ``(rows, columns)``.
+
+    Examples
+    --------
+    >>> square = [[0, 0], [2, 0], [2, 2], [0, 2]]
+    >>> centre_count(square, [0, 4], (2, 3)).tolist()
+    [[1, 1, 0], [1, 1, 0]]
+    """
+    points = as_points(points_px)
+    if min(shape) < 1:
+        raise ShapeError(f"an image needs at least one row and one column, not {shape}")
+    differences = np.zeros((shape[0] + 1, shape[1]), dtype=np.int32)
+    _kernels.count_centres(points, as_starts(starts, len(points)), differences)
+    counts: npt.NDArray[Any] = np.cumsum(differences[:-1], axis=0, dtype=np.int32)
+    return counts

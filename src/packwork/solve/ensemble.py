@@ -1,0 +1,102 @@
+"""All items' outlines as one array of points, at one level of detail."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import closed, simplified
+from packwork.scene.pose import Poses
+from packwork.solve import _kernels
+
+
+class Ensemble:
+    """Points of all items, placed by poses, and gradients gathered back to poses.
+
+    Parameters
+    ----------
+    outlines
+        One per item, in item units, origin at the item's centroid; copies may repeat
+        one object.
+
+    Examples
+    --------
+    >>> square = Outline.from_rings([np.array([[-1, -1], [1, -1], [1, 1], [-1, 1.0]])])
+    >>> two = Ensemble([square, square])
+    >>> one = np.ones(2)
+    >>> two.place(Poses(np.array([1.0, 4.0]), one, 0 * one, one), 10.0)[[0, 4]].tolist()
+    [[0.0, 0.0], [30.0, 0.0]]
+    """
+
+    def __init__(self, outlines: Sequence[Outline]) -> None:
+        counts = [len(o.points) for o in outlines]
+        self._own = np.concatenate([o.points for o in outlines])
+        self._item_starts: IntArray = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
+        offsets = self._item_starts[:-1]
+        self.ring_starts: IntArray = np.concatenate(
+            [o.starts[:-1] + k for o, k in zip(outlines, offsets, strict=True)]
+            + [self._item_starts[-1:]]
+        ).astype(np.int64)
+        """Starts of all rings of all items."""
+        self._rings_before: IntArray = np.cumsum([0] + [len(o.rings) for o in outlines])[:-1]
+        self._points = np.empty_like(self._own)
+        self._by_pose = np.zeros((len(outlines), 4))
+
+    def place(self, poses: Poses, px_per_cu: float) -> FloatArray:
+        """Points in pixels, ``(n, 2)``; a buffer that the next call reuses."""
+        _kernels.place(
+            self._own, self._item_starts, poses.x, poses.y, poses.angle, poses.scale,
+            px_per_cu, self._points,
+        )  # fmt: skip
+        return self._points
+
+    def gather(self, gradient: FloatArray, poses: Poses, px_per_cu: float) -> FloatArray:
+        """Pose gradients from the gradients of the points last placed.
+
+        Returns
+        -------
+        FloatArray
+            ``(items, 4)``: by x and y (per canvas unit), angle (rad) and log scale; a
+            buffer that the next call reuses.
+        """
+        _kernels.gather(
+            self._points, gradient, self._item_starts, poses.x, poses.y, px_per_cu, self._by_pose
+        )
+        return self._by_pose
+
+    def per_item(self, per_ring: FloatArray) -> FloatArray:
+        """Sums over each item's rings."""
+        return np.asarray(np.add.reduceat(per_ring, self._rings_before))
+
+
+def coarsened(
+    outlines: Sequence[Outline], pixels: FloatArray, cleft_px: float, detail_px: float
+) -> list[Outline]:
+    """Outlines as a level sees them; copies of about one size are made once.
+
+    Parameters
+    ----------
+    outlines
+        One per item, item units.
+    pixels
+        ``(n,)`` size of the level's pixel in the units of each item.
+    cleft_px
+        Clefts narrower than twice this are closed: what a level cannot resolve must
+        not lock items into each other.
+    detail_px
+        Tolerance of the simplification that follows.
+    """
+    done: dict[tuple[int, int], Outline] = {}
+    result = []
+    for outline, pixel in zip(outlines, pixels, strict=True):
+        # Pixels within a factor of two share one outline.
+        rung = int(np.floor(np.log2(pixel)))
+        key = (id(outline), rung)
+        if key not in done:
+            size = 2.0**rung
+            done[key] = simplified(closed(outline, cleft_px * size), detail_px * size)
+        result.append(done[key])
+    return result

@@ -1,0 +1,109 @@
+"""One rung of the resolution hierarchy: poses in, pose gradients out."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from packwork.arrays import FloatArray, Image
+from packwork.geometry.outline import Outline
+from packwork.losses.linear import LinearAdjoint, LinearWeights
+from packwork.losses.recall import Recall
+from packwork.losses.registry import find_loss
+from packwork.losses.term import ImageLoss
+from packwork.raster.coverage import Rasteriser
+from packwork.raster.pyramid import image_shape, region_image
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.solve.ensemble import Ensemble, coarsened
+
+DETAIL_PX = 0.1
+"""Outlines are simplified to this many pixels of the level: larger is faster and lets
+items overlap by as much, smaller costs edges that no pixel sees. Tried."""
+
+CLEFT_PX = 1.0
+"""Clefts narrower than twice this many pixels of the level are closed. Larger keeps
+items out of each other's bays, smaller lets thin limbs cross and lock. Tried."""
+
+
+class Level:
+    """Renders all items at one resolution and reads the losses' pose gradients.
+
+    Parameters
+    ----------
+    container
+        The region to fill.
+    outlines
+        One per item, item units.
+    scales
+        ``(n,)`` scales about which the outlines' detail is chosen.
+    resolution
+        Pixels on the canvas' longer side.
+    losses
+        Further image losses by name, with their weights.
+    """
+
+    def __init__(
+        self,
+        container: Container,
+        outlines: Sequence[Outline],
+        scales: FloatArray,
+        resolution: int,
+        losses: Mapping[str, float] | None = None,
+    ) -> None:
+        self.resolution = resolution
+        self.px_per_cu = resolution / container.side
+        shape = image_shape(container.width, container.height, resolution)
+        self.rasteriser = Rasteriser(shape, np.float32)
+        self.container_image = region_image(container.outline, self.rasteriser, self.px_per_cu)
+        self.ensemble = Ensemble(coarsened(outlines, 1 / (self.px_per_cu * scales), CLEFT_PX, DETAIL_PX))
+        self._areas = np.array([o.area for o in outlines])
+        self._linear = LinearAdjoint(self.container_image)
+        self._recall = Recall(self.container_image, self.px_per_cu)
+        self._losses: list[tuple[ImageLoss, float]] = [
+            (find_loss(name), weight) for name, weight in (losses or {}).items()
+        ]
+
+    def gradient(self, poses: Poses, weights: LinearWeights) -> FloatArray:
+        """Derivative of the weighted losses by x, y, angle and log scale, ``(n, 4)``.
+
+        Losses count in squared canvas units (sums over pixels times a pixel's area), so
+        that a level change does not change the physics.
+        """
+        points = self.ensemble.place(poses, self.px_per_cu)
+        self.rasteriser.sweep(points, self.ensemble.ring_starts)
+        adjoint = self._adjoint(weights)
+        by_points = self.rasteriser.pullback(adjoint, beyond=weights.containment)
+        by_pose = self.ensemble.gather(by_points, poses, self.px_per_cu)
+        by_pose /= self.px_per_cu**2
+        recall = self._recall(poses.x, poses.y, self._areas * poses.scale**2)
+        pull = weights.containment * self.px_per_cu / self.resolution
+        by_pose[:, 0] += pull * recall.x
+        by_pose[:, 1] += pull * recall.y
+        return by_pose
+
+    def density(self, poses: Poses) -> Image:
+        """Density image of these poses; their walk stays on record."""
+        points = self.ensemble.place(poses, self.px_per_cu)
+        self.rasteriser.sweep(points, self.ensemble.ring_starts)
+        return self.rasteriser.density()
+
+    def shares(self, density: Image) -> tuple[float, float, float]:
+        """Shares of the container: covered, covered twice, covered outside it."""
+        whole = float(self.container_image.sum())
+        covered = np.minimum(density, 1)
+        inside = float((covered * self.container_image).sum())
+        twice = float(np.maximum(density - 1, 0).sum())
+        outside = float((covered * (1 - self.container_image)).sum())
+        return inside / whole, twice / whole, outside / whole
+
+    def _adjoint(self, weights: LinearWeights) -> Image:
+        if not self._losses:
+            return self._linear(self.rasteriser.accumulation, weights)
+        accumulation = self.rasteriser.accumulation.copy()
+        density = self.rasteriser.density()
+        adjoint = self._linear(accumulation, weights)
+        for loss, weight in self._losses:
+            adjoint += weight * density.size * loss(density, self.container_image).adjoint
+        return adjoint

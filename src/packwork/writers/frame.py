@@ -1,0 +1,63 @@
+"""The canvas as whole pixels: one rule for every picture that is written."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from packwork.errors import RecipeError
+from packwork.raster.pyramid import image_shape
+from packwork.scene.container import Container
+
+MAX_SIDE_PX = 20_000
+"""Longer side of a picture at most. Larger: no renderer at hand is tested there. Chosen."""
+
+MAX_PIXELS = 150_000_000
+"""Pixels of a picture at most: an A0 sheet at 300 dpi fits, 600 MB of memory. Chosen."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Frame:
+    """Size of a picture in pixels and its scale.
+
+    Parameters
+    ----------
+    rows, columns
+        Whole pixels; the canvas's top left corner is the picture's, and its far edges
+        lie less than a pixel inside the picture's.
+    px_per_cu
+        Pixels per canvas unit, the same both ways.
+    """
+
+    rows: int
+    columns: int
+    px_per_cu: float
+
+
+def picture_frame(container: Container, longer_side_px: int) -> Frame:
+    """Frame that shows the whole canvas, ``longer_side_px`` long.
+
+    Raises
+    ------
+    RecipeError
+        If the size is not 1 to ``MAX_SIDE_PX`` or needs more than ``MAX_PIXELS``.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> tile = Outline.from_rings([[[0, 0], [9, 0], [9, 4]]])
+    >>> picture_frame(Container("tile", "tile", tile, 10.0, 4.1), 100)
+    Frame(rows=41, columns=100, px_per_cu=10.0)
+    """
+    if not 1 <= longer_side_px <= MAX_SIDE_PX:
+        raise RecipeError(
+            "resolution",
+            f"a picture's longer side must be 1 to {MAX_SIDE_PX} px, not {longer_side_px}",
+        )
+    rows, columns = image_shape(container.width, container.height, longer_side_px)
+    if rows * columns > MAX_PIXELS:
+        raise RecipeError(
+            "resolution",
+            f"{columns} x {rows} px are too many; a picture may have "
+            f"{MAX_PIXELS // 1_000_000} million",
+        )
+    return Frame(rows=rows, columns=columns, px_per_cu=longer_side_px / container.side)

@@ -1,0 +1,139 @@
+"""Layouts as GeoJSON: true outlines in place, for any geometry tool to check.
+
+Canvas units, y down: outer rings run clockwise on screen, which is the right-hand rule
+of RFC 7946 in numbers.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable, Mapping
+from pathlib import PurePath
+from typing import Any
+
+import numpy as np
+import shapely
+
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region, polygon_parts
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+from packwork.writers.notation import decimals
+from packwork.writers.swatch import representative_colour
+
+PRECISION = 1e-9
+"""Last digit of a coordinate, as a share of the canvas's longer side: what is measured
+from the file is what was measured before. Larger: shorter files that say less. Chosen."""
+
+
+def geojson_text(layout: Layout) -> str:
+    """GeoJSON FeatureCollection: the container, then one feature per item.
+
+    Coordinates are rounded to ``PRECISION``; ``x``, ``y``, ``angle`` (degrees clockwise,
+    -180 to 180) and ``scale`` are written in full. Numbers that JSON has no word for
+    (NaN, infinity) become null in the manifest.
+
+    Examples
+    --------
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> empty = Layout(
+    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
+    ... )
+    >>> json.loads(geojson_text(empty))["features"][0]["geometry"]["coordinates"]
+    [[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 0.0]]]
+    """
+    container = layout.container
+    digits = decimals(container.side * PRECISION)
+    collection = {
+        "type": "FeatureCollection",
+        "canvas": {"width": float(container.width), "height": float(container.height)},
+        "manifest": plain(layout.manifest),
+    }
+    features = [_container_feature(layout, digits), *_item_features(layout, digits)]
+    # One feature a line: a file that people can page through and compare.
+    lines = ",\n".join(_json(feature) for feature in features)
+    return f'{_json(collection)[:-1]},"features":[\n{lines}\n]}}\n'
+
+
+def plain(value: Any) -> Any:
+    """Value that JSON can hold, whatever a manifest collected.
+
+    A run that took minutes shall not be lost to an odd entry: what has no JSON form is
+    written as its text.
+
+    Examples
+    --------
+    >>> plain({"seconds": np.float64(0.5), "gap": float("inf"), "sizes": (1, 2)})
+    {'seconds': 0.5, 'gap': None, 'sizes': [1, 2]}
+    """
+    if value is None or isinstance(value, bool | int | str):
+        return value
+    if isinstance(value, float):
+        return float(value) if math.isfinite(value) else None
+    if isinstance(value, np.ndarray | np.generic):
+        return plain(value.tolist())
+    if isinstance(value, Mapping):
+        return {str(k): plain(v) for k, v in value.items()}
+    if isinstance(value, Iterable) and not isinstance(value, bytes | PurePath):
+        return [plain(v) for v in value]
+    return str(value)
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, separators=(",", ":"), allow_nan=False)
+
+
+def _container_feature(layout: Layout, digits: int) -> dict[str, Any]:
+    container = layout.container
+    properties = {"role": "container", "name": container.name, "source": container.source}
+    return _feature(properties, container.outline, digits)
+
+
+def _item_features(layout: Layout, digits: int) -> Iterable[dict[str, Any]]:
+    # By identity: copies share an art, and a picture's colour is worth one look only.
+    arts = {id(item.art): item.art for item in layout.items}
+    fills = {key: representative_colour(art) for key, art in arts.items()}
+    for k, (item, outline) in enumerate(zip(layout.items, layout.outlines, strict=True)):
+        properties = _item_properties(layout, k, item) | {"fill": fills[id(item.art)]}
+        yield _feature(properties, outline, digits)
+
+
+def _item_properties(layout: Layout, k: int, item: Item) -> dict[str, Any]:
+    poses = layout.poses
+    return {
+        "role": "item",
+        "item": item.name,
+        "source": item.source,
+        "x": float(poses.x[k]),
+        "y": float(poses.y[k]),
+        "angle": math.remainder(math.degrees(poses.angle[k]), 360.0),
+        "scale": float(poses.scale[k]),
+        "weight": float(layout.weights[k]),
+    }
+
+
+def _feature(properties: dict[str, Any], outline: Outline, digits: int) -> dict[str, Any]:
+    return {
+        "type": "Feature",
+        "properties": properties,
+        "geometry": _geometry(outline.region, digits),
+    }
+
+
+def _geometry(region: Region, digits: int) -> dict[str, Any]:
+    polygons = [_rings(p, digits) for p in polygon_parts(region)]
+    if len(polygons) == 1:
+        return {"type": "Polygon", "coordinates": polygons[0]}
+    return {"type": "MultiPolygon", "coordinates": polygons}
+
+
+def _rings(polygon: Region, digits: int) -> list[Any]:
+    oriented = shapely.geometry.polygon.orient(polygon, 1.0)
+    return [
+        np.round(shapely.get_coordinates(ring), digits).tolist()
+        for ring in (oriented.exterior, *oriented.interiors)
+    ]

@@ -1,0 +1,110 @@
+"""Arts as SVG elements: one for each way an item can look."""
+
+from __future__ import annotations
+
+import base64
+import re
+from collections.abc import Mapping
+
+from packwork.errors import RecipeError
+from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
+from packwork.writers.colours import hex_colour, parse_colour
+from packwork.writers.notation import attributes, matrix_text, path_data
+
+_ID = re.compile(r"""\bid\s*=\s*(["'])([^"']+)\1""")
+
+
+def shape_key(item: Item) -> int:
+    """Same number for items whose definition can be shared.
+
+    Flat items share by ink alone, so that marks of many colours cost one path.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> ink = Outline.from_rings([[[-1, -1], [2, -1], [-1, 2]]])
+    >>> red, blue = (Item(c, "", ink, ink, FlatArt(c)) for c in ("red", "blue"))
+    >>> shape_key(red) == shape_key(blue)
+    True
+    """
+    return id(item.ink) if isinstance(item.art, FlatArt) else id(item.art)
+
+
+def paint(item: Item) -> dict[str, str]:
+    """Attributes that colour one copy; arts with colours of their own need none.
+
+    Opacity is written apart, as few tools read ``#rrggbbaa``.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> ink = Outline.from_rings([[[-1, -1], [2, -1], [-1, 2]]])
+    >>> paint(Item("glass", "", ink, ink, FlatArt("#ff000080")))
+    {'fill': '#ff0000', 'fill-opacity': '0.502'}
+    """
+    if not isinstance(item.art, FlatArt):
+        return {}
+    try:
+        channels = parse_colour("fill", item.art.fill)
+    except RecipeError:
+        return {"fill": item.art.fill}
+    opacity = "" if channels[3] == 255 else f"{channels[3] / 255:.3g}"
+    return {"fill": hex_colour(channels), "fill-opacity": opacity}
+
+
+def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
+    """Element that draws an item.
+
+    Parameters
+    ----------
+    item
+        Drawn in its own units.
+    own
+        Attributes of this element: its id, its colour.
+    place
+        A ``transform`` from the item's units to wherever it goes; may be empty.
+    digits
+        Digits after the point for ink, in the item's units.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> ink = Outline.from_rings([[[-1, -1], [2, -1], [-1, 2]]])
+    >>> element(Item("tri", "", ink, ink, FlatArt()), {"id": "a"}, "scale(2)", 3)
+    '<path id="a" transform="scale(2)" fill-rule="evenodd" d="M-1 -1 2 -1 -1 2Z"/>'
+    """
+    art = item.art
+    if isinstance(art, VectorArt):
+        head = attributes({**own, "transform": place + matrix_text(art.matrix)})
+        return f"<g{head}>{art.markup}</g>"
+    if isinstance(art, PictureArt):
+        head = attributes({**own, "transform": place + matrix_text(art.matrix)})
+        return f"<image{head}{_picture(art)}/>"
+    head = attributes({**own, "transform": place})
+    return f'<path{head} fill-rule="evenodd" d="{path_data(item.ink, digits)}"/>'
+
+
+def with_fresh_ids(markup: str, suffix: str) -> str:
+    """Markup whose ids, and what refers to them, end in ``suffix``.
+
+    A document may hold each id once, so a second copy in place needs ids of its own.
+
+    Examples
+    --------
+    >>> with_fresh_ids('<g id="a"><use href="#a"/><b fill="url(#a)" x="#ab"/></g>', "-2")
+    '<g id="a-2"><use href="#a-2"/><b fill="url(#a-2)" x="#ab"/></g>'
+    """
+    ids = {m.group(2) for m in _ID.finditer(markup)}
+    if not ids:
+        return markup
+    longest_first = "|".join(re.escape(i) for i in sorted(ids, key=lambda i: (-len(i), i)))
+    uses = re.compile(rf"""(\bid\s*=\s*["']|\#)({longest_first})(?![\w.:-])""")
+    return uses.sub(rf"\g<1>\g<2>{suffix}", markup)
+
+
+def _picture(art: PictureArt) -> str:
+    data = base64.b64encode(art.png).decode("ascii")
+    return (
+        f' width="{art.width}" height="{art.height}" preserveAspectRatio="none"'
+        f' xlink:href="data:image/png;base64,{data}"'
+    )

@@ -1,0 +1,95 @@
+"""Numbers and names as XML: short, and safe whatever they hold."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping
+
+from packwork.arrays import FloatArray
+from packwork.geometry.outline import Outline
+
+MAX_DECIMALS = 24
+"""Digits after the point at most: enough for items a billion times their canvas. Chosen."""
+
+_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_ESCAPES = str.maketrans(
+    {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": " ", "\r": " ", "\t": " "}
+)
+
+
+def decimals(step: float) -> int:
+    """Digits after the point so that the last one counts no more than ``step``.
+
+    Examples
+    --------
+    >>> decimals(0.02), decimals(0.01), decimals(5.0)
+    (2, 2, 0)
+    """
+    return min(max(math.ceil(-math.log10(step) - 1e-9), 0), MAX_DECIMALS)
+
+
+def number(value: float, digits: int) -> str:
+    """Fixed-point text without idle zeros; never an exponent, never ``-0``.
+
+    Examples
+    --------
+    >>> number(2.50001, 3), number(-0.0001, 2), number(100, 0)
+    ('2.5', '0', '100')
+    """
+    text = f"{value:.{digits}f}"
+    if digits:
+        text = text.rstrip("0").rstrip(".")
+    return "0" if text == "-0" else text
+
+
+def matrix_text(matrix: FloatArray) -> str:
+    """Affine map as an SVG ``transform``, to 12 significant digits.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> matrix_text(np.array([[2.0, 0.0, 5.0], [0.0, 2.0, 7.5]]))
+    'matrix(2 0 0 2 5 7.5)'
+    """
+    return "matrix(" + " ".join(f"{v:.12g}" for v in matrix.T.ravel()) + ")"
+
+
+def path_data(outline: Outline, digits: int) -> str:
+    """SVG path of an outline's rings, absolute coordinates.
+
+    Absolute, as relative ones would add up their rounding in readers that count in
+    single precision.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> path_data(Outline.from_rings([np.array([[0, 0], [2, 0], [2, 1.5]])]), 3)
+    'M0 0 2 0 2 1.5Z'
+    """
+    return "".join(
+        "M" + " ".join([number(v, digits) for v in ring.ravel().tolist()]) + "Z"
+        for ring in outline.rings
+    )
+
+
+def xml_text(text: str) -> str:
+    """Text fit for XML content and attributes; what XML forbids becomes U+FFFD.
+
+    Examples
+    --------
+    >>> xml_text('R&D <"1">')
+    'R&amp;D &lt;&quot;1&quot;&gt;'
+    """
+    return _NOT_XML.sub("\ufffd", text).translate(_ESCAPES)
+
+
+def attributes(pairs: Mapping[str, str]) -> str:
+    """Attributes ready to follow an element's name; empty ones are left out.
+
+    Examples
+    --------
+    >>> attributes({"id": "item-1", "fill": ""})
+    ' id="item-1"'
+    """
+    return "".join(f' {name}="{xml_text(value)}"' for name, value in pairs.items() if value)

@@ -1,0 +1,93 @@
+"""Layouts as PNG: the SVG that would be written, rendered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import resvg_py
+
+from packwork.errors import WriteError
+from packwork.scene.layout import Layout
+from packwork.writers.colours import parse_colour
+from packwork.writers.frame import picture_frame
+from packwork.writers.svg import Sheet, SvgOptions, svg_document
+
+
+@dataclass(frozen=True, kw_only=True)
+class PngOptions:
+    """How a layout is rendered.
+
+    Parameters
+    ----------
+    background
+        CSS colour behind everything; ``None`` or ``"transparent"`` leaves it clear.
+    container_outline
+        Draw the container's line.
+
+    Raises
+    ------
+    RecipeError
+        If ``background`` is not a colour.
+
+    Examples
+    --------
+    >>> PngOptions().background
+    '#ffffff'
+    """
+
+    background: str | None = "#ffffff"
+    container_outline: bool = False
+
+    def __post_init__(self) -> None:
+        if self.background is not None:
+            parse_colour("background", self.background)
+
+
+def png_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
+    """PNG file (RGBA) of a layout, its canvas's longer side ``longer_side_px`` long.
+
+    The shorter side is rounded up to a whole pixel; nothing is stretched.
+
+    Raises
+    ------
+    RecipeError
+        If the size is out of bounds (see ``writers.frame``).
+    WriteError
+        If the renderer cannot draw an item's art.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> import numpy as np
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> empty = Layout(
+    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
+    ... )
+    >>> png_bytes(empty, 16)[1:4]
+    b'PNG'
+    """
+    options = options or PngOptions()
+    frame = picture_frame(layout.container, longer_side_px)
+    # Whole pixels both ways: the renderer fits a fractional canvas with soft edges.
+    sheet = Sheet(
+        width_px=frame.columns,
+        height_px=frame.rows,
+        width=frame.columns / frame.px_per_cu,
+        height=frame.rows / frame.px_per_cu,
+    )
+    drawn = SvgOptions(background=options.background, container_outline=options.container_outline)
+    return _rendered(svg_document(layout, drawn, sheet))
+
+
+def _rendered(text: str) -> bytes:
+    try:
+        # Fonts are looked up only where text is drawn: that takes longer than the rest.
+        return bytes(
+            resvg_py.svg_to_bytes(svg_string=text, dpi=96, skip_system_fonts="<text" not in text)
+        )
+    except ValueError as error:
+        reason = " ".join(str(error).split())[:200]
+        raise WriteError("PNG", f"an item's drawing cannot be rendered ({reason})") from error

@@ -1,0 +1,114 @@
+"""Which ending is written how. A new format is one file and one line of ``WRITERS``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import MappingProxyType
+from typing import TypeAlias
+
+from packwork.errors import WriteError
+from packwork.scene.layout import Layout
+from packwork.writers.atomic import check_writable, write_atomic
+from packwork.writers.geojson import geojson_text
+from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.svg import SvgOptions, svg_text
+
+
+@dataclass(frozen=True, kw_only=True)
+class WriteOptions:
+    """Options of every format; each reads its own.
+
+    Parameters
+    ----------
+    svg, png
+        How the layout is drawn.
+    png_side_px
+        Longer side of a PNG.
+
+    Examples
+    --------
+    >>> WriteOptions(svg=SvgOptions(flatten=True)).png_side_px
+    1600
+    """
+
+    svg: SvgOptions = field(default_factory=SvgOptions)
+    png: PngOptions = field(default_factory=PngOptions)
+    png_side_px: int = 1600
+
+
+Encoder: TypeAlias = Callable[[Layout, WriteOptions], bytes]
+
+
+def _svg(layout: Layout, options: WriteOptions) -> bytes:
+    return svg_text(layout, options.svg).encode()
+
+
+def _png(layout: Layout, options: WriteOptions) -> bytes:
+    return png_bytes(layout, options.png_side_px, options.png)
+
+
+def _geojson(layout: Layout, _: WriteOptions) -> bytes:
+    return geojson_text(layout).encode()
+
+
+WRITERS: Mapping[str, Encoder] = MappingProxyType(
+    {".svg": _svg, ".png": _png, ".geojson": _geojson, ".json": _geojson}
+)
+"""File ending, in lower case, to the function that makes the file's bytes."""
+
+
+def check_output(path: str | Path) -> None:
+    """Refuse, before a run, a path that :func:`write` would refuse after it.
+
+    Raises
+    ------
+    WriteError
+        If the ending is unknown or nothing can be written there.
+
+    Examples
+    --------
+    >>> check_output("layout.svg")
+    """
+    _encoder(path)
+    check_writable(path)
+
+
+def write(layout: Layout, path: str | Path, options: WriteOptions | None = None) -> None:
+    """Write a layout in the format that the path's ending names.
+
+    Raises
+    ------
+    WriteError
+        If the ending is unknown or the file cannot be written; an older file is whole.
+    RecipeError
+        If an option is out of bounds.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> import numpy as np, tempfile
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> empty = Layout(
+    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
+    ... )
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write(empty, Path(folder, "out.svg"))
+    ...     Path(folder, "out.svg").exists()
+    True
+    """
+    encoder = _encoder(path)
+    write_atomic(path, encoder(layout, options or WriteOptions()))
+
+
+def _encoder(path: str | Path) -> Encoder:
+    ending = Path(path).suffix.lower()
+    if ending not in WRITERS:
+        known = ", ".join(WRITERS)
+        met = f"the ending {ending!r} is not known" if ending else "the name has no ending"
+        raise WriteError(path, f"{met}; use one of {known}")
+    return WRITERS[ending]

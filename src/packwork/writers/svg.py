@@ -1,0 +1,253 @@
+"""Layouts as SVG: small, valid, and in groups that an editor shows as layers.
+
+Each distinct shape is defined once and every copy is one short ``use``. The document
+has a group ``container`` and a group ``items``; item ``k`` is ``item-k``, counted from
+1 in the layout's order, its name in ``data-name``. References are written the older
+way, ``xlink:href``, which browsers and old cutters both understand.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
+
+from packwork.scene.item import Item, VectorArt
+from packwork.scene.layout import Layout
+from packwork.writers.colours import hex_colour, parse_colour
+from packwork.writers.marks import element, paint, shape_key, with_fresh_ids
+from packwork.writers.notation import attributes, decimals, number, path_data, xml_text
+
+PRECISION = 1e-6
+"""Every point drawn lies within this share of the canvas's longer side of its place in
+the layout. Smaller: longer files. Chosen: a tenth of the finest gap a finish keeps."""
+
+_STEP_SHARE = PRECISION / 4
+"""Last digit of each rounded quantity, as a share of the canvas. A point gathers the
+rounding of its path, scale, turn and place: half a step each, in two directions for the
+path and the place, 2.4 half steps in all. Derived."""
+
+_NAME_LENGTH = 80
+"""Characters of a name that are kept: it is repeated on every copy. Chosen."""
+
+_CONTAINER_STROKE = "#1a202c"
+_CONTAINER_STROKE_SHARE = 1 / 500
+"""Width of the container's drawn line, as a share of the canvas. Chosen by eye."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SvgOptions:
+    """How a layout is drawn.
+
+    Parameters
+    ----------
+    background
+        CSS colour behind everything; ``None`` or ``"none"`` leaves it clear.
+    container_outline
+        Show the container's line. Its path is in the file either way.
+    flatten
+        Write every copy in full, for tools that do not know ``use``.
+
+    Raises
+    ------
+    RecipeError
+        If ``background`` is not a colour.
+
+    Examples
+    --------
+    >>> SvgOptions(background="ivory").flatten
+    False
+    """
+
+    background: str | None = None
+    container_outline: bool = False
+    flatten: bool = False
+
+    def __post_init__(self) -> None:
+        if self.background is not None:
+            parse_colour("background", self.background)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Sheet:
+    """What a document's root states: size in px, and the canvas units it shows."""
+
+    width_px: float
+    height_px: float
+    width: float
+    height: float
+
+
+def svg_text(layout: Layout, options: SvgOptions | None = None) -> str:
+    """SVG document of a layout, in canvas units (96 to the inch).
+
+    Points are within ``PRECISION`` of the canvas; arts keep their colours.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.item import FlatArt
+    >>> from packwork.scene.pose import Poses
+    >>> square = Outline.from_rings([[[-1, -1], [1, -1], [1, 1], [-1, 1]]])
+    >>> item = Item("square", "square", square, square, FlatArt("teal"))
+    >>> one = np.ones(1)
+    >>> poses = Poses(2 * one, 2 * one, 0 * one, one)
+    >>> tile = Container("tile", "tile", square, 4.0, 4.0)
+    >>> text = svg_text(Layout(tile, (item,), poses, one))
+    >>> '<use id="item-1" data-name="square"' in text
+    True
+    """
+    width, height = layout.container.width, layout.container.height
+    sheet = Sheet(width_px=width, height_px=height, width=width, height=height)
+    return svg_document(layout, options or SvgOptions(), sheet)
+
+
+def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
+    """SVG document of a layout on a sheet of any size: :func:`svg_text`, and rendering.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> empty = Layout(
+    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
+    ... )
+    >>> text = svg_document(
+    ...     empty, SvgOptions(), Sheet(width_px=64, height_px=64, width=4.0, height=4.0)
+    ... )
+    >>> 'width="64" height="64" viewBox="0 0 4 4"' in text
+    True
+    """
+    digits = decimals(layout.container.side * _STEP_SHARE)
+    shapes = _shapes(layout)
+    lines = [
+        '<?xml version="1.0" encoding="UTF-8"?>',
+        _root(sheet),
+        f"<title>{xml_text(layout.container.name[:_NAME_LENGTH])}</title>",
+        *([] if options.flatten else _definitions(shapes.values())),
+        *_background(options.background),
+        *_container(layout, options.container_outline, digits),
+        '<g id="items">',
+        *_copies(layout, shapes, digits, flatten=options.flatten),
+        "</g>",
+        "</svg>",
+        "",
+    ]
+    return "\n".join(lines)
+
+
+@dataclass(frozen=True)
+class _Shape:
+    """A definition that copies share, and how finely its own units are written."""
+
+    name: str
+    item: Item
+    path_digits: int
+    scale_digits: int
+    turn_digits: int
+
+
+def _shapes(layout: Layout) -> dict[int, _Shape]:
+    """One definition for each distinct drawing, fine enough for its largest copy."""
+    largest: dict[int, float] = {}
+    items: dict[int, Item] = {}
+    for item, scale in zip(layout.items, layout.poses.scale.tolist(), strict=True):
+        key = shape_key(item)
+        items.setdefault(key, item)
+        largest[key] = max(largest.get(key, 0.0), scale)
+    step = layout.container.side * _STEP_SHARE
+    return {
+        key: _shape(f"shape-{n}", item, largest[key], step)
+        for n, (key, item) in enumerate(items.items(), start=1)
+    }
+
+
+def _shape(name: str, item: Item, scale: float, step: float) -> _Shape:
+    radius = max(item.ink.radius, item.outline.radius)
+    return _Shape(
+        name=name,
+        item=item,
+        path_digits=decimals(step / scale),
+        scale_digits=decimals(step / radius),
+        turn_digits=decimals(math.degrees(step / (radius * scale))),
+    )
+
+
+def _root(sheet: Sheet) -> str:
+    width_px, height_px, width, height = (
+        f"{v:.12g}" for v in (sheet.width_px, sheet.height_px, sheet.width, sheet.height)
+    )
+    return (
+        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+        f' width="{width_px}" height="{height_px}" viewBox="0 0 {width} {height}">'
+    )
+
+
+def _definitions(shapes: Iterable[_Shape]) -> list[str]:
+    drawn = [element(s.item, {"id": s.name}, "", s.path_digits) for s in shapes]
+    return ["<defs>", *drawn, "</defs>"] if drawn else []
+
+
+def _background(colour: str | None) -> list[str]:
+    channels = parse_colour("background", colour or "none")
+    if channels[3] == 0:
+        return []
+    opacity = "" if channels[3] == 255 else f"{channels[3] / 255:.3g}"
+    head = attributes({"fill": hex_colour(channels), "fill-opacity": opacity})
+    return [f'<rect id="background" width="100%" height="100%"{head}/>']
+
+
+def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
+    container = layout.container
+    head = attributes(
+        {
+            "id": "container",
+            "data-name": container.name[:_NAME_LENGTH],
+            "fill": "none",
+            "stroke": _CONTAINER_STROKE,
+            "stroke-width": f"{container.side * _CONTAINER_STROKE_SHARE:.6g}",
+            "display": "" if shown else "none",
+        }
+    )
+    return [f"<g{head}>", f'<path d="{path_data(container.outline, digits)}"/>', "</g>"]
+
+
+def _copies(layout: Layout, shapes: dict[int, _Shape], digits: int, *, flatten: bool) -> list[str]:
+    copies = []
+    for k, item in enumerate(layout.items):
+        shape = shapes[shape_key(item)]
+        own = {"id": f"item-{k + 1}", "data-name": item.name[:_NAME_LENGTH], **paint(item)}
+        place = _place(layout, k, shape, digits)
+        copies.append(
+            _in_full(item, own, place, shape, k + 1) if flatten else _use(own, place, shape)
+        )
+    return copies
+
+
+def _use(own: dict[str, str], place: str, shape: _Shape) -> str:
+    head = attributes({**own, "xlink:href": f"#{shape.name}", "transform": place})
+    return f"<use{head}/>"
+
+
+def _in_full(item: Item, own: dict[str, str], place: str, shape: _Shape, count: int) -> str:
+    if isinstance(item.art, VectorArt):
+        fresh = VectorArt(with_fresh_ids(item.art.markup, f"-{count}"), item.art.matrix)
+        item = replace(item, art=fresh)
+    return element(item, own, place, shape.path_digits)
+
+
+def _place(layout: Layout, k: int, shape: _Shape, digits: int) -> str:
+    """Transform of one copy; turns of 0 and scales of 1 are left out."""
+    poses = layout.poses
+    x, y = (number(float(v), digits) for v in (poses.x[k], poses.y[k]))
+    turn = number(math.remainder(math.degrees(poses.angle[k]), 360.0), shape.turn_digits)
+    scale = number(float(poses.scale[k]), shape.scale_digits)
+    text = f"translate({x} {y})"
+    text += f"rotate({turn})" if turn != "0" else ""
+    return text + (f"scale({scale})" if scale != "1" else "")

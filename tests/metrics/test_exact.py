@@ -1,0 +1,181 @@
+from __future__ import annotations
+
+import math
+from itertools import combinations
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from packwork.errors import ShapeError
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.metrics.exact import exact_coverage, exact_metrics
+
+Box = tuple[int, int, int, int]
+
+CELLS = 16
+ROOM = shapely.box(3, 3, 13, 13) - shapely.box(6, 6, 9, 9)
+
+
+def box(left: float, top: float, right: float, bottom: float) -> Outline:
+    return Outline.from_region(shapely.box(left, top, right, bottom))
+
+
+def boxes() -> st.SearchStrategy[list[Box]]:
+    span = st.tuples(st.integers(0, CELLS - 1), st.integers(1, 5)).map(
+        lambda s: (s[0], min(s[0] + s[1], CELLS))
+    )
+    one = st.tuples(span, span).map(lambda s: (s[0][0], s[1][0], s[0][1], s[1][1]))
+    return st.lists(one, max_size=7)
+
+
+def cell_counts(found: list[Box]) -> np.ndarray:
+    """How many boxes cover each cell of a grid: exact, as their corners are on it."""
+    counts = np.zeros((CELLS, CELLS), dtype=int)
+    for left, top, right, bottom in found:
+        counts[top:bottom, left:right] += 1
+    return counts
+
+
+def box_distance(a: Box, b: Box) -> float:
+    across = max(a[0] - b[2], b[0] - a[2], 0)
+    down = max(a[1] - b[3], b[1] - a[3], 0)
+    return math.hypot(across, down)
+
+
+def test_two_squares() -> None:
+    found = exact_metrics([box(1, 1, 3, 3), box(2, 2, 4, 4)], box(0, 0, 10, 10))
+    assert found.overlap_area == pytest.approx(1)
+    assert found.overlap == pytest.approx(0.01)
+    assert found.coverage == pytest.approx(0.07)
+    assert (found.exceeding, found.outside_area, found.min_gap) == (0, 0, 0)
+
+
+def test_gap_between_items() -> None:
+    found = exact_metrics([box(3, 3, 4, 4), box(4.25, 3, 5, 4)], box(0, 0, 10, 10))
+    assert found.min_gap == 0.25
+    assert found.overlap_area == 0
+
+
+def test_gap_from_the_edge() -> None:
+    assert exact_metrics([box(1e-7, 3, 4, 4)], box(0, 0, 10, 10)).min_gap == pytest.approx(1e-7)
+    assert exact_metrics([box(4, 4, 6, 6)], box(0, 0, 10, 10)).min_gap == 4
+
+
+@pytest.mark.parametrize(
+    "touching",
+    [
+        [box(1, 1, 2, 2), box(2, 1, 3, 2)],
+        [box(1, 1, 2, 2), box(2, 2, 3, 3)],
+        [box(0, 1, 2, 2)],
+    ],
+    ids=["along a side", "in a corner", "the edge"],
+)
+def test_touching_is_no_overlap_and_no_gap(touching: list[Outline]) -> None:
+    found = exact_metrics(touching, box(0, 0, 10, 10))
+    assert (found.overlap_area, found.outside_area, found.min_gap) == (0, 0, 0)
+
+
+def test_no_items() -> None:
+    found = exact_metrics([], box(0, 0, 10, 10))
+    assert (found.coverage, found.overlap_area, found.outside_area) == (0, 0, 0)
+    assert found.min_gap == math.inf
+    assert exact_coverage([], box(0, 0, 10, 10)) == 0
+
+
+def test_item_in_a_hole_is_outside() -> None:
+    room = Outline.from_region(ROOM)
+    found = exact_metrics([box(7, 7, 8, 8)], room)
+    assert (found.outside_area, found.coverage, found.min_gap) == (1, 0, 0)
+
+
+def test_item_in_the_hole_of_another() -> None:
+    frame = Outline.from_region(shapely.box(1, 1, 9, 9) - shapely.box(3, 3, 7, 7))
+    found = exact_metrics([frame, box(4, 4, 6, 6)], box(0, 0, 10, 10))
+    assert (found.overlap_area, found.min_gap) == (0, 1)
+    assert found.coverage == pytest.approx((64 - 16 + 4) / 100)
+
+
+def test_overlap_is_counted_once_however_deep() -> None:
+    found = exact_metrics([box(1, 1, 3, 3)] * 5, box(0, 0, 10, 10))
+    assert found.overlap_area == pytest.approx(4)
+    assert found.coverage == pytest.approx(0.04)
+
+
+def test_slivers_do_not_drown() -> None:
+    found = exact_metrics([box(-1e-9, 1, 5, 5), box(5 - 1e-9, 1, 9, 5)], box(0, 0, 10, 10))
+    assert found.outside_area == pytest.approx(4e-9, rel=1e-4)
+    assert found.overlap_area == pytest.approx(4e-9, rel=1e-4)
+
+
+def test_crossed_outlines_are_repaired() -> None:
+    bow_tie = Outline.from_rings([np.array([[1, 1], [3, 3], [3, 1], [1, 3.0]])])
+    found = exact_metrics([bow_tie, box(4, 4, 5, 5)], box(0, 0, 10, 10))
+    assert found.coverage == pytest.approx(0.03)
+    assert found.overlap_area == 0
+
+
+def test_crossed_container_is_repaired() -> None:
+    bow_tie = Outline.from_rings([np.array([[0, 0], [10, 10], [10, 0], [0, 10.0]])])
+    found = exact_metrics([box(1, 4, 2, 6)], bow_tie)
+    assert found.coverage == pytest.approx(2 / 50)
+    assert found.min_gap > 0
+
+
+def test_container_without_area_is_refused() -> None:
+    flat = Outline.from_rings([np.array([[0, 0], [1, 0], [2, 0.0]])])
+    with pytest.raises(ShapeError, match="no area"):
+        exact_metrics([box(0, 0, 1, 1)], flat)
+    with pytest.raises(ShapeError, match="no area"):
+        exact_coverage([box(0, 0, 1, 1)], flat)
+
+
+@given(boxes())
+@settings(deadline=None, max_examples=150)
+def test_areas_against_counting_cells(found: list[Box]) -> None:
+    counts, room = cell_counts(found), cell_counts([(3, 3, 13, 13)]) - cell_counts([(6, 6, 9, 9)])
+    got = exact_metrics([box(*b) for b in found], Outline.from_region(ROOM))
+    assert got.overlap_area == pytest.approx((counts > 1).sum())
+    assert got.outside_area == pytest.approx(((counts > 0) & (room == 0)).sum())
+    assert got.coverage == pytest.approx(((counts > 0) & (room == 1)).sum() / room.sum())
+    assert got.overlap == pytest.approx(got.overlap_area / room.sum())
+    assert got.exceeding == pytest.approx(got.outside_area / room.sum())
+
+
+@given(boxes())
+@settings(deadline=None, max_examples=150)
+def test_gap_against_all_pairs(found: list[Box]) -> None:
+    side = CELLS + 1
+    room = (-1, -1, side, side)
+    edges = [min(b[0] + 1, b[1] + 1, side - b[2], side - b[3]) for b in found]
+    pairs = [box_distance(a, b) for a, b in combinations(found, 2)]
+    got = exact_metrics([box(*b) for b in found], box(*room))
+    assert got.min_gap == pytest.approx(min([*edges, *pairs], default=math.inf))
+
+
+@given(boxes(), st.floats(-3, 3), st.floats(1e-3, 1e3))
+@settings(deadline=None, max_examples=60)
+def test_turning_and_growing_changes_no_share(found: list[Box], turn: float, scale: float) -> None:
+    map_all = affine.similarity(5, -7, turn, scale)
+    items, room = [box(*b) for b in found], Outline.from_region(ROOM)
+    before = exact_metrics(items, room)
+    after = exact_metrics([i.mapped(map_all) for i in items], room.mapped(map_all))
+    assert after.coverage == pytest.approx(before.coverage, abs=1e-9)
+    assert after.overlap == pytest.approx(before.overlap, abs=1e-9)
+    assert after.exceeding == pytest.approx(before.exceeding, abs=1e-9)
+
+
+@given(boxes(), st.randoms(use_true_random=False))
+@settings(deadline=None, max_examples=60)
+def test_order_does_not_matter(found: list[Box], random: object) -> None:
+    shuffled = list(found)
+    random.shuffle(shuffled)  # type: ignore[attr-defined]
+    room = Outline.from_region(ROOM)
+    one, two = (exact_metrics([box(*b) for b in bs], room) for bs in (found, shuffled))
+    assert two.coverage == pytest.approx(one.coverage)
+    assert two.overlap_area == pytest.approx(one.overlap_area)
+    assert two.min_gap == one.min_gap
+    assert exact_coverage([box(*b) for b in found], room) == pytest.approx(one.coverage)

@@ -1,0 +1,171 @@
+from __future__ import annotations
+
+import errno
+import os
+import stat
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
+from pathlib import Path
+
+import pytest
+
+from packwork.errors import WriteError
+from packwork.writers.atomic import check_writable, write_atomic
+
+as_root = hasattr(os, "geteuid") and os.geteuid() == 0
+needs_user = pytest.mark.skipif(as_root, reason="root may write anywhere")
+needs_links = pytest.mark.skipif(os.name == "nt", reason="links need rights on Windows")
+
+
+@contextmanager
+def failing_sync(error: BaseException) -> Iterator[None]:
+    """The moment when the bytes are on their way and the name is not yet swapped."""
+
+    def fail(_: int) -> None:
+        raise error
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(os, "fsync", fail)
+        yield
+
+
+def names(folder: Path) -> list[str]:
+    return sorted(p.name for p in folder.iterdir())
+
+
+def test_new_file_and_overwriting(tmp_path: Path) -> None:
+    path = tmp_path / "out.svg"
+    write_atomic(path, b"one")
+    write_atomic(str(path), b"two")
+    assert path.read_bytes() == b"two"
+    assert names(tmp_path) == ["out.svg"]
+
+
+def test_missing_folders_are_made(tmp_path: Path) -> None:
+    path = tmp_path / "a" / "b" / "out.svg"
+    check_writable(path)
+    assert names(tmp_path) == [], "looking must touch nothing"
+    write_atomic(path, b"x")
+    assert path.read_bytes() == b"x"
+
+
+def test_full_disk_leaves_the_old_file_and_nothing_else(tmp_path: Path) -> None:
+    path = tmp_path / "out.svg"
+    path.write_bytes(b"old")
+    full = OSError(errno.ENOSPC, "No space left on device")
+    with failing_sync(full), pytest.raises(WriteError, match="disk is full"):
+        write_atomic(path, b"new")
+    assert path.read_bytes() == b"old"
+    assert names(tmp_path) == ["out.svg"]
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt(), SystemExit(), MemoryError()])
+def test_interruption_leaves_the_old_file_and_nothing_else(
+    tmp_path: Path, stop: BaseException
+) -> None:
+    path = tmp_path / "out.svg"
+    path.write_bytes(b"old")
+    with failing_sync(stop), pytest.raises(type(stop)):
+        write_atomic(path, b"new")
+    assert path.read_bytes() == b"old"
+    assert names(tmp_path) == ["out.svg"]
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt(), OSError(errno.ENOSPC, "full")])
+def test_folders_made_in_vain_are_removed(tmp_path: Path, stop: BaseException) -> None:
+    with failing_sync(stop), pytest.raises((KeyboardInterrupt, WriteError)):
+        write_atomic(tmp_path / "a" / "b" / "out.svg", b"new")
+    assert names(tmp_path) == []
+
+
+def test_unknown_trouble_is_told_in_its_own_words(tmp_path: Path) -> None:
+    odd = OSError(errno.EIO, "Input/output error")
+    with failing_sync(odd), pytest.raises(WriteError, match=r"out\.svg: .*Input/output error"):
+        write_atomic(tmp_path / "out.svg", b"new")
+
+
+@pytest.mark.parametrize("act", [check_writable, lambda p: write_atomic(p, b"x")])
+class TestRefusals:
+    def test_folder(self, tmp_path: Path, act: object) -> None:
+        with pytest.raises(WriteError, match="is a folder"):
+            act(tmp_path)  # type: ignore[operator]
+
+    def test_file_as_folder(self, tmp_path: Path, act: object) -> None:
+        (tmp_path / "file").write_bytes(b"")
+        with pytest.raises(WriteError, match="not a folder"):
+            act(tmp_path / "file" / "sub" / "out.svg")  # type: ignore[operator]
+
+    def test_long_name(self, tmp_path: Path, act: object) -> None:
+        with pytest.raises(WriteError, match="too long"):
+            act(tmp_path / ("n" * 300))  # type: ignore[operator]
+
+    @pytest.mark.parametrize("name", ["", "out\0.svg"])
+    def test_no_name(self, act: object, name: str) -> None:
+        with pytest.raises(WriteError, match="no file name"):
+            act(name)  # type: ignore[operator]
+
+    @pytest.mark.skipif(not Path(os.devnull).is_char_device(), reason="no such device")
+    def test_device(self, act: object) -> None:
+        with pytest.raises(WriteError, match="device"):
+            act(os.devnull)  # type: ignore[operator]
+
+    @needs_links
+    def test_circle_of_links(self, tmp_path: Path, act: object) -> None:
+        (tmp_path / "a").symlink_to(tmp_path / "b")
+        (tmp_path / "b").symlink_to(tmp_path / "a")
+        with pytest.raises(WriteError, match="circle"):
+            act(tmp_path / "a")  # type: ignore[operator]
+
+    @needs_user
+    def test_unwritable_folder(self, tmp_path: Path, act: object) -> None:
+        tmp_path.chmod(0o500)
+        try:
+            with pytest.raises(WriteError, match="may not be written to"):
+                act(tmp_path / "out.svg")  # type: ignore[operator]
+        finally:
+            tmp_path.chmod(0o700)
+
+    def test_protected_file(
+        self, tmp_path: Path, act: object, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        path = tmp_path / "out.svg"
+        path.write_bytes(b"old")
+        monkeypatch.setattr(os, "access", lambda p, mode: Path(p) != path)
+        with pytest.raises(WriteError, match="protected"):
+            act(path)  # type: ignore[operator]
+        assert path.read_bytes() == b"old"
+
+
+def test_folder_without_rights_is_told_beforehand(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(os, "access", lambda *_: False)
+    with pytest.raises(WriteError, match="may not be written to"):
+        check_writable(tmp_path / "out.svg")
+
+
+@needs_links
+def test_a_link_is_followed(tmp_path: Path) -> None:
+    (tmp_path / "link.svg").symlink_to(tmp_path / "real.svg")
+    write_atomic(tmp_path / "link.svg", b"x")
+    assert (tmp_path / "link.svg").is_symlink()
+    assert (tmp_path / "real.svg").read_bytes() == b"x"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="permissions of POSIX")
+def test_permissions_are_kept(tmp_path: Path) -> None:
+    path = tmp_path / "out.svg"
+    path.write_bytes(b"old")
+    path.chmod(0o640)
+    write_atomic(path, b"new")
+    assert stat.S_IMODE(path.stat().st_mode) == 0o640
+
+
+def test_writers_at_the_same_time_never_mix(tmp_path: Path) -> None:
+    path = tmp_path / "out.svg"
+    texts = [bytes([65 + k]) * 200_000 for k in range(8)]
+    with ThreadPoolExecutor(4) as pool:
+        list(pool.map(lambda text: write_atomic(path, text), texts))
+    assert path.read_bytes() in texts
+    assert names(tmp_path) == ["out.svg"]

@@ -1,0 +1,144 @@
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from shapely.geometry import shape
+
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import signed_area
+from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
+from packwork.scene.layout import Layout
+from packwork.writers.geojson import PRECISION, geojson_text, plain
+from packwork.writers.swatch import NEUTRAL, representative_colour
+
+
+def parsed(layout: Layout) -> dict[str, Any]:
+    def refuse(word: str) -> None:
+        raise AssertionError(f"{word} is not JSON")
+
+    return dict(json.loads(geojson_text(layout), parse_constant=refuse))
+
+
+def test_members(three: Layout) -> None:
+    found = parsed(three)
+    assert found["type"] == "FeatureCollection"
+    assert found["canvas"] == {"width": 80.0, "height": 60.0}
+    assert found["manifest"] == {"seed": 7}
+    roles = [f["properties"]["role"] for f in found["features"]]
+    assert roles == ["container", "item", "item", "item"]
+
+
+def test_properties_say_where_an_item_is(three: Layout) -> None:
+    properties = parsed(three)["features"][1]["properties"]
+    assert properties == {
+        "role": "item",
+        "item": "ring",
+        "source": "ring.svg",
+        "x": 15.0,
+        "y": 20.0,
+        "angle": math.degrees(0.3),
+        "scale": 0.9,
+        "weight": 1.0,
+        "fill": "#008080",
+    }
+
+
+def test_turns_are_brought_home(three: Layout) -> None:
+    layout = replace(three, poses=replace(three.poses, angle=np.array([7.0, -7.0, 0.0])))
+    angles = [f["properties"]["angle"] for f in parsed(layout)["features"][1:]]
+    assert np.allclose(angles, [math.degrees(7) - 360, 360 - math.degrees(7), 0])
+
+
+def test_areas_come_back(three: Layout) -> None:
+    features = parsed(three)["features"]
+    container, *items = (shape(f["geometry"]) for f in features)
+    assert all(s.is_valid for s in (container, *items))
+    assert container.area == pytest.approx(76 * 56, rel=1e-9)
+    assert [s.area for s in items] == pytest.approx(three.areas.tolist(), rel=1e-9)
+
+
+def test_points_come_back(crowd: Layout) -> None:
+    side = crowd.container.side
+    pairs = list(zip(parsed(crowd)["features"][1:], crowd.outlines, strict=True))
+    for feature, outline in pairs[::50]:
+        got = shape(feature["geometry"])
+        assert shapely.hausdorff_distance(got, outline.region) <= PRECISION * side
+
+
+def test_holes_and_parts(make_layout: Callable[..., Layout], ring_item: Item) -> None:
+    parts = Outline.from_region(
+        (shapely.box(-9, -9, 9, 9) - shapely.box(-6, -6, 6, 6)) | shapely.box(-2, -2, 2, 2)
+    )
+    geometry = parsed(make_layout([replace(ring_item, outline=parts)]))["features"][1]["geometry"]
+    assert geometry["type"] == "MultiPolygon"
+    assert sorted(len(p) for p in geometry["coordinates"]) == [1, 2]
+    for outer, *holes in geometry["coordinates"]:
+        assert signed_area(np.array(outer[:-1])) > 0
+        assert all(signed_area(np.array(hole[:-1])) < 0 for hole in holes)
+        assert all(ring[0] == ring[-1] for ring in (outer, *holes))
+
+
+def test_no_items(make_layout: Callable[..., Layout]) -> None:
+    assert len(parsed(make_layout([]))["features"]) == 1
+
+
+@pytest.mark.parametrize(
+    "name", ["<script>", "R&D", 'a"b\\', "nul\0bell\x07", "\ud800", "🦊 fox", "n" * 5000]
+)
+def test_hostile_names_come_back(three: Layout, name: str) -> None:
+    layout = replace(three, items=tuple(replace(i, name=name, source=name) for i in three.items))
+    text = geojson_text(layout)
+    assert json.loads(text.encode())["features"][1]["properties"]["item"] == name
+
+
+def test_odd_manifests_are_written(make_layout: Callable[..., Layout]) -> None:
+    layout = make_layout(
+        [],
+        gap=float("inf"),
+        lost=np.float64("nan"),
+        counts=np.arange(2),
+        where=Path("a") / "b",
+        nested={1: (np.int64(3), None, True)},
+        raw=b"x",
+    )
+    assert parsed(layout)["manifest"] == {
+        "gap": None,
+        "lost": None,
+        "counts": [0, 1],
+        "where": str(Path("a") / "b"),
+        "nested": {"1": [3, None, True]},
+        "raw": "b'x'",
+    }
+
+
+def test_plain_leaves_json_as_it_is() -> None:
+    value = {"a": [1, 2.5, "x", None, False], "b": {"c": []}}
+    assert plain(value) == value
+
+
+class TestColour:
+    def test_of_ink(self) -> None:
+        assert representative_colour(FlatArt("rgb(1, 2, 3)")) == "#010203"
+        assert representative_colour(FlatArt("none")) == NEUTRAL
+        assert representative_colour(FlatArt("currentColor")) == NEUTRAL
+
+    def test_of_a_drawing(self, star_item: Item) -> None:
+        markup = '<g fill="none" style="fill:#123"/><p fill="red"/><p style="fill : red;x:y"/>'
+        assert representative_colour(VectorArt(markup, np.eye(2, 3))) == "#ff0000"
+        assert representative_colour(star_item.art) == "#d62728"
+        assert representative_colour(VectorArt("<path/>", np.eye(2, 3))) == NEUTRAL
+
+    def test_of_a_picture(self, photo_item: Item) -> None:
+        assert representative_colour(photo_item.art) == "#433549"
+
+    @pytest.mark.parametrize("png", [b"", b"\x89PNG\r\n\x1a\n1234", b"GIF89a"])
+    def test_of_a_broken_picture(self, png: bytes) -> None:
+        assert representative_colour(PictureArt(png, 1, 1, np.eye(2, 3))) == NEUTRAL
