@@ -1,0 +1,71 @@
+"""Whatever names a container, to the container."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from packwork.errors import ReadError
+from packwork.readers.builtin import builtin_container
+from packwork.readers.files import read_bytes, stem
+from packwork.readers.gate import MAX_BYTES
+from packwork.readers.mask import trace_mask
+from packwork.readers.svg_container import container_of_svg, placed_container
+from packwork.scene.container import Container
+
+MASK_ENDINGS = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".tiff")
+"""Endings of pictures that are read as masks."""
+
+_FORMS = "a PNG or JPEG mask, an SVG or a built-in name such as circle or heart"
+_LATER = ("text:", "around:")
+
+
+def read_container(source: str | Path, side: float = 600.0) -> Container:
+    """Container of a mask, an SVG or a built-in name; a path that exists wins.
+
+    Parameters
+    ----------
+    side
+        Longer side of the canvas, in canvas units.
+
+    Raises
+    ------
+    ReadError
+        If there is no such file or name, or it cannot be used.
+
+    Examples
+    --------
+    >>> read_container("circle", 100.0).outline.area.__round__()
+    7854
+    """
+    text = str(source)
+    if not (math.isfinite(side) and side > 0):
+        raise ReadError(text, f"the canvas needs a positive side, not {side:g}")
+    path = Path(text)
+    if _exists(path):
+        return _container_of_file(path, text, side)
+    if text == "none" or text.startswith(_LATER):
+        raise ReadError(text, f"this form of container is not known yet; give {_FORMS}")
+    if path.suffix.lower() in {".svg", *MASK_ENDINGS} or len(path.parts) > 1:
+        raise ReadError(text, "there is no such file")
+    return builtin_container(text, side)
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def _container_of_file(path: Path, source: str, side: float) -> Container:
+    ending = path.suffix.lower()
+    if path.is_dir():
+        raise ReadError(source, f"is a folder; a container is {_FORMS}")
+    if ending == ".svg":
+        return container_of_svg(read_bytes(path, MAX_BYTES), stem(path), source, side)
+    if ending in MASK_ENDINGS:
+        mask = trace_mask(path)
+        canvas = (0.0, 0.0, mask.width, mask.height)
+        return placed_container(stem(path), source, mask.region, canvas, side)
+    raise ReadError(source, f"has the unknown ending {ending!r}; a container is {_FORMS}")

@@ -1,0 +1,83 @@
+"""Where a picture of coverages passes one half, to a fraction of a pixel."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray
+from packwork.geometry.polygon import Region, oriented_rings, region, signed_area
+from packwork.readers.stairs import without_stairs
+from packwork.readers.unfit import UnfitError
+
+MAX_CONTOURS = 5_000
+"""Closed curves in one picture, specks left out. Noise has more, shapes fewer. Chosen."""
+
+SMALLEST_PX = 4.0
+"""Area of a contour, in square pixels, below which it is a speck. Chosen."""
+
+_LEVEL = 0.5
+_STEP = 0.8
+
+
+def contour_region(coverage: FloatArray, simplify_px: float) -> Region:
+    """Region where ``coverage`` is above one half; valid, possibly empty.
+
+    Where nearly all edges are hard, their stairs are taken for the lines they stand for
+    (see ``stairs``); else the contour runs where the grey passes one half.
+
+    Parameters
+    ----------
+    coverage
+        ``[row, col]``, 0..1; outside the picture it is 0, so a picture that is full to
+        its border gives that border.
+    simplify_px
+        Largest distance the simplified contour may have from a soft edge.
+
+    Returns
+    -------
+    Region
+        In pixels: ``x`` right, ``y`` down, pixel ``(0, 0)`` spans 0..1.
+
+    Examples
+    --------
+    >>> mask = np.zeros((20, 20)); mask[5:15, 5:15] = 1.0
+    >>> contour_region(mask, simplify_px=0.1).area.__round__(6)
+    100.0
+    """
+    rings = _rings(coverage)
+    if has_hard_edges(coverage):
+        return region([without_stairs(ring) for ring in rings], "evenodd")
+    traced = region(rings, "evenodd")
+    simple = shapely.simplify(traced, simplify_px, preserve_topology=True)
+    return simple if simple.is_valid and oriented_rings(simple) else traced
+
+
+def _rings(coverage: FloatArray) -> list[FloatArray]:
+    """Contours at one half, specks left out."""
+    from skimage.measure import find_contours
+
+    # find_contours speaks of (row, col) of pixel centres; the padding moves them by one.
+    found = find_contours(np.pad(coverage, 1), _LEVEL)
+    rings = [ring[:-1, ::-1] - 0.5 for ring in found]
+    kept = [ring for ring in rings if abs(signed_area(ring)) >= SMALLEST_PX]
+    if len(kept) > MAX_CONTOURS:
+        raise UnfitError(
+            f"has {len(kept):,} separate contours, as noise has; {MAX_CONTOURS:,} are the "
+            "most, so give a picture of plain shapes"
+        )
+    return kept
+
+
+def has_hard_edges(coverage: FloatArray) -> bool:
+    """Whether a mask goes from nothing to full within a pixel nearly everywhere.
+
+    Examples
+    --------
+    >>> mask = np.zeros((9, 9)); mask[3:6, 3:6] = 1.0
+    >>> has_hard_edges(mask)
+    True
+    """
+    steps = sum(np.count_nonzero(np.abs(np.diff(coverage, axis=k)) > _STEP) for k in (0, 1))
+    soft = np.count_nonzero(np.abs(coverage - _LEVEL) < _STEP / 2)
+    return bool(steps > soft)

@@ -1,0 +1,139 @@
+"""How large a drawing is once every reference has been followed.
+
+Ten nested ``use`` elements of ten each are 10^10 shapes in a kilobyte of file. Counting
+by memoised recursion takes one visit per element, whatever the count.
+"""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from dataclasses import dataclass
+
+from packwork.readers.embedded import embedded_size
+from packwork.readers.references import elements_by_id, referenced_ids
+from packwork.readers.sanitise import HREF
+from packwork.readers.unfit import UnfitError
+from packwork.readers.vocabulary import GRADIENTS, SHAPES
+from packwork.readers.xml_tree import MAX_DEPTH
+
+MAX_EXPANDED = 50_000
+"""Elements of a drawing after expansion. Icons have some tens, rich illustrations some
+thousands; beyond this a drawing takes minutes to resolve. Chosen."""
+
+MAX_LAYERS = 16
+"""Clips, masks and blended groups inside one another: each is a picture of its
+own while the drawing is rendered. Chosen."""
+
+_PIXELS_PER_ELEMENT = 10_000
+_PAINT_NAMES = frozenset({"fill", "stroke", "marker-start", "marker-mid", "marker-end"})
+_LAYER_COSTS = {"clip-path": 5, "mask": 10, "opacity": 5, "style": 5}
+"""Elements that an off-screen layer counts for when the drawing is rendered. Chosen."""
+
+
+def check_expansion(root: ET.Element) -> None:
+    """Refuse a clean drawing that grows too large or too deep, or refers to itself.
+
+    Raises
+    ------
+    UnfitError
+        Within milliseconds, even where the expanded count has twenty digits.
+
+    Examples
+    --------
+    >>> loop = ET.fromstring('<svg><g id="a"><use xlink:href="#a" xmlns:xlink="x"/></g></svg>')
+    >>> loop[0][0].attrib.clear(); loop[0][0].set("xlink:href", "#a")
+    >>> check_expansion(loop)
+    Traceback (most recent call last):
+    packwork.readers.unfit.UnfitError: refers to itself in a circle (at id 'a'); ...
+    """
+    size = _Counter(elements_by_id(root)).measure(root, 0)
+    count = size.count
+    if count > MAX_EXPANDED:
+        met = f"{count:,}" if count < 10**15 else "far too many"
+        raise UnfitError(
+            f"grows to {met} elements once its references are followed; "
+            f"{MAX_EXPANDED:,} are the most, so simplify it"
+        )
+    if size.layers > MAX_LAYERS:
+        raise UnfitError(
+            f"nests clips, masks or see-through groups {size.layers} deep; "
+            f"{MAX_LAYERS} are the most, so flatten it"
+        )
+
+
+@dataclass(frozen=True)
+class _Size:
+    """What an element comes to after expansion."""
+
+    count: int
+    levels: int
+    layers: int
+
+
+class _Counter:
+    """Sizes of expanded elements, each element visited once."""
+
+    def __init__(self, by_id: dict[str, ET.Element]) -> None:
+        self._by_id = by_id
+        self._known: dict[ET.Element, _Size] = {}
+        self._open: set[ET.Element] = set()
+
+    def measure(self, element: ET.Element, depth: int) -> _Size:
+        """Size of ``element``, itself included, ``depth`` levels below the root."""
+        known = self._known.get(element)
+        if known is None:
+            self._enter(element, depth)
+            known = self._sum(element, depth)
+            self._open.remove(element)
+            self._known[element] = known
+        if depth + known.levels > MAX_DEPTH:
+            raise UnfitError(f"nests its references more than {MAX_DEPTH} deep; flatten it")
+        return known
+
+    def _enter(self, element: ET.Element, depth: int) -> None:
+        if element in self._open:
+            raise UnfitError(
+                f"refers to itself in a circle (at id {element.get('id', '')[:40]!r}); "
+                "remove that reference"
+            )
+        if depth > MAX_DEPTH:
+            raise UnfitError(f"nests its references more than {MAX_DEPTH} deep; flatten it")
+        self._open.add(element)
+
+    def _sum(self, element: ET.Element, depth: int) -> _Size:
+        inside = [self.measure(child, depth + 1) for child in element]
+        count, per_shape = _own_cost(element) + sum(part.count for part in inside), 0
+        for name, target in referenced_ids(element):
+            part = self.measure(self._by_id[target], depth + 1)
+            inside.append(part)
+            if name in _PAINT_NAMES:
+                per_shape += _paint_cost(element, name, part.count, self._by_id[target])
+            else:
+                count += part.count
+        return _Size(
+            count * (1 + per_shape),
+            1 + max((part.levels for part in inside), default=0),
+            _is_layer(element) + max((part.layers for part in inside), default=0),
+        )
+
+
+def _is_layer(element: ET.Element) -> bool:
+    return any(name in element.attrib for name in _LAYER_COSTS)
+
+
+def _own_cost(element: ET.Element) -> int:
+    cost = 1 + sum(cost for name, cost in _LAYER_COSTS.items() if name in element.attrib)
+    if element.tag == "image":
+        width, height = embedded_size(element.get(HREF, "")) or (0, 0)
+        cost += width * height // _PIXELS_PER_ELEMENT
+    return cost
+
+
+def _paint_cost(element: ET.Element, name: str, count: int, target: ET.Element) -> int:
+    """Elements drawn again for each shape painted so; inherited by all shapes inside."""
+    if target.tag in GRADIENTS:
+        return 0
+    if name.startswith("marker") and element.tag in SHAPES:
+        vertices = len(element.get("d", "") or element.get("points", "")) // 4
+        return count * max(1, vertices)
+    return count

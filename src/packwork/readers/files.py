@@ -1,0 +1,67 @@
+"""Bytes from disk, never more than a stated bound."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from packwork.errors import ReadError
+
+
+def read_bytes(path: str | Path, most: int) -> bytes:
+    """Content of a file of at most ``most`` bytes.
+
+    Raises
+    ------
+    ReadError
+        If it is missing, a folder, unreadable or larger.
+
+    Examples
+    --------
+    >>> read_bytes("no such file.svg", 10)
+    Traceback (most recent call last):
+    packwork.errors.ReadError: no such file.svg: there is no such file
+    """
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(most + 1)
+    except FileNotFoundError:
+        raise ReadError(path, "there is no such file") from None
+    except IsADirectoryError:
+        raise ReadError(path, "is a folder where a file was expected") from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise ReadError(path, f"cannot be opened: {reason}") from None
+    if len(data) > most:
+        raise ReadError(path, f"is larger than {most / 1e6:g} MB, the most for such a file")
+    return data
+
+
+def read_text(path: str | Path, most: int) -> str:
+    """Text of a UTF-8 file of at most ``most`` bytes, with or without a byte order mark.
+
+    Raises
+    ------
+    ReadError
+        As for ``read_bytes``, and if it is not UTF-8.
+
+    Examples
+    --------
+    >>> read_text("no such file.csv", 10)
+    Traceback (most recent call last):
+    packwork.errors.ReadError: no such file.csv: there is no such file
+    """
+    try:
+        return read_bytes(path, most).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise ReadError(path, "is not text in UTF-8; save it with that encoding") from None
+
+
+def stem(path: str | Path) -> str:
+    """Name without folder and ending: what people call the item.
+
+    Examples
+    --------
+    >>> stem("icons/bear.svg")
+    'bear'
+    """
+    return Path(path).stem

@@ -1,0 +1,102 @@
+"""The one gate for SVG: nothing else in the package parses a stranger's drawing."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from xml.sax.saxutils import escape, quoteattr
+
+from packwork.readers.expansion import check_expansion
+from packwork.readers.references import drop_dangling, prune_unused
+from packwork.readers.sanitise import HREF, sanitised
+from packwork.readers.unfit import UnfitError
+from packwork.readers.xml_tree import parse_xml
+
+MAX_BYTES = 20_000_000
+"""Size of an SVG file. Drawings for packing have kilobytes. Chosen."""
+
+_GZIP = b"\x1f\x8b"
+_NAMESPACES = 'xmlns="http://www.w3.org/2000/svg"'
+_LINKS = 'xmlns:xlink="http://www.w3.org/1999/xlink"'
+
+
+def admit(data: bytes) -> ET.Element:
+    """Clean root of an SVG file's bytes: tags and attributes without namespaces.
+
+    The tree holds only known elements, its styles are attributes, its references are
+    local and lead somewhere, and following them all leaves it at a sane size.
+
+    Raises
+    ------
+    UnfitError
+        If the bytes are no SVG or pass a limit.
+
+    Examples
+    --------
+    >>> root = admit(b'<svg><style>.a{fill:red}</style><path class="a" d="M0 0h9v9z"/></svg>')
+    >>> root[0].attrib
+    {'d': 'M0 0h9v9z', 'fill': 'red'}
+    """
+    if not data.strip():
+        raise UnfitError("is empty; give a drawing with at least one shape")
+    if data.startswith(_GZIP):
+        raise UnfitError("is a compressed SVG (.svgz); unpack it first")
+    if len(data) > MAX_BYTES:
+        raise UnfitError(
+            f"has {len(data) // 1_000_000} MB; {MAX_BYTES // 1_000_000} MB are the most for an SVG"
+        )
+    root = sanitised(parse_xml(data))
+    drop_dangling(root)
+    prune_unused(root)
+    check_expansion(root)
+    return root
+
+
+def serialised(element: ET.Element) -> str:
+    r"""Markup of a clean element, no namespaces declared: a fragment of a document.
+
+    Examples
+    --------
+    >>> serialised(ET.Element("g", {"id": 'a"b'}))
+    '<g id=\'a"b\'/>'
+    """
+    attributes = "".join(f" {name}={quoteattr(value)}" for name, value in element.attrib.items())
+    inside = escape(element.text or "") + "".join(serialised(child) for child in element)
+    tail = escape(element.tail or "")
+    if not inside:
+        return f"<{element.tag}{attributes}/>{tail}"
+    return f"<{element.tag}{attributes}>{inside}</{element.tag}>{tail}"
+
+
+def document(root: ET.Element) -> str:
+    """Complete SVG document of a clean ``<svg>`` element.
+
+    Examples
+    --------
+    >>> document(ET.Element("svg", {"width": "9"}))
+    '<svg xmlns="http://www.w3.org/2000/svg" width="9"/>'
+    """
+    spaces = f"{_NAMESPACES} {_LINKS}" if uses_links(root) else _NAMESPACES
+    return serialised(root).replace("<svg", f"<svg {spaces}", 1)
+
+
+def uses_links(element: ET.Element) -> bool:
+    """Whether anything inside needs the ``xlink`` prefix.
+
+    Examples
+    --------
+    >>> uses_links(ET.Element("use", {"xlink:href": "#a"}))
+    True
+    """
+    return any(HREF in e.attrib for e in element.iter())
+
+
+def link_declaration() -> tuple[str, str]:
+    """Attribute, as name and value, that declares the ``xlink`` prefix.
+
+    Examples
+    --------
+    >>> link_declaration()[0]
+    'xmlns:xlink'
+    """
+    name, _, value = _LINKS.partition("=")
+    return name, value.strip('"')

@@ -1,0 +1,149 @@
+"""Whatever names items, to the items: files, folders, patterns and built-in names."""
+
+from __future__ import annotations
+
+import glob
+import logging
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from packwork.errors import ReadError
+from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names
+from packwork.readers.container import MASK_ENDINGS
+from packwork.readers.silhouette import read_picture
+from packwork.readers.svg import Holes, read_svg
+from packwork.scene.item import Item
+
+_LOG = logging.getLogger("packwork")
+
+_READERS: dict[str, Callable[[str, Holes], Item]] = {
+    ".svg": read_svg,
+    **dict.fromkeys(MASK_ENDINGS, read_picture),
+}
+
+
+@dataclass(frozen=True)
+class ItemsRead:
+    """What came of reading.
+
+    Parameters
+    ----------
+    items
+        In the order of the sources, files of a folder by name.
+    skipped
+        Why files among many were left out.
+    """
+
+    items: tuple[Item, ...]
+    skipped: tuple[ReadError, ...]
+
+
+def read_items(
+    sources: str | Path | Iterable[str | Path], *, holes: Holes = "fill", strict: bool = False
+) -> ItemsRead:
+    """Items of files, folders (not the folders inside), patterns and built-in names.
+
+    A path that exists wins over a built-in name. A file named by itself must be usable;
+    one among many of a folder or a pattern is skipped with a warning if it is not.
+
+    Parameters
+    ----------
+    sources
+        One or several; ``icons`` stands for all the bundled icons.
+    holes
+        Whether outlines are silhouettes (``fill``) or keep their holes (``keep``).
+    strict
+        Whether an unusable file among many is an error too.
+
+    Raises
+    ------
+    ReadError
+        If a source does not exist or gives no item at all.
+
+    Examples
+    --------
+    >>> [item.name for item in read_items(["circle", "star"]).items]
+    ['circle', 'star']
+    """
+    many = [sources] if isinstance(sources, str | Path) else list(sources)
+    items: list[Item] = []
+    skipped: list[ReadError] = []
+    for source in many:
+        found = _read_source(str(source), holes, strict=strict)
+        items += found.items
+        skipped += found.skipped
+    if not items:
+        raise ReadError("items", "none were given; give a file, a folder or a built-in name")
+    return ItemsRead(tuple(items), tuple(skipped))
+
+
+def _read_source(source: str, holes: Holes, *, strict: bool) -> ItemsRead:
+    path = Path(source)
+    if _is_folder(path):
+        return _read_many(source, _files_in(path), holes, strict=strict)
+    if path.suffix.lower() in _READERS and (path.exists() or not glob.has_magic(source)):
+        return ItemsRead((_READERS[path.suffix.lower()](source, holes),), ())
+    if glob.has_magic(source):
+        matches = sorted(f for f in glob.glob(source) if _is_readable(Path(f)))  # noqa: PTH207
+        return _read_many(source, matches, holes, strict=strict)
+    if _is_file(path) or len(path.parts) > 1:
+        raise ReadError(source, _why_not(path))
+    names = icon_names() if source == ALL_ICONS else [source]
+    return ItemsRead(tuple(builtin_item(name, holes) for name in names), ())
+
+
+def _read_many(source: str, files: list[str], holes: Holes, *, strict: bool) -> ItemsRead:
+    items: list[Item] = []
+    skipped: list[ReadError] = []
+    for file in files:
+        try:
+            items.append(_READERS[Path(file).suffix.lower()](file, holes))
+        except ReadError as error:
+            if strict:
+                raise
+            _LOG.warning("skipped %s", error)
+            skipped.append(error)
+    if not items:
+        raise ReadError(source, _why_none(skipped))
+    return ItemsRead(tuple(items), tuple(skipped))
+
+
+def _files_in(folder: Path) -> list[str]:
+    try:
+        return sorted(str(file) for file in folder.iterdir() if _is_readable(file))
+    except OSError as error:
+        raise ReadError(folder, f"cannot be opened: {error.strerror}") from None
+
+
+def _is_readable(path: Path) -> bool:
+    is_shown = not path.name.startswith(".")
+    return is_shown and path.suffix.lower() in _READERS and path.is_file()
+
+
+def _is_folder(path: Path) -> bool:
+    try:
+        return path.is_dir()
+    except (OSError, ValueError):
+        return False
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False
+
+
+def _why_not(path: Path) -> str:
+    if not _is_file(path):
+        return "there is no such file"
+    endings = ", ".join(_READERS)
+    return f"has the unknown ending {path.suffix!r}; items are files in {endings}"
+
+
+def _why_none(skipped: list[ReadError]) -> str:
+    if not skipped:
+        return f"holds no file that could be an item; those end in {', '.join(_READERS)}"
+    first = skipped[0]
+    return f"none of {len(skipped)} files can be used; the first, {first}"

@@ -1,0 +1,201 @@
+"""Saved layouts (GeoJSON) back to layouts."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+import shapely
+from shapely.errors import GEOSException
+from shapely.geometry import MultiPolygon, Polygon
+
+from packwork.arrays import FloatArray, as_points
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region
+from packwork.readers.files import read_text
+from packwork.readers.lengths import MAX_COORDINATE
+from packwork.readers.unfit import UnfitError, naming
+from packwork.scene.container import Container
+from packwork.scene.item import FlatArt, Item
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+
+MAX_LAYOUT_BYTES = 64_000_000
+"""Size of a layout file: thousands of items with hundreds of vertices each. Chosen."""
+
+_POSE = ("x", "y", "angle", "scale")
+
+
+def read_layout(path: str | Path) -> Layout:
+    """Layout of a GeoJSON file as ``writers.geojson`` makes it.
+
+    Outlines are taken as they stand in the file, so that what is measured is what was
+    written; each placed item gets its own ``Item``, its art a plain fill.
+
+    Raises
+    ------
+    ReadError
+        Saying where, if the file was edited into something that is no layout.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> tile = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 0]]]}
+    >>> feature = {"type": "Feature", "properties": {"role": "container"}, "geometry": tile}
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "layout.geojson")
+    ...     _ = file.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
+    ...     read_layout(file).container.width
+    4.0
+    """
+    text = read_text(path, MAX_LAYOUT_BYTES)
+    with naming(str(path)):
+        collection = _parsed(text)
+        containers, placed = _split_by_role(collection)
+        container = _container(containers, collection)
+        items = tuple(_item(feature, where) for where, feature in placed)
+        rows = [_pose(feature, where) for where, feature in placed]
+        x, y, angle, scale = np.array(rows, dtype=np.float64).reshape(-1, 4).T.copy()
+        weights = np.array([_weight(feature, where) for where, feature in placed])
+        manifest = collection.get("manifest") or {}
+        if not isinstance(manifest, dict):
+            raise UnfitError("manifest: must be an object")
+        return Layout(container, items, Poses(x, y, angle, scale), weights, manifest)
+
+
+def _parsed(text: str) -> Mapping[str, Any]:
+    try:
+        collection = json.loads(text, parse_constant=_refuse_constant)
+    except json.JSONDecodeError as error:
+        raise UnfitError(f"is not JSON (line {error.lineno}: {error.msg})") from None
+    except (RecursionError, ValueError) as error:
+        raise UnfitError(f"is not JSON that can be read ({str(error)[:80]})") from None
+    if not isinstance(collection, dict) or collection.get("type") != "FeatureCollection":
+        raise UnfitError("is not a GeoJSON FeatureCollection; give a layout saved as .geojson")
+    return collection
+
+
+def _refuse_constant(name: str) -> NoReturn:
+    raise UnfitError(f"holds the number {name}; give finite numbers")
+
+
+_Placed = tuple[str, Mapping[str, Any]]
+
+
+def _split_by_role(collection: Mapping[str, Any]) -> tuple[list[_Placed], list[_Placed]]:
+    """Container features and item features, each with words that say where it stands."""
+    features = collection.get("features")
+    if not isinstance(features, list):
+        raise UnfitError("features: must be a list")
+    by_role: dict[str, list[_Placed]] = {"container": [], "item": []}
+    for k, feature in enumerate(features):
+        where = f"features[{k}]"
+        role = _properties(feature, where).get("role")
+        if not isinstance(role, str) or role not in by_role:
+            raise UnfitError(f"{where}: role must be container or item, not {str(role)[:20]!r}")
+        by_role[role].append((where, feature))
+    return by_role["container"], by_role["item"]
+
+
+def _properties(feature: Any, where: str) -> Mapping[str, Any]:
+    properties = feature.get("properties") if isinstance(feature, dict) else None
+    if not isinstance(properties, dict):
+        raise UnfitError(f"{where}: must be a feature with properties")
+    return properties
+
+
+def _container(found: list[_Placed], collection: Mapping[str, Any]) -> Container:
+    if len(found) != 1:
+        raise UnfitError(f"must have one feature of role container, not {len(found)}")
+    where, feature = found[0]
+    properties = _properties(feature, where)
+    outline = _outline(feature, where)
+    canvas = collection.get("canvas", {"width": outline.bounds[2], "height": outline.bounds[3]})
+    if not isinstance(canvas, dict):
+        raise UnfitError("canvas: must be an object with width and height")
+    width, height = (_positive(canvas, side, "canvas") for side in ("width", "height"))
+    name = str(properties.get("name", "container"))
+    return Container(name, str(properties.get("source", name)), outline, width, height)
+
+
+def _item(feature: Mapping[str, Any], where: str) -> Item:
+    properties = _properties(feature, where)
+    x, y, angle_rad, scale = _pose(feature, where)
+    # Undo the pose: move back, turn back, scale back.
+    back = affine.compose(
+        affine.similarity(0.0, 0.0, -angle_rad, 1.0 / scale), affine.similarity(-x, -y, 0.0, 1.0)
+    )
+    outline = _outline(feature, where).mapped(back)
+    name = str(properties.get("item", "item"))
+    fill = str(properties.get("fill", FlatArt().fill))
+    return Item(name, str(properties.get("source", name)), outline, outline, FlatArt(fill))
+
+
+def _pose(feature: Mapping[str, Any], where: str) -> tuple[float, float, float, float]:
+    """Position, angle in radians and scale."""
+    properties = _properties(feature, where)
+    x, y, angle, _ = (_number(properties, key, where) for key in _POSE)
+    return x, y, math.radians(angle), _positive(properties, "scale", where)
+
+
+def _weight(feature: Mapping[str, Any], where: str) -> float:
+    properties = _properties(feature, where)
+    return _positive(properties, "weight", where) if "weight" in properties else 1.0
+
+
+def _outline(feature: Mapping[str, Any], where: str) -> Outline:
+    geometry = feature.get("geometry")
+    kind = geometry.get("type") if isinstance(geometry, dict) else None
+    if not isinstance(geometry, dict) or kind not in ("Polygon", "MultiPolygon"):
+        raise UnfitError(f"{where}: geometry must be a Polygon or MultiPolygon")
+    parts: Any = geometry.get("coordinates")
+    try:
+        polygons = [parts] if kind == "Polygon" else parts
+        region = MultiPolygon([_polygon(rings) for rings in polygons])
+    except (TypeError, ValueError, OverflowError, GEOSException):
+        raise UnfitError(
+            f"{where}: coordinates must be rings of [x, y] pairs up to {MAX_COORDINATE:g}"
+        ) from None
+    return Outline.from_region(_checked(region, where))
+
+
+def _polygon(rings: Any) -> Polygon:
+    arrays = [as_points([point[:2] for point in ring]) for ring in rings]
+    if not arrays or any(_reach(ring) > MAX_COORDINATE for ring in arrays):
+        raise ValueError
+    return Polygon(arrays[0], arrays[1:])
+
+
+def _reach(ring: FloatArray) -> float:
+    return float(np.abs(ring).max()) if len(ring) else math.inf
+
+
+def _checked(region: Region, where: str) -> Region:
+    if not region.is_valid:
+        raise UnfitError(
+            f"{where}: its outline is no clean region: {shapely.is_valid_reason(region)}"
+        )
+    if region.area <= 0:
+        raise UnfitError(f"{where}: its outline has no area")
+    return region
+
+
+def _number(values: Mapping[str, Any], key: str, where: str) -> float:
+    value = values.get(key)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise UnfitError(f"{where}.{key}: must be a number, not {str(value)[:20]!r}")
+    if not abs(value) <= MAX_COORDINATE:
+        raise UnfitError(f"{where}.{key}: must be up to {MAX_COORDINATE:g}, not {str(value)[:20]}")
+    return float(value)
+
+
+def _positive(values: Mapping[str, Any], key: str, where: str) -> float:
+    number = _number(values, key, where)
+    if number <= 0:
+        raise UnfitError(f"{where}.{key}: must be positive, not {number:g}")
+    return number

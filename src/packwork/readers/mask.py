@@ -1,0 +1,99 @@
+"""Masks to regions: dark is inside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.geometry.polygon import Region
+from packwork.readers.files import read_bytes
+from packwork.readers.pictures import MAX_PICTURE_BYTES, Pixels, decode_picture
+from packwork.readers.silhouette import SPECK, outline_of_coverage
+from packwork.readers.svg_drawing import clean_union
+from packwork.readers.unfit import UnfitError, naming
+
+MASK_PX = 2_048
+"""Longer side at which a mask is traced; finer ones are shrunk first. Chosen."""
+
+SMALLEST_SIDE_PX = 8
+"""Shorter side of a mask that is taken for one. Chosen."""
+
+_LUMINANCE = (0.299, 0.587, 0.114)
+_UNIFORM = 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class TracedMask:
+    """Region of a mask, in its pixels, and the size of its canvas."""
+
+    region: Region
+    width: float
+    height: float
+
+
+def trace_mask(path: str | Path) -> TracedMask:
+    """Region of a picture that says inside (dark) or outside (light).
+
+    Where its transparency is not uniform, that decides instead: opaque is inside. An
+    all-dark mask is the whole canvas. The contour follows the half-way level to a
+    fraction of a pixel and is simplified to 0.2 px; the stairs of hard-edged masks are
+    taken for the straight edges within a pixel of them.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read, is too small or has no dark part.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from PIL import Image
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "all.png")
+    ...     Image.new("L", (30, 20)).save(file)
+    ...     trace_mask(file).region.area
+    600.0
+    """
+    data = read_bytes(path, MAX_PICTURE_BYTES)
+    with naming(str(path)):
+        return mask_of_pixels(decode_picture(data, MASK_PX).pixels)
+
+
+def mask_of_pixels(pixels: Pixels) -> TracedMask:
+    """Region of decoded RGBA pixels.
+
+    Raises
+    ------
+    UnfitError
+        As for ``trace_mask``.
+
+    Examples
+    --------
+    >>> pixels = np.full((20, 20, 4), 255, np.uint8); pixels[5:15, 5:15, :3] = 0
+    >>> [round(side) for side in mask_of_pixels(pixels).region.bounds]
+    [5, 5, 15, 15]
+    """
+    rows, columns = pixels.shape[:2]
+    if min(rows, columns) < SMALLEST_SIDE_PX:
+        raise UnfitError(
+            f"has only {columns} x {rows} pixels; a mask needs at least "
+            f"{SMALLEST_SIDE_PX} on each side, better some hundreds"
+        )
+    inside = _insideness(pixels)
+    if inside.max() < 0.5:
+        raise UnfitError(
+            "is all light, and dark is inside; paint the region to fill black on white"
+        )
+    region = clean_union(outline_of_coverage(inside), speck=SPECK)
+    return TracedMask(region, float(columns), float(rows))
+
+
+def _insideness(pixels: Pixels) -> FloatArray:
+    """How far each pixel is inside, 0..1."""
+    alpha = pixels[:, :, 3] / 255.0
+    if np.ptp(alpha) > _UNIFORM:
+        return np.asarray(alpha)
+    return np.asarray(1.0 - pixels[:, :, :3] @ np.array(_LUMINANCE) / 255.0)

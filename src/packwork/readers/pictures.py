@@ -1,0 +1,143 @@
+"""Pixel files opened with every limit checked from the header first."""
+
+from __future__ import annotations
+
+import struct
+import warnings
+import zlib
+from dataclasses import dataclass
+from io import BytesIO
+
+import numpy as np
+import numpy.typing as npt
+from PIL import Image, ImageOps, UnidentifiedImageError
+
+from packwork.readers.unfit import UnfitError
+
+MAX_PIXELS = 64_000_000
+"""Pixels of a picture: four bytes each once decoded, so a quarter gigabyte. Chosen."""
+
+MAX_PICTURE_BYTES = 100_000_000
+"""Size of a picture file. Chosen."""
+
+FORMATS = ("PNG", "JPEG", "WEBP", "GIF", "BMP", "TIFF")
+"""Kinds that are opened, whatever the file's ending says."""
+
+_EMBEDDABLE = ("PNG", "JPEG", "WEBP", "GIF")
+_DEEP_GREY = 65_535.0
+_FAILURES = (
+    UnidentifiedImageError,
+    Image.DecompressionBombError,
+    OSError,
+    SyntaxError,
+    ValueError,
+    TypeError,
+    KeyError,
+    IndexError,
+    AttributeError,
+    ArithmeticError,
+    EOFError,
+    MemoryError,
+    NotImplementedError,
+    struct.error,
+    zlib.error,
+)
+"""What Pillow's decoders raise on broken files."""
+
+Pixels = npt.NDArray[np.uint8]
+
+
+def picture_size(data: bytes) -> tuple[int, int] | None:
+    """Width and height from the header of a picture fit to be embedded, else None.
+
+    Examples
+    --------
+    >>> picture_size(b"no picture") is None
+    True
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            with Image.open(BytesIO(data), formats=_EMBEDDABLE) as image:
+                return image.size
+    except _FAILURES:
+        return None
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """Decoded pixels.
+
+    Parameters
+    ----------
+    pixels
+        ``(rows, columns, 4)`` RGBA, upright.
+    unit
+        Pixels of the file per pixel here; above 1 if it was shrunk.
+    """
+
+    pixels: Pixels
+    unit: float
+
+
+def decode_picture(data: bytes, longest_px: int) -> Picture:
+    """Picture of a file's bytes, shrunk to ``longest_px`` at most.
+
+    The first frame of an animation is taken.
+
+    Raises
+    ------
+    UnfitError
+        If it has too many pixels, is cut short or is no picture at all.
+
+    Examples
+    --------
+    >>> file = BytesIO()
+    >>> Image.new("L", (30, 20)).save(file, "PNG")
+    >>> picture = decode_picture(file.getvalue(), 15)
+    >>> picture.pixels.shape, picture.unit
+    ((10, 15, 4), 2.0)
+    """
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            with Image.open(BytesIO(data), formats=FORMATS) as image:
+                _check_size(image.size)
+                whole = _as_rgba(ImageOps.exif_transpose(image))
+                small = _shrunk(whole, longest_px)
+                return Picture(np.asarray(small), max(whole.size) / max(small.size))
+    except UnidentifiedImageError:
+        raise UnfitError("is not a picture that can be read; give PNG, JPEG or WebP") from None
+    except Image.DecompressionBombError:
+        raise UnfitError(_too_large("far more")) from None
+    except _FAILURES as error:
+        reason = " ".join(str(error).split())[:120] or type(error).__name__
+        raise UnfitError(f"is a broken picture ({reason}); save it again") from None
+
+
+def _check_size(size: tuple[int, int]) -> None:
+    if size[0] * size[1] > MAX_PIXELS:
+        raise UnfitError(_too_large(f"{size[0]} x {size[1]}"))
+
+
+def _too_large(met: str) -> str:
+    return f"has {met} pixels; {MAX_PIXELS // 1_000_000} million are the most, so scale it down"
+
+
+def _as_rgba(image: Image.Image) -> Image.Image:
+    if image.mode.startswith(("I", "F")):
+        deep = np.asarray(image, dtype=np.float64)
+        top = _DEEP_GREY if image.mode.startswith("I") else 1.0
+        grey = np.clip(np.nan_to_num(deep) * (255.0 / top), 0, 255).astype(np.uint8)
+        return Image.fromarray(grey).convert("RGBA")
+    return image.convert("RGBA")
+
+
+def _shrunk(image: Image.Image, longest_px: int) -> Image.Image:
+    factor = longest_px / max(image.size)
+    if factor >= 1:
+        return image
+    width, height = (max(1, round(side * factor)) for side in image.size)
+    # Pillow weighs colours by alpha only in this mode: else edges darken.
+    weighted = image.convert("RGBa")
+    return weighted.resize((width, height), Image.Resampling.BOX).convert("RGBA")

@@ -1,0 +1,173 @@
+"""What refers to what inside a clean drawing: lookups, dangling references, unused parts."""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Callable, Iterator
+
+from packwork.readers.sanitise import HREF
+from packwork.readers.vocabulary import GRADIENTS, GROUPS, NEVER_DRAWN, SHAPES, TEXTS
+
+_URL = re.compile(r"url\(#([^()]+)\)")
+_PAINTS = GRADIENTS | {"pattern"}
+_PAINT_NAMES = frozenset({"fill", "stroke"})
+_UNSEEN = frozenset({"clipPath", "mask", "pattern", "marker"})
+_USABLE = SHAPES | GROUPS | TEXTS | {"image"}
+_TARGETS = {
+    "fill": _PAINTS,
+    "stroke": _PAINTS,
+    "clip-path": {"clipPath"},
+    "mask": {"mask"},
+    "marker-start": {"marker"},
+    "marker-mid": {"marker"},
+    "marker-end": {"marker"},
+}
+
+
+def elements_by_id(root: ET.Element) -> dict[str, ET.Element]:
+    """First element of each id, in document order.
+
+    Examples
+    --------
+    >>> list(elements_by_id(ET.fromstring('<svg><g id="a"/><g/></svg>')))
+    ['a']
+    """
+    found: dict[str, ET.Element] = {}
+    for element in root.iter():
+        if "id" in element.attrib:
+            found.setdefault(element.attrib["id"], element)
+    return found
+
+
+def referenced_ids(element: ET.Element) -> Iterator[tuple[str, str]]:
+    """Attribute and id for each reference the element itself makes.
+
+    Examples
+    --------
+    >>> list(referenced_ids(ET.Element("g", {"fill": "url(#a) red"})))
+    [('fill', 'a')]
+    """
+    for name, value in element.attrib.items():
+        if name == HREF and value.startswith("#"):
+            yield name, value[1:]
+        elif "url(" in value:
+            for target in _URL.findall(value):
+                yield name, target
+
+
+def rename_references(element: ET.Element, renamed: Callable[[str], str]) -> None:
+    """Rewrite the element's own id and all ids it refers to, in place.
+
+    Examples
+    --------
+    >>> use = ET.Element("use", {"id": "u", "xlink:href": "#a"})
+    >>> rename_references(use, lambda name: "x-" + name)
+    >>> use.attrib
+    {'id': 'x-u', 'xlink:href': '#x-a'}
+    """
+    for name, value in element.attrib.items():
+        if name == "id":
+            element.attrib[name] = renamed(value)
+        elif name == HREF and value.startswith("#"):
+            element.attrib[name] = "#" + renamed(value[1:])
+        elif "url(" in value:
+            element.attrib[name] = _URL.sub(lambda m: f"url(#{renamed(m.group(1))})", value)
+
+
+def drop_dangling(root: ET.Element) -> None:
+    """Take out references to nothing or to the wrong kind; paints fall back, in place.
+
+    Programs disagree about them: some hide the element, some paint it black. Patterns
+    may paint plain shapes only, whose size is known, not what masks and groups hold.
+
+    Examples
+    --------
+    >>> root = ET.fromstring('<svg><path fill="url(#none) red" mask="url(#none)"/></svg>')
+    >>> drop_dangling(root)
+    >>> root[0].attrib
+    {'fill': 'red'}
+    """
+    _drop_dangling(root, elements_by_id(root), is_seen=True)
+
+
+def prune_unused(root: ET.Element) -> None:
+    """Take out never-drawn elements that nothing drawn refers to, and ids without use, in place.
+
+    Examples
+    --------
+    >>> text = '<svg><defs><path id="a"/><g id="b"/></defs><g fill="url(#a)" id="c"/></svg>'
+    >>> root = ET.fromstring(text)
+    >>> prune_unused(root)
+    >>> ET.tostring(root).decode()
+    '<svg><defs><path id="a" /></defs><g fill="url(#a)" /></svg>'
+    """
+    used = _reachable(root)
+    first = elements_by_id(root)
+    for parent in root.iter():
+        for child in list(parent):
+            if child.tag in NEVER_DRAWN:
+                _prune(parent, child, used)
+    for element in root.iter():
+        name = element.get("id", "")
+        if name not in used or first[name] is not element:
+            element.attrib.pop("id", None)
+
+
+def _drop_dangling(element: ET.Element, by_id: dict[str, ET.Element], *, is_seen: bool) -> None:
+    for name, target in list(referenced_ids(element)):
+        found = by_id.get(target)
+        if found is None or not _fits(element, name, found):
+            _detach(element, name, "none")
+        elif name != HREF and found.tag == "pattern" and not (is_seen and element.tag in SHAPES):
+            _detach(element, name, "gray")
+    for child in element:
+        _drop_dangling(child, by_id, is_seen=is_seen and child.tag not in _UNSEEN)
+
+
+def _fits(element: ET.Element, name: str, target: ET.Element) -> bool:
+    if name in _TARGETS:
+        return target.tag in _TARGETS[name]
+    if name != HREF:
+        return False
+    if element.tag in _PAINTS:
+        return target.tag in _PAINTS
+    if element.tag == "textPath":
+        return target.tag in SHAPES
+    return element.tag == "use" and target.tag in _USABLE
+
+
+def _detach(element: ET.Element, name: str, otherwise: str) -> None:
+    fallback = _URL.sub("", element.attrib.pop(name)).strip()
+    if name in _PAINT_NAMES:
+        element.set(name, fallback or otherwise)
+
+
+def _reachable(root: ET.Element) -> set[str]:
+    """Ids that drawn elements refer to, directly or through others."""
+    by_id = elements_by_id(root)
+    used: set[str] = set()
+    waiting = list(_drawn(root))
+    while waiting:
+        for _, target in referenced_ids(waiting.pop()):
+            if target not in used and target in by_id:
+                used.add(target)
+                waiting.extend(by_id[target].iter())
+    return used
+
+
+def _drawn(element: ET.Element) -> Iterator[ET.Element]:
+    yield element
+    for child in element:
+        if child.tag not in NEVER_DRAWN:
+            yield from _drawn(child)
+
+
+def _prune(parent: ET.Element, element: ET.Element, used: set[str]) -> None:
+    """Drop ``element`` from ``parent`` unless it or something inside it is used."""
+    if element.get("id") in used:
+        return
+    for child in list(element):
+        _prune(element, child, used)
+    if len(element) == 0:
+        parent.remove(element)

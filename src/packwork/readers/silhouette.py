@@ -1,0 +1,193 @@
+"""Pictures to items: the silhouette of what stands before the background."""
+
+from __future__ import annotations
+
+from io import BytesIO
+from pathlib import Path
+
+import numpy as np
+import shapely
+from PIL import Image
+
+from packwork.arrays import BoolArray, FloatArray
+from packwork.geometry import affine
+from packwork.geometry.polygon import Region
+from packwork.readers.contours import contour_region
+from packwork.readers.files import read_bytes, stem
+from packwork.readers.pictures import (
+    MAX_PICTURE_BYTES,
+    Picture,
+    Pixels,
+    decode_picture,
+)
+from packwork.readers.svg import Holes, centred
+from packwork.readers.svg_drawing import clean_union
+from packwork.readers.unfit import UnfitError, naming
+from packwork.scene.item import Item, PictureArt
+
+ART_PX = 2_048
+"""Longer side of a picture that is kept. Larger shows only in prints wider than a metre
+of a few items, and costs memory by its square. Chosen."""
+
+BACKGROUND_TOLERANCE = 24
+"""Steps of 255 within which a colour counts as the background's: JPEG noise stays below.
+Larger eats pale objects, smaller leaves halos. Chosen."""
+
+PLAIN_SHARE = 0.75
+"""Share of the border that has the background's colour when there is a background: the
+rest may be where the object runs out of the picture. Chosen."""
+
+SPECK = 1e-4
+"""Share of the area below which a part of a picture counts as dust. Chosen."""
+
+SIMPLIFY_PX = 0.2
+"""Largest distance of the outline from the traced contour, in pixels. Chosen."""
+
+
+def read_picture(path: str | Path, holes: Holes = "fill") -> Item:
+    """Item of a PNG, JPEG, WebP, GIF, BMP or TIFF file, its units the file's pixels.
+
+    Where the picture has transparency, that decides; else a plain background is taken
+    away, flooding from the border; else the whole rectangle is the item, as for photos.
+
+    Raises
+    ------
+    ReadError
+        If it is missing, broken, larger than the limits or shows nothing.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "photo.png")
+    ...     Image.linear_gradient("L").save(file)
+    ...     read_picture(file).outline.area
+    65536.0
+    """
+    return item_of_picture(read_bytes(path, MAX_PICTURE_BYTES), stem(path), str(path), holes)
+
+
+def item_of_picture(data: bytes, name: str, source: str, holes: Holes = "fill") -> Item:
+    """Item of a picture's bytes.
+
+    Raises
+    ------
+    ReadError
+        About ``source``, as for ``read_picture``.
+
+    Examples
+    --------
+    >>> item_of_picture(b"GIF89a", "a", "a.gif")
+    Traceback (most recent call last):
+    packwork.errors.ReadError: a.gif: is ...
+    """
+    with naming(source):
+        picture = decode_picture(data, ART_PX)
+        opaque, pixels = cut_out(picture.pixels)
+        ink = clean_union(outline_of_coverage(opaque), speck=SPECK)
+        to_units = affine.similarity(0.0, 0.0, 0.0, picture.unit)
+        scaled = shapely.transform(ink, lambda points: points * picture.unit)
+        outline, centred_ink, place = centred(scaled, holes)
+        art = _art(Picture(pixels, picture.unit), affine.compose(place, to_units))
+    return Item(name, source, outline, centred_ink, art)
+
+
+def outline_of_coverage(coverage: FloatArray) -> Region:
+    """Region, in pixels, that a picture of opacities 0..1 covers.
+
+    Raises
+    ------
+    UnfitError
+        If that is no more than a few pixels, or noise.
+
+    Examples
+    --------
+    >>> outline_of_coverage(np.ones((4, 6))).area
+    24.0
+    """
+    if coverage.min() > 0.5:
+        return shapely.box(0, 0, coverage.shape[1], coverage.shape[0])
+    traced = contour_region(coverage, SIMPLIFY_PX)
+    if traced.is_empty:
+        raise UnfitError("shows a shape of a few pixels only; give a larger picture of it")
+    return traced
+
+
+def cut_out(pixels: Pixels) -> tuple[FloatArray, Pixels]:
+    """Opacity 0..1 of the object, and the picture with all else made transparent.
+
+    Raises
+    ------
+    UnfitError
+        If the picture is fully transparent or all background.
+
+    Examples
+    --------
+    >>> paper = np.full((9, 9, 4), 255, np.uint8); paper[3:6, 3:6, :3] = 0
+    >>> int(cut_out(paper)[0].sum())
+    9
+    """
+    alpha = pixels[:, :, 3] / 255.0
+    if alpha.max() == 0:
+        raise UnfitError("is fully transparent; give a picture that shows something")
+    if np.ptp(alpha) > BACKGROUND_TOLERANCE / 255:
+        return alpha / alpha.max(), pixels
+    colour = _plain_background(pixels)
+    if colour is None:
+        return np.ones_like(alpha), pixels
+    opaque = _foreground(np.abs(pixels[:, :, :3] - colour).max(axis=2))
+    if opaque.max() == 0:
+        raise UnfitError("is all of one colour; give a picture that shows something")
+    return opaque, _without_background(pixels, colour, opaque)
+
+
+def _plain_background(pixels: Pixels) -> FloatArray | None:
+    """Colour of the border, if most of the border has it."""
+    rgb = pixels[:, :, :3].astype(np.float64)
+    border = np.concatenate([rgb[0], rgb[-1], rgb[:, 0], rgb[:, -1]])
+    colour = np.median(border, axis=0)
+    is_near = np.abs(border - colour).max(axis=1) <= BACKGROUND_TOLERANCE
+    return colour if is_near.mean() >= PLAIN_SHARE else None
+
+
+def _foreground(distance: FloatArray) -> FloatArray:
+    """Opacity from each pixel's distance to the background's colour."""
+    from scipy.ndimage import binary_dilation, maximum_filter
+
+    background = _flooded(distance <= BACKGROUND_TOLERANCE)
+    opaque = np.where(background, 0.0, 1.0)
+    # The pixels of the edge mix both colours: their share is that of the distance.
+    edge = binary_dilation(background, np.ones((3, 3))) & ~background
+    opaque[edge] = distance[edge] / maximum_filter(distance, 3)[edge]
+    return opaque
+
+
+def _flooded(is_near: BoolArray) -> BoolArray:
+    """Part of ``is_near`` that hangs together with the picture's border."""
+    from scipy.ndimage import label
+
+    labels, _ = label(is_near)
+    border = np.concatenate([labels[0], labels[-1], labels[:, 0], labels[:, -1]])
+    return np.asarray(is_near & np.isin(labels, border))
+
+
+def _without_background(pixels: Pixels, colour: FloatArray, opaque: FloatArray) -> Pixels:
+    """Picture with the background transparent and its tint taken off the edges."""
+    share = opaque[:, :, None]
+    own = (pixels[:, :, :3] - (1 - share) * colour) / np.maximum(share, 1 / 255)
+    result = pixels.copy()
+    result[:, :, :3] = np.clip(np.where(share > 0, own, 0), 0, 255).round()
+    result[:, :, 3] = np.round(255 * opaque)
+    return result
+
+
+def _art(picture: Picture, matrix: FloatArray) -> PictureArt:
+    """PNG of the part that is not clear, and its place."""
+    visible = picture.pixels[:, :, 3] > 0
+    rows, columns = np.flatnonzero(visible.any(axis=1)), np.flatnonzero(visible.any(axis=0))
+    top, left = int(rows[0]), int(columns[0])
+    crop = picture.pixels[top : rows[-1] + 1, left : columns[-1] + 1]
+    file = BytesIO()
+    Image.fromarray(crop).save(file, "PNG")
+    shifted = affine.compose(matrix, affine.similarity(left, top, 0.0, 1.0))
+    return PictureArt(file.getvalue(), crop.shape[1], crop.shape[0], shifted)

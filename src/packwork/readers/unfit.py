@@ -1,0 +1,40 @@
+"""Why a drawing cannot be used, before anyone has said which file it came from."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from shapely.errors import GEOSException
+
+from packwork.errors import ReadError, ShapeError
+
+
+class UnfitError(Exception):
+    """What is wrong with the content being read; the reader adds the file's name."""
+
+
+@contextmanager
+def naming(file: str) -> Iterator[None]:
+    """Turn refusals inside the block into a ``ReadError`` about ``file``.
+
+    Raises
+    ------
+    ReadError
+        For a refusal, for a geometry without area and for one that GEOS gives up on.
+
+    Examples
+    --------
+    >>> with naming("a.svg"):
+    ...     raise UnfitError("is empty")
+    Traceback (most recent call last):
+    packwork.errors.ReadError: a.svg: is empty
+    """
+    try:
+        yield
+    except UnfitError as refusal:
+        raise ReadError(file, str(refusal)) from None
+    except ShapeError as error:
+        raise ReadError(file, f"holds a shape that cannot be used: {error}") from error
+    except GEOSException as error:
+        raise ReadError(file, f"holds a shape that cannot be resolved: {error}") from error

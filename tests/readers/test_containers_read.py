@@ -1,0 +1,117 @@
+"""Whatever names a container."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from packwork.errors import ReadError
+from packwork.readers import builtin
+from packwork.readers.container import read_container
+
+PAGE = '<svg xmlns="http://www.w3.org/2000/svg" {}>{}</svg>'
+
+
+@pytest.fixture
+def svg_file(tmp_path):
+    def save(body: str, page: str = 'viewBox="0 0 40 20"') -> str:
+        path = tmp_path / "shape.svg"
+        path.write_text(PAGE.format(page, body))
+        return str(path)
+
+    return save
+
+
+@pytest.mark.parametrize("name", builtin.container_names())
+def test_builtin_containers_lie_on_their_canvas(name):
+    container = read_container(name, side=300)
+    left, top, right, bottom = container.outline.bounds
+    assert container.side == pytest.approx(300)
+    assert min(left, top) >= -1e-6
+    assert right <= container.width + 1e-6
+    assert bottom <= container.height + 1e-6
+    assert container.outline.region.is_valid
+
+
+def test_circle_fills_its_canvas():
+    circle = read_container("circle", side=200)
+    assert circle.outline.area == pytest.approx(np.pi * 100**2, rel=1e-4)
+
+
+def test_page_is_the_canvas(svg_file):
+    container = read_container(svg_file('<rect x="10" y="5" width="10" height="10"/>'), 400)
+    assert (container.width, container.height) == (400, 200)
+    assert container.outline.bounds == (100, 50, 200, 150)
+    assert container.name == "shape"
+
+
+def test_without_a_page_the_box_is_the_canvas(svg_file):
+    container = read_container(svg_file('<rect x="10" y="5" width="10" height="20"/>', ""), 400)
+    assert (container.width, container.height) == (200, 400)
+    assert container.outline.bounds == (0, 0, 200, 400)
+
+
+def test_holes_and_parts_stay(svg_file):
+    body = '<path d="M0 0h18v18h-18z M5 5v5h5v-5z"/><circle cx="30" cy="10" r="5"/>'
+    assert len(read_container(svg_file(body)).outline.rings) == 3
+
+
+def test_strokes_of_filled_shapes_do_not_count(svg_file):
+    body = '<rect x="10" y="5" width="10" height="10" stroke="red" stroke-width="4"/>'
+    assert read_container(svg_file(body), 40).outline.area == pytest.approx(100)
+
+
+def test_line_drawing_is_filled(svg_file):
+    body = '<rect x="10" y="5" width="10" height="10" fill="none" stroke="red" stroke-width="2"/>'
+    container = read_container(svg_file(body), 40)
+    assert container.outline.area == pytest.approx(144)
+    assert len(container.outline.rings) == 1
+
+
+@pytest.mark.parametrize(
+    ("source", "problem"),
+    [
+        ("nowhere.svg", "no such file"),
+        ("nowhere.png", "no such file"),
+        ("hart", "no built-in container of that name; did you mean heart"),
+        ("text:WORD", "not known yet; give a PNG"),
+        ("around:a.png", "not known yet"),
+        ("none", "not known yet"),
+        ("\0", "no built-in container"),
+    ],
+)
+def test_unknown_containers(source, problem):
+    with pytest.raises(ReadError, match=problem):
+        read_container(source)
+
+
+@pytest.mark.parametrize("side", [0.0, -1.0, float("nan"), float("inf")])
+def test_canvas_needs_a_side(side):
+    with pytest.raises(ReadError, match="positive side"):
+        read_container("circle", side)
+
+
+def test_folder_is_no_container(tmp_path):
+    with pytest.raises(ReadError, match="is a folder"):
+        read_container(tmp_path)
+
+
+def test_unknown_ending(tmp_path):
+    (tmp_path / "shape.txt").write_text("x")
+    with pytest.raises(ReadError, match=r"unknown ending '\.txt'"):
+        read_container(tmp_path / "shape.txt")
+
+
+def test_empty_drawing_is_no_container(svg_file):
+    with pytest.raises(ReadError, match="paints no area"):
+        read_container(svg_file(""))
+
+
+def test_mask_scales_to_its_side(tmp_path):
+    mask = np.full((50, 100), 255, np.uint8)
+    mask[10:40, 20:80] = 0
+    Image.fromarray(mask).save(tmp_path / "mask.png")
+    container = read_container(tmp_path / "mask.png", side=1000)
+    assert (container.width, container.height) == (1000, 500)
+    assert container.outline.bounds == pytest.approx((200, 100, 800, 400))

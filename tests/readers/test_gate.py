@@ -1,0 +1,234 @@
+"""What the gate lets in, and what it never does."""
+
+from __future__ import annotations
+
+import base64
+import contextlib
+import time
+from io import BytesIO
+
+import pytest
+from PIL import Image
+
+from packwork.errors import ReadError
+from packwork.readers.gate import admit, document
+from packwork.readers.svg import item_of_svg
+from packwork.readers.svg_trace import render
+from packwork.readers.unfit import UnfitError
+
+HANG_S = 5.0
+"""Far more than any of these takes, far less than what they would take unbounded."""
+
+SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+
+
+def svg(body: str) -> bytes:
+    return f'<svg {SPACES} viewBox="0 0 100 100">{body}</svg>'.encode()
+
+
+def admitted(body: str) -> str:
+    return document(admit(svg(body)))
+
+
+def png_reference(side: int = 4, mark: str = "data:image/png;base64,") -> str:
+    file = BytesIO()
+    Image.new("RGB", (side, side)).save(file, "PNG")
+    return mark + base64.b64encode(file.getvalue()).decode()
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "<script>alert(1)</script>",
+        '<g onload="alert(1)"/>',
+        "<foreignObject><p>hello</p></foreignObject>",
+        '<image href="http://evil.test/a.png"/>',
+        '<image xlink:href="file:///etc/passwd"/>',
+        '<image href="data:image/svg+xml;base64,PHN2Zy8+"/>',
+        '<image href="data:image/png;base64,PHN2Zy8+"/>',
+        '<use href="other.svg#evil"/>',
+        '<use href="#evil evil"/>',
+        '<path fill="url(http://evil.test/#g)" d="M0 0h1v1z"/>',
+        "<path fill=\"url('//evil.test/#g')\" d='M0 0h1v1z'/>",
+        '<path fill="u\\72l(evil.svg#g)" d="M0 0h1v1z"/>',
+        '<path style="fill:u\\72l(evil.svg#g)" d="M0 0h1v1z"/>',
+        '<path style="fill:url(/**/evil.svg#g)" d="M0 0h1v1z"/>',
+        '<path style="background:url(evil.png);-x-evil:1" d="M0 0h1v1z"/>',
+        '<path fill="image-set(evil)" d="M0 0h1v1z"/>',
+        "<style>@import 'http://evil.test/a.css';</style>",
+        "<style>@font-face{font-family:evil;src:url(http://evil.test/f)}</style>",
+        "<style>path{fill:url(http://evil.test/#g)}</style><path d='M0 0h1v1z'/>",
+        "<style>path{mask:u\\rl(evil.svg)}</style><path d='M0 0h1v1z'/>",
+        "<style>@media all{path{fill:url(evil)}}</style><path d='M0 0h1v1z'/>",
+        '<a href="javascript:evil()"><path d="M0 0h1v1z"/></a>',
+        '<path d="M0 0h1v1z"><set attributeName="fill" to="evil"/></path>',
+        '<path d="M0 0h1v1z"><animate attributeName="href" values="evil"/></path>',
+        '<filter id="f"><feImage href="file:///evil.png"/></filter><g filter="url(#f)"/>',
+        '<text><tspan><textPath href="evil.svg#p">a</textPath></tspan></text>',
+        '<x:thing xmlns:x="evil"><path d="M0 0h1v1z"/></x:thing>',
+        '<g xml:base="http://evil.test/"/>',
+        "<metadata>evil</metadata><title>evil</title><!-- evil --><?evil pi?>",
+    ],
+)
+def test_nothing_reaches_out(body):
+    clean = admitted(body)
+    for trace in ("evil", "script", "alert", "onload", "passwd", "hello", "svg+xml", "PHN2"):
+        assert trace not in clean.replace('xmlns="http://www.w3.org/2000/svg"', "")
+
+
+def test_a_local_file_is_never_read(tmp_path):
+    secret = tmp_path / "secret.png"
+    Image.new("RGB", (8, 8), "red").save(secret)
+    for reference in (secret.as_uri(), str(secret)):
+        root = admit(svg(f'<image href="{reference}" width="90" height="90"/>'))
+        assert "secret" not in document(root)
+        pixels = Image.open(BytesIO(render(root))).convert("RGBA")
+        assert pixels.getextrema()[3] == (0, 0)
+
+
+def test_embedded_pictures_stay():
+    assert "data:image/png" in admitted(f'<image href="{png_reference()}" width="9" height="9"/>')
+
+
+def test_huge_embedded_pictures_go():
+    assert "data:" not in admitted(f'<image href="{png_reference(4_100)}"/>')
+
+
+def test_plain_doctype_passes():
+    head = (
+        b'<?xml version="1.0"?><!DOCTYPE svg PUBLIC "-//W3C//DTD SVG 1.1//EN" '
+        b'"http://www.w3.org/Graphics/SVG/1.1/DTD/svg11.dtd">'
+    )
+    assert admit(head + svg("<g/>")).tag == "svg"
+
+
+def test_prefixed_svg_passes():
+    text = '<s:svg xmlns:s="http://www.w3.org/2000/svg"><s:path d="M0 0h1v1z"/></s:svg>'
+    assert [child.tag for child in admit(text.encode())] == ["path"]
+
+
+def nested_uses(levels: int, each: int) -> str:
+    groups = "".join(
+        f'<g id="u{k + 1}">' + f'<use xlink:href="#u{k}"/>' * each + "</g>" for k in range(levels)
+    )
+    return f'<defs><path id="u0" d="M0 0h1v1z"/>{groups}</defs><use xlink:href="#u{levels}"/>'
+
+
+def nested_masks(levels: int) -> str:
+    parts = [
+        f'<mask id="m{k}">{f"""<rect mask="url(#m{k + 1})"/>""" * 10}</mask>' for k in range(levels)
+    ]
+    return "".join(parts) + f'<mask id="m{levels}"/><rect mask="url(#m0)"/>'
+
+
+@pytest.mark.parametrize(
+    ("body", "problem"),
+    [
+        (nested_uses(9, 10), "grows to 4,691,358,014 elements"),
+        (nested_uses(40, 10), "far too many"),
+        (nested_masks(30), "far too many"),
+        ('<g opacity=".5">' * 20 + "</g>" * 20, "see-through groups 20 deep"),
+        ('<g id="a"><use xlink:href="#a"/></g>', "in a circle"),
+        ('<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>', "in a circle"),
+        ('<mask id="m"><rect mask="url(#m)"/></mask><g mask="url(#m)"/>', "in a circle"),
+        ("<g>" * 500 + "</g>" * 500, "more than 100 deep"),
+        ("<style>" + "*{fill:red}" * 2000 + "</style>" + "<g/>" * 2000, "style rules"),
+        ("<text>" + "a" * 30_000 + "</text>", "letters of text"),
+    ],
+)
+def test_bombs_are_refused_at_once(body, problem):
+    data, begin = svg(body), time.perf_counter()
+    with pytest.raises(UnfitError, match=problem):
+        admit(data)
+    assert time.perf_counter() - begin < HANG_S
+
+
+def test_billion_laughs():
+    entities = "".join(f'<!ENTITY l{k + 1} "{f"&l{k};" * 10}">' for k in range(9))
+    head = f'<!DOCTYPE svg [<!ENTITY l0 "ha">{entities}]>'
+    with pytest.raises(UnfitError, match="entities"):
+        admit(head.encode() + svg("<text>&l9;</text>"))
+
+
+def test_default_attributes_are_refused():
+    head = b'<!DOCTYPE svg [<!ATTLIST path onload CDATA "evil()">]>'
+    with pytest.raises(UnfitError, match="document type of its own"):
+        admit(head + svg("<g/>"))
+
+
+@pytest.mark.parametrize(
+    ("data", "problem"),
+    [
+        (b"", "is empty"),
+        (b" \n", "is empty"),
+        (b"hello", "not well-formed"),
+        (b"<svg", "not well-formed"),
+        (b"<html/>", "its root is <html>"),
+        (b'<svg xmlns="http://example.com"/>', "its root is <svg>"),
+        (b"\x1f\x8b\x08", "compressed"),
+        (b"\x89PNG\r\n", "not well-formed"),
+        (b"<?xml version='1.0' encoding='rot13'?><svg/>", "encoding"),
+        (b"<svg xmlns:a='" + b"a" * 600 + b"'/>", "namespace"),
+        (b" " * 20_000_001, "is empty"),
+        (b"<svg/>" + b" " * 20_000_000, "20 MB"),
+    ],
+)
+def test_what_is_no_svg(data, problem):
+    with pytest.raises(UnfitError, match=problem):
+        admit(data)
+
+
+def test_styles_become_attributes():
+    clean = admitted(
+        '<style type="text/css"><![CDATA[.a{fill:red;mix-blend-mode:multiply}]]></style>'
+        '<g class="a" style="opacity:.5"/>'
+    )
+    assert '<g fill="red" opacity=".5" style="mix-blend-mode:multiply"/>' in clean
+
+
+def test_unused_definitions_go():
+    clean = admitted(
+        '<defs><linearGradient id="a"/><linearGradient id="b"/></defs>'
+        '<path id="p" fill="url(#b)" d="M0 0h1v1z"/>'
+    )
+    assert 'id="b"' in clean
+    assert 'id="a"' not in clean
+    assert 'id="p"' not in clean
+
+
+def test_switch_shows_its_first_plain_child():
+    clean = admitted(
+        '<switch><foreignObject requiredExtensions="x"/><g systemLanguage="de"/>'
+        '<path d="M0 0h1v1z"/><g fill="red"/></switch>'
+    )
+    assert '<g><path d="M0 0h1v1z"/></g>' in clean
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        f'<path d="{"h" + "1" * 300_000}"/>',
+        f'<path d="M0 0a{"1" * 3_000}x"/>',
+        f'<path d="M0 0{" " * 300_000}x"/>',
+        f'<path d="{"a" * 300_000}"/>',
+        f'<path transform="{"1" * 300_000}"/>',
+        f'<path transform="rotate({"1" * 1_900})"/>',
+        f'<path transform="{"1" * 1_900}"/>' * 20,
+        f'<path fill="{"rgb(" * 300_000}"/>',
+        f'<path fill="{"a" * 300_000}("/>',
+        f'<path fill="rgb({"0," * 900}"/>' * 20,
+        f'<path class="{"a " * 300_000}"/><style>{".a{fill:red}" * 1000}</style>',
+        f'<path style="{"fill:red;" * 100_000}"/>',
+        f"<style>{';' * 1_000_000}</style>",
+        f"<style>{'{' * 1_000_000}</style>",
+        f"<style>{'{}' * 300_000}</style>",
+        f"<style>{'/*' * 300_000}</style>",
+        f"<style>{'a ' * 300_000}{{}}</style><a/>",
+        f"<style>a{{fill:{'! ' * 300_000}important}}</style><a/>",
+    ],
+)
+def test_long_runs_take_no_time(body):
+    data, begin = svg(body), time.perf_counter()
+    with contextlib.suppress(ReadError):
+        item_of_svg(data, "a", "a.svg")
+    assert time.perf_counter() - begin < HANG_S
