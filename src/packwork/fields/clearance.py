@@ -45,11 +45,14 @@ class Clearance:
         self._free = free
         self._radius = distance_inside(free)
         self._radius[~free] = -np.inf
+        self._largest: tuple[float, float, float] | None = None
 
     def largest(self) -> tuple[float, float, float]:
         """Pixel coordinates ``(x, y)`` of the roomiest place and its radius (may be < 0)."""
-        row, column = divmod(int(np.argmax(self._radius)), self._radius.shape[1])
-        return column + 0.5, row + 0.5, float(self._radius[row, column])
+        if self._largest is None:
+            row, column = divmod(int(np.argmax(self._radius)), self._radius.shape[1])
+            self._largest = column + 0.5, row + 0.5, float(self._radius[row, column])
+        return self._largest
 
     def occupy(self, x: float, y: float, radius: float) -> None:
         """Take a disc away; only the pixels it can concern are looked at."""
@@ -65,3 +68,4 @@ class Clearance:
         )
         window = self._radius[top:bottom, left:right]
         np.minimum(window, away - radius, out=window)
+        self._largest = None

@@ -100,6 +100,11 @@ class Outline:
         return float(np.hypot(self.points[:, 0], self.points[:, 1]).max())
 
     @cached_property
+    def has_holes(self) -> bool:
+        """Whether any ring is a hole."""
+        return any(signed_area(r) < 0 for r in self.rings)
+
+    @cached_property
     def region(self) -> Region:
         """The same region as a Shapely polygon or multipolygon."""
         if len(self.rings) == 1:

@@ -39,7 +39,7 @@ def find_loss(name: str) -> ImageLoss:
         )
     try:
         found = getattr(importlib.import_module(module), function)
-    except ImportError as error:
+    except (ImportError, TypeError, ValueError) as error:  # the latter two: not a module's name
         raise RecipeError("loss", f"module {module!r} cannot be imported: {error}") from error
     except AttributeError as error:
         raise RecipeError("loss", f"module {module!r} has no function {function!r}") from error

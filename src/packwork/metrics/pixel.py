@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import ndimage
 
-from packwork.arrays import BoolArray
+from packwork.arrays import BoolArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.raster.membership import centre_count
 from packwork.raster.pyramid import image_shape
@@ -66,24 +66,25 @@ def pixel_metrics(outlines: Sequence[Outline], container: Container) -> PixelMet
     counts = _counts(outlines, px_per_cu, shape)
     inside = _counts([container.outline], px_per_cu, shape) > 0
     whole = max(int(np.count_nonzero(inside)), 1)
-    covered = np.count_nonzero(inside & (counts > 0))
+    covered = int(np.count_nonzero(inside & (counts > 0)))
     uncovered = whole - covered
     return PixelMetrics(
         LC=covered / whole,
         LC_ratio=covered / uncovered if uncovered else float("inf"),
-        OO=np.count_nonzero(counts > 1) / whole,
-        EA=np.count_nonzero((counts > 0) & ~inside) / whole,
+        OO=int(np.count_nonzero(counts > 1)) / whole,
+        EA=int(np.count_nonzero((counts > 0) & ~inside)) / whole,
         LnU=_non_uniformity(counts > 0, inside),
     )
 
 
 def _counts(outlines: Sequence[Outline], px_per_cu: float, shape: tuple[int, int]) -> IntArray:
     if not outlines:
-        return np.zeros(shape, dtype=np.int32)
+        return np.zeros(shape, dtype=np.int64)
     points = np.concatenate([o.points for o in outlines]) * px_per_cu
     offsets = np.cumsum([0] + [len(o.points) for o in outlines])
     starts = np.concatenate([o.starts[:-1] + k for o, k in zip(outlines, offsets, strict=False)])
-    return centre_count(points, np.append(starts, len(points)), shape)
+    counts = centre_count(points, np.append(starts, len(points)), shape)
+    return counts.astype(np.int64)
 
 
 def _non_uniformity(covered: BoolArray, inside: BoolArray) -> float:

@@ -132,6 +132,9 @@ def _walk_clipped(
         cells[k] = -1
         leaves[k] = 1.0
         return k + 1
+    # The ends are exact on the canvas' lines, so that a ring leaves nothing behind.
+    x_enter = x0 if enter == 0.0 else (0.0 if dx > 0.0 else float(width))
+    x_leave = x1 if leave == 1.0 else (float(width) if dx > 0.0 else 0.0)
     if enter > 0.0:
         cells[k] = -1
         leaves[k] = enter
@@ -148,9 +151,10 @@ def _walk_clipped(
         u_b = u_first if piece == 0 else (u_second if piece == 1 else leave)
         if u_b <= u_a:
             continue
-        # The ends are exact on the canvas' lines, so that a ring leaves nothing behind.
-        x_a = x0 if u_a == 0.0 else min(max(((x0 + dx * u_a) + x_magic) - x_magic, 0.0), width)
-        x_b = x1 if u_b == 1.0 else min(max(((x0 + dx * u_b) + x_magic) - x_magic, 0.0), width)
+        x_a = x_enter if u_a == enter else ((x0 + dx * u_a) + x_magic) - x_magic
+        x_b = x_leave if u_b == leave else ((x0 + dx * u_b) + x_magic) - x_magic
+        x_a = min(max(x_a, 0.0), float(width))
+        x_b = min(max(x_b, 0.0), float(width))
         y_middle = y0 + dy * 0.5 * (u_a + u_b)
         if y_middle >= height:
             cells[k] = -1

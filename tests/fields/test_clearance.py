@@ -1,0 +1,81 @@
+"""Distances and free discs against brute force."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from packwork.arrays import BoolArray, FloatArray
+from packwork.fields.clearance import Clearance, distance_inside
+
+masks = arrays.arrays(np.bool_, st.tuples(st.integers(1, 12), st.integers(1, 12)))
+discs = st.lists(
+    st.tuples(st.floats(-4, 16), st.floats(-4, 16), st.floats(0, 5)), min_size=1, max_size=6
+)
+
+
+def _centres(shape: tuple[int, int]) -> FloatArray:
+    rows, columns = np.indices(shape)
+    return np.asarray(np.stack([columns, rows], axis=-1) + 0.5)
+
+
+def _brute_distance(mask: BoolArray) -> FloatArray:
+    """From each True pixel's centre to the nearest False one's, less half a pixel."""
+    padded = np.pad(mask, 1)
+    outside = _centres(padded.shape)[~padded] - 1
+    away = np.linalg.norm(_centres(mask.shape)[:, :, None] - outside, axis=-1).min(axis=-1)
+    return np.where(mask, away - 0.5, 0.0)
+
+
+@given(mask=masks)
+def test_distance_inside_equals_brute_force(mask: BoolArray) -> None:
+    np.testing.assert_allclose(distance_inside(mask), _brute_distance(mask), atol=1e-12)
+
+
+@given(mask=masks)
+def test_distance_inside_is_that_to_the_edge_within_a_pixels_corner(mask: BoolArray) -> None:
+    """Centres stand for squares: exact beside an edge, too long beside a corner."""
+    padded = np.pad(mask, 1)
+    outside = _centres(padded.shape)[~padded] - 1
+    gaps = np.abs(_centres(mask.shape)[:, :, None] - outside) - 0.5
+    edge = np.linalg.norm(np.maximum(gaps, 0), axis=-1).min(axis=-1)
+    excess = (distance_inside(mask) - edge)[mask]
+    assert (excess >= -1e-12).all()
+    assert (excess <= np.sqrt(0.5) - 0.5 + 1e-12).all()
+
+
+@given(mask=masks, taken=discs)
+def test_room_equals_brute_force_after_every_disc(
+    mask: BoolArray, taken: list[tuple[float, float, float]]
+) -> None:
+    room = Clearance(mask)
+    expected = np.where(mask, _brute_distance(mask), -np.inf)
+    for x, y, radius in [*taken, (0.0, 0.0, 0.0)]:
+        column, row, largest = room.largest()
+        assert largest == pytest.approx(float(expected.max()), abs=1e-9)
+        assert expected[int(row), int(column)] == pytest.approx(largest, abs=1e-9)
+        room.occupy(x, y, radius)
+        away = np.linalg.norm(_centres(mask.shape) - [x, y], axis=-1)
+        expected = np.minimum(expected, away - radius)
+
+
+def test_discs_placed_where_there_is_most_room_do_not_meet() -> None:
+    room = Clearance(np.ones((24, 30), dtype=bool))
+    placed: list[tuple[float, float, float]] = []
+    for _ in range(12):
+        x, y, radius = room.largest()
+        for other_x, other_y, other in placed:
+            assert np.hypot(x - other_x, y - other_y) >= radius + other - 1e-9
+        placed.append((x, y, radius))
+        room.occupy(x, y, radius)
+    assert [r for _, _, r in placed] == sorted((r for _, _, r in placed), reverse=True)
+
+
+def test_no_room_is_said_so() -> None:
+    assert Clearance(np.zeros((3, 4), dtype=bool)).largest()[2] == -np.inf
+    room = Clearance(np.ones((4, 4), dtype=bool))
+    room.occupy(2.0, 2.0, 50.0)
+    assert room.largest()[2] < 0

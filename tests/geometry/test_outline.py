@@ -1,0 +1,101 @@
+"""Outlines: measures, and the way from a region to rings and back."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given
+from strategies import rounded_sets, star_rings
+
+from packwork.arrays import FloatArray
+from packwork.errors import ShapeError
+from packwork.geometry.affine import similarity
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region, region, signed_area
+
+FRAME = shapely.box(0, 0, 20, 20) - shapely.box(2, 2, 18, 18)
+ISLANDS = (
+    FRAME | (shapely.box(5, 5, 15, 15) - shapely.box(8, 8, 12, 12)) | shapely.box(9, 9, 10, 10)
+)
+PINCHED = shapely.Polygon([(0, 0), (8, 0), (8, 8), (0, 8)], [[(4, 0), (5, 3), (3, 3)]])
+KISSING = shapely.box(0, 0, 4, 4) | shapely.box(4, 4, 8, 8)
+REGIONS = pytest.mark.parametrize(
+    "shape", [shapely.box(1, 2, 4, 4), FRAME, ISLANDS, PINCHED, KISSING],
+    ids=["box", "frame", "islands", "pinched", "kissing"],
+)  # fmt: skip
+
+
+@REGIONS
+def test_region_to_outline_and_back(shape: Region) -> None:
+    outline = Outline.from_region(shape)
+    assert outline.region.equals(shape)
+    assert outline.area == pytest.approx(shape.area)
+    assert outline.bounds == shape.bounds
+    np.testing.assert_allclose(outline.centroid, shapely.get_coordinates(shape.centroid)[0])
+
+
+@given(rings=rounded_sets())
+def test_any_region_survives_the_way_back(rings: list[FloatArray]) -> None:
+    shape = region(rings, "evenodd")
+    if shape.area < 1e-6:
+        return
+    outline = Outline.from_region(shape)
+    assert outline.area == pytest.approx(shape.area)
+    assert shapely.symmetric_difference(outline.region, shape).area < 1e-9
+
+
+def test_rings_of_an_outline() -> None:
+    outline = Outline.from_region(ISLANDS)
+    assert [signed_area(r) > 0 for r in outline.rings].count(True) == 3
+    assert len(outline.rings) == 5
+    assert np.shares_memory(outline.rings[1], outline.points)
+    assert sum(len(r) for r in outline.rings) == len(outline.points) == outline.starts[-1]
+
+
+def test_measures_of_a_square() -> None:
+    square = Outline.from_rings([np.array([[-3.0, -1], [5, -1], [5, 4], [-3, 4]])])
+    assert square.area == 40
+    assert square.centroid.tolist() == [1.0, 1.5]
+    assert square.bounds == (-3.0, -1.0, 5.0, 4.0)
+    assert square.extent == 8
+    assert square.radius == pytest.approx(np.hypot(5, 4))
+
+
+@given(ring=star_rings())
+def test_mapping_scales_area_and_carries_the_centroid(ring: FloatArray) -> None:
+    outline = Outline.from_rings([ring])
+    matrix = similarity(3.0, -2.0, 0.7, 1.5)
+    mapped = outline.mapped(matrix)
+    assert mapped.area == pytest.approx(outline.area * 1.5**2)
+    np.testing.assert_allclose(mapped.centroid, matrix[:, :2] @ outline.centroid + matrix[:, 2])
+
+
+def test_a_silhouette_has_no_holes() -> None:
+    silhouette = Outline.from_region(ISLANDS).without_holes()
+    assert silhouette.region.equals(shapely.box(0, 0, 20, 20))
+    assert len(Outline.from_region(KISSING).without_holes().rings) == 2
+
+
+@pytest.mark.parametrize(
+    ("points", "starts", "problem"),
+    [
+        ([[0, 0], [1, 0]], [0, 2], "at least three points"),
+        (np.zeros((0, 2)), [0], "at least three points"),
+        ([[0, 0], [1, 0], [1, np.nan]], [0, 3], "finite"),
+        ([[0, 0], [1, 0], [1, 1]], [0, 4], "ring starts"),
+    ],
+)
+def test_what_is_no_outline_is_refused(points: Any, starts: Any, problem: str) -> None:
+    with pytest.raises(ShapeError, match=problem):
+        Outline(points, starts)
+
+
+@pytest.mark.parametrize(
+    "shape", [shapely.Polygon(), shapely.LineString([(0, 0), (1, 1)]), shapely.Point(0, 0)]
+)
+def test_a_region_without_area_is_refused(shape: Region) -> None:
+    with pytest.raises(ShapeError, match="no area"):
+        Outline.from_region(shape)
