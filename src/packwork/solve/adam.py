@@ -6,7 +6,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 
-STILLNESS = 1e-2
+STILLNESS = 1.5e-2
 """Gradients this small against the typical one move an item less than a full step.
 Adam divides by the gradient's own size, so without it a trapped item, whose forces
 cancel to rounding noise, would dance at full speed. Larger slows settling. Tried."""

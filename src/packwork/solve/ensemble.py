@@ -8,7 +8,6 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
-from packwork.geometry.simplify import closed, simplified
 from packwork.scene.pose import Poses
 from packwork.solve import _kernels
 
@@ -70,33 +69,3 @@ class Ensemble:
     def per_item(self, per_ring: FloatArray) -> FloatArray:
         """Sums over each item's rings."""
         return np.asarray(np.add.reduceat(per_ring, self._rings_before))
-
-
-def coarsened(
-    outlines: Sequence[Outline], pixels: FloatArray, cleft_px: float, detail_px: float
-) -> list[Outline]:
-    """Outlines as a level sees them; copies of about one size are made once.
-
-    Parameters
-    ----------
-    outlines
-        One per item, item units.
-    pixels
-        ``(n,)`` size of the level's pixel in the units of each item.
-    cleft_px
-        Clefts narrower than twice this are closed: what a level cannot resolve must
-        not lock items into each other.
-    detail_px
-        Tolerance of the simplification that follows.
-    """
-    done: dict[tuple[int, int], Outline] = {}
-    result = []
-    for outline, pixel in zip(outlines, pixels, strict=True):
-        # Pixels within a factor of two share one outline.
-        rung = int(np.floor(np.log2(pixel)))
-        key = (id(outline), rung)
-        if key not in done:
-            size = 2.0**rung
-            done[key] = simplified(closed(outline, cleft_px * size), detail_px * size)
-        result.append(done[key])
-    return result

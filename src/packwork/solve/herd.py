@@ -1,7 +1,7 @@
 """Trapped items move to the largest voids.
 
 An item wholly inside another sees the same adjoint all round: no force, no torque, only
-shrinking. Between levels the worst of them are lifted out.
+shrinking. Between levels, and half-way through the last, the worst are lifted out.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from packwork.fields.clearance import Clearance
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
 
-TRAPPED_SHARE = 0.2
+TRAPPED_SHARE = 0.05
 """Share of an item that is overlapped or outside from which it counts as trapped.
 Smaller moves items that would have worked themselves free. Tried."""
 

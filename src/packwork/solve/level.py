@@ -16,15 +16,7 @@ from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.solve.ensemble import Ensemble, coarsened
-
-DETAIL_PX = 0.1
-"""Outlines are simplified to this many pixels of the level: larger is faster and lets
-items overlap by as much, smaller costs edges that no pixel sees. Tried."""
-
-CLEFT_PX = 1.0
-"""Clefts narrower than twice this many pixels of the level are closed. Larger keeps
-items out of each other's bays, smaller lets thin limbs cross and lock. Tried."""
+from packwork.solve.ensemble import Ensemble
 
 
 class Level:
@@ -35,9 +27,7 @@ class Level:
     container
         The region to fill.
     outlines
-        One per item, item units.
-    scales
-        ``(n,)`` scales about which the outlines' detail is chosen.
+        One per item, item units, as this level shall see them.
     resolution
         Pixels on the canvas' longer side.
     losses
@@ -48,7 +38,6 @@ class Level:
         self,
         container: Container,
         outlines: Sequence[Outline],
-        scales: FloatArray,
         resolution: int,
         losses: Mapping[str, float] | None = None,
     ) -> None:
@@ -57,7 +46,7 @@ class Level:
         shape = image_shape(container.width, container.height, resolution)
         self.rasteriser = Rasteriser(shape, np.float32)
         self.container_image = region_image(container.outline, self.rasteriser, self.px_per_cu)
-        self.ensemble = Ensemble(coarsened(outlines, 1 / (self.px_per_cu * scales), CLEFT_PX, DETAIL_PX))
+        self.ensemble = Ensemble(outlines)
         self._areas = np.array([o.area for o in outlines])
         self._linear = LinearAdjoint(self.container_image)
         self._recall = Recall(self.container_image, self.px_per_cu)

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import numpy as np
+
 from packwork.losses.linear import LinearWeights
 from packwork.solve.options import SolveOptions
 
 
-def epochs_per_level(epochs: int, levels: int) -> list[int]:
-    """Epochs shared evenly; what does not divide goes to the finest levels.
+def epochs_per_level(epochs: int, shares: Sequence[float]) -> list[int]:
+    """Whole epochs in the proportion of ``shares``, rounded so that none is lost.
 
     Examples
     --------
-    >>> epochs_per_level(200, 3)
-    [66, 67, 67]
+    >>> epochs_per_level(200, [1, 1, 1])
+    [67, 66, 67]
     """
-    return [(epochs * (k + 1)) // levels - (epochs * k) // levels for k in range(levels)]
+    ends = np.rint(np.cumsum(shares) / np.sum(shares) * epochs).astype(int)
+    return [int(n) for n in np.diff(ends, prepend=0)]
 
 
 def rate_factor(options: SolveOptions, progress: float) -> float:
@@ -29,7 +34,9 @@ def rate_factor(options: SolveOptions, progress: float) -> float:
 
 
 def weights_at(options: SolveOptions, progress: float) -> LinearWeights:
-    """Loss weights at ``progress`` (0..1): penalties grow geometrically, filling stays.
+    """Loss weights at ``progress`` (0..1) through the run.
+
+    Penalties grow geometrically, filling stays one until the run settles.
 
     Examples
     --------
@@ -37,4 +44,6 @@ def weights_at(options: SolveOptions, progress: float) -> LinearWeights:
     6.0
     """
     growth = float(options.hardening**progress)
-    return LinearWeights(options.containment * growth, options.overlap * growth, 1.0)
+    settles = progress > 1 - options.settling
+    filling = options.settling_filling if settles else 1.0
+    return LinearWeights(options.containment * growth, options.overlap * growth, filling)

@@ -14,9 +14,10 @@ from packwork.geometry.outline import Outline
 from packwork.progress import Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.solve.adam import Adam
+from packwork.solve.detail import seen_at
 from packwork.solve.herd import Rescue, herd
 from packwork.solve.level import Level
+from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
 from packwork.solve.schedule import epochs_per_level, rate_factor, weights_at
 
@@ -50,57 +51,6 @@ class Outcome:
     levels: list[LevelReport] = field(default_factory=list)
 
 
-class _Motion:
-    """Poses being changed step by step, within their bounds."""
-
-    def __init__(self, poses: Poses, nominal: FloatArray, side: float, options: SolveOptions):
-        self._options = options
-        self._side = side
-        n = len(poses)
-        self.x, self.y = poses.x.copy(), poses.y.copy()
-        self.angle = poses.angle.copy()
-        self._nominal = np.log(nominal)
-        self._growth = np.log(poses.scale) - self._nominal
-        self._moves, self._turns = Adam((n, 2)), Adam((n, 1))
-        self._sizes = Adam((1 if options.sizes == "shared" else n, 1))
-
-    @property
-    def poses(self) -> Poses:
-        return Poses(
-            self.x.copy(), self.y.copy(), self.angle.copy(), np.exp(self._nominal + self._growth)
-        )
-
-    def follow(self, gradient: FloatArray, factor: float) -> None:
-        """One step against the pose gradient, at ``factor`` of the full rates."""
-        options = self._options
-        move = self._moves.step(gradient[:, :2], options.position_rate * self._side * factor)
-        self.x += move[:, 0]
-        self.y += move[:, 1]
-        if options.turn_rate > 0:
-            self.angle += self._turns.step(gradient[:, 2:3], options.turn_rate * factor)[:, 0]
-            if options.turn_limit is not None:
-                np.clip(self.angle, -options.turn_limit, options.turn_limit, out=self.angle)
-        self._resize(gradient[:, 3:4], options.size_rate * factor)
-
-    def _resize(self, gradient: FloatArray, rate: float) -> None:
-        if self._options.sizes == "free":
-            bound = np.log(self._options.size_ratio)
-            self._growth += self._sizes.step(gradient, rate)[:, 0]
-            np.clip(self._growth, -bound, bound, out=self._growth)
-        elif self._options.sizes == "shared":
-            total = gradient.sum(axis=0, keepdims=True)
-            self._growth += self._sizes.step(total, rate)[0, 0]
-
-    def replace(self, poses: Poses, items: list[int]) -> None:
-        """Take over poses in which ``items`` were moved by force."""
-        self.x, self.y, self.angle = poses.x.copy(), poses.y.copy(), poses.angle.copy()
-        self._growth = np.log(poses.scale) - self._nominal
-        self._moves.forget(items)
-        self._turns.forget(items)
-        if self._options.sizes == "free":
-            self._sizes.forget(items)
-
-
 def solve(
     container: Container,
     outlines: Sequence[Outline],
@@ -132,30 +82,81 @@ def solve(
     stop
         Asked before every epoch; True ends the run.
     """
-    motion = _Motion(start, nominal, container.side, options)
-    areas = np.array([o.area for o in outlines])
-    shares = epochs_per_level(options.epochs, len(options.levels))
-    reports: list[LevelReport] = []
-    done = 0
-    for index, (resolution, epochs) in enumerate(zip(options.levels, shares, strict=True)):
+    run = _Run(container, outlines, start, nominal, options, observer, stop)
+    shares = epochs_per_level(options.epochs, options.shares or [1.0] * len(options.levels))
+    reports = []
+    for index, epochs in enumerate(shares):
+        reports.append(run.level(index, epochs))
+        if run.is_stopped:
+            return Outcome(run.motion.poses, Ending.STOPPED, reports)
+    return Outcome(run.motion.poses, Ending.DONE, reports)
+
+
+class _Run:
+    """State of one solve between its epochs."""
+
+    def __init__(
+        self,
+        container: Container,
+        outlines: Sequence[Outline],
+        start: Poses,
+        nominal: FloatArray,
+        options: SolveOptions,
+        observer: Observer | None,
+        stop: Stop,
+    ) -> None:
+        self.motion = Motion(start, nominal, container.side, options)
+        self.is_stopped = False
+        self._container, self._outlines, self._nominal = container, outlines, nominal
+        self._areas = np.array([o.area for o in outlines])
+        self._options, self._observer, self._stop = options, observer, stop
+        self._done = 0
+
+    def level(self, index: int, epochs: int) -> LevelReport:
+        """Run one level, and the herder when it is due."""
         began = time.perf_counter()
-        level = Level(container, outlines, motion.poses.scale, resolution, options.losses)
-        for epoch in range(epochs):
-            if stop():
-                return Outcome(motion.poses, Ending.STOPPED, reports)
-            progress = done / max(options.epochs - 1, 1)
-            gradient = level.gradient(motion.poses, weights_at(options, progress))
-            motion.follow(gradient, rate_factor(options, progress))
-            done += 1
-            if observer is not None and (epoch % observer.every == 0 or epoch == epochs - 1):
-                observer.on_step(_step(level, index, options, done, motion.poses))
+        resolution = self._options.levels[index]
+        seen = seen_at(self._outlines, self.motion.poses.scale, resolution / self._container.side)
+        level = Level(self._container, seen, resolution, self._options.losses)
+        is_last = index == len(self._options.levels) - 1
+        herding = epochs // 2 if is_last else epochs
         rescues: list[Rescue] = []
-        if options.herd and index < len(options.levels) - 1:
-            smallest, largest = scale_bounds(nominal, motion.poses.scale, options)
-            poses, rescues = herd(level, motion.poses, areas, smallest, largest)
-            motion.replace(poses, [r.item for r in rescues])
-        reports.append(_report(level, epochs, began, motion.poses, rescues))
-    return Outcome(motion.poses, Ending.DONE, reports)
+        for epoch in range(1, epochs + 1):
+            if self._stop():
+                self.is_stopped = True
+                break
+            self._epoch(level)
+            if epoch == herding and self._options.herd:
+                rescues = self._herd(level)
+            self._tell(level, index, epoch, epochs)
+        shares = level.shares(level.density(self.motion.poses))
+        seconds = time.perf_counter() - began
+        return LevelReport(resolution, epochs, seconds, *shares, rescues=tuple(rescues))
+
+    def _epoch(self, level: Level) -> None:
+        progress = self._done / max(self._options.epochs - 1, 1)
+        gradient = level.gradient(self.motion.poses, weights_at(self._options, progress))
+        self.motion.follow(gradient, rate_factor(self._options, progress))
+        self._done += 1
+
+    def _herd(self, level: Level) -> list[Rescue]:
+        poses = self.motion.poses
+        bounds = scale_bounds(self._nominal, poses.scale, self._options)
+        moved, rescues = herd(level, poses, self._areas, *bounds)
+        self.motion.replace(moved, [rescue.item for rescue in rescues])
+        return rescues
+
+    def _tell(self, level: Level, index: int, epoch: int, epochs: int) -> None:
+        observer = self._observer
+        if observer is None or ((epoch - 1) % observer.every and epoch != epochs):
+            return
+        poses = self.motion.poses
+        observer.on_step(
+            Step(
+                index, len(self._options.levels), level.resolution, self._done,
+                self._options.epochs, poses, *level.shares(level.density(poses)),
+            )
+        )  # fmt: skip
 
 
 def scale_bounds(
@@ -165,19 +166,3 @@ def scale_bounds(
     if options.sizes == "free":
         return nominal / options.size_ratio, nominal * options.size_ratio
     return scale, scale
-
-
-def _step(level: Level, index: int, options: SolveOptions, done: int, poses: Poses) -> Step:
-    coverage, overlap, outside = level.shares(level.density(poses))
-    return Step(
-        index, len(options.levels), level.resolution, done, options.epochs, poses,
-        coverage, overlap, outside,
-    )  # fmt: skip
-
-
-def _report(
-    level: Level, epochs: int, began: float, poses: Poses, rescues: list[Rescue]
-) -> LevelReport:
-    seconds = time.perf_counter() - began
-    shares = level.shares(level.density(poses))
-    return LevelReport(level.resolution, epochs, seconds, *shares, rescues=tuple(rescues))

@@ -7,7 +7,7 @@ import numpy as np
 from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
 
-JITTER = 0.35
+JITTER = 0.11
 """Random shift of each item, in its radius: it makes seeds differ and breaks the ties
 of symmetric containers. Larger undoes the even spread. Tried."""
 

@@ -1,0 +1,49 @@
+"""Outlines as a level sees them: no finer than its pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import closed, simplified
+
+DETAIL_PX = 0.12
+"""Outlines are simplified to this many pixels of the level: larger is faster and lets
+items overlap by as much, smaller costs edges that no pixel sees. Tried."""
+
+CLEFT_PX = 0.26
+"""Clefts narrower than twice this many pixels of the level are closed. Larger keeps
+items out of each other's bays, smaller lets thin limbs cross and lock. Tried."""
+
+
+def seen_at(outlines: Sequence[Outline], scales: FloatArray, px_per_cu: float) -> list[Outline]:
+    """Outlines simplified to a level's pixels; copies of about one size are made once.
+
+    What a level cannot resolve must not lock items into each other: clefts are closed
+    first, so that coarse levels work on something near the hull.
+
+    Parameters
+    ----------
+    outlines
+        One per item, item units.
+    scales
+        ``(n,)`` canvas units per item unit.
+    px_per_cu
+        Pixels of the level per canvas unit.
+    """
+    done: dict[tuple[int, int], Outline] = {}
+    seen = []
+    for outline, pixel in zip(outlines, 1 / (px_per_cu * scales), strict=True):
+        # Items whose pixels are within a factor of two share one outline.
+        rung = int(np.floor(np.log2(pixel)))
+        key = (id(outline), rung)
+        if key not in done:
+            size = 2.0**rung
+            # Half the tolerance before closing, which is slow on many points, half after.
+            rough = simplified(outline, 0.5 * DETAIL_PX * size)
+            done[key] = simplified(closed(rough, CLEFT_PX * size), 0.5 * DETAIL_PX * size)
+        seen.append(done[key])
+    return seen

@@ -1,0 +1,74 @@
+"""Scales to begin with."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import hull
+
+YIELDING = 1.0
+"""How strongly items that fill their hull badly begin smaller than their nominal size,
+where sizes are free: the scale goes with (area / hull area) to this power. 0 starts a
+spiral as large as a disc, larger spends the container on compact items. Tried."""
+
+
+def nominal_scales(areas: FloatArray, weights: FloatArray, total_cu2: float) -> FloatArray:
+    """Scales at which areas are in the shares of the weights.
+
+    Parameters
+    ----------
+    areas
+        ``(n,)``, item units squared: of the outlines where sizes are data, of their
+        hulls where items are to look equally large.
+    weights
+        ``(n,)``, positive.
+    total_cu2
+        Sum of the areas asked for, canvas units squared.
+
+    Examples
+    --------
+    >>> nominal_scales(np.array([1.0, 4.0]), np.ones(2), 8.0).tolist()
+    [2.0, 1.0]
+    """
+    return np.asarray(np.sqrt(total_cu2 * weights / weights.sum() / areas))
+
+
+def hull_areas(outlines: Sequence[Outline]) -> FloatArray:
+    """Area of each outline's convex hull; copies are measured once."""
+    known: dict[int, float] = {}
+    for outline in outlines:
+        if id(outline) not in known:
+            known[id(outline)] = hull(outline).area
+    return np.array([known[id(outline)] for outline in outlines])
+
+
+def yielding_scales(
+    areas: FloatArray, hulls: FloatArray, nominal: FloatArray, ratio: float, total_cu2: float
+) -> FloatArray:
+    """First scales where sizes are free: compact items larger, straggly ones smaller.
+
+    Parameters
+    ----------
+    areas, hulls
+        ``(n,)`` areas of the outlines and of their convex hulls.
+    nominal
+        ``(n,)`` middle of each item's range.
+    ratio
+        Scales stay within ``nominal / ratio`` and ``nominal * ratio``.
+    total_cu2
+        Sum of the areas to begin with, unless the bounds forbid it.
+
+    Examples
+    --------
+    >>> one = np.ones(2)
+    >>> compact, straggly = yielding_scales(one, np.array([1.0, 2.0]), one, 2.0, 1.0)
+    >>> bool(compact > straggly >= 0.5)
+    True
+    """
+    scales = nominal * (areas / hulls) ** YIELDING
+    scales *= np.sqrt(total_cu2 / np.sum(areas * scales**2))
+    return np.asarray(np.clip(scales, nominal / ratio, nominal * ratio))

@@ -1,0 +1,48 @@
+"""How epochs are shared, rates shrink and penalties grow."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from packwork.solve.options import SolveOptions
+from packwork.solve.schedule import epochs_per_level, rate_factor, weights_at
+
+
+@given(
+    epochs=st.integers(1, 10_000),
+    shares=st.lists(st.floats(0.01, 100), min_size=1, max_size=6),
+)
+def test_no_epoch_is_lost_and_shares_are_kept(epochs: int, shares: list[float]) -> None:
+    given_out = epochs_per_level(epochs, shares)
+    assert sum(given_out) == epochs
+    for count, share in zip(given_out, shares, strict=True):
+        assert abs(count - epochs * share / sum(shares)) <= 1
+
+
+@given(progress=st.floats(0, 1), cooling=st.floats(0.01, 1))
+def test_rates_fall_from_one_to_cooling(progress: float, cooling: float) -> None:
+    options = SolveOptions(cooling=cooling)
+    assert cooling * (1 - 1e-12) <= rate_factor(options, progress) <= 1
+    assert rate_factor(options, 0.0) == 1
+    assert rate_factor(options, 1.0) == pytest.approx(cooling)
+
+
+def test_penalties_grow_by_hardening() -> None:
+    options = SolveOptions(overlap=2, containment=3, hardening=10)
+    first, last = weights_at(options, 0.0), weights_at(options, 1.0)
+    assert (first.overlap, first.containment) == (2, 3)
+    assert (last.overlap, last.containment) == pytest.approx((20, 30))
+
+
+def test_filling_is_cut_only_while_settling() -> None:
+    options = SolveOptions(settling=0.25, settling_filling=0.1)
+    assert [weights_at(options, p).filling for p in (0.0, 0.5, 0.74, 0.76, 1.0)] == [
+        1, 1, 1, 0.1, 0.1,
+    ]  # fmt: skip
+
+
+def test_without_settling_filling_stays() -> None:
+    options = SolveOptions(settling=0.0)
+    assert weights_at(options, 1.0).filling == 1
