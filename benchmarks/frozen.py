@@ -6,11 +6,16 @@ change it; add another set beside it.
 
 from __future__ import annotations
 
+from itertools import cycle, islice
+
 import numpy as np
 import shapely
+from packwork.readers.items import read_items
 
 from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import simplified
 from packwork.scene.container import Container
+from packwork.scene.item import Item
 
 SIDE = 600.0
 COUNT = 100
@@ -49,3 +54,30 @@ def letter_container() -> Container:
 
 
 CONTAINERS = (round_container, concave_container, thin_container, letter_container)
+
+
+def items() -> list[Item]:
+    """The 100 items: the bundled icons in the order of their names, in turn."""
+    return list(islice(cycle(read_items(["icons"]).items), COUNT))
+
+
+def outlines_of(edges: int) -> list[Outline]:
+    """Outlines of the 100 items, simplified to about ``edges`` edges in all."""
+    exact = [item.outline for item in items()]
+    low, high = 1e-5, 1.0
+    for _ in range(30):
+        middle = (low * high) ** 0.5
+        found = _simplified(exact, middle)
+        if sum(len(o.points) for o in found) > edges:
+            low = middle
+        else:
+            high = middle
+    return _simplified(exact, high)
+
+
+def _simplified(outlines: list[Outline], share: float) -> list[Outline]:
+    known: dict[int, Outline] = {}
+    for outline in outlines:
+        if id(outline) not in known:
+            known[id(outline)] = simplified(outline, share * outline.extent)
+    return [known[id(outline)] for outline in outlines]

@@ -1,1 +1,72 @@
-"""Packwork arranges shapes so that they fill a container of any form."""
+"""Packwork arranges shapes so that they fill a container of any form.
+
+>>> import packwork as pw
+>>> layout = pw.fill("heart", ["circle"], count=2, effort="draft", levels="50", seed=0)
+>>> len(layout.items)
+2
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from packwork.api import Layout, fill, read_container, read_items
+    from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
+    from packwork.losses.term import ImageLoss, Term
+    from packwork.progress import Step
+    from packwork.raster.coverage import coverage as render
+    from packwork.raster.coverage import coverage_pullback as render_pullback
+    from packwork.scene.container import Container
+    from packwork.scene.item import Item
+
+__all__ = [
+    "Container",
+    "ImageLoss",
+    "Item",
+    "Layout",
+    "PackworkError",
+    "ReadError",
+    "RecipeError",
+    "ShapeError",
+    "Step",
+    "Term",
+    "WriteError",
+    "fill",
+    "read_container",
+    "read_items",
+    "render",
+    "render_pullback",
+]
+
+_HOMES = {
+    "Container": "packwork.scene.container:Container",
+    "ImageLoss": "packwork.losses.term:ImageLoss",
+    "Item": "packwork.scene.item:Item",
+    "Layout": "packwork.api:Layout",
+    "PackworkError": "packwork.errors:PackworkError",
+    "ReadError": "packwork.errors:ReadError",
+    "RecipeError": "packwork.errors:RecipeError",
+    "ShapeError": "packwork.errors:ShapeError",
+    "Step": "packwork.progress:Step",
+    "Term": "packwork.losses.term:Term",
+    "WriteError": "packwork.errors:WriteError",
+    "fill": "packwork.api:fill",
+    "read_container": "packwork.api:read_container",
+    "read_items": "packwork.api:read_items",
+    "render": "packwork.raster.coverage:coverage",
+    "render_pullback": "packwork.raster.coverage:coverage_pullback",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load a public name when it is first used, so that importing stays cheap."""
+    if name not in _HOMES:
+        raise AttributeError(f"module 'packwork' has no attribute {name!r}")
+    module, attribute = _HOMES[name].split(":")
+    return getattr(importlib.import_module(module), attribute)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -4,7 +4,15 @@ from packwork.writers.atomic import check_writable, write_atomic
 from packwork.writers.diagnose import diagnose_png
 from packwork.writers.geojson import geojson_text
 from packwork.writers.png import PngOptions, png_bytes
-from packwork.writers.registry import WRITERS, WriteOptions, check_output, write
+from packwork.writers.registry import (
+    WRITERS,
+    WriteOptions,
+    check_output,
+    encoded,
+    write,
+    write_options,
+)
+from packwork.writers.report import json_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
 __all__ = [
@@ -15,9 +23,12 @@ __all__ = [
     "check_output",
     "check_writable",
     "diagnose_png",
+    "encoded",
     "geojson_text",
+    "json_bytes",
     "png_bytes",
     "svg_text",
     "write",
     "write_atomic",
+    "write_options",
 ]

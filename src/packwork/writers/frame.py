@@ -33,6 +33,24 @@ class Frame:
     px_per_cu: float
 
 
+def check_side(longer_side_px: int) -> None:
+    """Refuse a size that no picture may have, whatever its canvas.
+
+    Raises
+    ------
+    RecipeError
+        If it is not 1 to ``MAX_SIDE_PX``.
+
+    Examples
+    --------
+    >>> check_side(1600)
+    """
+    if not 1 <= longer_side_px <= MAX_SIDE_PX:
+        raise RecipeError(
+            "pixels", f"a picture's longer side must be 1 to {MAX_SIDE_PX} px, not {longer_side_px}"
+        )
+
+
 def picture_frame(container: Container, longer_side_px: int) -> Frame:
     """Frame that shows the whole canvas, ``longer_side_px`` long.
 
@@ -48,15 +66,11 @@ def picture_frame(container: Container, longer_side_px: int) -> Frame:
     >>> picture_frame(Container("tile", "tile", tile, 10.0, 4.1), 100)
     Frame(rows=41, columns=100, px_per_cu=10.0)
     """
-    if not 1 <= longer_side_px <= MAX_SIDE_PX:
-        raise RecipeError(
-            "resolution",
-            f"a picture's longer side must be 1 to {MAX_SIDE_PX} px, not {longer_side_px}",
-        )
+    check_side(longer_side_px)
     rows, columns = image_shape(container.width, container.height, longer_side_px)
     if rows * columns > MAX_PIXELS:
         raise RecipeError(
-            "resolution",
+            "pixels",
             f"{columns} x {rows} px are too many; a picture may have "
             f"{MAX_PIXELS // 1_000_000} million",
         )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeAlias
@@ -11,6 +11,7 @@ from typing import TypeAlias
 from packwork.errors import WriteError
 from packwork.scene.layout import Layout
 from packwork.writers.atomic import check_writable, write_atomic
+from packwork.writers.frame import check_side
 from packwork.writers.geojson import geojson_text
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
@@ -27,6 +28,11 @@ class WriteOptions:
     png_side_px
         Longer side of a PNG.
 
+    Raises
+    ------
+    RecipeError
+        If ``png_side_px`` is out of bounds.
+
     Examples
     --------
     >>> WriteOptions(svg=SvgOptions(flatten=True)).png_side_px
@@ -36,6 +42,9 @@ class WriteOptions:
     svg: SvgOptions = field(default_factory=SvgOptions)
     png: PngOptions = field(default_factory=PngOptions)
     png_side_px: int = 1600
+
+    def __post_init__(self) -> None:
+        check_side(self.png_side_px)
 
 
 Encoder: TypeAlias = Callable[[Layout, WriteOptions], bytes]
@@ -101,8 +110,35 @@ def write(layout: Layout, path: str | Path, options: WriteOptions | None = None)
     ...     Path(folder, "out.svg").exists()
     True
     """
+    write_atomic(path, encoded(layout, path, options))
+
+
+def encoded(layout: Layout, path: str | Path, options: WriteOptions | None = None) -> bytes:
+    """Bytes that :func:`write` would write: several files can be drawn before the first is.
+
+    Raises
+    ------
+    WriteError
+        If the ending is unknown or the layout cannot be drawn.
+    RecipeError
+        If an option is out of bounds.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> import numpy as np
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> empty = Layout(
+    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
+    ... )
+    >>> encoded(empty, "out.png")[1:4]
+    b'PNG'
+    """
     encoder = _encoder(path)
-    write_atomic(path, encoder(layout, options or WriteOptions()))
+    return encoder(layout, options or WriteOptions())
 
 
 def _encoder(path: str | Path) -> Encoder:
@@ -112,3 +148,42 @@ def _encoder(path: str | Path) -> Encoder:
         met = f"the ending {ending!r} is not known" if ending else "the name has no ending"
         raise WriteError(path, f"{met}; use one of {known}")
     return WRITERS[ending]
+
+
+def write_options(
+    *,
+    pixels: int = 1_600,
+    background: str | None = None,
+    outline: bool = False,
+    flatten: bool = False,
+) -> WriteOptions:
+    """Options of every format from the few that people give.
+
+    Parameters
+    ----------
+    pixels
+        Longer side of a PNG.
+    background
+        Any CSS colour, or ``none``. None: none in SVG, white in PNG.
+    outline
+        Draw the container's outline.
+    flatten
+        In SVG, repeat each drawing in place.
+
+    Raises
+    ------
+    RecipeError
+        If a value has no meaning.
+
+    Examples
+    --------
+    >>> write_options(background="none").png.background is None
+    True
+    """
+    colour = None if background in {None, "none", "transparent"} else background
+    png = PngOptions(container_outline=outline)
+    return WriteOptions(
+        svg=SvgOptions(background=colour, container_outline=outline, flatten=flatten),
+        png=png if background is None else replace(png, background=colour),
+        png_side_px=pixels,
+    )

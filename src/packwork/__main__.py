@@ -1,0 +1,5 @@
+"""``python -m packwork``: the command line."""
+
+from packwork.cli import app
+
+app()

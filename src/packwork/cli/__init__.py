@@ -1,0 +1,52 @@
+"""The command line: parse, call the pipeline, show. One file per command.
+
+Nothing heavy is imported here, so that ``packwork --help`` answers at once.
+"""
+
+from __future__ import annotations
+
+import logging
+
+import typer
+
+from packwork.cli.bench import bench
+from packwork.cli.demo import demo
+from packwork.cli.fill import fill
+from packwork.cli.measure import measure
+
+app = typer.Typer(
+    name="packwork",
+    help="Arrange shapes so that they fill a container of any form.\n\n"
+    "Try [bold]packwork demo[/] first, then [bold]packwork fill heart your-icons/[/].",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode="rich",
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+
+# Whatever the library logs, the commands say in their own words.
+_SILENCE = logging.NullHandler()
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from importlib import metadata
+
+        typer.echo(f"packwork {metadata.version('packwork')}")
+        raise typer.Exit
+
+
+@app.callback()
+def _main(
+    version: bool = typer.Option(
+        False, "--version", callback=_version, is_eager=True, help="Show the version and stop."
+    ),
+) -> None:
+    logging.getLogger("packwork").addHandler(_SILENCE)
+
+
+app.command()(fill)
+app.command()(measure)
+app.command()(demo)
+app.command()(bench)

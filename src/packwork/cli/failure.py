@@ -1,0 +1,61 @@
+"""Errors to one line and an exit code; Ctrl-C to a stop that keeps what there is."""
+
+from __future__ import annotations
+
+import signal
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+import typer
+
+from packwork.errors import PackworkError
+
+SHORTFALL = 1
+"""Ran and wrote what it has, but something asked was not met."""
+BAD_INPUT = 2
+"""One clear line was printed; nothing was written."""
+INTERRUPTED = 130
+"""Ctrl-C; the best so far was written."""
+
+
+@contextmanager
+def clear_errors() -> Iterator[None]:
+    """Turn the package's errors into one line on standard error and exit code 2."""
+    try:
+        yield
+    except PackworkError as error:
+        line = " ".join(str(error).split())
+        typer.echo(f"packwork: {line}", err=True)
+        raise typer.Exit(BAD_INPUT) from None
+    except KeyboardInterrupt:
+        typer.echo("packwork: stopped before there was anything to write", err=True)
+        raise typer.Exit(INTERRUPTED) from None
+
+
+class Interrupt:
+    """Tells the solver, which asks before every epoch, whether Ctrl-C was pressed.
+
+    The first Ctrl-C ends the run with what it has; a second one ends it at once.
+    """
+
+    def __init__(self) -> None:
+        self.pressed = False
+
+    def __call__(self) -> bool:
+        """Whether to stop."""
+        return self.pressed
+
+    @contextmanager
+    def listening(self) -> Iterator[None]:
+        """Catch the first Ctrl-C while the block runs."""
+        before = signal.signal(signal.SIGINT, self._press)
+        try:
+            yield
+        finally:
+            signal.signal(signal.SIGINT, before)
+
+    def _press(self, number: int, frame: FrameType | None) -> None:
+        if self.pressed:
+            raise KeyboardInterrupt
+        self.pressed = True

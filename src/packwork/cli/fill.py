@@ -1,0 +1,93 @@
+"""``packwork fill``: a container filled with items."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from packwork.cli import options as shared
+from packwork.cli.failure import clear_errors
+from packwork.recipe import Recipe, make_recipe
+
+DEFAULT_OUTPUT = Path("collage.svg")
+
+ItemNames = Annotated[
+    list[str] | None,
+    typer.Argument(
+        metavar="ITEM...",
+        help="SVGs, pictures, folders of them, globs, or built-in names such as star.",
+        show_default="all built-in icons",
+    ),
+]
+
+
+def fill(
+    container: Annotated[
+        str,
+        typer.Argument(
+            metavar="CONTAINER",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, or a built-in name such as heart.",
+        ),
+    ],
+    items: ItemNames = None,
+    output: shared.Output = None,
+    count: shared.Count = None,
+    canvas: shared.Canvas = 600.0,
+    sizes: shared.Sizes = "free",
+    size_ratio: shared.SizeRatio = 2.0,
+    rotate: shared.Rotate = "free",
+    weights: shared.Weights = None,
+    holes: shared.Holes = "fill",
+    strict: shared.Strict = False,
+    seed: shared.Seed = 0,
+    effort: shared.Effort = "normal",
+    epochs: shared.Epochs = None,
+    levels: shared.Levels = Recipe.model_fields["levels"].default,
+    start: shared.Start = "distance-field",
+    loss: shared.Loss = None,
+    pixels: shared.Pixels = 1_600,
+    background: shared.Background = None,
+    outline: shared.DrawOutline = False,
+    flatten: shared.Flatten = False,
+    report: shared.Report = None,
+    diagnose: shared.Diagnose = None,
+    quiet: shared.Quiet = False,
+) -> None:
+    """Fill a container with items.
+
+    [bold]packwork fill heart[/]  the built-in icons in a heart
+
+    [bold]packwork fill bear.png icons/ -n 100 -o bear.svg -o bear.png[/]  your own
+
+    [bold]packwork fill logo.svg star circle --rotate none --sizes shared[/]
+    """
+    with clear_errors():
+        recipe = make_recipe(
+            container=container,
+            items=items or ["icons"],
+            count=count,
+            canvas=canvas,
+            sizes=sizes,
+            size_ratio=size_ratio,
+            rotate=rotate,
+            weights=weights,
+            holes=holes,
+            strict=strict,
+            seed=seed,
+            effort=effort,
+            epochs=epochs,
+            levels=levels,
+            start=start,
+            losses=shared.loss_weights(loss),
+        )
+        from packwork.cli.running import run_and_write
+        from packwork.writers import write_options
+
+        writing = write_options(
+            pixels=pixels, background=background, outline=outline, flatten=flatten
+        )
+        raise typer.Exit(
+            run_and_write(recipe, output or [DEFAULT_OUTPUT], writing, report, diagnose, quiet)
+        )

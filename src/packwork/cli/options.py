@@ -1,0 +1,125 @@
+"""Options that commands share. Help comes from the recipe's own fields."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import typer
+
+from packwork.recipe import Recipe
+
+PLACING = "What is placed"
+SOLVING = "How it is solved"
+WRITING = "What is written"
+
+
+def flag(field: str, *names: str, panel: str) -> Any:
+    """Typer option whose help is the recipe field's own description."""
+    described = Recipe.model_fields[field].description or ""
+    return typer.Option(
+        *(names or (f"--{field.replace('_', '-')}",)), help=described, rich_help_panel=panel
+    )
+
+
+Output = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "-o",
+        "--output",
+        help="File to write; the ending (.svg, .png, .geojson) picks the format. "
+        "May be given several times.",
+        rich_help_panel=WRITING,
+    ),
+]
+Count = Annotated[int | None, flag("count", "-n", "--count", panel=PLACING)]
+Canvas = Annotated[float, flag("canvas", panel=PLACING)]
+Sizes = Annotated[Literal["free", "shared", "fixed"], flag("sizes", panel=PLACING)]
+SizeRatio = Annotated[float, flag("size_ratio", panel=PLACING)]
+Rotate = Annotated[str, flag("rotate", panel=PLACING)]
+Weights = Annotated[str | None, flag("weights", panel=PLACING)]
+Holes = Annotated[Literal["fill", "keep"], flag("holes", panel=PLACING)]
+Strict = Annotated[bool, flag("strict", "--strict", panel=PLACING)]
+Seed = Annotated[int, flag("seed", panel=SOLVING)]
+Effort = Annotated[Literal["draft", "normal", "best"], flag("effort", panel=SOLVING)]
+Epochs = Annotated[int | None, flag("epochs", panel=SOLVING)]
+Levels = Annotated[str, flag("levels", panel=SOLVING)]
+Start = Annotated[str, flag("start", panel=SOLVING)]
+Loss = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--loss",
+        help="A further loss and its weight, NAME=1 or MODULE:FUNCTION=1. "
+        "May be given several times.",
+        rich_help_panel=SOLVING,
+    ),
+]
+Pixels = Annotated[
+    int, typer.Option("--pixels", help="Longer side of a PNG.", rich_help_panel=WRITING)
+]
+Background = Annotated[
+    str | None,
+    typer.Option(
+        "--background",
+        help="Any CSS colour, or none. Default: none in SVG, white in PNG.",
+        rich_help_panel=WRITING,
+    ),
+]
+DrawOutline = Annotated[
+    bool,
+    typer.Option("--outline", help="Draw the container's outline.", rich_help_panel=WRITING),
+]
+Flatten = Annotated[
+    bool,
+    typer.Option(
+        "--flatten",
+        help="In SVG, repeat each drawing in place, for tools that choke on <use>.",
+        rich_help_panel=WRITING,
+    ),
+]
+Report = Annotated[
+    Path | None,
+    typer.Option("--report", help="Write measures and times as JSON.", rich_help_panel=WRITING),
+]
+Diagnose = Annotated[
+    Path | None,
+    typer.Option(
+        "--diagnose",
+        help="Write the diagnostic picture (PNG): container yellow, items grey, overlap "
+        "red, what sticks out blue.",
+        rich_help_panel=WRITING,
+    ),
+]
+Quiet = Annotated[
+    bool, typer.Option("-q", "--quiet", help="Print nothing but warnings and errors.")
+]
+
+
+def loss_weights(losses: list[str] | None) -> dict[str, float]:
+    """Losses by name from ``NAME=WEIGHT`` texts; a bare name weighs 1.
+
+    A module of one's own is found in the working folder too, as ``python -m`` finds it.
+
+    Raises
+    ------
+    RecipeError
+        If a weight is not a number.
+
+    Examples
+    --------
+    >>> loss_weights(["overlap=2", "mine:calm"])
+    {'overlap': 2.0, 'mine:calm': 1.0}
+    """
+    from packwork.errors import RecipeError
+
+    weights = {}
+    for text in losses or []:
+        name, _, weight = text.partition("=")
+        try:
+            weights[name] = float(weight or 1)
+        except ValueError:
+            raise RecipeError("loss", f"use NAME=WEIGHT with a number, not {text!r}") from None
+    if any(":" in name for name in weights) and str(Path.cwd()) not in sys.path:
+        sys.path.append(str(Path.cwd()))
+    return weights

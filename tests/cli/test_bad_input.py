@@ -1,0 +1,193 @@
+"""Whatever is wrong with the input: exit code 2, one clear line, nothing written."""
+
+from __future__ import annotations
+
+import socket
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from PIL import Image
+from typer.testing import Result
+
+Command = Callable[..., Result]
+
+CONTAINERS = [
+    ("missing.png", "there is no such file"),
+    ("missing/mask.png", "there is no such file"),
+    ("nothing", "is a folder"),
+    ("no-such-shape", "no built-in container of that name"),
+    ("hart", "did you mean heart"),
+    ("note.txt", "unknown ending '.txt'"),
+    ("none", "not known yet"),
+    ("text:HELLO", "not known yet"),
+    ("light.png", "all light"),
+    ("three.png", "3 x 1 pixels"),
+    ("bomb.png", "scale it down"),
+    ("broken.png", "not a picture"),
+    ("empty.svg", "is empty"),
+    ("blank.svg", "is empty"),
+    ("cut.svg", "not well-formed"),
+    ("html.svg", ""),
+    ("shapeless.svg", "paints no area"),
+    ("line.svg", "paints no area"),
+    ("flat.svg", "paints no area"),
+    ("nan.svg", "NaN"),
+    ("nan-rect.svg", "NaN"),
+    ("huge.svg", "1e+300"),
+    ("entities.svg", "entities"),
+    ("external-entity.svg", "entities"),
+    ("nested.svg", "elements"),
+    ("cycle.svg", ""),
+]
+
+ITEMS = [
+    *[(name, problem) for name, problem in CONTAINERS if name.endswith(".svg")],
+    ("missing.svg", "there is no such file"),
+    ("nothing", "holds no file that could be an item"),
+    ("no-items", "holds no file that could be an item"),
+    ("all-bad", "none of 1 files can be used"),
+    ("some-bad --strict", "bad.svg"),
+    ("no-such-shape", "no built-in item of that name"),
+    ("note.txt", "unknown ending '.txt'"),
+    ("*.gif", "holds no file"),
+    ("clear.png", ""),
+    ("bomb.png", "scale it down"),
+    ("broken.png", "not a picture"),
+]
+
+OPTIONS = [
+    ("--count 0", "count: input should be greater than or equal to 1, not 0"),
+    ("--count -4", "not -4"),
+    ("--canvas nan", "canvas: "),
+    ("--canvas -1", "canvas: "),
+    ("--seed -1", "seed: "),
+    ("--size-ratio 0.5", "size_ratio: "),
+    ("--rotate twist", "rotate: use free, none, 30"),
+    ("--levels fine", "levels: use resolutions like 50,200,600"),
+    ("--levels 3", "levels: a level has"),
+    ("--epochs 0", "epochs: "),
+    ("--start sideways", "start: "),
+    ("--start missing.geojson", "there is no such file"),
+    ("--start broken.geojson", "is not JSON"),
+    ("--weights missing.csv", "there is no such file"),
+    ("--weights words.csv", "must be a positive number"),
+    ("--loss charm", "loss: no loss is called 'charm'"),
+    ("--loss overlap=much", "loss: use NAME=WEIGHT"),
+    ("--loss overlap=nan", "losses: "),
+    ("--loss no_such_module:loss", "cannot be imported"),
+    ("--loss :", "loss: "),
+    ("--background puce", "background: 'puce' is not a colour"),
+    ("--pixels 0", "pixels: a picture's longer side must be"),
+    ("--pixels 99999999", "pixels: "),
+    ("-o note.txt/out.svg", "a part of its path is a file"),
+    ("-o out.gif", "'.gif' is not known; use one of .svg"),
+    ("-o out", "the name has no ending"),
+    ("-o nothing.svg -o out.gif", "'.gif' is not known"),
+    ("--report note.txt/report.json", "a part of its path is a file"),
+    ("--diagnose note.txt/picture.png", "a part of its path is a file"),
+]
+
+OTHERS = [
+    ("measure missing.geojson", "there is no such file"),
+    ("measure broken.geojson", "is not JSON"),
+    ("measure light.png", "UTF-8"),
+    ("measure missing.geojson --report note.txt/x.json", "a part of its path is a file"),
+    ("demo unknown", "there are bear"),
+    ("demo --folder note.txt", "a part of its path is a file"),
+    ("bench unknown", "benchmarks live in a checkout"),
+]
+
+LINES = [
+    *[(f"fill {name} star", problem) for name, problem in CONTAINERS],
+    *[(f"fill heart {name}", problem) for name, problem in ITEMS],
+    *[(f"fill heart star circle {name}", problem) for name, problem in ITEMS],
+    *[(f"fill heart star {option}", problem) for option, problem in OPTIONS],
+    *OTHERS,
+]
+
+
+def contents(folder: Path) -> dict[str, float]:
+    return {str(f): f.stat().st_mtime_ns for f in sorted(folder.rglob("*"))}
+
+
+def quick(line: str) -> str:
+    """The same, with a short run should the input be taken after all."""
+    is_short = "--epochs" in line or "--levels" in line or not line.startswith("fill")
+    return line if is_short else f"{line} --epochs 2 --levels 16"
+
+
+@pytest.mark.parametrize(("line", "problem"), LINES, ids=[line for line, _ in LINES])
+def test_one_line_exit_2_nothing_written(
+    line: str, problem: str, misfits: Path, packwork: Command
+) -> None:
+    before = contents(misfits)
+    result = packwork(quick(line))
+    assert result.exit_code == 2
+    assert result.stderr.startswith("packwork: ")
+    assert result.stderr.count("\n") == 1
+    assert problem in result.stderr
+    assert len(result.stderr) < 1_200
+    assert not result.stdout
+    assert contents(misfits) == before
+
+
+@pytest.mark.parametrize(
+    "line",
+    ["fill", "fill heart --sizes huge", "fill heart --count many", "fill heart --colour red",
+     "fill heart -o", "fill heart --effort lazy", "measure", "dance", "fill heart --holes drill"],
+)  # fmt: skip
+def test_a_command_line_that_cannot_be_parsed(line: str, folder: Path, packwork: Command) -> None:
+    result = packwork(line)
+    assert result.exit_code == 2
+    assert "Traceback" not in result.output
+    assert "Error" in result.stderr
+    assert not list(folder.iterdir())
+
+
+def test_a_picture_too_large_for_its_canvas_leaves_nothing(folder: Path, packwork: Command) -> None:
+    result = packwork("fill square star --epochs 2 --levels 16 --pixels 20000 -o a.svg -o a.png")
+    assert result.exit_code == 2
+    assert "too many" in result.stderr
+    assert not list(folder.iterdir())
+
+
+@pytest.mark.parametrize("element", ["image", "use"])
+@pytest.mark.parametrize("attribute", ["href", "xlink:href"])
+def test_references_to_files_are_never_read(
+    element: str, attribute: str, folder: Path, packwork: Command
+) -> None:
+    Image.new("L", (90, 90), 0).save(folder / "secret.png")
+    drawing = (
+        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+        ' viewBox="0 0 99 99"><rect width="20" height="10"/>'
+        f'<{element} width="90" height="90" {attribute}="%s"/></svg>'
+    )
+    shapes = []
+    for target in ("secret.png", (folder / "secret.png").as_uri(), "../work/secret.png", "#none"):
+        (folder / "item.svg").write_text(drawing % target, encoding="utf-8")
+        packwork(
+            "fill square item.svg -n 1 --seed 0 --epochs 2 --levels 16 -q -o a.svg -o a.geojson"
+        )
+        assert "secret" not in (folder / "a.svg").read_text(encoding="utf-8")
+        shapes.append((folder / "a.geojson").read_text(encoding="utf-8").split('"features"')[1])
+    assert len(set(shapes)) == 1
+
+
+def test_references_to_the_network_are_never_fetched(folder: Path, packwork: Command) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        server.setblocking(False)
+        address = f"http://127.0.0.1:{server.getsockname()[1]}"
+        (folder / "item.svg").write_text(
+            '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+            f' viewBox="0 0 9 9"><style>@import url({address}/a.css); .a {{ fill:'
+            f" url({address}/b.svg#p) }}</style><rect class='a' width='4' height='4'"
+            f" stroke='url({address}/c.svg#q)'/><rect width='3' height='9'/>"
+            f"<image xlink:href='{address}/d.png' width='9' height='9'/>"
+            f"<use href='{address}/e.svg#x'/><text font-family='url({address}/f)'>A</text></svg>",
+            encoding="utf-8",
+        )
+        packwork("fill square item.svg -n 2 --epochs 2 --levels 16 -q -o a.svg -o a.png")
+        with pytest.raises(BlockingIOError):
+            server.accept()
+    assert "127.0.0.1" not in (folder / "a.svg").read_text(encoding="utf-8")

@@ -1,0 +1,278 @@
+"""What each command does when all is well, and when a run falls short."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from typer.testing import Result
+
+Command = Callable[..., Result]
+
+QUICK = "--epochs 3 --levels 16,32"
+TILE = '<svg viewBox="0 0 9 9"><rect width="4" height="4"/></svg>'
+
+
+def item_count(file: Path) -> int:
+    features = json.loads(file.read_text(encoding="utf-8"))["features"]
+    return sum(feature["properties"]["role"] == "item" for feature in features)
+
+
+@pytest.fixture
+def icons(folder: Path) -> Path:
+    """Folder of two drawings and something else."""
+    place = folder / "icons"
+    place.mkdir()
+    (place / "a.svg").write_text(TILE, encoding="utf-8")
+    (place / "b.svg").write_text(TILE.replace('height="4"', 'height="2"'), encoding="utf-8")
+    (place / "notes.txt").write_text("not an item", encoding="utf-8")
+    return place
+
+
+@pytest.mark.usefixtures("icons")
+@pytest.mark.parametrize(
+    ("items", "count"),
+    [
+        ("star", 1),
+        ("star circle heart", 3),
+        ("star -n 5", 5),
+        ("star circle -n 1", 1),
+        ("icons/", 2),
+        ("icons -n 7", 7),
+        ("icons/a.svg", 1),
+        ("icons/*.svg star", 3),
+        ("icons/?.svg", 2),
+        ("star star", 2),
+    ],
+)
+def test_items_of_every_kind(items: str, count: int, folder: Path, packwork: Command) -> None:
+    result = packwork(f"fill circle {items} {QUICK} -o out.geojson")
+    assert result.exit_code in {0, 1}
+    assert item_count(folder / "out.geojson") == count
+
+
+def test_without_items_the_icons_that_come_with_it(folder: Path, packwork: Command) -> None:
+    packwork(f"fill circle {QUICK} -o out.geojson")
+    assert item_count(folder / "out.geojson") > 10
+
+
+def test_without_output_a_drawing_in_the_working_folder(folder: Path, packwork: Command) -> None:
+    result = packwork(f"fill circle star {QUICK}")
+    assert [file.name for file in folder.iterdir()] == ["collage.svg"]
+    assert "wrote collage.svg" in result.stdout
+
+
+@pytest.mark.parametrize("container", ["circle", "heart", "bear", "islands", "stripe:6"])
+def test_containers_of_every_kind(container: str, folder: Path, packwork: Command) -> None:
+    packwork(f"fill {container} star -n 3 {QUICK} -q -o out.svg")
+    assert (folder / "out.svg").exists()
+
+
+def test_a_mask_is_a_container(folder: Path, packwork: Command) -> None:
+    mask = np.full((60, 80), 255, np.uint8)
+    mask[10:50, 10:70] = 0
+    Image.fromarray(mask).save(folder / "mask.png")
+    packwork(f"fill mask.png star {QUICK} --canvas 160 -o out.geojson")
+    canvas = json.loads((folder / "out.geojson").read_text(encoding="utf-8"))["canvas"]
+    assert canvas == {"width": 160, "height": 120}
+
+
+def test_several_outputs_in_new_folders(folder: Path, packwork: Command) -> None:
+    result = packwork(
+        f"fill circle star {QUICK} --pixels 90 -o a/out.svg -o a/out.png -o b/out.geojson"
+    )
+    assert result.exit_code == 0
+    with Image.open(folder / "a" / "out.png") as picture:
+        assert max(picture.size) == 90
+    assert (folder / "a" / "out.svg").exists()
+    assert (folder / "b" / "out.geojson").exists()
+
+
+def test_drawing_options_reach_the_drawing(folder: Path, packwork: Command) -> None:
+    packwork(f"fill circle star -n 2 {QUICK} -q -o plain.svg")
+    packwork(f"fill circle star -n 2 {QUICK} -q --background tomato --outline --flatten -o all.svg")
+    plain, drawn = (
+        (folder / name).read_text(encoding="utf-8") for name in ("plain.svg", "all.svg")
+    )
+    assert "#ff6347" in drawn
+    assert "#ff6347" not in plain
+    assert "<use" in plain
+    assert "<use" not in drawn
+
+
+def test_all_as_asked_is_0_and_shows_the_measures(packwork: Command) -> None:
+    result = packwork("fill circle star circle -n 6 --epochs 150 --levels 50,100 -o out.svg")
+    assert result.exit_code == 0
+    assert not result.stderr
+    for word in ("LC", "OO", "EA", "L-nU", "6 of 6 items placed", "out.svg"):
+        assert word in result.stdout
+
+
+@pytest.mark.parametrize("outputs", ["-o out.svg", "-o out.svg --report r.json --diagnose d.png"])
+def test_quiet_prints_nothing(outputs: str, packwork: Command) -> None:
+    result = packwork(f"fill circle star {QUICK} --quiet {outputs}")
+    assert (result.exit_code, result.output) == (0, "")
+
+
+def test_an_item_without_a_place_is_1_and_named(folder: Path, packwork: Command) -> None:
+    result = packwork(
+        f"fill circle square --sizes fixed --canvas 50 -n 2 {QUICK} -q -o out.geojson"
+    )
+    assert result.exit_code == 1
+    assert result.stderr.startswith("packwork: not placed: square (item 1): ")
+    assert item_count(folder / "out.geojson") == 2
+
+
+def test_an_unusable_file_among_many_is_left_out_and_named(
+    folder: Path, icons: Path, packwork: Command
+) -> None:
+    (icons / "bad.svg").write_text("<svg", encoding="utf-8")
+    result = packwork(f"fill circle icons {QUICK} -q -o out.geojson --report report.json")
+    assert result.exit_code == 0
+    assert result.stderr.startswith("packwork: left out icons/bad.svg: ")
+    assert result.stderr.count("\n") == 1
+    assert item_count(folder / "out.geojson") == 2
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    assert "icons/bad.svg" in report["skipped"][0]
+
+
+def test_a_report_has_the_promised_keys(folder: Path, packwork: Command) -> None:
+    packwork(f"fill circle star -n 3 --seed 11 {QUICK} -q -o out.svg --report report.json")
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    assert report["metrics"].keys() >= {"LC", "LC_ratio", "OO", "EA", "LnU"}
+    assert report["metrics"]["exact"].keys() >= {"overlap_area", "outside_area", "min_gap"}
+    assert report["seconds"].keys() >= {"read", "start", "levels", "write", "total"}
+    assert (report["items"], report["placed"], report["unplaced"]) == (3, 3, [])
+    assert (report["certified"], report["seed"]) == (False, 11)
+
+
+def test_a_diagnosis_is_a_picture(folder: Path, packwork: Command) -> None:
+    packwork(f"fill circle star {QUICK} --pixels 120 -q -o out.svg --diagnose check.png")
+    with Image.open(folder / "check.png") as picture:
+        assert picture.format == "PNG"
+        assert max(picture.size) == 120
+
+
+def test_one_seed_is_one_file(folder: Path, packwork: Command) -> None:
+    for name, seed in [("a", 1), ("b", 1), ("c", 2)]:
+        packwork(f"fill heart star circle -n 5 --seed {seed} {QUICK} -q -o {name}.svg")
+    first, again, other = ((folder / f"{name}.svg").read_bytes() for name in "abc")
+    assert first == again != other
+
+
+def test_measure_says_what_the_run_said(folder: Path, packwork: Command) -> None:
+    packwork(f"fill circle star -n 3 {QUICK} -q -o out.geojson --report run.json")
+    result = packwork("measure out.geojson --report measured.json --diagnose check.png")
+    assert result.exit_code == 0
+    run, measured = (
+        json.loads((folder / name).read_text(encoding="utf-8"))
+        for name in ("run.json", "measured.json")
+    )
+    for key in ("LC", "OO", "EA", "LnU"):
+        assert measured["metrics"][key] == pytest.approx(run["metrics"][key], rel=1e-3, abs=1e-5)
+    assert f"{100 * run['metrics']['LC']:.2f} %" in result.stdout
+    assert (folder / "check.png").exists()
+    assert not packwork("measure out.geojson -q").output
+
+
+def test_start_continues_an_earlier_layout(folder: Path, packwork: Command) -> None:
+    packwork(f"fill circle star heart -n 4 {QUICK} -q -o first.geojson")
+    result = packwork(f"fill circle star heart -n 4 {QUICK} -q --start first.geojson -o b.geojson")
+    assert result.exit_code == 0
+    assert item_count(folder / "b.geojson") == 4
+
+
+def test_demo_writes_three_files(
+    folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    small = {"container": "heart", "items": ["star"], "count": 3, "epochs": 5, "levels": "32"}
+    monkeypatch.setitem(sys.modules["packwork.cli.demo"].DEMOS, "heart", small)
+    result = packwork("demo heart --folder pictures")
+    assert result.exit_code == 0
+    names = sorted(file.name for file in (folder / "pictures").iterdir())
+    assert names == ["heart.geojson", "heart.png", "heart.svg"]
+
+
+def test_every_demo_is_a_recipe() -> None:
+    from packwork.cli.demo import DEMOS
+    from packwork.recipe import make_recipe
+
+    assert "bear" in DEMOS
+    for options in DEMOS.values():
+        make_recipe(**options).solve_options()
+
+
+def test_bench_runs_a_script_of_the_checkout(folder: Path, packwork: Command) -> None:
+    (folder / "src" / "packwork").mkdir(parents=True)
+    (folder / "benchmarks").mkdir()
+    script = (
+        'import sys\n\nif __name__ == "__main__":\n    sys.stdout.write(" ".join(sys.argv[1:]))\n'
+    )
+    (folder / "benchmarks" / "speed.py").write_text(script, encoding="utf-8")
+    (folder / "benchmarks" / "helper.py").write_text("x = 1\n", encoding="utf-8")
+    assert packwork("bench speed fast twice").stdout == "fast twice"
+    unknown = packwork("bench unknown")
+    assert unknown.exit_code == 2
+    assert unknown.stderr == "packwork: unknown: no such benchmark; there are speed\n"
+
+
+WATCHED_LOSS = """
+from pathlib import Path
+import packwork as pw
+
+def loss(density, container):
+    Path("running").touch()
+    return pw.Term(0.0, 0 * density)
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows knows no SIGINT between processes")
+def test_ctrl_c_writes_the_best_so_far(folder: Path) -> None:
+    (folder / "watched.py").write_text(WATCHED_LOSS, encoding="utf-8")
+    line = "fill circle star -n 20 --epochs 1000000 --levels 64 -o out.geojson --report r.json"
+    with subprocess.Popen(
+        [sys.executable, "-m", "packwork", *line.split(), "--loss", "watched:loss"],
+        cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+    ) as run:  # fmt: skip
+        try:
+            wait_for(folder / "running")
+            run.send_signal(signal.SIGINT)
+            out, err = run.communicate(timeout=60)
+        finally:
+            run.kill()
+    assert run.returncode == 130, err
+    assert "Traceback" not in err
+    assert "out.geojson" in out
+    assert item_count(folder / "out.geojson") == 20
+    assert "stopped" in json.loads((folder / "r.json").read_text(encoding="utf-8"))["ending"]
+
+
+def wait_for(file: Path) -> None:
+    """Return once a file exists; kernels may compile before that."""
+    for _ in range(1_200):
+        if file.exists():
+            return
+        time.sleep(0.1)
+    raise TimeoutError(file)
+
+
+def test_ctrl_c_before_there_is_anything_says_so(
+    folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted() -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("packwork.pipeline.warm_up", interrupted)
+    result = packwork("fill circle star -o out.svg")
+    assert result.exit_code == 130
+    assert result.stderr == "packwork: stopped before there was anything to write\n"
+    assert not list(folder.iterdir())

@@ -1,0 +1,148 @@
+"""Documents against code: every option, command, loss and measure is written down."""
+
+from __future__ import annotations
+
+import dataclasses
+import re
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import click
+import pytest
+import typer.main
+
+from packwork.cli import app
+from packwork.losses.registry import LOSSES
+from packwork.metrics.exact import ExactMetrics
+from packwork.metrics.measure import LayoutMetrics
+from packwork.metrics.pixel import PixelMetrics
+from packwork.recipe import Recipe
+
+ROOT = Path(__file__).parents[1]
+DOCS = "\n".join(page.read_text(encoding="utf-8") for page in sorted((ROOT / "docs").rglob("*.md")))
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+COMMANDS: Mapping[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
+PARAMETERS = [
+    (f"{name} {parameter.opts[-1]}", parameter)
+    for name, command in COMMANDS.items()
+    for parameter in command.params
+]
+WRITING_OPTIONS = {
+    "output", "pixels", "background", "outline", "flatten", "report", "diagnose", "quiet", "loss",
+}  # fmt: skip
+
+
+def defines(page: str, name: str) -> bool:
+    """Whether a name stands in code quotes or as a table's first cell, not just in prose."""
+    return bool(re.search(rf"`{name}`|^\| `?{name}(\.\*)?`? \|", page, flags=re.MULTILINE))
+
+
+def metric_names() -> list[str]:
+    """Names of the report's measures, those in exact geometry together under ``exact``."""
+    zeros = [
+        dict.fromkeys((field.name for field in dataclasses.fields(kind)), 0.0)
+        for kind in (PixelMetrics, ExactMetrics)
+    ]
+    return list(LayoutMetrics(PixelMetrics(**zeros[0]), ExactMetrics(**zeros[1]), 0.0).as_dict())
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_says_what_it_does_and_shows_an_example(name: str) -> None:
+    text = COMMANDS[name].help
+    assert text.split("\n")[0].endswith(".")
+    assert f"packwork {name}" in text
+
+
+@pytest.mark.parametrize(
+    "parameter", [p for _, p in PARAMETERS], ids=[name for name, _ in PARAMETERS]
+)
+def test_every_parameter_has_a_help_text(parameter: click.Parameter) -> None:
+    assert getattr(parameter, "help", None)
+
+
+@pytest.mark.parametrize("name", Recipe.model_fields)
+def test_every_recipe_field_says_what_it_means(name: str) -> None:
+    description = Recipe.model_fields[name].description
+    assert description
+    assert description.endswith(".")
+
+
+def test_fill_offers_every_recipe_field_under_its_own_name() -> None:
+    offered = {parameter.name for parameter in COMMANDS["fill"].params}
+    fields = set(Recipe.model_fields) - {"losses"}
+    assert offered == fields | WRITING_OPTIONS
+
+
+@pytest.mark.parametrize(
+    "name", sorted(set(Recipe.model_fields) - {"container", "items", "losses"})
+)
+def test_help_and_default_of_an_option_are_the_recipes(name: str) -> None:
+    (option,) = (p for p in COMMANDS["fill"].params if p.name == name)
+    field = Recipe.model_fields[name]
+    assert option.help == field.description
+    assert option.default == field.default
+
+
+def test_one_option_means_one_thing_in_all_commands() -> None:
+    helps: dict[str, set[str]] = {}
+    for command in COMMANDS.values():
+        for parameter in command.params:
+            if isinstance(parameter, click.Option):
+                helps.setdefault(parameter.opts[-1], set()).add(str(parameter.help))
+    assert not {name: texts for name, texts in helps.items() if len(texts) > 1}
+
+
+@pytest.mark.parametrize("name", LOSSES)
+def test_every_loss_is_documented(name: str) -> None:
+    assert defines(DOCS, name)
+
+
+@pytest.mark.parametrize("name", metric_names())
+def test_every_measure_is_documented(name: str) -> None:
+    assert defines(DOCS, name)
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_every_command_is_in_the_readme_or_the_docs(name: str) -> None:
+    assert f"packwork {name}" in README + DOCS
+
+
+def commands_in(page: str) -> list[str]:
+    """Lines of the fenced blocks of a page, prompts taken off."""
+    blocks = re.findall(r"```[a-z]*\n(.*?)```", page, flags=re.DOTALL)
+    lines = [line.strip().removeprefix("$ ") for block in blocks for line in block.splitlines()]
+    return [line.split("#")[0].strip() for line in lines if line]
+
+
+def make_targets() -> set[str]:
+    makefile = (ROOT / "Makefile").read_text(encoding="utf-8")
+    return set(re.findall(r"^([a-z][a-z-]*):", makefile, flags=re.MULTILINE))
+
+
+@pytest.mark.parametrize("target", ["demo", "test"])
+def test_the_two_commands_that_matter_are_in_the_readme(target: str) -> None:
+    assert f"make {target}" in commands_in(README)
+    assert target in make_targets()
+
+
+def test_every_make_command_of_the_readme_exists() -> None:
+    asked = {line.split()[1] for line in commands_in(README) if line.startswith("make ")}
+    assert asked <= make_targets()
+
+
+def test_every_packwork_command_of_the_readme_can_be_parsed() -> None:
+    for line in commands_in(README):
+        if line.startswith("packwork "):
+            _, name, *arguments = line.split()
+            COMMANDS[name].make_context(name, arguments)
+
+
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *ROOT.glob("examples/*/*.md")]
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[str(page.relative_to(ROOT)) for page in PAGES])
+def test_every_link_to_a_file_leads_somewhere(page: Path) -> None:
+    targets = re.findall(r"\]\(([^)#\s]+)", page.read_text(encoding="utf-8"))
+    local = [target for target in targets if "://" not in target]
+    assert [target for target in local if not (page.parent / target).exists()] == []

@@ -1,0 +1,90 @@
+"""The house rules that no linter holds: who imports numba, what is public."""
+
+from __future__ import annotations
+
+import ast
+import importlib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+import packwork
+
+SOURCE = Path(packwork.__file__).parent
+MODULES = sorted(SOURCE.rglob("*.py"))
+LONGEST_FUNCTION = 60
+LONGEST_KERNEL = 80
+LONGEST_FILE = 400
+
+
+def imported(tree: ast.AST) -> Iterator[str]:
+    """Names of the modules that a module imports, wherever in it."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            yield node.module
+
+
+def parse(path: Path) -> ast.Module:
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
+each_module = pytest.mark.parametrize(
+    "path", MODULES, ids=[str(path.relative_to(SOURCE)) for path in MODULES]
+)
+
+
+def test_the_scan_sees_a_forbidden_import() -> None:
+    tree = ast.parse("def f():\n    from numba import njit\n    import numba.typed\n")
+    assert [name.split(".")[0] for name in imported(tree)] == ["numba", "numba"]
+
+
+@each_module
+def test_only_kernels_import_numba(path: Path) -> None:
+    roots = {name.split(".")[0] for name in imported(parse(path))}
+    assert ("numba" in roots) <= (path.stem == "_kernels")
+
+
+@each_module
+def test_kernels_import_nothing_of_the_package_but_kernels(path: Path) -> None:
+    if path.stem == "_kernels":
+        ours = [name for name in imported(parse(path)) if name.startswith("packwork")]
+        assert all(name.endswith("_kernels") for name in ours)
+
+
+@each_module
+def test_files_and_functions_stay_short(path: Path) -> None:
+    text = path.read_text(encoding="utf-8")
+    assert text.count("\n") <= LONGEST_FILE
+    longest = LONGEST_KERNEL if path.stem == "_kernels" else LONGEST_FUNCTION
+    for node in ast.walk(ast.parse(text)):
+        if isinstance(node, ast.FunctionDef) and node.body:
+            # The docstring is not what makes a function long.
+            first = node.body[1] if ast.get_docstring(node) and len(node.body) > 1 else node.body[0]
+            assert (node.end_lineno or 0) - first.lineno < longest, node.name
+
+
+@pytest.mark.parametrize("name", packwork.__all__)
+def test_every_public_name_loads(name: str) -> None:
+    assert getattr(packwork, name).__doc__
+
+
+def test_public_names_are_sorted_and_unique() -> None:
+    assert packwork.__all__ == sorted(set(packwork.__all__))
+    assert dir(packwork) == packwork.__all__
+
+
+def test_an_unknown_name_is_an_attribute_error() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'magic'"):
+        packwork.magic  # noqa: B018
+
+
+@each_module
+def test_every_module_loads_by_itself_and_says_what_it_is(path: Path) -> None:
+    relative = path.relative_to(SOURCE).with_suffix("")
+    if relative.name == "__main__":
+        return
+    parts = [part for part in relative.parts if part != "__init__"]
+    assert importlib.import_module(".".join(["packwork", *parts])).__doc__

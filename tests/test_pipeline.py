@@ -1,0 +1,249 @@
+"""From a recipe to a measured layout: every stage together, on small images."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from scenes import disc, flat_item, overlap_area, square, square_container
+
+from packwork import pipeline
+from packwork.errors import ReadError, RecipeError
+from packwork.metrics.measure import measure
+from packwork.recipe import make_recipe
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+from packwork.solve.solver import Ending
+from packwork.writers import geojson_text, json_bytes, write
+
+QUICK = {"container": "circle", "epochs": 25, "levels": "32,64"}
+
+
+def run(**options: Any) -> pipeline.Run:
+    return pipeline.fill(make_recipe(**(QUICK | options)))
+
+
+def features(layout: Layout) -> list[Any]:
+    """Item features of the layout's file, as text is compared: bit for bit."""
+    collection = json.loads(geojson_text(layout))
+    return [f for f in collection["features"] if f["properties"]["role"] == "item"]
+
+
+@pytest.fixture(scope="module")
+def three() -> pipeline.Run:
+    """One run for all tests that only look."""
+    return run(items=["star", "circle", "heart"], count=7, seed=5)
+
+
+def test_items_repeat_in_turn(three: pipeline.Run) -> None:
+    names = [item.name for item in three.layout.items]
+    assert names == ["star", "circle", "heart", "star", "circle", "heart", "star"]
+
+
+def test_without_a_count_there_is_one_of_each() -> None:
+    assert len(run(items=["star", "circle"]).layout.items) == 2
+
+
+def test_fewer_than_given_takes_the_first() -> None:
+    names = [item.name for item in run(items=["star", "circle"], count=1).layout.items]
+    assert names == ["star"]
+
+
+def test_the_manifest_says_what_was_done(three: pipeline.Run) -> None:
+    manifest = three.layout.manifest
+    assert manifest["seed"] == 5
+    assert manifest["recipe"]["container"] == "circle"
+    assert [level["resolution"] for level in manifest["levels"]] == [32, 64]
+    assert sum(level["epochs"] for level in manifest["levels"]) == 25
+    assert manifest["metrics"] == three.metrics.as_dict()
+    assert json.loads(json_bytes(manifest))["packwork"]
+
+
+def test_the_recipe_of_the_manifest_makes_the_same_layout(three: pipeline.Run) -> None:
+    again = pipeline.fill(make_recipe(**three.layout.manifest["recipe"]))
+    assert features(again.layout) == features(three.layout)
+
+
+def test_the_metrics_are_those_of_the_layout(three: pipeline.Run) -> None:
+    assert measure(three.layout) == three.metrics
+
+
+def test_the_report_has_the_promised_keys(three: pipeline.Run) -> None:
+    report = three.report(write_seconds=1.0)
+    assert report.keys() >= {
+        "metrics", "seconds", "items", "placed", "unplaced", "certified", "seed",
+    }  # fmt: skip
+    assert report["metrics"].keys() >= {"LC", "LC_ratio", "OO", "EA", "LnU", "exact"}
+    assert report["metrics"]["exact"].keys() >= {"overlap_area", "outside_area", "min_gap"}
+    assert report["seconds"].keys() >= {"read", "start", "levels", "write", "total"}
+    parts = sum(v for part, v in report["seconds"].items() if part != "total")
+    assert report["seconds"]["total"] == pytest.approx(parts)
+    assert (report["items"], report["placed"], report["certified"]) == (7, 7, False)
+
+
+def test_seeds_differ() -> None:
+    first, again, other = (run(items=["star"], count=3, seed=seed).layout for seed in (1, 1, 2))
+    assert features(first) == features(again)
+    assert features(first) != features(other)
+
+
+@pytest.mark.parametrize("start", ["distance-field", "scatter"])
+def test_shared_sizes_keep_areas_in_the_shares_of_the_weights(start: str) -> None:
+    weights = {"star": 3.0, "circle": 1.0, "heart": 0.5}
+    met = run(items=list(weights), count=6, sizes="shared", weights=weights, start=start)
+    layout = met.layout
+    np.testing.assert_allclose(
+        layout.areas / layout.areas.sum(), layout.weights / layout.weights.sum(), rtol=1e-9
+    )
+    assert layout.weights.tolist() == [3, 1, 0.5, 3, 1, 0.5]
+
+
+def test_fixed_sizes_are_as_given() -> None:
+    layout = run(items=["star", "circle"], sizes="fixed").layout
+    np.testing.assert_allclose(layout.poses.scale, 1.0, rtol=1e-12)
+
+
+def test_heavier_items_end_larger_where_sizes_are_free() -> None:
+    layout = run(items=["circle", "square"], weights={"circle": 4, "square": 1}, count=8).layout
+    areas = layout.areas
+    assert areas[0::2].min() > areas[1::2].max()
+
+
+@pytest.mark.parametrize(
+    ("rotate", "allowed"), [("none", {0}), ("0,90", {0, 90}), ("-45,45", {-45, 45})]
+)
+def test_only_the_angles_asked_for(rotate: str, allowed: set[int]) -> None:
+    layout = run(items=["star", "heart"], count=12, rotate=rotate).layout
+    assert {round(math.degrees(a), 9) for a in layout.poses.angle} == allowed
+
+
+def test_a_rotation_limit_holds() -> None:
+    layout = run(items=["star", "heart"], count=8, rotate="20").layout
+    turned = np.abs(np.degrees(layout.poses.angle))
+    assert 1 < turned.max() <= 20 * (1 + 1e-12)
+
+
+def test_weights_from_a_table(tmp_path: Path) -> None:
+    table = tmp_path / "weights.csv"
+    table.write_text("name,weight\nstar,2.5\n", encoding="utf-8")
+    layout = run(items=["star", "circle"], weights=str(table)).layout
+    assert layout.weights.tolist() == [2.5, 1.0]
+
+
+def test_a_weight_for_nobody_names_who_is_there() -> None:
+    with pytest.raises(RecipeError, match=r"weights: no item is called 'moon'.*circle, star"):
+        run(items=["star", "circle"], weights={"moon": 2})
+
+
+@pytest.mark.parametrize("weight", [0, -1, float("nan"), float("inf")])
+def test_a_weight_must_be_positive(weight: float) -> None:
+    with pytest.raises(RecipeError, match="weights: the weight of star must be positive"):
+        run(items=["star"], weights={"star": weight})
+
+
+def test_stopping_gives_what_there_is() -> None:
+    stopped = pipeline.fill(make_recipe(**QUICK, items=("star",), count=4), stop=lambda: True)
+    assert stopped.ending is Ending.STOPPED
+    assert len(stopped.layout.items) == 4
+    assert stopped.report()["ending"] == Ending.STOPPED.value
+
+
+def test_items_that_cannot_fit_are_named() -> None:
+    giant = flat_item("giant", square(60.0))
+    recipe = make_recipe(
+        container="square", items=["giant"], sizes="fixed", epochs=20, levels="32,64"
+    )
+    met = pipeline.fill(recipe, [giant], square_container(100.0, 20.0))
+    (unplaced,) = met.unplaced
+    assert (unplaced.item, unplaced.index) == ("giant", 0)
+    assert "overlapped or outside" in unplaced.reason
+    assert met.report()["placed"] == 0
+    assert met.layout.manifest["unplaced"] == met.report()["unplaced"]
+
+
+def test_an_earlier_layout_is_where_the_next_run_begins(
+    tmp_path: Path, three: pipeline.Run
+) -> None:
+    earlier = tmp_path / "earlier.geojson"
+    write(three.layout, earlier)
+    same = pipeline.fill(
+        make_recipe(**QUICK, items=("star", "circle", "heart"), count=7, start=str(earlier)),
+        stop=lambda: True,
+    )
+    np.testing.assert_array_equal(same.layout.poses.x, three.layout.poses.x)
+    np.testing.assert_allclose(same.layout.poses.scale, three.layout.poses.scale, rtol=1e-9)
+
+
+@pytest.mark.parametrize("sizes", ["shared", "fixed"])
+def test_an_earlier_layout_keeps_the_sizes_asked_for_now(
+    sizes: str, tmp_path: Path, three: pipeline.Run
+) -> None:
+    earlier = tmp_path / "earlier.geojson"
+    write(three.layout, earlier)
+    layout = run(items=["star", "circle", "heart"], count=7, sizes=sizes, start=str(earlier)).layout
+    if sizes == "shared":
+        np.testing.assert_allclose(layout.areas / layout.areas.mean(), 1.0, rtol=1e-9)
+    else:
+        np.testing.assert_allclose(layout.poses.scale, 1.0, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("rotate", "allowed"), [("none", [0]), ("0,90", [0, 90])])
+def test_an_earlier_layout_keeps_the_angles_asked_for_now(
+    rotate: str, allowed: list[int], tmp_path: Path, three: pipeline.Run
+) -> None:
+    earlier = tmp_path / "earlier.geojson"
+    write(three.layout, earlier)
+    layout = run(
+        items=["star", "circle", "heart"], count=7, rotate=rotate, start=str(earlier)
+    ).layout
+    assert {round(math.degrees(a), 9) for a in layout.poses.angle} <= set(allowed)
+
+
+def test_an_earlier_layout_of_another_number_of_items_is_refused(
+    tmp_path: Path, three: pipeline.Run
+) -> None:
+    earlier = tmp_path / "earlier.geojson"
+    write(three.layout, earlier)
+    with pytest.raises(RecipeError, match=r"start: .* has 7 items, this run 2; give as many"):
+        run(items=["star"], count=2, start=str(earlier))
+
+
+def test_a_missing_earlier_layout_is_named() -> None:
+    with pytest.raises(ReadError, match=r"nowhere\.geojson: there is no such file"):
+        run(start="nowhere.geojson")
+
+
+def test_skipped_files_are_in_the_run_and_the_manifest(tmp_path: Path) -> None:
+    (tmp_path / "good.svg").write_text('<svg viewBox="0 0 9 9"><rect width="4" height="4"/></svg>')
+    (tmp_path / "bad.svg").write_text("<svg")
+    met = run(items=[str(tmp_path)])
+    assert [item.name for item in met.layout.items] == ["good"]
+    assert "bad.svg" in str(met.skipped[0])
+    assert met.layout.manifest["skipped"] == met.report()["skipped"] == [str(met.skipped[0])]
+    with pytest.raises(ReadError, match=r"bad\.svg"):
+        run(items=[str(tmp_path)], strict=True)
+
+
+def test_a_whole_run_hardly_overlaps_and_fills_the_container() -> None:
+    met = run(items=["circle", "square", "star"], count=24, epochs=300, levels="50,150")
+    assert met.metrics.pixel.LC > 0.6
+    assert met.metrics.exact.overlap < 0.01
+    assert met.metrics.exact.exceeding < 0.01
+    assert not met.unplaced
+    assert overlap_area(met.layout.outlines) == pytest.approx(
+        met.metrics.exact.overlap_area, rel=0.05, abs=1.0
+    )
+
+
+def test_item_weights_follow_names_not_places() -> None:
+    items: list[Item] = [flat_item(name, disc()) for name in ("a", "b", "a")]
+    assert pipeline.item_weights(items, {"a": 3}).tolist() == [3, 1, 3]
+    assert pipeline.item_weights(items, None).tolist() == [1, 1, 1]
+
+
+def test_warming_up_changes_nothing_that_is_seen() -> None:
+    pipeline.warm_up()

@@ -1,0 +1,183 @@
+"""What a run is asked to do: every field refuses what has no meaning, by its name."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from packwork.errors import RecipeError
+from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe, parse_levels
+from packwork.solve.options import MAX_RESOLUTION, MIN_RESOLUTION
+
+NAN, INF = float("nan"), float("inf")
+
+BAD: dict[str, list[Any]] = {
+    "container": [3, None],
+    "items": [7, ["star", 3]],
+    "count": [0, -1, 2.5, "many", MAX_COUNT + 1],
+    "canvas": [0, -600, NAN, INF, 1e7, "wide"],
+    "seed": [-1, 2**63, 0.5, "lucky"],
+    "sizes": ["huge", "", None],
+    "size_ratio": [0.99, -2, 101, NAN],
+    "rotate": ["twist", "", "0", "-30", "181", "nan", "0,x", "30,inf", ",", 30],
+    "weights": [3, ["bear"], {"bear": "heavy"}],
+    "holes": ["drill", True],
+    "strict": ["perhaps", 7],
+    "start": ["anywhere", "", 3],
+    "effort": ["lazy", 1],
+    "epochs": [0, -5, 1_000_001, 1.5],
+    "levels": [
+        "", "fine", "50,", "50;200", f"{MIN_RESOLUTION - 1}", f"{MAX_RESOLUTION + 1}",
+        "50:0", "50:-1", "50:nan", "50:inf", "50:1:2", "1e2", 50,
+    ],
+    "losses": ["overlap", {"overlap": "much"}, {"overlap": NAN}, {"overlap": INF}],
+}  # fmt: skip
+
+
+def key_and_value(field: str, values: list[Any]) -> list[Any]:
+    return [pytest.param(field, value, id=f"{field}={value!r}") for value in values]
+
+
+def test_every_field_has_a_bad_value_here() -> None:
+    assert BAD.keys() == Recipe.model_fields.keys()
+
+
+@pytest.mark.parametrize(
+    ("field", "value"), [pair for key, values in BAD.items() for pair in key_and_value(key, values)]
+)
+def test_a_bad_value_is_refused_under_its_name_on_one_line(field: str, value: Any) -> None:
+    with pytest.raises(RecipeError) as refusal:
+        make_recipe(**{"container": "heart", field: value}).start_options()
+    assert refusal.value.key == field
+    assert str(refusal.value).startswith(f"{field}: ")
+    assert "\n" not in str(refusal.value)
+    assert len(str(refusal.value)) < 200
+
+
+@pytest.mark.parametrize("value", [0, -3, "many"])
+def test_a_message_says_what_was_met(value: object) -> None:
+    with pytest.raises(RecipeError, match=f"not {value!r}$"):
+        make_recipe(container="heart", count=value)
+
+
+def test_a_missing_container_is_named() -> None:
+    with pytest.raises(RecipeError, match=r"^container: must be given$"):
+        make_recipe(items=["star"])
+
+
+def test_an_unknown_key_lists_the_known() -> None:
+    with pytest.raises(RecipeError) as refusal:
+        make_recipe(container="heart", colour="red")
+    assert refusal.value.key == "colour"
+    for name in Recipe.model_fields:
+        assert name in refusal.value.problem
+
+
+def test_a_recipe_cannot_be_changed() -> None:
+    recipe = make_recipe(container="heart")
+    with pytest.raises(ValueError, match="frozen"):
+        recipe.seed = 3
+
+
+def test_a_recipe_survives_json() -> None:
+    recipe = make_recipe(
+        container="heart", items=["star"], count=3, rotate="0,90", losses={"overlap": 2}
+    )
+    assert Recipe.model_validate_json(recipe.model_dump_json()) == recipe
+
+
+@pytest.mark.parametrize(
+    ("text", "limit", "choices"),
+    [
+        ("free", None, None),
+        (" Free ", None, None),
+        ("none", 0.0, None),
+        ("30", 30.0, None),
+        ("180", 180.0, None),
+        ("12.5", 12.5, None),
+        ("0,90", None, (0.0, 90.0)),
+        ("-45, 0 ,45", None, (-45.0, 0.0, 45.0)),
+        ("90,", None, (90.0,)),
+    ],
+)
+def test_rotations(text: str, limit: float | None, choices: tuple[float, ...] | None) -> None:
+    rotation = Rotation.parse(text)
+    assert rotation.limit == (None if limit is None else pytest.approx(math.radians(limit)))
+    assert rotation.choices == (
+        None if choices is None else pytest.approx([math.radians(c) for c in choices])
+    )
+
+
+@given(text=st.text(max_size=12) | st.text("0123456789,.-+e ", max_size=12))
+def test_any_text_is_a_rotation_or_refused(text: str) -> None:
+    try:
+        rotation = Rotation.parse(text)
+    except RecipeError as refusal:
+        assert refusal.key == "rotate"  # noqa: PT017
+    else:
+        assert all(math.isfinite(v) for v in (rotation.limit or 0.0, *(rotation.choices or ())))
+
+
+@pytest.mark.parametrize(
+    ("rotate", "rate_is_zero", "limit"),
+    [
+        ("none", True, None),
+        ("0,90", True, None),
+        ("free", False, None),
+        ("30", False, math.radians(30)),
+    ],
+)
+def test_the_solver_turns_items_only_as_far_as_asked(
+    rotate: str, rate_is_zero: bool, limit: float | None
+) -> None:
+    options = make_recipe(container="heart", rotate=rotate).solve_options()
+    assert (options.turn_rate == 0) == rate_is_zero
+    assert options.turn_limit == limit
+
+
+@pytest.mark.parametrize(
+    ("text", "levels", "shares"),
+    [
+        ("50", (50,), (1,)),
+        ("50,200", (50, 200), (1, 1)),
+        ("50:12,200:20", (50, 200), (12, 20)),
+        (" 50 : 0.5 , 600", (50, 600), (0.5, 1)),
+        ("600,50", (600, 50), (1, 1)),
+    ],
+)
+def test_levels(text: str, levels: tuple[int, ...], shares: tuple[float, ...]) -> None:
+    assert parse_levels(text) == (levels, shares)
+
+
+@given(text=st.text(max_size=12) | st.text("0123456789,:.-+e ", max_size=12))
+def test_any_text_is_levels_or_refused(text: str) -> None:
+    try:
+        levels, shares = parse_levels(text)
+    except RecipeError as refusal:
+        assert refusal.key == "levels"  # noqa: PT017
+    else:
+        assert len(levels) == len(shares) > 0
+        assert all(MIN_RESOLUTION <= level <= MAX_RESOLUTION for level in levels)
+
+
+def test_effort_bounds_epochs_and_a_number_of_epochs_wins() -> None:
+    asked = [make_recipe(container="heart", effort=effort) for effort in EPOCHS]
+    counts = [recipe.solve_options().epochs for recipe in asked]
+    assert counts == sorted(set(counts))
+    assert make_recipe(container="heart", effort="best", epochs=7).solve_options().epochs == 7
+
+
+@pytest.mark.parametrize("start", ["earlier.geojson", "EARLIER.GEOJSON", "folder/a.json"])
+def test_a_start_with_the_ending_of_a_layout_is_a_file(start: str) -> None:
+    assert make_recipe(container="heart", start=start).starts_from_layout
+
+
+@pytest.mark.parametrize("method", ["distance-field", "scatter"])
+def test_a_start_is_a_method_else(method: str) -> None:
+    recipe = make_recipe(container="heart", start=method)
+    assert not recipe.starts_from_layout
+    assert recipe.start_options().method == method
