@@ -33,7 +33,7 @@ def _assert_stays_inside(points: FloatArray, starts: IntArray, shape: tuple[int,
     for dtype in (np.float32, np.float64):
         rasteriser = Rasteriser(shape, dtype)
         rasteriser._reserve(points, len(starts) - 1)
-        room, deposits = len(rasteriser._cells), rasteriser.accumulation.size
+        room, deposits = len(rasteriser._cells), rasteriser._deposits.size
         cells = np.full(room + GUARD, UNTOUCHED, dtype=np.int32)
         leaves: Image = np.full(room + GUARD, UNTOUCHED, dtype=dtype)
         buffer = np.zeros(deposits + 2 * GUARD, dtype=dtype)
@@ -41,7 +41,7 @@ def _assert_stays_inside(points: FloatArray, starts: IntArray, shape: tuple[int,
         # Compiled or not, extreme quotients overflow to infinity and are clamped.
         with np.errstate(all="ignore"):
             _kernels.sweep(
-                points, starts, *shape, *rasteriser._magic,
+                points, starts, np.arange(len(starts) - 1), *shape, *rasteriser._magic,
                 buffer[GUARD:-GUARD], cells, leaves, first,
             )  # fmt: skip
         used = int(first[-1])

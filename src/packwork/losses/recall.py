@@ -6,6 +6,7 @@ import numpy as np
 from scipy import ndimage
 
 from packwork.arrays import FloatArray, Image
+from packwork.losses import _kernels
 from packwork.losses.term import PoseTerm
 
 
@@ -43,18 +44,9 @@ class Recall:
 
     def __call__(self, x: FloatArray, y: FloatArray, areas: FloatArray) -> PoseTerm:
         """Loss for centres ``(n,)`` in canvas units and areas in squared ones."""
-        rows, columns = self._inside.shape
-        x_px, y_px = x * self._px_per_cu, y * self._px_per_cu
-        column = np.clip(x_px, 0, columns - 1).astype(np.int64)
-        row = np.clip(y_px, 0, rows - 1).astype(np.int64)
-        on_canvas = (x_px >= 0) & (x_px < columns) & (y_px >= 0) & (y_px < rows)
-        home = on_canvas & self._inside[row, column]
-        away_x = np.where(home, 0.0, x_px - self._nearest_column[row, column] - 0.5)
-        away_y = np.where(home, 0.0, y_px - self._nearest_row[row, column] - 0.5)
-        distance = np.hypot(away_x, away_y)
-        safe = np.where(distance > 0, distance, 1.0)
-        return PoseTerm(
-            float(np.sum(areas * distance) / self._px_per_cu),
-            areas * away_x / safe,
-            areas * away_y / safe,
-        )
+        by_x, by_y = np.empty_like(x), np.empty_like(y)
+        total = _kernels.recall(
+            x, y, areas, self._px_per_cu, self._inside, self._nearest_row, self._nearest_column,
+            by_x, by_y,
+        )  # fmt: skip
+        return PoseTerm(total / self._px_per_cu, by_x, by_y)

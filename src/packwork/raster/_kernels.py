@@ -16,17 +16,27 @@ from __future__ import annotations
 
 from numba import njit
 
+SPARE_ROWS = 3
+"""Rows of the accumulation buffer beyond the image's: one for what falls off its lower
+edge, two for the steps in the wrong order that ``_walk`` speaks of. Derived."""
+
 ABOVE = -2
 """Record of a piece above the canvas in column c: ``ABOVE - c``. Other pieces off the
 canvas are recorded as -1."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="never")
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
 def _walk(
     x0, y0, x1, y1, u_begin, u_end, cell_x, cell_y, end_x, end_y,
     x_magic, area_magic, width, buffer, cells, leaves, k,
 ):  # fmt: skip
-    """Walk one edge piece that lies on the canvas; return the record's new length."""
+    """Walk one edge piece that lies on the canvas; return the record's new length.
+
+    Steps are chosen without branches, since no predictor could guess them. An edge that
+    ends on a corner of the grid may take its last two steps in the wrong order, when
+    rounding says so; the pieces after that are empty, but the cell may then lie one
+    beyond the image, for which ``buffer`` has spare rows.
+    """
     cell = cell_y * width + cell_x
     dx = x1 - x0
     dy = y1 - y0
@@ -35,52 +45,39 @@ def _walk(
     steps_y = abs(end_y - cell_y)
     step_x = 1 if dx > 0 else -1
     step_y = 1 if dy > 0 else -1
-    row_step = step_y * width
+    jump_y = step_y * width
     next_x = float(cell_x + 1 if dx > 0 else cell_x)
     row_bottom = float(cell_y + 1)
-    t_x = 2.0
-    t_y = 2.0
-    pace_x = 0.0
-    pace_y = 0.0
-    if steps_x > 0:
-        t_x = (next_x - x0) / dx
-        pace_x = step_x / dx
-    if steps_y > 0:
-        t_y = (float(cell_y + 1 if dy > 0 else cell_y) - y0) / dy
-        pace_y = step_y / dy
+    per_x = 1.0 / dx if steps_x > 0 else 2.0
+    per_y = 1.0 / dy if steps_y > 0 else 2.0
+    t_x = (next_x - x0) * per_x if steps_x > 0 else 2.0
+    t_y = (float(cell_y + 1 if dy > 0 else cell_y) - y0) * per_y if steps_y > 0 else 2.0
+    pace_x = abs(per_x)
+    pace_y = abs(per_y)
     x = x0
     y = y0
     for _ in range(steps_x + steps_y):
-        # The two branches repeat the deposit: one unpredictable branch, not two.
-        if t_x < t_y:
-            y_next = y0 + dy * t_x
-            swept = next_x - x
-            area = (swept * (row_bottom - 0.5 * (y + y_next)) + area_magic) - area_magic
-            buffer[cell] += area
-            buffer[cell + width] += swept - area
-            cells[k] = cell
-            leaves[k] = u_begin + t_x * u_span
-            x = next_x
-            next_x += step_x
-            cell += step_x
-            steps_x -= 1
-            t_x = t_x + pace_x if steps_x > 0 else 2.0
-        else:
-            y_next = y0 + dy * t_y
-            x_next = ((x0 + dx * t_y) + x_magic) - x_magic
-            swept = x_next - x
-            area = (swept * (row_bottom - 0.5 * (y + y_next)) + area_magic) - area_magic
-            buffer[cell] += area
-            buffer[cell + width] += swept - area
-            cells[k] = cell
-            leaves[k] = u_begin + t_y * u_span
-            x = x_next
-            row_bottom += step_y
-            cell += row_step
-            steps_y -= 1
-            t_y = t_y + pace_y if steps_y > 0 else 2.0
-        y = y_next
+        is_x = t_x < t_y
+        t = min(t_x, t_y)
+        crossing = ((x0 + dx * t) + x_magic) - x_magic
+        x_next = next_x if is_x else crossing
+        y_next = y0 + dy * t
+        swept = x_next - x
+        area = (swept * (row_bottom - 0.5 * (y + y_next)) + area_magic) - area_magic
+        buffer[cell] += area
+        buffer[cell + width] += swept - area
+        cells[k] = cell
+        leaves[k] = u_begin + t * u_span
         k += 1
+        next_x += step_x if is_x else 0.0
+        t_x += pace_x if is_x else 0.0
+        t_y += 0.0 if is_x else pace_y
+        row_bottom += 0.0 if is_x else step_y
+        cell += step_x if is_x else jump_y
+        x = x_next
+        y = y_next
+    cell = end_y * width + end_x
+    row_bottom = float(end_y + 1)
     swept = x1 - x
     area = (swept * (row_bottom - 0.5 * (y + y1)) + area_magic) - area_magic
     buffer[cell] += area
@@ -90,7 +87,7 @@ def _walk(
     return k + 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="never")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _walk_above(x0, x1, u_begin, u_end, x_magic, width, buffer, cells, leaves, k):
     """Deposit a piece above the canvas: it covers its columns from row 0 on."""
     dx = x1 - x0
@@ -112,7 +109,7 @@ def _walk_above(x0, x1, u_begin, u_end, x_magic, width, buffer, cells, leaves, k
     return k + 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="never")
+@njit(cache=True, nogil=True, error_model="numpy")
 def _walk_clipped(
     x0, y0, x1, y1, x_magic, area_magic, width, height, buffer, cells, leaves, k
 ):  # fmt: skip
@@ -180,20 +177,23 @@ def _walk_clipped(
 
 @njit(cache=True, nogil=True, error_model="numpy")
 def sweep(
-    points, starts, height, width, x_magic, area_magic, buffer, cells, leaves, first
+    points, starts, order, height, width, x_magic, area_magic, buffer, cells, leaves, first
 ):  # fmt: skip
     """Deposit every edge in ``buffer`` and record its walk.
 
-    ``buffer`` is flat, ``(height + 1) * width``, zero on entry. ``first[v]`` receives
-    where the record of the edge that begins at vertex v begins.
+    Rings are visited in ``order``, which changes no result. ``buffer`` is flat, height +
+    ``SPARE_ROWS`` rows of ``width``, zero on entry. ``first[edge]`` receives where the
+    record of an edge begins, edges counted as they are visited.
     """
     k = 0
-    for ring in range(starts.shape[0] - 1):
-        begin = starts[ring]
-        end = starts[ring + 1]
+    edge = 0
+    for visit in range(order.shape[0]):
+        begin = starts[order[visit]]
+        end = starts[order[visit] + 1]
         for v in range(begin, end):
             w = v + 1 if v + 1 < end else begin
-            first[v] = k
+            first[edge] = k
+            edge += 1
             x0 = (points[v, 0] + x_magic) - x_magic
             x1 = (points[w, 0] + x_magic) - x_magic
             y0 = points[v, 1]
@@ -226,7 +226,7 @@ def sweep(
                     x0, y0, x1, y1, 0.0, 1.0, cell_x, cell_y, end_x, end_y,
                     x_magic, area_magic, width, buffer, cells, leaves, k,
                 )  # fmt: skip
-    first[points.shape[0]] = k
+    first[edge] = k
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -260,7 +260,7 @@ def accumulate(buffer, density):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def pullback(points, starts, cells, leaves, first, adjoint, beyond, gradient):
+def pullback(points, starts, order, cells, leaves, first, adjoint, beyond, gradient):
     """Vertex gradients of the sum of adjoint x coverage, exactly.
 
     For an edge a -> b with outward normal n (unnormalised):
@@ -270,21 +270,24 @@ def pullback(points, starts, cells, leaves, first, adjoint, beyond, gradient):
     for v in range(n):
         gradient[v, 0] = 0.0
         gradient[v, 1] = 0.0
-    for ring in range(starts.shape[0] - 1):
-        begin = starts[ring]
-        end = starts[ring + 1]
+    size = adjoint.shape[0]
+    edge = 0
+    for visit in range(order.shape[0]):
+        begin = starts[order[visit]]
+        end = starts[order[visit] + 1]
         for v in range(begin, end):
             w = v + 1 if v + 1 < end else begin
             u0 = 0.0
             total = 0.0
             moment = 0.0
-            for k in range(first[v], first[v + 1]):
+            for k in range(first[edge], first[edge + 1]):
                 u1 = float(leaves[k])
                 cell = cells[k]
-                part = (u1 - u0) * (adjoint[cell] if cell >= 0 else beyond)
+                part = (u1 - u0) * (adjoint[cell] if 0 <= cell < size else beyond)
                 total += part
                 moment += part * (u0 + u1)
                 u0 = u1
+            edge += 1
             moment *= 0.5
             normal_x = points[w, 1] - points[v, 1]
             normal_y = points[v, 0] - points[w, 0]
@@ -295,26 +298,27 @@ def pullback(points, starts, cells, leaves, first, adjoint, beyond, gradient):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def ring_integrals(points, starts, cells, leaves, first, image, prefix, totals):
+def ring_integrals(points, starts, order, cells, leaves, first, image, prefix, totals):
     """Integral of a pixelwise constant image over each ring's inside, by Green's theorem.
 
     ``prefix[r, c]`` is the sum of column c above row r, row ``height`` included.
     """
     height = image.shape[0]
     width = image.shape[1]
-    for ring in range(starts.shape[0] - 1):
-        begin = starts[ring]
-        end = starts[ring + 1]
+    edge = 0
+    for visit in range(order.shape[0]):
+        begin = starts[order[visit]]
+        end = starts[order[visit] + 1]
         total = 0.0
         for v in range(begin, end):
             w = v + 1 if v + 1 < end else begin
             dx = points[w, 0] - points[v, 0]
             dy = points[w, 1] - points[v, 1]
             u0 = 0.0
-            for k in range(first[v], first[v + 1]):
+            for k in range(first[edge], first[edge + 1]):
                 u1 = float(leaves[k])
                 cell = cells[k]
-                if cell >= 0:
+                if 0 <= cell < height * width:
                     row = cell // width
                     column = cell - row * width
                     y = points[v, 1] + dy * 0.5 * (u0 + u1)
@@ -323,7 +327,8 @@ def ring_integrals(points, starts, cells, leaves, first, image, prefix, totals):
                 elif cell <= ABOVE:
                     total += dx * (u1 - u0) * prefix[height, ABOVE - cell]
                 u0 = u1
-        totals[ring] = total
+            edge += 1
+        totals[order[visit]] = total
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

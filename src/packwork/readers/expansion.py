@@ -26,7 +26,7 @@ own while the drawing is rendered. Chosen."""
 
 _PIXELS_PER_ELEMENT = 10_000
 _PAINT_NAMES = frozenset({"fill", "stroke", "marker-start", "marker-mid", "marker-end"})
-_LAYER_COSTS = {"clip-path": 5, "mask": 10, "opacity": 5, "style": 5}
+_LAYER_COSTS = {"clip-path": 25, "mask": 100, "opacity": 10, "style": 10}
 """Elements that an off-screen layer counts for when the drawing is rendered. Chosen."""
 
 

@@ -41,3 +41,28 @@ def gather(points, gradient, item_starts, x, y, px_per_cu, by_pose):
         by_pose[i, 1] = push_y * px_per_cu
         by_pose[i, 2] = torque
         by_pose[i, 3] = growth
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def adam(gradient, mean, square, first, second, count, stillness, rate, change):
+    """One step of Adam; components of an item share their second moment.
+
+    ``mean`` (n, m) and ``square`` (n,) are updated; ``change`` (n, m) receives the step.
+    """
+    n = gradient.shape[0]
+    parts = gradient.shape[1]
+    fade = 1.0 - second**count
+    typical = 0.0
+    for i in range(n):
+        squared = 0.0
+        for j in range(parts):
+            mean[i, j] += (1.0 - first) * (gradient[i, j] - mean[i, j])
+            squared += gradient[i, j] * gradient[i, j]
+        square[i] += (1.0 - second) * (squared - square[i])
+        typical += square[i] / fade
+    floor = stillness * math.sqrt(typical / n) + 1e-300
+    length = rate / (1.0 - first**count)
+    for i in range(n):
+        size = math.sqrt(square[i] / fade) + floor
+        for j in range(parts):
+            change[i, j] = -length * mean[i, j] / size

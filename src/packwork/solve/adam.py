@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.solve import _kernels
 
 STILLNESS = 1.5e-2
 """Gradients this small against the typical one move an item less than a full step.
@@ -34,23 +35,21 @@ class Adam:
 
     def __init__(self, shape: tuple[int, int], decay: tuple[float, float] = (0.9, 0.9)) -> None:
         self._mean = np.zeros(shape)
-        self._square = np.zeros((shape[0], 1))
+        self._square = np.zeros(shape[0])
+        self._change = np.zeros(shape)
         self._decay = decay
         self._count = 0
 
     def step(self, gradient: FloatArray, rate: float) -> FloatArray:
-        """Change to add to the quantity, about ``rate`` long."""
-        first, second = self._decay
+        """Change to add to the quantity, about ``rate`` long; the next call reuses it."""
         self._count += 1
-        self._mean += (1 - first) * (gradient - self._mean)
-        squared = np.einsum("ij,ij->i", gradient, gradient)[:, None]
-        self._square += (1 - second) * (squared - self._square)
-        size = np.sqrt(self._square / (1 - second**self._count))
-        typical = float(np.sqrt(np.mean(size * size)))
-        floor = STILLNESS * typical + np.finfo(np.float64).tiny
-        return np.asarray(-rate / (1 - first**self._count) * self._mean / (size + floor))
+        _kernels.adam(
+            gradient, self._mean, self._square, *self._decay, self._count, STILLNESS, rate,
+            self._change,
+        )  # fmt: skip
+        return self._change
 
-    def forget(self, items: FloatArray | list[int]) -> None:
+    def forget(self, items: list[int]) -> None:
         """Start the moments of these items anew, after they were moved by force."""
         self._mean[items] = 0.0
         self._square[items] = np.mean(self._square)
