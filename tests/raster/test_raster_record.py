@@ -41,7 +41,7 @@ def _assert_stays_inside(points: FloatArray, starts: IntArray, shape: tuple[int,
         # Compiled or not, extreme quotients overflow to infinity and are clamped.
         with np.errstate(all="ignore"):
             _kernels.sweep(
-                points, starts, np.arange(len(starts) - 1), *shape, *rasteriser._magic,
+                points, starts, np.arange(len(starts) - 1), True, *shape, *rasteriser._magic,
                 buffer[GUARD:-GUARD], cells, leaves, first,
             )  # fmt: skip
         used = int(first[-1])

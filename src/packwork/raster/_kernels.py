@@ -20,6 +20,13 @@ SPARE_ROWS = 3
 """Rows of the accumulation buffer beyond the image's: one for what falls off its lower
 edge, two for the steps in the wrong order that ``_walk`` speaks of. Derived."""
 
+ROWS_AHEAD = 8
+"""Rows read before the ring that needs them comes. Larger evicts rows still in use, smaller
+is reached too early. Tried."""
+
+PIXELS_PER_LINE = 16
+"""float32 pixels in a cache line of 64 bytes. Derived."""
+
 ABOVE = -2
 """Record of a piece above the canvas in column c: ``ABOVE - c``. Other pieces off the
 canvas are recorded as -1."""
@@ -176,20 +183,50 @@ def _walk_clipped(
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _lowest_row(points, begin, end, height):
+    """Row just below a ring, and a few more, on the canvas."""
+    lowest = 0.0
+    for v in range(begin, end):
+        lowest = max(lowest, points[v, 1])
+    return min(int(min(lowest, float(height))) + ROWS_AHEAD, height)
+
+
+@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+def _fetch(image, reached, until):
+    """Read one pixel of each cache line from ``reached`` to ``until``; return their sum.
+
+    Edges wander down columns, which no hardware foresees; whole rows read beforehand are
+    in the cache when they come. The sum has no other use than to keep the loop.
+    """
+    total = 0.0
+    for pixel in range(reached, until, PIXELS_PER_LINE):
+        total += image[pixel]
+    return total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def sweep(
-    points, starts, order, height, width, x_magic, area_magic, buffer, cells, leaves, first
+    points, starts, order, descends, height, width, x_magic, area_magic,
+    buffer, cells, leaves, first,
 ):  # fmt: skip
     """Deposit every edge in ``buffer`` and record its walk.
 
-    Rings are visited in ``order``, which changes no result. ``buffer`` is flat, height +
-    ``SPARE_ROWS`` rows of ``width``, zero on entry. ``first[edge]`` receives where the
-    record of an edge begins, edges counted as they are visited.
+    Rings are visited in ``order``, which changes no result; if it ``descends`` from top
+    to bottom, rows are fetched ahead. ``buffer`` is flat, height + ``SPARE_ROWS`` rows of
+    ``width``, zero on entry. ``first[edge]`` receives where the record of an edge
+    begins, edges counted as they are visited.
     """
     k = 0
     edge = 0
+    reached = 0
+    fetched = 0.0
     for visit in range(order.shape[0]):
         begin = starts[order[visit]]
         end = starts[order[visit] + 1]
+        if descends:
+            until = _lowest_row(points, begin, end, height) * width
+            fetched += _fetch(buffer, reached, until)
+            reached = max(reached, until)
         for v in range(begin, end):
             w = v + 1 if v + 1 < end else begin
             first[edge] = k
@@ -227,6 +264,7 @@ def sweep(
                     x_magic, area_magic, width, buffer, cells, leaves, k,
                 )  # fmt: skip
     first[edge] = k
+    return fetched
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -260,7 +298,9 @@ def accumulate(buffer, density):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def pullback(points, starts, order, cells, leaves, first, adjoint, beyond, gradient):
+def pullback(
+    points, starts, order, descends, width, cells, leaves, first, adjoint, beyond, gradient
+):  # fmt: skip
     """Vertex gradients of the sum of adjoint x coverage, exactly.
 
     For an edge a -> b with outward normal n (unnormalised):
@@ -272,9 +312,15 @@ def pullback(points, starts, order, cells, leaves, first, adjoint, beyond, gradi
         gradient[v, 1] = 0.0
     size = adjoint.shape[0]
     edge = 0
+    reached = 0
+    fetched = 0.0
     for visit in range(order.shape[0]):
         begin = starts[order[visit]]
         end = starts[order[visit] + 1]
+        if descends:
+            until = _lowest_row(points, begin, end, size // width) * width
+            fetched += _fetch(adjoint, reached, until)
+            reached = max(reached, until)
         for v in range(begin, end):
             w = v + 1 if v + 1 < end else begin
             u0 = 0.0
@@ -295,6 +341,7 @@ def pullback(points, starts, order, cells, leaves, first, adjoint, beyond, gradi
             gradient[v, 1] += normal_y * (total - moment)
             gradient[w, 0] += normal_x * moment
             gradient[w, 1] += normal_y * moment
+    return fetched
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

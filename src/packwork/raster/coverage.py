@@ -65,6 +65,7 @@ class Rasteriser:
         self._deposits: Image = np.zeros((rows + _kernels.SPARE_ROWS, columns), dtype=self.dtype)
         self.accumulation: Image = self._deposits[: rows + 1]
         """Swept areas, waiting for their running sum down the columns."""
+        self._is_large = self.accumulation.nbytes > CACHE_BYTES
         self._order = np.zeros(0, dtype=np.int64)
         self._magic = tuple(1.5 * 2.0 ** (52 - bits[self.dtype]) for bits in (_X_BITS, _AREA_BITS))
         self._points = np.zeros((0, 2))
@@ -90,7 +91,7 @@ class Rasteriser:
         self._points, self._starts = points_px, starts
         self._order = self._visiting_order()
         _kernels.sweep(
-            points_px, starts, self._order, *self.shape, *self._magic,
+            points_px, starts, self._order, self._is_large, *self.shape, *self._magic,
             self._deposits.reshape(-1), self._cells, self._leaves, self._first,
         )  # fmt: skip
 
@@ -123,7 +124,8 @@ class Rasteriser:
             ``(n, 2)``; a buffer that the next call reuses.
         """
         _kernels.pullback(
-            self._points, self._starts, self._order, self._cells, self._leaves, self._first,
+            self._points, self._starts, self._order, self._is_large, self.shape[1],
+            self._cells, self._leaves, self._first,
             adjoint.reshape(-1), beyond, self._gradient,
         )  # fmt: skip
         return self._gradient
@@ -152,10 +154,10 @@ class Rasteriser:
 
         Sums are exact in any order; neighbours in time then touch the same rows.
         """
-        rings = len(self._starts) - 1
-        if self.accumulation.nbytes < CACHE_BYTES or (np.diff(self._starts) == 0).any():
-            return np.arange(rings)
-        return np.argsort(self._points[self._starts[:-1], 1], kind="stable")
+        if not self._is_large:
+            return np.arange(len(self._starts) - 1)
+        first = np.minimum(self._starts[:-1], len(self._points) - 1)
+        return np.argsort(self._points[first, 1], kind="stable")
 
     def _reserve(self, points_px: FloatArray, rings: int) -> None:
         """Make room for the record: a walk crosses a grid line once per pixel it spans."""

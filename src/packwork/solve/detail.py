@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
-
-import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
@@ -38,7 +37,7 @@ def seen_at(outlines: Sequence[Outline], scales: FloatArray, px_per_cu: float) -
     seen = []
     for outline, pixel in zip(outlines, 1 / (px_per_cu * scales), strict=True):
         # Items whose pixels are within a factor of two share one outline.
-        rung = int(np.floor(np.log2(pixel)))
+        rung = round(math.log2(pixel))
         key = (id(outline), rung)
         if key not in done:
             size = 2.0**rung
