@@ -39,7 +39,8 @@ def iou(a: np.ndarray, b: np.ndarray) -> float:
 @pytest.fixture(scope="session")
 def iou_with_resvg() -> Callable[[str], float]:
     """IoU of a page's computed ink with resvg's rendering of the raw file."""
-    from packwork.readers.svg_drawing import clean_union, read_drawing
+    from packwork.readers.regions import clean_union
+    from packwork.readers.svg.drawing import read_drawing
 
     def compare(text: str) -> float:
         drawing = read_drawing(text.encode())

@@ -11,9 +11,9 @@ import pytest
 from PIL import Image
 
 from packwork.errors import ReadError
-from packwork.readers.gate import admit, document
-from packwork.readers.svg import item_of_svg
-from packwork.readers.svg_trace import render
+from packwork.readers.gate.door import admit, document
+from packwork.readers.svg.item import item_of_svg
+from packwork.readers.svg.trace import render
 from packwork.readers.unfit import UnfitError
 
 HANG_S = 5.0

@@ -8,9 +8,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from packwork.errors import ReadError
-from packwork.readers.mask import trace_mask
-from packwork.readers.silhouette import item_of_picture
-from packwork.readers.svg import item_of_svg, read_svg
+from packwork.readers.pictures.mask import trace_mask
+from packwork.readers.pictures.silhouette import item_of_picture
+from packwork.readers.svg.item import item_of_svg, read_svg
 from packwork.scene.item import Item
 
 SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'

@@ -14,8 +14,8 @@ from PIL import Image, ImageDraw
 from packwork.errors import ReadError
 from packwork.geometry import affine
 from packwork.readers.container import read_container
-from packwork.readers.mask import trace_mask
-from packwork.readers.silhouette import item_of_picture, read_picture
+from packwork.readers.pictures.mask import trace_mask
+from packwork.readers.pictures.silhouette import item_of_picture, read_picture
 from packwork.scene.item import PictureArt
 
 

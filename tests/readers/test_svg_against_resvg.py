@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from packwork.readers.svg import item_of_svg
+from packwork.readers.svg.item import item_of_svg
 
 STAR = "M50 5 L79 95 L3 39 L97 39 L21 95 Z"
 ZIGZAG = 'd="M15 80 L30 20 L50 75 L55 20 L85 80" fill="none" stroke="#000" stroke-width="12"'

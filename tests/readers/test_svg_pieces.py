@@ -10,12 +10,12 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from packwork.readers.arcs import arc_cubics
-from packwork.readers.css import parse_rules
-from packwork.readers.path_data import parse_path
-from packwork.readers.strokes import Pen, stroke_region
-from packwork.readers.svg import item_of_svg
-from packwork.readers.svg_shapes import flattened
+from packwork.readers.gate.css import parse_rules
+from packwork.readers.svg.arcs import arc_cubics
+from packwork.readers.svg.item import item_of_svg
+from packwork.readers.svg.path_data import parse_path
+from packwork.readers.svg.shapes import flattened
+from packwork.readers.svg.strokes import Pen, stroke_region
 from packwork.scene.item import VectorArt
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'

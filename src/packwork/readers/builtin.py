@@ -10,8 +10,9 @@ from packwork.errors import ReadError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.primitives import NAMES, PATHS, primitive
-from packwork.readers.svg import Holes, centred, item_of_svg
-from packwork.readers.svg_container import container_of_svg
+from packwork.readers.regions import Holes, centred
+from packwork.readers.svg.container import container_of_svg
+from packwork.readers.svg.item import item_of_svg
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
@@ -19,7 +20,7 @@ from packwork.scene.item import FlatArt, Item
 ALL_ICONS = "icons"
 """Name that stands for every bundled icon."""
 
-COLOURS = ("#e4572e", "#f2a541", "#76b041", "#17bebb", "#2e86ab", "#6c5b7b", "#c06c84", "#8d6a4f")
+COLOURS = ("#ee6c4d", "#e9b341", "#1f6f78", "#7b3b5e", "#8fb48c", "#22304f", "#f5b7a4")
 """Fills of the plain shapes, given out in the order of their names."""
 
 

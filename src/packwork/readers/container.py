@@ -8,9 +8,9 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.readers.builtin import builtin_container
 from packwork.readers.files import read_bytes, stem
-from packwork.readers.gate import MAX_BYTES
-from packwork.readers.mask import trace_mask
-from packwork.readers.svg_container import container_of_svg, placed_container
+from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.pictures.mask import trace_mask
+from packwork.readers.svg.container import container_of_svg, placed_container
 from packwork.scene.container import Container
 
 MASK_ENDINGS = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".tiff")

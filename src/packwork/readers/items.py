@@ -11,8 +11,9 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names
 from packwork.readers.container import MASK_ENDINGS
-from packwork.readers.silhouette import read_picture
-from packwork.readers.svg import Holes, read_svg
+from packwork.readers.pictures.silhouette import read_picture
+from packwork.readers.regions import Holes
+from packwork.readers.svg.item import read_svg
 from packwork.scene.item import Item
 
 _LOG = logging.getLogger("packwork")

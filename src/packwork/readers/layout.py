@@ -18,7 +18,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_text
-from packwork.readers.lengths import MAX_COORDINATE
+from packwork.readers.svg.lengths import MAX_COORDINATE
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item

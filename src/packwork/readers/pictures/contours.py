@@ -7,7 +7,7 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region, oriented_rings, region, signed_area
-from packwork.readers.stairs import without_stairs
+from packwork.readers.pictures.stairs import without_stairs
 from packwork.readers.unfit import UnfitError
 
 MAX_CONTOURS = 5_000

@@ -12,16 +12,15 @@ from PIL import Image
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
-from packwork.readers.contours import contour_region
 from packwork.readers.files import read_bytes, stem
-from packwork.readers.pictures import (
+from packwork.readers.pictures.contours import contour_region
+from packwork.readers.pictures.decode import (
     MAX_PICTURE_BYTES,
     Picture,
     Pixels,
     decode_picture,
 )
-from packwork.readers.svg import Holes, centred
-from packwork.readers.svg_drawing import clean_union
+from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.item import Item, PictureArt
 

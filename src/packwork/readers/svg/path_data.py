@@ -9,8 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.readers.arcs import arc_cubics
-from packwork.readers.lengths import NUMBER, checked, parse_numbers, refuse_not_finite
+from packwork.readers.svg.arcs import arc_cubics
+from packwork.readers.svg.lengths import NUMBER, checked, parse_numbers, refuse_not_finite
 from packwork.readers.unfit import UnfitError
 
 MAX_SEGMENTS = 200_000

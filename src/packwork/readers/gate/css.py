@@ -14,8 +14,8 @@ from collections import defaultdict
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
+from packwork.readers.gate.vocabulary import PROPERTIES
 from packwork.readers.unfit import UnfitError
-from packwork.readers.vocabulary import PROPERTIES
 
 MAX_STEPS = 20
 """Words of a selector; longer ones are passed over. Chosen."""

@@ -9,11 +9,11 @@ from collections.abc import Iterable
 import numpy as np
 
 from packwork.geometry import affine
-from packwork.readers.lengths import parse_length
-from packwork.readers.references import elements_by_id
-from packwork.readers.sanitise import HREF
-from packwork.readers.svg_walk import Painted
-from packwork.readers.transforms import parse_transform
+from packwork.readers.gate.references import elements_by_id
+from packwork.readers.gate.sanitise import HREF
+from packwork.readers.svg.lengths import parse_length
+from packwork.readers.svg.transforms import parse_transform
+from packwork.readers.svg.walk import Painted
 from packwork.readers.unfit import UnfitError
 
 LARGEST_TILE = 4.0

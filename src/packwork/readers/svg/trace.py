@@ -15,11 +15,11 @@ from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region
-from packwork.readers.gate import document
-from packwork.readers.pictures import decode_picture
-from packwork.readers.svg_walk import Page
+from packwork.readers.gate.door import document
+from packwork.readers.gate.vocabulary import TEXTS, TRACED
+from packwork.readers.pictures.decode import decode_picture
+from packwork.readers.svg.walk import Page
 from packwork.readers.unfit import UnfitError
-from packwork.readers.vocabulary import TEXTS, TRACED
 
 TRACE_PX = 1_000
 """Longer side of the rendering that is traced: the outline is good to about 1/10,000 of
@@ -56,7 +56,7 @@ def inked_part(root: ET.Element, page: Page) -> Part:
     Examples
     --------
     >>> root = ET.fromstring('<svg width="100" height="50"><rect width="10" height="9"/></svg>')
-    >>> from packwork.readers.svg_walk import read_page
+    >>> from packwork.readers.svg.walk import read_page
     >>> [round(side, 1) for side in inked_part(root, read_page(root))]
     [-0.2, -0.2, 10.4, 9.4]
     """
@@ -88,11 +88,11 @@ def traced_ink(root: ET.Element, page: Page, part: Part) -> Region:
     Examples
     --------
     >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
-    >>> from packwork.readers.svg_walk import read_page
+    >>> from packwork.readers.svg.walk import read_page
     >>> round(traced_ink(root, read_page(root), (0.0, 0.0, 20.0, 20.0)).area)
     100
     """
-    from packwork.readers.contours import contour_region
+    from packwork.readers.pictures.contours import contour_region
 
     if len(part) == 0:
         return Polygon()

@@ -6,7 +6,7 @@ import base64
 import binascii
 import re
 
-from packwork.readers.pictures import picture_size
+from packwork.readers.pictures.decode import picture_size
 
 MAX_ENCODED = 15_000_000
 """Letters of one embedded picture in base64, about 11 MB of file. Chosen."""

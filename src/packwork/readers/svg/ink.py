@@ -12,11 +12,11 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, region
-from packwork.readers.lengths import MAX_COORDINATE
-from packwork.readers.path_data import SubPath
-from packwork.readers.strokes import Pen, stroke_region
-from packwork.readers.svg_shapes import flattened, step_counts
-from packwork.readers.svg_walk import Painted
+from packwork.readers.svg.lengths import MAX_COORDINATE
+from packwork.readers.svg.path_data import SubPath
+from packwork.readers.svg.shapes import flattened, step_counts
+from packwork.readers.svg.strokes import Pen, stroke_region
+from packwork.readers.svg.walk import Painted
 from packwork.readers.unfit import UnfitError
 
 FLATTENING = 2e-5

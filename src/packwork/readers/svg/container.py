@@ -6,9 +6,9 @@ import shapely
 
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
-from packwork.readers.svg import silhouette
-from packwork.readers.svg_drawing import clean_union, read_drawing
-from packwork.readers.svg_ink import Ink
+from packwork.readers.regions import clean_union, silhouette
+from packwork.readers.svg.drawing import read_drawing
+from packwork.readers.svg.ink import Ink
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
 

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from packwork.geometry.polygon import FillRule
-from packwork.readers.lengths import parse_length
-from packwork.readers.strokes import Pen
+from packwork.readers.svg.lengths import parse_length
+from packwork.readers.svg.strokes import Pen
 
 _CLEAR = re.compile(
     r"none|transparent|#[0-9a-f]{3}0|#[0-9a-f]{6}00"

@@ -11,10 +11,9 @@ import re
 import string
 import xml.etree.ElementTree as ET
 
-from packwork.readers import css
-from packwork.readers.embedded import is_harmless_picture
-from packwork.readers.unfit import UnfitError
-from packwork.readers.vocabulary import (
+from packwork.readers.gate import css
+from packwork.readers.gate.embedded import is_harmless_picture
+from packwork.readers.gate.vocabulary import (
     ATTRIBUTES,
     CSS_ONLY,
     ELEMENTS,
@@ -22,6 +21,7 @@ from packwork.readers.vocabulary import (
     RENAMED,
     TEXTS,
 )
+from packwork.readers.unfit import UnfitError
 
 HREF = "xlink:href"
 """The one spelling of references, understood by old and new programs alike."""

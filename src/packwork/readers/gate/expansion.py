@@ -9,12 +9,12 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
-from packwork.readers.embedded import embedded_size
-from packwork.readers.references import elements_by_id, referenced_ids
-from packwork.readers.sanitise import HREF
+from packwork.readers.gate.embedded import embedded_size
+from packwork.readers.gate.references import elements_by_id, referenced_ids
+from packwork.readers.gate.sanitise import HREF
+from packwork.readers.gate.vocabulary import GRADIENTS, SHAPES
+from packwork.readers.gate.xml_tree import MAX_DEPTH
 from packwork.readers.unfit import UnfitError
-from packwork.readers.vocabulary import GRADIENTS, SHAPES
-from packwork.readers.xml_tree import MAX_DEPTH
 
 MAX_EXPANDED = 50_000
 """Elements of a drawing after expansion. Icons have some tens, rich illustrations some

@@ -5,11 +5,11 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from xml.sax.saxutils import escape, quoteattr
 
-from packwork.readers.expansion import check_expansion
-from packwork.readers.references import drop_dangling, prune_unused
-from packwork.readers.sanitise import HREF, sanitised
+from packwork.readers.gate.expansion import check_expansion
+from packwork.readers.gate.references import drop_dangling, prune_unused
+from packwork.readers.gate.sanitise import HREF, sanitised
+from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.unfit import UnfitError
-from packwork.readers.xml_tree import parse_xml
 
 MAX_BYTES = 20_000_000
 """Size of an SVG file. Drawings for packing have kilobytes. Chosen."""

@@ -12,15 +12,15 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
-from packwork.readers.lengths import MAX_COORDINATE, parse_length, parse_numbers
-from packwork.readers.painting import Painting, opacity
-from packwork.readers.path_data import MAX_SEGMENTS, SubPath
-from packwork.readers.references import elements_by_id
-from packwork.readers.sanitise import HREF
-from packwork.readers.svg_shapes import Viewport, diagonal, shape_pieces
-from packwork.readers.transforms import parse_transform, view_matrix
+from packwork.readers.gate.references import elements_by_id
+from packwork.readers.gate.sanitise import HREF
+from packwork.readers.gate.vocabulary import NEVER_DRAWN, SHAPES
+from packwork.readers.svg.lengths import MAX_COORDINATE, parse_length, parse_numbers
+from packwork.readers.svg.painting import Painting, opacity
+from packwork.readers.svg.path_data import MAX_SEGMENTS, SubPath
+from packwork.readers.svg.shapes import Viewport, diagonal, shape_pieces
+from packwork.readers.svg.transforms import parse_transform, view_matrix
 from packwork.readers.unfit import UnfitError
-from packwork.readers.vocabulary import NEVER_DRAWN, SHAPES
 
 PLAIN_VIEWPORT: Viewport = (100.0, 100.0)
 """What percentages refer to in a drawing that states no size."""

@@ -10,9 +10,9 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes
-from packwork.readers.pictures import MAX_PICTURE_BYTES, Pixels, decode_picture
-from packwork.readers.silhouette import SPECK, outline_of_coverage
-from packwork.readers.svg_drawing import clean_union
+from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
+from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
+from packwork.readers.regions import clean_union
 from packwork.readers.unfit import UnfitError, naming
 
 MASK_PX = 2_048

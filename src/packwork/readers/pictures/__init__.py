@@ -1,0 +1,1 @@
+"""Pixel files to regions: silhouettes of items, masks of containers."""

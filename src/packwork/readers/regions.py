@@ -1,0 +1,84 @@
+"""Painted regions to outline and ink: what every reader of items ends with."""
+
+from __future__ import annotations
+
+from typing import Literal, TypeAlias
+
+import shapely
+from shapely.geometry import Polygon
+
+from packwork.arrays import FloatArray
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region, polygon_parts
+from packwork.readers.unfit import UnfitError
+
+Holes: TypeAlias = Literal["fill", "keep"]
+"""Whether the outline is the silhouette with its holes filled, or the ink itself."""
+
+SPECK = 1e-6
+"""Share of a region's area below which a part or a hole of it is dropped. Chosen."""
+
+SMALLEST_EXTENT_PX = 1e-4
+"""Size below which a drawing counts as a point: its digits are used up. Chosen."""
+
+THINNEST = 1e-7
+"""Least area of a drawing as a share of its squared extent. Chosen."""
+
+
+def clean_union(*regions: Region, speck: float = SPECK) -> Region:
+    """Union of regions without specks and pinholes.
+
+    Raises
+    ------
+    UnfitError
+        If nothing is left, or what is left is too small or too thin to be placed.
+
+    Examples
+    --------
+    >>> clean_union(shapely.box(0, 0, 1, 1), shapely.box(5, 5, 5.0001, 5.0001)).area
+    1.0
+    """
+    united = shapely.union_all([p for region in regions for p in polygon_parts(region)])
+    if united.area == 0:
+        raise UnfitError("paints no area; give at least one filled or stroked shape")
+    left, top, right, bottom = united.bounds
+    extent = max(right - left, bottom - top)
+    if extent < SMALLEST_EXTENT_PX or united.area < THINNEST * extent**2:
+        raise UnfitError(
+            f"paints only {right - left:.2g} x {bottom - top:.2g} px, too little to be placed; "
+            "give a larger or thicker shape"
+        )
+    smallest = speck * united.area
+    parts = [
+        Polygon(part.exterior, [h for h in part.interiors if Polygon(h).area > smallest])
+        for part in polygon_parts(united)
+        if part.area > smallest
+    ]
+    return parts[0] if len(parts) == 1 else shapely.union_all(parts)
+
+
+def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
+    """Outline and ink with the outline's centroid at the origin, and the map that did it.
+
+    Examples
+    --------
+    >>> outline, ink, place = centred(shapely.box(2, 2, 4, 6), "fill")
+    >>> outline.bounds, place[:, 2].tolist()
+    ((-1.0, -2.0, 1.0, 2.0), [-3.0, -4.0])
+    """
+    outline = Outline.from_region(silhouette(ink) if holes == "fill" else ink)
+    x, y = outline.centroid
+    place = affine.similarity(-float(x), -float(y), 0.0, 1.0)
+    return outline.mapped(place), Outline.from_region(ink).mapped(place), place
+
+
+def silhouette(ink: Region) -> Region:
+    """Region with every hole filled.
+
+    Examples
+    --------
+    >>> silhouette(shapely.box(0, 0, 3, 3) - shapely.box(1, 1, 2, 2)).area
+    9.0
+    """
+    return shapely.union_all([shapely.Polygon(p.exterior) for p in polygon_parts(ink)])

@@ -1,0 +1,1 @@
+"""Clean drawings to the regions they paint, and to fragments that can be drawn again."""
