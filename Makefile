@@ -14,18 +14,18 @@ demo: .venv/installed
 	$(BIN)/packwork demo
 
 test: .venv/installed-dev
-	$(BIN)/ruff format --check src tests benchmarks examples
-	$(BIN)/ruff check src tests benchmarks examples
+	$(BIN)/ruff format --check src tests benchmarks examples tools
+	$(BIN)/ruff check src tests benchmarks examples tools
 	$(BIN)/mypy
 	$(BIN)/lint-imports
 	$(BIN)/python -m pytest -q -n auto
-	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest -q -n auto -m kernels tests
+	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest -q -n auto tests/raster tests/losses tests/fields
 
 check: test
 
 format: .venv/installed-dev
-	$(BIN)/ruff format src tests benchmarks examples
-	$(BIN)/ruff check --fix src tests benchmarks examples
+	$(BIN)/ruff format src tests benchmarks examples tools
+	$(BIN)/ruff check --fix src tests benchmarks examples tools
 
 clean:
 	rm -rf .venv out build dist .pytest_cache .mypy_cache .ruff_cache

@@ -13,10 +13,10 @@ import sys
 from itertools import cycle, islice
 from pathlib import Path
 
-import frozen
 import numpy as np
-from measuring import Timing, machine, markdown_table, timed, timed_in_turn
 
+import frozen
+from measuring import Timing, machine, markdown_table, timed, timed_in_turn
 from packwork import pipeline
 from packwork.geometry.outline import Outline
 from packwork.losses.linear import LinearAdjoint, LinearWeights

@@ -12,13 +12,13 @@ from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
-from numerics import assert_gradient
-from scenes import box, disc, flat_item, round_container, square
 from typer.testing import CliRunner
 
 import packwork as pw
+from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.cli import app
+from scenes import box, disc, flat_item, round_container, square
 
 EXAMPLE = Path(__file__).parents[1] / "examples" / "own_loss"
 QUICK: dict[str, Any] = {"epochs": 25, "levels": "32,64"}

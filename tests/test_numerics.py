@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
+
 from numerics import (
     STEP,
     assert_adjoint,
@@ -17,7 +18,6 @@ from numerics import (
     smooth_image,
     white_image,
 )
-
 from packwork.arrays import FloatArray
 from packwork.raster.coverage import coverage, coverage_pullback
 

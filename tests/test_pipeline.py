@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 import pytest
-from scenes import disc, flat_item, overlap_area, square, square_container
 
 from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
@@ -19,6 +18,7 @@ from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.solve.solver import Ending
 from packwork.writers import geojson_text, json_bytes, write
+from scenes import disc, flat_item, overlap_area, square, square_container
 
 QUICK = {"container": "circle", "epochs": 25, "levels": "32,64"}
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -17,13 +18,14 @@ NAN, INF = float("nan"), float("inf")
 
 BAD: dict[str, list[Any]] = {
     "container": [3, None],
+    "font": [3, "bold.ttf"],
     "items": [7, ["star", 3]],
     "count": [0, -1, 2.5, "many", MAX_COUNT + 1],
     "canvas": [0, -600, NAN, INF, 1e7, "wide"],
     "seed": [-1, 2**63, 0.5, "lucky"],
     "sizes": ["huge", "", None],
     "size_ratio": [0.99, -2, 101, NAN],
-    "rotate": ["twist", "", "0", "-30", "181", "nan", "0,x", "30,inf", ",", 30],
+    "rotate": ["twist", "", "0", "-30", "181", "nan", "0,x", "30,inf", ","],
     "weights": [3, ["bear"], {"bear": "heavy"}],
     "holes": ["drill", True],
     "strict": ["perhaps", 7],
@@ -32,7 +34,7 @@ BAD: dict[str, list[Any]] = {
     "epochs": [0, -5, 1_000_001, 1.5],
     "levels": [
         "", "fine", "50,", "50;200", f"{MIN_RESOLUTION - 1}", f"{MAX_RESOLUTION + 1}",
-        "50:0", "50:-1", "50:nan", "50:inf", "50:1:2", "1e2", 50,
+        "50:0", "50:-1", "50:nan", "50:inf", "50:1:2", "1e2", 5,
     ],
     "losses": ["overlap", {"overlap": "much"}, {"overlap": NAN}, {"overlap": INF}],
 }  # fmt: skip
@@ -40,6 +42,10 @@ BAD: dict[str, list[Any]] = {
 
 def key_and_value(field: str, values: list[Any]) -> list[Any]:
     return [pytest.param(field, value, id=f"{field}={value!r}") for value in values]
+
+
+def test_a_font_may_be_a_path() -> None:
+    assert make_recipe(container="text:A", font=Path("bold.ttf")).font == "bold.ttf"
 
 
 def test_every_field_has_a_bad_value_here() -> None:
@@ -181,3 +187,10 @@ def test_a_start_is_a_method_else(method: str) -> None:
     recipe = make_recipe(container="heart", start=method)
     assert not recipe.starts_from_layout
     assert recipe.start_options().method == method
+
+
+def test_numbers_and_tuples_say_the_same_as_text() -> None:
+    recipe = make_recipe(container="heart", rotate=30, levels=(50, 200))
+    assert recipe == make_recipe(container="heart", rotate="30", levels="50,200")
+    assert make_recipe(container="heart", rotate=(0,)).rotation.choices == (0.0,)
+    assert make_recipe(container="heart", levels=[64]).solve_options().levels == (64,)

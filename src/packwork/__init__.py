@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from packwork.api import Layout, fill, read_container, read_items
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
+    from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.losses.term import ImageLoss, Term
     from packwork.progress import Step
     from packwork.raster.coverage import coverage as render
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "Container",
+    "FittedOutline",
     "ImageLoss",
     "Item",
     "Layout",
@@ -34,6 +36,7 @@ __all__ = [
     "Term",
     "WriteError",
     "fill",
+    "fit_outline",
     "read_container",
     "read_items",
     "render",
@@ -42,6 +45,7 @@ __all__ = [
 
 _HOMES = {
     "Container": "packwork.scene.container:Container",
+    "FittedOutline": "packwork.fit.fitted:FittedOutline",
     "ImageLoss": "packwork.losses.term:ImageLoss",
     "Item": "packwork.scene.item:Item",
     "Layout": "packwork.api:Layout",
@@ -53,6 +57,7 @@ _HOMES = {
     "Term": "packwork.losses.term:Term",
     "WriteError": "packwork.errors:WriteError",
     "fill": "packwork.api:fill",
+    "fit_outline": "packwork.fit.fitted:fit_outline",
     "read_container": "packwork.api:read_container",
     "read_items": "packwork.api:read_items",
     "render": "packwork.raster.coverage:coverage",

@@ -20,7 +20,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Layout(scene.Layout):
     """Container + items + poses: what :func:`fill` returns, what is saved and shown.
 
@@ -81,8 +81,7 @@ class Layout(scene.Layout):
     @cached_property
     def metrics(self) -> Mapping[str, Any]:
         """Measures by name: LC, LC_ratio, OO, EA, LnU, LC_ink and a table ``exact``."""
-        recorded = self.manifest.get("metrics")
-        return recorded if recorded is not None else measure(self).as_dict()
+        return measure(self).as_dict()
 
     def _repr_svg_(self) -> str:
         return writers.svg_text(self)
@@ -90,7 +89,7 @@ class Layout(scene.Layout):
 
 def fill(
     container: str | Path | Container,
-    items: str | Path | Item | Sequence[str | Path | Item] = "icons",
+    items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
     *,
     observer: Observer | None = None,
     stop: Stop = never,
@@ -101,8 +100,8 @@ def fill(
     Parameters
     ----------
     container
-        A mask (PNG, JPEG), an SVG, a built-in name such as ``"heart"``, or a
-        :class:`Container`.
+        A mask (PNG, JPEG), an SVG, words to fill such as ``"text:HELLO"`` (a ``|``
+        begins a new line), a built-in name such as ``"heart"``, or a :class:`Container`.
     items
         SVGs, pictures, folders, built-in names, or what :func:`read_items` returned.
     observer
@@ -110,7 +109,7 @@ def fill(
     stop
         Asked before every epoch; True ends the run with what it has.
     options
-        As on the command line: ``count``, ``canvas``, ``seed``, ``sizes``,
+        As on the command line: ``count``, ``font``, ``canvas``, ``seed``, ``sizes``,
         ``size_ratio``, ``rotate``, ``weights``, ``holes``, ``strict``, ``start``,
         ``effort``, ``epochs``, ``levels``, ``losses``.
 
@@ -137,7 +136,11 @@ def fill(
     chosen: list[Item] | None = None
     if any(isinstance(entry, Item) for entry in given):
         chosen = _as_items(given, recipe.holes, recipe.strict)
-    return _public(pipeline.fill(recipe, chosen, whole, observer, stop).layout)
+    run = pipeline.fill(recipe, chosen, whole, observer, stop)
+    layout = _public(run.layout)
+    # What was just measured is not measured again when it is asked for.
+    layout.__dict__["metrics"] = run.metrics.as_dict()
+    return layout
 
 
 def read_items(
@@ -173,8 +176,19 @@ def read_items(
     return list(item_reader.read_items(several, holes=holes, strict=strict).items)
 
 
-def read_container(source: str | Path, *, canvas: float = 600.0) -> Container:
-    """Container from a mask, an SVG or a built-in name, its longer side ``canvas`` units.
+def read_container(
+    source: str | Path, *, canvas: float = 600.0, font: str | Path | None = None
+) -> Container:
+    """Container from a mask, an SVG, ``text:WORD`` or a built-in name.
+
+    Parameters
+    ----------
+    source
+        As for :func:`fill`.
+    canvas
+        Its longer side, in canvas units.
+    font
+        Font file for ``text:WORD``; the bundled one if None.
 
     Raises
     ------
@@ -186,7 +200,7 @@ def read_container(source: str | Path, *, canvas: float = 600.0) -> Container:
     >>> read_container("circle").width
     600.0
     """
-    return _read_container(str(source), canvas)
+    return _read_container(str(source), canvas, font)
 
 
 def _as_items(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from importlib import metadata
 from itertools import cycle, islice
 from typing import Any
@@ -43,6 +43,13 @@ Smaller lets the largest stand out more. Tried."""
 
 CHECK_RESOLUTION = 600
 """Pixels on the longer side of the image on which unplaced items are found. Chosen."""
+
+WIDEST_WEIGHTS = 1e6
+"""Largest weight over the smallest: beyond it the small ones could not be seen. Chosen."""
+
+ROUGH_SHARE = 5e-3
+"""Share of the container that may be overlapped or outside before a run counts as rough.
+A run that went well stays fifty times below. Chosen."""
 
 UNPLACED_SHARE = 0.5
 """Share of an item that is overlapped or outside from which it counts as not placed."""
@@ -84,10 +91,15 @@ class Run:
     unplaced: tuple[Unplaced, ...]
     skipped: tuple[PackworkError, ...]
 
+    @property
+    def is_rough(self) -> bool:
+        """Whether far more is overlapped or outside than a run that went well leaves."""
+        exact = self.metrics.exact
+        return exact.overlap + exact.exceeding > ROUGH_SHARE
+
     def report(self, write_seconds: float = 0.0) -> dict[str, Any]:
         """Plain values for ``--report``."""
-        seconds = dict(self.seconds)
-        seconds["write"] = write_seconds
+        seconds = {**self.seconds, "finish": 0.0, "write": write_seconds}
         seconds["total"] = sum(seconds.values())
         return {
             "metrics": self.metrics.as_dict(),
@@ -145,33 +157,58 @@ def fill(
     RecipeError
         If an option has no meaning for these files.
     """
+    return run(read(recipe, items, container), observer, stop)
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """A recipe and all that it names, read and found usable."""
+
+    recipe: Recipe
+    container: Container
+    items: tuple[Item, ...]
+    weights: FloatArray
+    skipped: tuple[PackworkError, ...]
+    clock: Clock
+
+
+def read(
+    recipe: Recipe, items: Sequence[Item] | None = None, container: Container | None = None
+) -> Job:
+    """Read what a recipe names; the first half of :func:`fill`."""
     clock = Clock()
     skipped: tuple[PackworkError, ...] = ()
     with clock.time("read"):
-        region = container or read_container(recipe.container, recipe.canvas)
+        region = container or read_container(recipe.container, recipe.canvas, recipe.font)
         if items is None:
             found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
             items, skipped = found.items, found.skipped
-        chosen = _repeated(items, recipe.count)
+        chosen = tuple(islice(cycle(items), recipe.count or len(items)))
         weights = item_weights(chosen, recipe.weights)
-        outlines = [item.outline for item in chosen]
+    return Job(recipe, region, chosen, weights, skipped, clock)
+
+
+def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
+    """Solve and measure what was read; the second half of :func:`fill`."""
+    recipe, clock = job.recipe, job.clock
+    outlines = [item.outline for item in job.items]
     with clock.time("start"):
-        start, nominal = _start(recipe, region, outlines, weights)
+        start, nominal = _start(recipe, job.container, outlines, job.weights)
     with clock.time("levels"):
         options = recipe.solve_options()
-        outcome = solve(region, outlines, start, nominal, options, observer, stop)
-    layout = Layout(region, chosen, outcome.poses, weights)
+        outcome = solve(job.container, outlines, start, nominal, options, observer, stop)
+    layout = Layout(job.container, job.items, outcome.poses, job.weights)
     with clock.time("measure"):
         metrics = measure(layout)
         unplaced = find_unplaced(layout)
-    manifest = _manifest(recipe, outcome, metrics, clock, unplaced, skipped)
+    manifest = _manifest(job, outcome, metrics, unplaced)
     return Run(
-        layout=Layout(region, chosen, outcome.poses, weights, manifest),
+        layout=replace(layout, manifest=manifest),
         metrics=metrics,
         seconds=clock.seconds,
         ending=outcome.ending,
         unplaced=unplaced,
-        skipped=skipped,
+        skipped=job.skipped,
     )
 
 
@@ -206,7 +243,14 @@ def item_weights(items: Sequence[Item], weights: str | Mapping[str, float] | Non
             )
         if not (np.isfinite(weight) and weight > 0):
             raise RecipeError("weights", f"the weight of {name} must be positive, not {weight}")
-    return np.array([float(table.get(item.name, 1.0)) for item in items])
+    found = np.array([float(table.get(item.name, 1.0)) for item in items])
+    if found.max() / found.min() > WIDEST_WEIGHTS:
+        raise RecipeError(
+            "weights",
+            f"the largest may be {WIDEST_WEIGHTS:g} times the smallest, "
+            f"not {found.max():g} to {found.min():g}",
+        )
+    return found
 
 
 def find_unplaced(layout: Layout) -> tuple[Unplaced, ...]:
@@ -215,9 +259,7 @@ def find_unplaced(layout: Layout) -> tuple[Unplaced, ...]:
     px_per_cu = CHECK_RESOLUTION / layout.container.side
     seen = seen_at(outlines, layout.poses.scale, px_per_cu)
     level = Level(layout.container, seen, CHECK_RESOLUTION)
-    areas = np.array([outline.area for outline in seen])
-    density = level.density(layout.poses)
-    shares = wronged_shares(level, layout.poses, density, areas)
+    shares = wronged_shares(level, layout.poses, level.density(layout.poses))
     return tuple(
         Unplaced(
             layout.items[k].name,
@@ -226,10 +268,6 @@ def find_unplaced(layout: Layout) -> tuple[Unplaced, ...]:
         )
         for k in np.flatnonzero(shares > UNPLACED_SHARE)
     )
-
-
-def _repeated(items: Sequence[Item], count: int | None) -> tuple[Item, ...]:
-    return tuple(islice(cycle(items), count or len(items)))
 
 
 def _start(
@@ -249,15 +287,25 @@ def _start(
         nominal = nominal_scales(hulls, weights, NOMINAL_COVERAGE * container.outline.area)
         scales = yielding_scales(areas, hulls, nominal, recipe.size_ratio, total)
     if recipe.starts_from_layout:
-        return _earlier_poses(recipe, nominal), nominal
+        return _earlier_poses(recipe, container, nominal), nominal
     rotation = recipe.rotation
     angles = start_angles(len(outlines), rotation.limit, rotation.choices, rng)
     return first_poses(container, outlines, scales, angles, options, rng), nominal
 
 
-def _earlier_poses(recipe: Recipe, nominal: FloatArray) -> Poses:
-    """Poses of the layout that ``start`` names, sizes and angles within the recipe's bounds."""
-    poses = read_layout(recipe.start).poses
+def _earlier_poses(recipe: Recipe, container: Container, nominal: FloatArray) -> Poses:
+    """Poses of the layout that ``start`` names, sizes and angles within the recipe's bounds.
+
+    They are stretched to this run's canvas.
+    """
+    earlier = read_layout(recipe.start)
+    ratio = container.side / earlier.container.side
+    poses = Poses(
+        earlier.poses.x * ratio,
+        earlier.poses.y * ratio,
+        earlier.poses.angle,
+        earlier.poses.scale * ratio,
+    )
     if len(poses) != len(nominal):
         raise RecipeError(
             "start",
@@ -274,22 +322,17 @@ def _earlier_poses(recipe: Recipe, nominal: FloatArray) -> Poses:
 
 
 def _manifest(
-    recipe: Recipe,
-    outcome: Outcome,
-    metrics: LayoutMetrics,
-    clock: Clock,
-    unplaced: Sequence[Unplaced],
-    skipped: Sequence[PackworkError],
+    job: Job, outcome: Outcome, metrics: LayoutMetrics, unplaced: Sequence[Unplaced]
 ) -> dict[str, Any]:
     return {
         "packwork": metadata.version("packwork"),
-        "recipe": recipe.model_dump(mode="json"),
-        "seed": recipe.seed,
+        "recipe": job.recipe.plain(),
+        "seed": job.recipe.seed,
         "ending": outcome.ending.value,
         "levels": [asdict(level) for level in outcome.levels],
         "metrics": metrics.as_dict(),
-        "seconds": dict(clock.seconds),
+        "seconds": dict(job.clock.seconds),
         "unplaced": [asdict(u) for u in unplaced],
-        "skipped": [str(error) for error in skipped],
+        "skipped": [str(error) for error in job.skipped],
         "certified": False,
     }

@@ -7,10 +7,23 @@ import re
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    ValidationError,
+    ValidationInfo,
+    field_validator,
+)
 
 from packwork.errors import RecipeError
-from packwork.solve.options import MAX_RESOLUTION, MIN_RESOLUTION, SizeMode, SolveOptions
+from packwork.solve.options import (
+    MAX_RESOLUTION,
+    MIN_RESOLUTION,
+    ImageLossFunction,
+    SizeMode,
+    SolveOptions,
+)
 from packwork.start.options import StartOptions
 
 Effort: TypeAlias = Literal["draft", "normal", "best"]
@@ -64,31 +77,35 @@ class Recipe(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     container: str
-    """What to fill: a mask (PNG, JPEG), an SVG, or a built-in name such as heart."""
+    """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, or a built-in name such as heart."""
 
-    items: tuple[str, ...] = ("icons",)
+    font: str | None = None
+    """Font file (TTF, OTF, TTC) for a container text:WORD. Default: a bundled bold sans."""
+
+    items: tuple[str, ...] = ("builtin:icons",)
     """What to place: SVGs, pictures, folders of them, or built-in names."""
 
     count: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
     """How many items in all; the given ones are repeated in turn. Default: one of each."""
 
-    canvas: Annotated[float, Field(gt=0, le=1e6, allow_inf_nan=False)] = 600.0
-    """Longer side of the canvas, canvas units."""
+    canvas: Annotated[float, Field(ge=1e-3, le=1e6, allow_inf_nan=False)] = 600.0
+    """Longer side of the canvas, in px (96 to the inch): the unit of all results."""
 
     seed: Annotated[int, Field(ge=0, le=2**63 - 1)] = 0
     """Same seed, same machine, same versions: same layout."""
 
     sizes: SizeMode = "free"
-    """free: each item finds its size; shared: all in true proportion; fixed: as given."""
+    """free: each item finds its size; shared: all have equal areas, or areas in the shares
+    of the weights; fixed: as large as in their files."""
 
     size_ratio: Annotated[float, Field(ge=1, le=100)] = 2.0
-    """With free sizes: how far up or down from its nominal size an item may go."""
+    """With free sizes: 2 lets an item be half to twice as large as the typical one."""
 
     rotate: str = "free"
     """free, none, 30 (within 30 degrees of upright) or 0,90 (only these angles)."""
 
     weights: str | dict[str, float] | None = None
-    """Shares of area: a CSV file of name,weight, or a table by name."""
+    """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
 
     holes: Literal["fill", "keep"] = "fill"
     """keep: the holes of items stay free, so that small items may sit in them."""
@@ -109,8 +126,32 @@ class Recipe(BaseModel):
     """Resolutions from coarse to fine, pixels on the longer side, each with its share
     of the epochs; without shares (50,200,600) they are even."""
 
-    losses: dict[str, float] = Field(default_factory=dict)
-    """Further losses, by name or module:function, with their weights."""
+    losses: dict[str | ImageLossFunction, float] = Field(default_factory=dict)
+    """Further losses, by name, module:function or (in Python) as functions, with weights."""
+
+    @field_validator("font", mode="before")
+    @classmethod
+    def _font_may_be_a_path(cls, font: Any) -> Any:
+        return str(font) if isinstance(font, Path) else font
+
+    @field_validator("font")
+    @classmethod
+    def _font_sets_words(cls, font: str | None, info: ValidationInfo) -> str | None:
+        container = str(info.data.get("container", ""))
+        if font is not None and not container.startswith("text:"):
+            raise RecipeError(
+                "font", f"sets a container of words, as in text:HELLO, not {container!r}"
+            )
+        return font
+
+    @field_validator("rotate", "levels", mode="before")
+    @classmethod
+    def _numbers_are_text_too(cls, value: object, info: ValidationInfo) -> object:
+        """Let Python say ``rotate=30``, ``rotate=(0, 90)`` and ``levels=(50, 200)``."""
+        if isinstance(value, tuple | list):
+            alone = len(value) == 1 and info.field_name == "rotate"
+            return ",".join(str(part) for part in value) + ("," if alone else "")
+        return str(value) if isinstance(value, int | float) else value
 
     @field_validator("rotate")
     @classmethod
@@ -120,7 +161,9 @@ class Recipe(BaseModel):
 
     @field_validator("losses")
     @classmethod
-    def _weights_are_finite(cls, losses: dict[str, float]) -> dict[str, float]:
+    def _weights_are_finite(
+        cls, losses: dict[str | ImageLossFunction, float]
+    ) -> dict[str | ImageLossFunction, float]:
         for name, weight in losses.items():
             if not math.isfinite(weight):
                 raise RecipeError("losses", f"the weight of {name} must be a number, not {weight}")
@@ -131,6 +174,15 @@ class Recipe(BaseModel):
     def _levels_are_numbers(cls, text: str) -> str:
         parse_levels(text)
         return text
+
+    def plain(self) -> dict[str, Any]:
+        """Values that JSON can hold; a loss given as a function by its name."""
+        values = self.model_dump(exclude={"losses"}, mode="json")
+        named = {
+            loss if isinstance(loss, str) else getattr(loss, "__qualname__", repr(loss)): weight
+            for loss, weight in self.losses.items()
+        }
+        return {**values, "losses": named}
 
     @property
     def rotation(self) -> Rotation:
@@ -206,12 +258,23 @@ def make_recipe(**options: Any) -> Recipe:
     >>> make_recipe(container="heart", count=0)
     Traceback (most recent call last):
         ...
-    packwork.errors.RecipeError: count: input should be greater than or equal to 1, not 0
+    packwork.errors.RecipeError: count: must be at least 1, not 0
     """
     try:
         return Recipe.model_validate(options)
     except ValidationError as error:
         raise _recipe_error(error) from error
+
+
+_PLAIN_WORDS = {
+    "should be": "must be",
+    "greater than or equal to": "at least",
+    "less than or equal to": "at most",
+    "greater than": "more than",
+    "a valid integer, unable to parse string as an integer": "a whole number",
+    "a valid number, unable to parse string as a number": "a number",
+    "a valid integer, got a number with a fractional part": "a whole number",
+}
 
 
 def _recipe_error(error: ValidationError, names: dict[str, str] | None = None) -> RecipeError:
@@ -222,7 +285,9 @@ def _recipe_error(error: ValidationError, names: dict[str, str] | None = None) -
         return RecipeError(key, f"no such option; there are {', '.join(Recipe.model_fields)}")
     if first["type"] == "missing":
         return RecipeError(key, "must be given")
-    message = re.sub(r"^Value error, ", "", first["msg"])
+    message = re.sub(r"^(Value error, |Input )", "", first["msg"])
+    for said, meant in _PLAIN_WORDS.items():
+        message = message.replace(said, meant)
     return RecipeError(key, f"{message[0].lower()}{message[1:]}, not {first['input']!r}")
 
 

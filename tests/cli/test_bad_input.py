@@ -20,7 +20,11 @@ CONTAINERS = [
     ("hart", "did you mean heart"),
     ("note.txt", "unknown ending '.txt'"),
     ("none", "not known yet"),
-    ("text:HELLO", "not known yet"),
+    ("text:", "holds no word; give one, as in text:HELLO"),
+    ("text:中", "has no glyph for"),
+    ("text:A --font missing.ttf", "there is no such file"),
+    ("text:A --font note.txt", "note.txt: is not a font; give a TTF"),
+    ("heart --font note.txt", "font: sets a container of words, as in text:HELLO, not 'heart'"),
     ("light.png", "all light"),
     ("three.png", "3 x 1 pixels"),
     ("bomb.png", "scale it down"),
@@ -57,12 +61,12 @@ ITEMS = [
 ]
 
 OPTIONS = [
-    ("--count 0", "count: input should be greater than or equal to 1, not 0"),
+    ("--count 0", "--count: must be at least 1, not 0"),
     ("--count -4", "not -4"),
     ("--canvas nan", "canvas: "),
     ("--canvas -1", "canvas: "),
     ("--seed -1", "seed: "),
-    ("--size-ratio 0.5", "size_ratio: "),
+    ("--size-ratio 0.5", "--size-ratio: "),
     ("--rotate twist", "rotate: use free, none, 30"),
     ("--levels fine", "levels: use resolutions like 50,200,600"),
     ("--levels 3", "levels: a level has"),
@@ -93,7 +97,7 @@ OTHERS = [
     ("measure broken.geojson", "is not JSON"),
     ("measure light.png", "UTF-8"),
     ("measure missing.geojson --report note.txt/x.json", "a part of its path is a file"),
-    ("demo unknown", "there are bear"),
+    ("demo unknown", "no built-in container of that name"),
     ("demo --folder note.txt", "a part of its path is a file"),
     ("bench unknown", "benchmarks live in a checkout"),
 ]

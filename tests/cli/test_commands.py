@@ -136,7 +136,7 @@ def test_an_unusable_file_among_many_is_left_out_and_named(
     folder: Path, icons: Path, packwork: Command
 ) -> None:
     (icons / "bad.svg").write_text("<svg", encoding="utf-8")
-    result = packwork(f"fill circle icons {QUICK} -q -o out.geojson --report report.json")
+    result = packwork(f"fill circle icons/ {QUICK} -q -o out.geojson --report report.json")
     assert result.exit_code == 0
     assert result.stderr.startswith("packwork: left out icons/bad.svg: ")
     assert result.stderr.count("\n") == 1
@@ -194,7 +194,7 @@ def test_start_continues_an_earlier_layout(folder: Path, packwork: Command) -> N
 def test_demo_writes_three_files(
     folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    small = {"container": "heart", "items": ["star"], "count": 3, "epochs": 5, "levels": "32"}
+    small = {"items": ["star"], "count": 3, "epochs": 5, "levels": "32"}
     monkeypatch.setitem(sys.modules["packwork.cli.demo"].DEMOS, "heart", small)
     result = packwork("demo heart --folder pictures")
     assert result.exit_code == 0
@@ -207,8 +207,8 @@ def test_every_demo_is_a_recipe() -> None:
     from packwork.recipe import make_recipe
 
     assert "bear" in DEMOS
-    for options in DEMOS.values():
-        make_recipe(**options).solve_options()
+    for name, options in DEMOS.items():
+        make_recipe(container=name, **options).solve_options()
 
 
 def test_bench_runs_a_script_of_the_checkout(folder: Path, packwork: Command) -> None:

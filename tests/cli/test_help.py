@@ -15,6 +15,7 @@ PHRASES = {
     "": ["fill", "measure", "demo", "bench", "--version", "packwork demo"],
     "fill": [
         "packwork fill heart", "packwork fill bear.png icons/ -n 100", "--rotate none",
+        "packwork fill text:HELLO",
         "What is placed", "How it is solved", "What is written", "all built-in icons",
     ],
     "measure": ["packwork measure bear.geojson", "LAYOUT.geojson", "--diagnose"],

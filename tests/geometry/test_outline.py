@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 import shapely
 from hypothesis import given
-from strategies import rounded_sets, star_rings
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, region, signed_area
+from strategies import rounded_sets, star_rings
 
 FRAME = shapely.box(0, 0, 20, 20) - shapely.box(2, 2, 18, 18)
 ISLANDS = (

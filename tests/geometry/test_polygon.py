@@ -7,9 +7,8 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
-from numerics import winding_numbers
-from strategies import SEEDS, lattice_rings, rounded, rounded_sets, star_rings, wild_rings
 
+from numerics import winding_numbers
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import (
     FillRule,
@@ -19,6 +18,7 @@ from packwork.geometry.polygon import (
     region,
     signed_area,
 )
+from strategies import SEEDS, lattice_rings, rounded, rounded_sets, star_rings, wild_rings
 
 RULES = pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
 BOW_TIE = np.array([[0, 0], [2, 2], [2, 0], [0, 2.0]])

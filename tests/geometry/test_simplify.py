@@ -7,12 +7,12 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
-from strategies import star_rings
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import signed_area
 from packwork.geometry.simplify import closed, hull, simplified
+from strategies import star_rings
 
 COMB = np.array(
     [[0, 0], [9, 0], [9, 6], [8, 6], [8, 1], [5, 1],

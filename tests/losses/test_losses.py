@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numerics import assert_gradient
-from strategies import SHAPES, generators
 
+from numerics import assert_gradient
 from packwork.arrays import Image
 from packwork.errors import RecipeError
 from packwork.losses.linear import LinearAdjoint, LinearWeights
 from packwork.losses.overlap import SLACK
 from packwork.losses.registry import LOSSES, find_loss
 from packwork.losses.term import ImageLoss, Term
+from strategies import SHAPES, generators
 
 BUILT_IN = pytest.mark.parametrize("loss", LOSSES.values(), ids=LOSSES.keys())
 DTYPES = pytest.mark.parametrize("dtype", [np.float32, np.float64])

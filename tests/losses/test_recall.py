@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from numerics import assert_gradient
 
+from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.losses.recall import Recall
 

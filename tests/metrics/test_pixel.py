@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scenes import box, square_container
 from scipy.spatial import cKDTree
 
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import DISTANCE_CANVAS, RESOLUTION, pixel_metrics
 from packwork.scene.container import Container
+from scenes import box, square_container
 
 SIDE = 60.0
 """Twenty pixels to a canvas unit, so that whole units are whole pixels."""

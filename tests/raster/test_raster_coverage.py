@@ -9,7 +9,14 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
+
 from numerics import assert_adjoint, box_mean, white_image, winding_numbers
+from packwork.arrays import FloatArray
+from packwork.errors import ShapeError
+from packwork.geometry.polygon import signed_area
+from packwork.raster import _kernels
+from packwork.raster.coverage import MAX_SIDE_PX, Rasteriser, coverage
+from packwork.raster.reference import coverage_image
 from strategies import (
     POLYGONS,
     SEEDS,
@@ -21,13 +28,6 @@ from strategies import (
     star_rings,
     wild_rings,
 )
-
-from packwork.arrays import FloatArray
-from packwork.errors import ShapeError
-from packwork.geometry.polygon import signed_area
-from packwork.raster import _kernels
-from packwork.raster.coverage import MAX_SIDE_PX, Rasteriser, coverage
-from packwork.raster.reference import coverage_image
 
 ACCURACY = {np.float32: 1e-4, np.float64: 1e-9}
 DTYPES = pytest.mark.parametrize("dtype", [np.float32, np.float64])

@@ -7,13 +7,13 @@ from typing import Any
 import numpy as np
 import pytest
 from hypothesis import given
-from numerics import assert_adjoint, white_image
-from strategies import POLYGONS, SHAPES, generators, joined, ring_sets
 
+from numerics import assert_adjoint, white_image
 from packwork.arrays import FloatArray, Image
 from packwork.geometry.polygon import signed_area
 from packwork.raster.coverage import Rasteriser, coverage
 from packwork.raster.reference import coverage_image
+from strategies import POLYGONS, SHAPES, generators, joined, ring_sets
 
 
 def _integrals(rings: list[FloatArray], image: Image, dtype: Any = np.float64) -> FloatArray:

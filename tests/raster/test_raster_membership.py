@@ -9,14 +9,14 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
-from numerics import winding_numbers
-from strategies import POLYGONS, SHAPES, generators, joined, ring_sets, star_rings
 
+from numerics import winding_numbers
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import region
 from packwork.raster.membership import centre_count
+from strategies import POLYGONS, SHAPES, generators, joined, ring_sets, star_rings
 
 
 def _centres(shape: tuple[int, int]) -> tuple[FloatArray, FloatArray]:

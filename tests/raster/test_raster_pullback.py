@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+
 from numerics import (
     assert_gradient,
     box_spread,
@@ -16,11 +17,10 @@ from numerics import (
     smooth_image,
     white_image,
 )
-from strategies import POLYGONS, SHAPES, generators, joined, ring_sets
-
 from packwork.arrays import FloatArray, Image, IntArray
 from packwork.geometry.polygon import signed_area
 from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback
+from strategies import POLYGONS, SHAPES, generators, joined, ring_sets
 
 SHAPE = (9, 11)
 ADJOINTS = pytest.mark.parametrize("adjoint_of", [white_image, smooth_image])

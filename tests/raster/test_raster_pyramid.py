@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from numerics import box_mean
-from strategies import star_rings
 
+from numerics import box_mean
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
+from strategies import star_rings
 
 
 @pytest.mark.parametrize(

@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from strategies import SHAPES
 
 from packwork.arrays import FloatArray, Image, IntArray
 from packwork.raster import _kernels
 from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback
+from strategies import SHAPES
 
 GUARD = 512
 UNTOUCHED = -77_777

@@ -9,11 +9,11 @@ import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
-from strategies import generators, star_rings
 
 from packwork.arrays import FloatArray
 from packwork.raster.coverage import coverage
 from packwork.raster.reference import clipped_area, composite, coverage_image
+from strategies import generators, star_rings
 
 
 @given(ring=star_rings())

@@ -6,11 +6,11 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from scenes import disc, poses, square, star
 
 from packwork.geometry.outline import Outline
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
+from scenes import disc, poses, square, star
 
 Scene = tuple[list[Outline], Poses]
 

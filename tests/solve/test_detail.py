@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scenes import box, disc, square
 
 from packwork.geometry.outline import Outline
 from packwork.solve.detail import CLEFT_PX, DETAIL_PX, seen_at
+from scenes import box, disc, square
 
 
 def test_a_fine_level_keeps_more_points_than_a_coarse_one() -> None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from numerics import assert_gradient
-from scenes import as_array, box, disc, from_array, placed, poses, square, star
 
+from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.solve.ensemble import Ensemble
+from scenes import as_array, box, disc, from_array, placed, poses, square, star
 
 PX_PER_CU = 0.75
 

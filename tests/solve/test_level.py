@@ -6,21 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from numerics import assert_gradient, compare
-from scenes import (
-    as_array,
-    disc,
-    from_array,
-    overlap_area,
-    placed,
-    poses,
-    round_container,
-    square,
-    square_container,
-    star,
-    taken,
-)
 
+from numerics import assert_gradient, compare
 from packwork.arrays import FloatArray, Image
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
@@ -35,6 +22,19 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.ensemble import Ensemble
 from packwork.solve.level import Level
+from scenes import (
+    as_array,
+    disc,
+    from_array,
+    overlap_area,
+    placed,
+    poses,
+    round_container,
+    square,
+    square_container,
+    star,
+    taken,
+)
 
 WEIGHTS = LinearWeights(containment=5.0, overlap=7.0, filling=1.5)
 

@@ -6,10 +6,10 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from scenes import poses
 
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
+from scenes import poses
 
 Options = Callable[..., SolveOptions]
 PUSH = np.array([[1.0, 0.0, 1.0, 1.0], [-1.0, 0.0, -1.0, -1.0]])

@@ -7,6 +7,12 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+
+from packwork.geometry.outline import Outline
+from packwork.progress import Step
+from packwork.scene.pose import Poses
+from packwork.solve.options import SolveOptions
+from packwork.solve.solver import Ending, solve
 from scenes import (
     disc,
     overlap_area,
@@ -19,12 +25,6 @@ from scenes import (
     star,
     taken,
 )
-
-from packwork.geometry.outline import Outline
-from packwork.progress import Step
-from packwork.scene.pose import Poses
-from packwork.solve.options import SolveOptions
-from packwork.solve.solver import Ending, solve
 
 Options = Callable[..., SolveOptions]
 Scene = tuple[list[Outline], Poses]

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from strategies import generators
 
 from packwork.arrays import FloatArray
 from packwork.start.distance_field import distance_field
+from strategies import generators
 
 
 def disc_image(side: int) -> FloatArray:

@@ -7,7 +7,6 @@ from typing import Literal
 import numpy as np
 import pytest
 import shapely
-from scenes import box, disc, placed, round_container, share_inside, square, star
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
@@ -16,6 +15,7 @@ from packwork.scene.pose import Poses
 from packwork.start.angles import nearest_allowed, start_angles
 from packwork.start.first_poses import first_poses, start_resolution
 from packwork.start.options import StartOptions
+from scenes import box, disc, placed, round_container, share_inside, square, star
 
 Method = Literal["distance-field", "scatter"]
 METHODS = pytest.mark.parametrize("method", ["distance-field", "scatter"])

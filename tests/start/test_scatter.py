@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
-from strategies import generators
 
 from packwork.start.scatter import scatter
+from strategies import generators
 
 
 @given(rng=generators(), count=st.integers(1, 50), px_per_cu=st.floats(0.1, 10))

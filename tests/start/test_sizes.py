@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from scenes import disc, square, star
-from strategies import generators
 
 from packwork.start.sizes import hull_areas, nominal_scales, yielding_scales
+from scenes import disc, square, star
+from strategies import generators
 
 
 @given(rng=generators(), n=st.integers(1, 20), total=st.floats(1, 1e6))

@@ -25,8 +25,16 @@ app = typer.Typer(
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 
-# Whatever the library logs, the commands say in their own words.
-_SILENCE = logging.NullHandler()
+
+class _Notices(logging.Handler):
+    """Prints what the library logs, one line each, to standard error."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Print one notice."""
+        typer.echo("packwork: " + " ".join(record.getMessage().split()), err=True)
+
+
+_NOTICES = _Notices(logging.WARNING)
 
 
 def _version(wanted: bool) -> None:
@@ -43,7 +51,7 @@ def _main(
         False, "--version", callback=_version, is_eager=True, help="Show the version and stop."
     ),
 ) -> None:
-    logging.getLogger("packwork").addHandler(_SILENCE)
+    logging.getLogger("packwork").addHandler(_NOTICES)
 
 
 app.command()(fill)

@@ -9,7 +9,7 @@ from types import FrameType
 
 import typer
 
-from packwork.errors import PackworkError
+from packwork.errors import PackworkError, RecipeError
 
 SHORTFALL = 1
 """Ran and wrote what it has, but something asked was not met."""
@@ -26,6 +26,8 @@ def clear_errors() -> Iterator[None]:
         yield
     except PackworkError as error:
         line = " ".join(str(error).split())
+        if isinstance(error, RecipeError) and error.key not in {"container", "items"}:
+            line = "--" + error.key.replace("_", "-") + line.removeprefix(error.key)
         typer.echo(f"packwork: {line}", err=True)
         raise typer.Exit(BAD_INPUT) from None
     except KeyboardInterrupt:

@@ -28,12 +28,14 @@ def fill(
         str,
         typer.Argument(
             metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, or a built-in name such as heart.",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD (text:ONE|TWO for two "
+            "lines), or a built-in name such as heart.",
         ),
     ],
     items: ItemNames = None,
     output: shared.Output = None,
     count: shared.Count = None,
+    font: shared.Font = None,
     canvas: shared.Canvas = 600.0,
     sizes: shared.Sizes = "free",
     size_ratio: shared.SizeRatio = 2.0,
@@ -61,13 +63,16 @@ def fill(
 
     [bold]packwork fill bear.png icons/ -n 100 -o bear.svg -o bear.png[/]  your own
 
+    [bold]packwork fill text:HELLO icons/ -n 150[/]  a word to fill
+
     [bold]packwork fill logo.svg star circle --rotate none --sizes shared[/]
     """
     with clear_errors():
         recipe = make_recipe(
             container=container,
-            items=items or ["icons"],
+            items=items or ["builtin:icons"],
             count=count,
+            font=font,
             canvas=canvas,
             sizes=sizes,
             size_ratio=size_ratio,

@@ -37,6 +37,8 @@ def measure(
                 writers.check_writable(path)
         found = read_layout(layout)
         metrics = measure_layout(found).as_dict()
+        # A saved layout holds outlines, not what was drawn in them.
+        del metrics["LC_ink"]
         picture = None if diagnose is None else writers.diagnose_png(found, pixels)
         if report is not None:
             writers.write_atomic(

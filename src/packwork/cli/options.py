@@ -34,6 +34,7 @@ Output = Annotated[
     ),
 ]
 Count = Annotated[int | None, flag("count", "-n", "--count", panel=PLACING)]
+Font = Annotated[str | None, flag("font", panel=PLACING)]
 Canvas = Annotated[float, flag("canvas", panel=PLACING)]
 Sizes = Annotated[Literal["free", "shared", "fixed"], flag("sizes", panel=PLACING)]
 SizeRatio = Annotated[float, flag("size_ratio", panel=PLACING)]

@@ -19,6 +19,9 @@ from packwork.cli.show import Bar, metrics_table, notice_if_slow, seconds_line
 from packwork.recipe import Recipe
 from packwork.scene.layout import Layout
 
+MOST_NAMED = 5
+"""Items without a place that are named on the terminal; a report names all. Chosen."""
+
 COMPILING = "Compiling the kernels: on the first run only, up to 20 s ..."
 
 
@@ -45,13 +48,14 @@ def run_and_write(
         if side is not None:
             writers.check_writable(side)
     console = Console(quiet=quiet, highlight=False)
+    job = pipeline.read(recipe)
     with notice_if_slow(console, COMPILING):
         pipeline.warm_up()
     bar = Bar(recipe.solve_options().epochs, console)
     interrupt = Interrupt()
     with interrupt.listening():
         with bar.showing():
-            run = pipeline.fill(recipe, observer=None if quiet else bar, stop=interrupt)
+            run = pipeline.run(job, None if quiet else bar, interrupt)
         began = time.perf_counter()
         _write(run.layout, outputs, writing, diagnose)
         results = run.report(time.perf_counter() - began)
@@ -60,8 +64,9 @@ def run_and_write(
     _warn(run)
     _show(results, outputs, console)
     if interrupt.pressed:
+        typer.echo("packwork: stopped by Ctrl-C; this is the best so far, still rough", err=True)
         return INTERRUPTED
-    return SHORTFALL if run.unplaced else 0
+    return SHORTFALL if run.unplaced or run.is_rough else 0
 
 
 def _write(
@@ -76,11 +81,27 @@ def _write(
 
 
 def _warn(run: pipeline.Run) -> None:
-    for error in run.skipped:
-        typer.echo(f"packwork: left out {error}", err=True)
-    for unplaced in run.unplaced:
+    if run.is_rough:
+        exact = run.metrics.exact
+        typer.echo(
+            f"packwork: still rough: {100 * exact.overlap:.1f} % of the container is covered "
+            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; try more --effort, "
+            "fewer items or --sizes free",
+            err=True,
+        )
+    for unplaced in run.unplaced[:MOST_NAMED]:
         typer.echo(
             f"packwork: not placed: {unplaced.item} (item {unplaced.index + 1}): {unplaced.reason}",
+            err=True,
+        )
+    more = len(run.unplaced) - MOST_NAMED
+    if more > 0:
+        typer.echo(f"packwork: not placed: {more} more; --report names them all", err=True)
+    share = float(run.layout.areas.sum()) / run.layout.container.outline.area
+    if run.unplaced and share > 1:
+        typer.echo(
+            f"packwork: the items' area is {share:.1f} times the container's; "
+            "use fewer, a larger --canvas or --sizes free",
             err=True,
         )
 
@@ -91,5 +112,7 @@ def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console)
         f"{results['placed']} of {results['items']} items placed; "
         f"{seconds_line(results['seconds'])}",
         style="dim",
+        soft_wrap=True,
     )
-    console.print("wrote " + ", ".join(str(path) for path in outputs))
+    written = ", ".join(str(path) for path in outputs)
+    console.print(f"wrote {written}", soft_wrap=True, markup=False)

@@ -66,19 +66,20 @@ def notice_if_slow(console: Console, text: str) -> Iterator[None]:
 
 
 def metrics_table(metrics: Mapping[str, Any]) -> Table:
-    """Measures, one a row: by pixels beside exact ones, with what they mean."""
+    """Measures, one a row: by pixels beside exact ones, and the paper's names for them."""
     exact = metrics.get("exact", {})
     table = Table(box=None, pad_edge=False, header_style="dim")
-    for heading in ("measure", "pixels", "exact"):
-        table.add_column(heading, justify="left" if heading == "measure" else "right")
-    table.add_column("meaning", style="dim")
-    table.add_row("LC", _percent(metrics["LC"]), _percent(exact.get("LC")), "covered")
-    table.add_row("LC ink", "", _percent(metrics.get("LC_ink")), "covered by what is drawn")
-    table.add_row("OO", _small(metrics["OO"]), _small(exact.get("OO")), "covered twice")
-    table.add_row("EA", _small(metrics["EA"]), _small(exact.get("EA")), "outside the container")
-    table.add_row("L-nU", f"{metrics['LnU']:.1f}", "", "unevenness of the gaps, px²")
+    for heading in ("of the container", "pixels", "exact"):
+        table.add_column(heading, justify="left" if heading == "of the container" else "right")
+    table.add_column("", style="dim")
+    table.add_row("covered", _percent(metrics["LC"]), _percent(exact.get("LC")), "LC")
+    if "LC_ink" in metrics:
+        table.add_row("covered by what is drawn", "", _percent(metrics["LC_ink"]), "LC ink")
+    table.add_row("covered twice", _percent(metrics["OO"]), _percent(exact.get("OO")), "OO")
+    table.add_row("outside", _percent(metrics["EA"]), _percent(exact.get("EA")), "EA")
+    table.add_row("unevenness of the gaps, px²", f"{metrics['LnU']:.1f}", "", "L-nU")
     gap = exact.get("min_gap")
-    table.add_row("gap", "", "" if gap is None else f"{gap:.3g}", "smallest, canvas units")
+    table.add_row("smallest gap, px", "", "" if gap is None else f"{gap:.3g}", "")
     return table
 
 
@@ -94,8 +95,6 @@ def seconds_line(seconds: Mapping[str, float]) -> str:
 
 
 def _percent(share: float | None) -> str:
-    return "" if share is None else f"{100 * share:.2f} %"
-
-
-def _small(share: float | None) -> str:
-    return "" if share is None else f"{share:.2e}" if share else "0"
+    if share is None:
+        return ""
+    return f"{100 * share:.2f} %" if share >= 1e-3 or share == 0 else f"{100 * share:.4f} %"

@@ -1,1 +1,1 @@
-"""Images derived from images: distances, room, box sums."""
+"""Images derived from images: distances and room."""

@@ -17,8 +17,8 @@ LOSSES: Mapping[str, ImageLoss] = MappingProxyType(
 )
 
 
-def find_loss(name: str) -> ImageLoss:
-    """Loss by its registered name, or by ``module:function`` for one's own.
+def find_loss(name: str | ImageLoss) -> ImageLoss:
+    """Loss by its registered name, by ``module:function``, or given as a function.
 
     Raises
     ------
@@ -30,6 +30,8 @@ def find_loss(name: str) -> ImageLoss:
     >>> find_loss("overlap").__name__
     'overlap'
     """
+    if not isinstance(name, str):
+        return name
     if name in LOSSES:
         return LOSSES[name]
     module, colon, function = name.partition(":")

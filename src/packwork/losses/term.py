@@ -5,7 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+import numpy as np
+
 from packwork.arrays import FloatArray, Image
+from packwork.errors import RecipeError
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,6 +37,39 @@ class ImageLoss(Protocol):
     def __call__(self, density: Image, container: Image) -> Term:
         """Return the value and its derivative; leave both images as they are."""
         ...
+
+
+def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
+    """Term of a loss that may be anyone's, found fit to be used.
+
+    Raises
+    ------
+    RecipeError
+        If the loss fails, returns no Term, or one of another size or not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> checked_term(lambda density, container: None, np.ones((1, 1)), np.ones((1, 1)))
+    Traceback (most recent call last):
+        ...
+    packwork.errors.RecipeError: loss: <lambda> must return a Term, not NoneType
+    """
+    name = getattr(loss, "__name__", repr(loss))
+    try:
+        term = loss(density, container)
+    except Exception as error:  # anyone's code may raise anything
+        raise RecipeError("loss", f"{name} failed: {type(error).__name__}: {error}") from error
+    if not isinstance(term, Term):
+        raise RecipeError("loss", f"{name} must return a Term, not {type(term).__name__}")
+    if np.shape(term.adjoint) != density.shape:
+        raise RecipeError(
+            "loss",
+            f"{name}'s adjoint must have shape {density.shape}, not {np.shape(term.adjoint)}",
+        )
+    if not np.isfinite(term.adjoint).all():
+        raise RecipeError("loss", f"{name}'s adjoint must be finite; it has NaN or infinite values")
+    return term
 
 
 @dataclass(frozen=True, eq=False)

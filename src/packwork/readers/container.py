@@ -6,27 +6,32 @@ import math
 from pathlib import Path
 
 from packwork.errors import ReadError
-from packwork.readers.builtin import builtin_container
+from packwork.readers.builtin import BUILTIN, builtin_container, container_names
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.svg.container import container_of_svg, placed_container
+from packwork.readers.text.container import PREFIX, container_of_words
 from packwork.scene.container import Container
 
 MASK_ENDINGS = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".tiff")
 """Endings of pictures that are read as masks."""
 
-_FORMS = "a PNG or JPEG mask, an SVG or a built-in name such as circle or heart"
-_LATER = ("text:", "around:")
+_FORMS = "a PNG or JPEG mask, an SVG, text:WORD or a built-in name such as circle or heart"
+_LATER = "around:"
 
 
-def read_container(source: str | Path, side: float = 600.0) -> Container:
-    """Container of a mask, an SVG or a built-in name; a path that exists wins.
+def read_container(
+    source: str | Path, side: float = 600.0, font: str | Path | None = None
+) -> Container:
+    """Container of a mask, an SVG, ``text:WORD`` or a built-in name; a path that exists wins.
 
     Parameters
     ----------
     side
         Longer side of the canvas, in canvas units.
+    font
+        Font file for ``text:WORD``; the bundled one if None.
 
     Raises
     ------
@@ -41,13 +46,20 @@ def read_container(source: str | Path, side: float = 600.0) -> Container:
     text = str(source)
     if not (math.isfinite(side) and side > 0):
         raise ReadError(text, f"the canvas needs a positive side, not {side:g}")
+    if text.startswith(BUILTIN):
+        return builtin_container(text.removeprefix(BUILTIN), side)
     path = Path(text)
-    if _exists(path):
+    # A folder or a note that happens to be called "heart" is not what was meant.
+    if _exists(path) and not (path.suffix == "" and text in container_names()):
         return _container_of_file(path, text, side)
+    if text.startswith(PREFIX):
+        return container_of_words(text, side, font)
     if text == "none" or text.startswith(_LATER):
         raise ReadError(text, f"this form of container is not known yet; give {_FORMS}")
     if path.suffix.lower() in {".svg", *MASK_ENDINGS} or len(path.parts) > 1:
-        raise ReadError(text, "there is no such file")
+        known = path.stem in container_names() and len(path.parts) == 1
+        hint = f"; the built-in shape is {path.stem}" if known else ""
+        raise ReadError(text, f"there is no such file{hint}")
     return builtin_container(text, side)
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from packwork.errors import ReadError
-from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names
+from packwork.readers.builtin import ALL_ICONS, BUILTIN, builtin_item, icon_names, item_names
 from packwork.readers.container import MASK_ENDINGS
 from packwork.readers.pictures.silhouette import read_picture
 from packwork.readers.regions import Holes
@@ -45,8 +45,9 @@ def read_items(
 ) -> ItemsRead:
     """Items of files, folders (not the folders inside), patterns and built-in names.
 
-    A path that exists wins over a built-in name. A file named by itself must be usable;
-    one among many of a folder or a pattern is skipped with a warning if it is not.
+    A path that exists wins over a built-in name; ``builtin:star`` is never a path. A file
+    named by itself must be usable; one among many of a folder or a pattern is skipped
+    with a warning if it is not.
 
     Parameters
     ----------
@@ -80,8 +81,12 @@ def read_items(
 
 
 def _read_source(source: str, holes: Holes, *, strict: bool) -> ItemsRead:
+    if source.startswith(BUILTIN):
+        return _built_in(source.removeprefix(BUILTIN), holes)
     path = Path(source)
     if _is_folder(path):
+        if source in {ALL_ICONS, *item_names()}:
+            _LOG.warning("%s: the folder here is meant; %s%s is bundled", source, BUILTIN, source)
         return _read_many(source, _files_in(path), holes, strict=strict)
     if path.suffix.lower() in _READERS and (path.exists() or not glob.has_magic(source)):
         return ItemsRead((_READERS[path.suffix.lower()](source, holes),), ())
@@ -90,8 +95,12 @@ def _read_source(source: str, holes: Holes, *, strict: bool) -> ItemsRead:
         return _read_many(source, matches, holes, strict=strict)
     if _is_file(path) or len(path.parts) > 1:
         raise ReadError(source, _why_not(path))
-    names = icon_names() if source == ALL_ICONS else [source]
-    return ItemsRead(tuple(builtin_item(name, holes) for name in names), ())
+    return _built_in(source, holes)
+
+
+def _built_in(name: str, holes: Holes) -> ItemsRead:
+    names = icon_names() if name == ALL_ICONS else [name]
+    return ItemsRead(tuple(builtin_item(n, holes) for n in names), ())
 
 
 def _read_many(source: str, files: list[str], holes: Holes, *, strict: bool) -> ItemsRead:
@@ -103,10 +112,11 @@ def _read_many(source: str, files: list[str], holes: Holes, *, strict: bool) -> 
         except ReadError as error:
             if strict:
                 raise
-            _LOG.warning("skipped %s", error)
             skipped.append(error)
     if not items:
         raise ReadError(source, _why_none(skipped))
+    for refusal in skipped:
+        _LOG.warning("left out %s", refusal)
     return ItemsRead(tuple(items), tuple(skipped))
 
 

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
+from contextvars import ContextVar
 
 from shapely.errors import GEOSException
 
 from packwork.errors import ReadError, ShapeError
+
+_reading: ContextVar[str] = ContextVar("reading", default="")
+"""The file whose content is being read, for notices about it."""
 
 
 class UnfitError(Exception):
@@ -30,6 +35,7 @@ def naming(file: str) -> Iterator[None]:
     Traceback (most recent call last):
     packwork.errors.ReadError: a.svg: is empty
     """
+    before = _reading.set(file)
     try:
         yield
     except UnfitError as refusal:
@@ -38,3 +44,10 @@ def naming(file: str) -> Iterator[None]:
         raise ReadError(file, f"holds a shape that cannot be used: {error}") from error
     except GEOSException as error:
         raise ReadError(file, f"holds a shape that cannot be resolved: {error}") from error
+    finally:
+        _reading.reset(before)
+
+
+def notice(text: str) -> None:
+    """Log that something of the file being read was left out, so that nothing is silent."""
+    logging.getLogger("packwork").warning("%s: %s", _reading.get() or "drawing", text)

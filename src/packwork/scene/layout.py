@@ -17,7 +17,7 @@ from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Layout:
     """Container + items + poses.
 
@@ -47,6 +47,9 @@ class Layout:
                 f"a layout needs as many poses and weights as items ({len(self.items)}), "
                 f"not {len(self.poses)} and {len(self.weights)}"
             )
+
+    def __repr__(self) -> str:
+        return f"<Layout: {len(self.items)} items in {self.container.name}>"
 
     @cached_property
     def outlines(self) -> tuple[Outline, ...]:

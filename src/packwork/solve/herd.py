@@ -15,7 +15,7 @@ from packwork.fields.clearance import Clearance
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
 
-TRAPPED_SHARE = 0.05
+TRAPPED_SHARE = 0.02
 """Share of an item that is overlapped or outside from which it counts as trapped.
 Smaller moves items that would have worked themselves free. Tried."""
 
@@ -38,16 +38,16 @@ class Rescue:
     to_y: float
 
 
-def wronged_shares(level: Level, poses: Poses, density: Image, areas: FloatArray) -> FloatArray:
+def wronged_shares(level: Level, poses: Poses, density: Image) -> FloatArray:
     """Share of each item's area that is overlapped or outside the container, ``(n,)``.
 
     ``density`` must be the one whose walk the level still has on record.
     """
     wrong = np.maximum(np.clip(density - 1, 0, 1), 1 - level.container_image)
     per_item = level.ensemble.per_item(level.rasteriser.ring_integrals(wrong))
-    areas_px = areas * (poses.scale * level.px_per_cu) ** 2
-    off_canvas = level.ensemble.per_item(level.rasteriser.ring_integrals(np.ones_like(density)))
-    return np.asarray((per_item + np.maximum(areas_px - off_canvas, 0)) / areas_px)
+    areas_px = level.areas * (poses.scale * level.px_per_cu) ** 2
+    on_canvas = level.ensemble.per_item(level.rasteriser.ring_integrals(np.ones_like(density)))
+    return np.asarray((per_item + np.maximum(areas_px - on_canvas, 0)) / areas_px)
 
 
 def herd(
@@ -67,7 +67,7 @@ def herd(
         ``(n,)`` bounds of the scales; equal where an item may not change.
     """
     density = level.density(poses)
-    shares = wronged_shares(level, poses, density, areas)
+    shares = wronged_shares(level, poses, density)
     worst = np.argsort(-shares, kind="stable")[: max(1, int(MOST_AT_ONCE * len(poses)))]
     worst = worst[shares[worst] > TRAPPED_SHARE]
     if len(worst) == 0:
@@ -77,7 +77,9 @@ def herd(
     rescues = []
     for k in worst:
         x_px, y_px, free_px = room.largest()
-        free = max(free_px, 0.5) / level.px_per_cu
+        if free_px <= 0:
+            break  # No void is left: wherever it went, it would be worse off.
+        free = free_px / level.px_per_cu
         fitting = np.sqrt(SNUGNESS * np.pi * free**2 / areas[k])
         scale[k] = np.clip(min(fitting, scale[k]), smallest[k], largest[k])
         x[k], y[k] = x_px / level.px_per_cu, y_px / level.px_per_cu

@@ -11,7 +11,7 @@ from packwork.geometry.outline import Outline
 from packwork.losses.linear import LinearAdjoint, LinearWeights
 from packwork.losses.recall import Recall
 from packwork.losses.registry import find_loss
-from packwork.losses.term import ImageLoss
+from packwork.losses.term import ImageLoss, checked_term
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
@@ -31,7 +31,7 @@ class Level:
     resolution
         Pixels on the canvas' longer side.
     losses
-        Further image losses by name, with their weights.
+        Further image losses, by name or as functions, with their weights.
     """
 
     def __init__(
@@ -39,7 +39,7 @@ class Level:
         container: Container,
         outlines: Sequence[Outline],
         resolution: int,
-        losses: Mapping[str, float] | None = None,
+        losses: Mapping[str | ImageLoss, float] | None = None,
     ) -> None:
         self.resolution = resolution
         self.px_per_cu = resolution / container.side
@@ -47,11 +47,12 @@ class Level:
         self.rasteriser = Rasteriser(shape, np.float32)
         self.container_image = region_image(container.outline, self.rasteriser, self.px_per_cu)
         self.ensemble = Ensemble(outlines)
-        self._areas = np.array([o.area for o in outlines])
+        self.areas = np.array([o.area for o in outlines])
+        """``(n,)`` areas of the outlines as this level sees them, item units squared."""
         self._linear = LinearAdjoint(self.container_image)
         self._recall = Recall(self.container_image, self.px_per_cu)
         self._losses: list[tuple[ImageLoss, float]] = [
-            (find_loss(name), weight) for name, weight in (losses or {}).items()
+            (find_loss(loss), weight) for loss, weight in (losses or {}).items()
         ]
 
     def gradient(self, poses: Poses, weights: LinearWeights) -> FloatArray:
@@ -66,7 +67,7 @@ class Level:
         by_points = self.rasteriser.pullback(adjoint, beyond=weights.containment)
         by_pose = self.ensemble.gather(by_points, poses, self.px_per_cu)
         by_pose /= self.px_per_cu**2
-        recall = self._recall(poses.x, poses.y, self._areas * poses.scale**2)
+        recall = self._recall(poses.x, poses.y, self.areas * poses.scale**2)
         pull = weights.containment * self.px_per_cu / self.resolution
         by_pose[:, 0] += pull * recall.x
         by_pose[:, 1] += pull * recall.y
@@ -80,7 +81,8 @@ class Level:
 
     def shares(self, density: Image) -> tuple[float, float, float]:
         """Shares of the container: covered, covered twice, covered outside it."""
-        whole = float(self.container_image.sum())
+        # A container that no pixel of this level shows counts as one pixel.
+        whole = max(float(self.container_image.sum()), 1.0)
         covered = np.minimum(density, 1)
         inside = float((covered * self.container_image).sum())
         twice = float(np.maximum(density - 1, 0).sum())
@@ -94,5 +96,6 @@ class Level:
         density = self.rasteriser.density()
         adjoint = self._linear(accumulation, weights)
         for loss, weight in self._losses:
-            adjoint += weight * density.size * loss(density, self.container_image).adjoint
+            term = checked_term(loss, density, self.container_image)
+            adjoint += weight * density.size * term.adjoint
         return adjoint

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from collections.abc import Callable
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -13,6 +14,9 @@ MIN_RESOLUTION = 8
 
 MAX_RESOLUTION = 8_192
 """Finest level, px: the renderer's largest image."""
+
+ImageLossFunction: TypeAlias = Callable[..., Any]
+"""An ImageLoss; its own type would bring numpy to the command line's help."""
 
 Resolution: TypeAlias = Annotated[int, Field(ge=MIN_RESOLUTION, le=MAX_RESOLUTION)]
 
@@ -79,8 +83,8 @@ class SolveOptions(BaseModel):
     memory: Annotated[float, Field(ge=0, lt=1)] = 0.96
     """Decay of Adam's second moment (the paper: 0.9). Tried."""
 
-    losses: dict[str, float] = Field(default_factory=dict)
-    """Further image losses by name or module:function, with their weights."""
+    losses: dict[str | ImageLossFunction, float] = Field(default_factory=dict)
+    """Further image losses by name, module:function or as functions, with weights."""
 
     herd: bool = True
     """Between levels and half-way through the last one, move items that are badly

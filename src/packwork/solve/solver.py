@@ -121,6 +121,7 @@ class _Run:
         is_last = index == len(self._options.levels) - 1
         herding = epochs // 2 if is_last else epochs
         rescues: list[Rescue] = []
+        before = self._done
         for epoch in range(1, epochs + 1):
             if self._stop():
                 self.is_stopped = True
@@ -130,8 +131,9 @@ class _Run:
                 rescues = self._herd(level)
             self._tell(level, index, epoch, epochs)
         shares = level.shares(level.density(self.motion.poses))
+        done = self._done - before
         seconds = time.perf_counter() - began
-        return LevelReport(resolution, epochs, seconds, *shares, rescues=tuple(rescues))
+        return LevelReport(resolution, done, seconds, *shares, rescues=tuple(rescues))
 
     def _epoch(self, level: Level) -> None:
         progress = self._done / max(self._options.epochs - 1, 1)

@@ -34,7 +34,8 @@ def nominal_scales(areas: FloatArray, weights: FloatArray, total_cu2: float) -> 
     >>> nominal_scales(np.array([1.0, 4.0]), np.ones(2), 8.0).tolist()
     [2.0, 1.0]
     """
-    return np.asarray(np.sqrt(total_cu2 * weights / weights.sum() / areas))
+    shares = weights / weights.max()
+    return np.asarray(np.sqrt(total_cu2 * shares / shares.sum() / areas))
 
 
 def hull_areas(outlines: Sequence[Outline]) -> FloatArray:

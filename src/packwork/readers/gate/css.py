@@ -112,7 +112,8 @@ def parse_rules(sheet: str) -> list[Rule]:
     rules: list[Rule] = []
     for prelude, block in _blocks(_COMMENT.sub(" ", sheet)):
         declarations = parse_declarations(block)
-        if len(rules) > MAX_RULES:
+        # Counted before they are parted: a list of a million selectors is one block.
+        if len(rules) + prelude.count(",") >= MAX_RULES:
             raise UnfitError(f"has more than {MAX_RULES:,} style rules; save it as plain SVG")
         for selector in prelude.split(","):
             steps = _parse_selector(selector)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from xml.sax.saxutils import escape, quoteattr
 
-from packwork.readers.gate.expansion import check_expansion
+from packwork.readers.gate.expansion import bound_expansion
 from packwork.readers.gate.references import drop_dangling, prune_unused
 from packwork.readers.gate.sanitise import HREF, sanitised
 from packwork.readers.gate.xml_tree import parse_xml
@@ -47,7 +47,7 @@ def admit(data: bytes) -> ET.Element:
     root = sanitised(parse_xml(data))
     drop_dangling(root)
     prune_unused(root)
-    check_expansion(root)
+    bound_expansion(root)
     return root
 
 

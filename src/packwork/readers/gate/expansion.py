@@ -9,12 +9,13 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
+from packwork.readers.gate.dashes import dashes_per_unit, draw_solid, line_length, settle_dashes
 from packwork.readers.gate.embedded import embedded_size
 from packwork.readers.gate.references import elements_by_id, referenced_ids
 from packwork.readers.gate.sanitise import HREF
 from packwork.readers.gate.vocabulary import GRADIENTS, SHAPES
 from packwork.readers.gate.xml_tree import MAX_DEPTH
-from packwork.readers.unfit import UnfitError
+from packwork.readers.unfit import UnfitError, notice
 
 MAX_EXPANDED = 50_000
 """Elements of a drawing after expansion. Icons have some tens, rich illustrations some
@@ -24,14 +25,20 @@ MAX_LAYERS = 16
 """Clips, masks and blended groups inside one another: each is a picture of its
 own while the drawing is rendered. Chosen."""
 
+MAX_DASHES = 20_000
+"""Dashes of a drawing: about ten milliseconds of each of its copies in a picture. Chosen."""
+
 _PIXELS_PER_ELEMENT = 10_000
+_COUNTABLE = 10**15
 _PAINT_NAMES = frozenset({"fill", "stroke", "marker-start", "marker-mid", "marker-end"})
 _LAYER_COSTS = {"clip-path": 25, "mask": 100, "opacity": 10, "style": 10}
 """Elements that an off-screen layer counts for when the drawing is rendered. Chosen."""
 
 
-def check_expansion(root: ET.Element) -> None:
+def bound_expansion(root: ET.Element) -> None:
     """Refuse a clean drawing that grows too large or too deep, or refers to itself.
+
+    One of more than ``MAX_DASHES`` dashes is kept, its lines drawn solid, in place.
 
     Raises
     ------
@@ -42,14 +49,15 @@ def check_expansion(root: ET.Element) -> None:
     --------
     >>> loop = ET.fromstring('<svg><g id="a"><use xlink:href="#a" xmlns:xlink="x"/></g></svg>')
     >>> loop[0][0].attrib.clear(); loop[0][0].set("xlink:href", "#a")
-    >>> check_expansion(loop)
+    >>> bound_expansion(loop)
     Traceback (most recent call last):
     packwork.readers.unfit.UnfitError: refers to itself in a circle (at id 'a'); ...
     """
-    size = _Counter(elements_by_id(root)).measure(root, 0)
+    is_dashed = settle_dashes(root)
+    size = _Counter(elements_by_id(root), is_dashed=is_dashed).measure(root, 0)
     count = size.count
     if count > MAX_EXPANDED:
-        met = f"{count:,}" if count < 10**15 else "far too many"
+        met = f"{count:,}" if count < _COUNTABLE else "far too many"
         raise UnfitError(
             f"grows to {met} elements once its references are followed; "
             f"{MAX_EXPANDED:,} are the most, so simplify it"
@@ -59,6 +67,9 @@ def check_expansion(root: ET.Element) -> None:
             f"nests clips, masks or see-through groups {size.layers} deep; "
             f"{MAX_LAYERS} are the most, so flatten it"
         )
+    if size.dashes > MAX_DASHES:
+        draw_solid(root)
+        notice(f"dashed lines are drawn solid, for they have more than {MAX_DASHES:,} dashes")
 
 
 @dataclass(frozen=True)
@@ -68,13 +79,16 @@ class _Size:
     count: int
     levels: int
     layers: int
+    length: float
+    dashes: float
 
 
 class _Counter:
     """Sizes of expanded elements, each element visited once."""
 
-    def __init__(self, by_id: dict[str, ET.Element]) -> None:
+    def __init__(self, by_id: dict[str, ET.Element], *, is_dashed: bool) -> None:
         self._by_id = by_id
+        self._is_dashed = is_dashed
         self._known: dict[ET.Element, _Size] = {}
         self._open: set[ET.Element] = set()
 
@@ -102,19 +116,31 @@ class _Counter:
 
     def _sum(self, element: ET.Element, depth: int) -> _Size:
         inside = [self.measure(child, depth + 1) for child in element]
-        count, per_shape = _own_cost(element) + sum(part.count for part in inside), 0
+        painted: list[tuple[int, _Size]] = []
         for name, target in referenced_ids(element):
             part = self.measure(self._by_id[target], depth + 1)
-            inside.append(part)
             if name in _PAINT_NAMES:
-                per_shape += _paint_cost(element, name, part.count, self._by_id[target])
+                painted.append((_paint_times(element, name, self._by_id[target]), part))
             else:
-                count += part.count
+                inside.append(part)
+        count = _own_cost(element) + sum(part.count for part in inside)
+        length, dashes = self._dashed(element, inside)
+        shapes = float(min(count, _COUNTABLE))
+        reached = [*inside, *(part for _, part in painted)]
         return _Size(
-            count * (1 + per_shape),
-            1 + max((part.levels for part in inside), default=0),
-            _is_layer(element) + max((part.layers for part in inside), default=0),
+            count=count * (1 + sum(times * part.count for times, part in painted)),
+            levels=1 + max((part.levels for part in reached), default=0),
+            layers=_is_layer(element) + max((part.layers for part in reached), default=0),
+            length=length,
+            dashes=dashes + shapes * sum(times * part.dashes for times, part in painted),
         )
+
+    def _dashed(self, element: ET.Element, inside: list[_Size]) -> tuple[float, float]:
+        """Length of all lines and number of dashes; who sets dashes sets them for all inside."""
+        if not self._is_dashed:
+            return 0.0, 0.0
+        length = line_length(element) + sum(part.length for part in inside)
+        return length, length * dashes_per_unit(element) + sum(part.dashes for part in inside)
 
 
 def _is_layer(element: ET.Element) -> bool:
@@ -129,11 +155,10 @@ def _own_cost(element: ET.Element) -> int:
     return cost
 
 
-def _paint_cost(element: ET.Element, name: str, count: int, target: ET.Element) -> int:
-    """Elements drawn again for each shape painted so; inherited by all shapes inside."""
+def _paint_times(element: ET.Element, name: str, target: ET.Element) -> int:
+    """Times that ``target`` is drawn for each shape painted so; inherited by all inside."""
     if target.tag in GRADIENTS:
         return 0
     if name.startswith("marker") and element.tag in SHAPES:
-        vertices = len(element.get("d", "") or element.get("points", "")) // 4
-        return count * max(1, vertices)
-    return count
+        return max(1, len(element.get("d", "") or element.get("points", "")) // 4)
+    return 1

@@ -21,7 +21,7 @@ from packwork.readers.gate.vocabulary import (
     RENAMED,
     TEXTS,
 )
-from packwork.readers.unfit import UnfitError
+from packwork.readers.unfit import UnfitError, notice
 
 HREF = "xlink:href"
 """The one spelling of references, understood by old and new programs alike."""
@@ -130,9 +130,12 @@ def _plain_attributes(raw: ET.Element) -> dict[str, str]:
     plain: dict[str, str] = {}
     for key, value in raw.attrib.items():
         if key in _HREF_NAMES:
-            target = _safe_reference(value, is_image=_split(raw.tag)[1] == "image")
+            is_image = _split(raw.tag)[1] == "image"
+            target = _safe_reference(value, is_image=is_image)
             if target is not None:
                 plain[HREF] = target
+            elif is_image:
+                notice("a linked picture was left out, for no other file is read; embed it")
         elif key == _XML_SPACE and value in {"preserve", "default"}:
             plain["xml:space"] = value
         elif key == "style" or (key == "class" and len(value) <= MAX_VALUE):

@@ -2,22 +2,33 @@
 
 from __future__ import annotations
 
+import xml.etree.ElementTree as ET
+
 import shapely
 
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
+from packwork.readers.pictures.decode import decode_picture
+from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.regions import clean_union, silhouette
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.ink import Ink
+from packwork.readers.svg.trace import TRACE_PX, page_picture
+from packwork.readers.svg.walk import Page
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
+
+WHOLE_PAGE = 0.999
+"""Share of the page from which a drawing counts as painted all over. Chosen."""
 
 
 def container_of_svg(data: bytes, name: str, source: str, side: float) -> Container:
     """Container of an SVG's bytes, its canvas the page, scaled to ``side``.
 
-    Filled areas count, with their holes and parts; in a line drawing, which has none,
-    the inside of the outermost lines does. Without a page the canvas is the region's box.
+    Filled shapes count, with their holes and parts, and of shapes drawn as lines the
+    inside. Where that is the whole page, as with a white sheet behind the drawing, its
+    picture is taken for a mask: dark is inside. Without a page the canvas is the
+    region's box.
 
     Raises
     ------
@@ -37,6 +48,8 @@ def container_of_svg(data: bytes, name: str, source: str, side: float) -> Contai
         left, top, right, bottom = region.bounds
         if drawing.page is not None:
             left, top, right, bottom = 0.0, 0.0, drawing.page.width, drawing.page.height
+            if region.area > WHOLE_PAGE * (right * bottom):
+                region = _dark_part(drawing.root, drawing.page)
         return placed_container(name, source, region, (left, top, right - left, bottom - top), side)
 
 
@@ -67,6 +80,14 @@ def placed_container(
 
 
 def _inside(ink: Ink) -> Region:
-    if ink.fills.area > 0:
-        return clean_union(ink.fills)
-    return silhouette(clean_union(ink.strokes))
+    inside = [ink.fills] if ink.fills.area > 0 else []
+    if ink.lines.area > 0:
+        inside.append(silhouette(ink.lines))
+    return clean_union(*inside)
+
+
+def _dark_part(root: ET.Element, page: Page) -> Region:
+    """What is dark on a page that is painted all over, in CSS pixels."""
+    pixels = decode_picture(page_picture(root, page), TRACE_PX).pixels
+    traced = mask_of_pixels(pixels)
+    return shapely.transform(traced.region, lambda points: points * (page.width / traced.width))

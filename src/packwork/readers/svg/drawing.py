@@ -59,7 +59,7 @@ def read_drawing(data: bytes) -> Drawing:
     check_tiles(root, shapes, max(page.width, page.height))
     part = inked_part(root, page)
     check_tiles(root, shapes, max(part[2:], default=0.0))
-    return Drawing(root, page, Ink(traced_ink(root, page, part), Polygon(), is_cut=True))
+    return Drawing(root, page, Ink(traced_ink(root, page, part), Polygon(), Polygon(), is_cut=True))
 
 
 def _framed(root: ET.Element, shapes: list[Painted]) -> Page:

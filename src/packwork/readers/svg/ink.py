@@ -45,12 +45,15 @@ class Ink:
     ----------
     fills, strokes
         Regions, each possibly empty.
+    lines
+        The part of ``strokes`` that belongs to shapes without a fill.
     is_cut
         Whether a page or a viewport cuts off part of what is drawn.
     """
 
     fills: Region
     strokes: Region
+    lines: Region
     is_cut: bool
 
 
@@ -70,7 +73,7 @@ def painted_ink(shapes: Sequence[Painted]) -> Ink:
     box = drawing_box(shapes)
     extent = 0.0 if box is None else float((box[2:] - box[:2]).max())
     if extent <= 0:
-        return Ink(Polygon(), Polygon(), is_cut=False)
+        return Ink(Polygon(), Polygon(), Polygon(), is_cut=False)
     tolerance = FLATTENING * extent
     _check_detail(shapes, tolerance)
     cut: list[Painted] = []
@@ -82,8 +85,10 @@ def painted_ink(shapes: Sequence[Painted]) -> Ink:
         return _clipped(painted, shape.window)
 
     fills = [shown(_fill(s, tolerance), s) for s in shapes if s.painting.has_fill]
-    strokes = [shown(_stroke(s, tolerance), s) for s in shapes if s.painting.has_stroke]
-    return Ink(_union(fills), _union(strokes), is_cut=bool(cut))
+    stroked = [(s, shown(_stroke(s, tolerance), s)) for s in shapes if s.painting.has_stroke]
+    lines = [region for shape, region in stroked if not shape.painting.has_fill]
+    strokes = [region for _, region in stroked]
+    return Ink(_union(fills), _union(strokes), _union(lines), is_cut=bool(cut))
 
 
 def drawing_box(shapes: Iterable[Painted]) -> FloatArray | None:

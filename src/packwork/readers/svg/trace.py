@@ -117,6 +117,23 @@ def _make_solid(element: ET.Element) -> None:
 
 def _coverage(root: ET.Element, page: Page, part: tuple[float, float, float, float]) -> FloatArray:
     """Opacity 0..1 of one part of the page, its longer side ``TRACE_PX`` pixels."""
+    pixels = decode_picture(page_picture(root, page, part), TRACE_PX).pixels
+    return np.asarray(pixels[:, :, 3], dtype=np.float64) / 255.0
+
+
+def page_picture(
+    root: ET.Element, page: Page, part: tuple[float, float, float, float] | None = None
+) -> bytes:
+    """PNG of one part of the page (left, top, width, height), or all of it.
+
+    Its longer side is ``TRACE_PX`` pixels.
+
+    Raises
+    ------
+    UnfitError
+        If resvg cannot render the drawing.
+    """
+    part = part or (0.0, 0.0, page.width, page.height)
     left, top, width, height = part
     scale = TRACE_PX / max(width, height)
     inner = copy.copy(root)
@@ -132,8 +149,7 @@ def _coverage(root: ET.Element, page: Page, part: tuple[float, float, float, flo
         },
     )
     outer.append(inner)
-    pixels = decode_picture(render(outer), TRACE_PX).pixels
-    return np.asarray(pixels[:, :, 3], dtype=np.float64) / 255.0
+    return render(outer)
 
 
 def render(root: ET.Element) -> bytes:

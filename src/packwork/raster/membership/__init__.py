@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from packwork.arrays import as_points, as_starts
 from packwork.errors import ShapeError
-from packwork.raster import _kernels
+from packwork.raster.membership import _kernels
 
 
 def centre_count(

@@ -1,0 +1,110 @@
+"""Letters to lines of words, no part of one touching another."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Mapping, Sequence
+
+import shapely
+from shapely import affinity
+
+from packwork.geometry.polygon import Region
+from packwork.readers.text.face import Letter, named
+from packwork.readers.unfit import UnfitError
+
+MOST_CHARACTERS = 500
+"""Characters in one container; more could not be filled on any canvas. Chosen."""
+
+LETTER_GAP = 0.04
+"""Least distance between neighbouring letters, in ems. Larger wastes the canvas, smaller
+lets items of one letter crowd those of the next. Chosen."""
+
+LINE_GAP = 0.12
+"""Distance between the boxes of two lines, in ems. Chosen."""
+
+
+def lines_of(text: str) -> list[str]:
+    """Lines of a text, ``|`` between them, in composed characters, single spaces.
+
+    Raises
+    ------
+    UnfitError
+        If nothing is left, it is too long, or runs from right to left.
+
+    Examples
+    --------
+    >>> lines_of(" HELLO   big|WORLD| ")
+    ['HELLO big', 'WORLD']
+    """
+    composed = "".join(c for c in unicodedata.normalize("NFC", text) if not _is_unseen(c))
+    lines = [" ".join(line.split()) for line in composed.split("|")]
+    kept = [line for line in lines if line]
+    if not kept:
+        raise UnfitError("holds no word; give one, as in text:HELLO")
+    if sum(map(len, kept)) > MOST_CHARACTERS:
+        raise UnfitError(f"is longer than {MOST_CHARACTERS} characters; give fewer words")
+    backward = sorted(c for c in set(composed) if unicodedata.bidirectional(c) in {"R", "AL"})
+    if backward:
+        raise UnfitError(
+            f"holds {named(backward)}, written from right to left, which cannot be set yet; "
+            "draw it as an SVG"
+        )
+    return kept
+
+
+def set_lines(lines: Sequence[str], letters: Mapping[str, Letter]) -> Region:
+    """Region of centred lines, one under the other, in ems.
+
+    Letters stand by their advance, moved apart where they would come nearer than
+    ``LETTER_GAP``; lines stand ``LINE_GAP`` under each other's ink.
+
+    Raises
+    ------
+    UnfitError
+        If a line has no ink at all.
+
+    Examples
+    --------
+    >>> block = Letter(shapely.box(0, -1, 1, 0), 1.0)
+    >>> set_lines(["aa", "a"], {"a": block}).bounds
+    (-1.02, 0.0, 1.02, 2.12)
+    """
+    placed, top = [], 0.0
+    for line in lines:
+        ink = _set_line(line, letters)
+        left, low, right, high = ink.bounds
+        placed.append(affinity.translate(ink, -(left + right) / 2, top - low))
+        top += high - low + LINE_GAP
+    return shapely.union_all(placed)
+
+
+def _set_line(line: str, letters: Mapping[str, Letter]) -> Region:
+    pieces: list[Region] = []
+    x = 0.0
+    for character in line:
+        letter = letters[character]
+        moved = affinity.translate(letter.region, x)
+        is_apart = not unicodedata.combining(character)
+        push = _push(pieces[-1], moved) if pieces and is_apart and not moved.is_empty else 0.0
+        if not moved.is_empty:
+            pieces.append(affinity.translate(moved, push))
+        x += push + letter.advance
+    if not pieces:
+        raise UnfitError(f"draws nothing for {line!r}; choose another font")
+    return shapely.union_all(pieces)
+
+
+def _push(before: Region, after: Region) -> float:
+    """How far right ``after`` must go to keep its distance from ``before``."""
+    push, widest = 0.0, before.bounds[2] - after.bounds[0] + LETTER_GAP
+    lack = LETTER_GAP - float(shapely.distance(before, after))
+    # A step right widens the gap by no more than itself, so no step goes too far.
+    while lack > 1e-3 * LETTER_GAP and push < widest:
+        push += lack
+        lack = LETTER_GAP - float(shapely.distance(before, affinity.translate(after, push)))
+    return push
+
+
+def _is_unseen(character: str) -> bool:
+    """Whether a character only steers the text: joiners, marks of direction, variants."""
+    return unicodedata.category(character) == "Cf" or 0xFE00 <= ord(character) <= 0xFE0F

@@ -1,0 +1,208 @@
+"""Any bytes give letters or a ReadError, never anything else, and soon."""
+
+from __future__ import annotations
+
+import io
+import itertools
+import struct
+import time
+from collections.abc import Callable, Iterator
+
+import pytest
+from fontTools.fontBuilder import FontBuilder
+from fontTools.misc.psCharStrings import T2CharString
+from fontTools.pens.t2CharStringPen import T2CharStringPen
+from fontTools.pens.ttGlyphPen import TTGlyphPen
+from fontTools.ttLib import TTFont, newTable
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from packwork.errors import ReadError
+from packwork.readers.text.characters import glyph_numbers
+from packwork.readers.text.container import container_of_words
+from packwork.readers.text.face import letters
+from packwork.readers.text.sfnt import MAX_FONT_BYTES
+from packwork.readers.unfit import UnfitError, naming
+
+SECONDS_AT_MOST = 20.0
+"""A bomb takes hours or all memory; the bound is that generous for slow machines."""
+
+
+def small_font(is_ttf: bool) -> bytes:
+    builder = FontBuilder(1000, isTTF=is_ttf)
+    names = [".notdef", "a", "b"]
+    builder.setupGlyphOrder(names)
+    builder.setupCharacterMap({ord("a"): "a", ord("b"): "b"})
+    glyphs = {}
+    for name in names:
+        pen = TTGlyphPen(glyphs) if is_ttf else T2CharStringPen(600, None)
+        if name == "b" and is_ttf:
+            pen.addComponent("a", (1, 0, 0, 1, 50, 0))
+        elif name != ".notdef":
+            pen.moveTo((0, 0))
+            pen.curveTo((0, 300), (200, 700), (400, 700)) if not is_ttf else pen.qCurveTo(
+                (0, 700), (400, 700)
+            )
+            pen.lineTo((400, 0))
+            pen.closePath()
+        glyphs[name] = pen.glyph() if is_ttf else pen.getCharString()
+    builder.setupGlyf(glyphs) if is_ttf else builder.setupCFF("Test", {}, glyphs, {})
+    builder.setupHorizontalMetrics(dict.fromkeys(names, (600, 0)))
+    builder.setupHorizontalHeader(ascent=800, descent=-200)
+    builder.setupPost()
+    return saved(builder.font)
+
+
+def saved(font: TTFont) -> bytes:
+    stream = io.BytesIO()
+    font.save(stream)
+    return stream.getvalue()
+
+
+TRUETYPE, POSTSCRIPT = small_font(True), small_font(False)
+
+
+def letters_or_read_error(data: bytes) -> None:
+    try:
+        with naming("a.ttf"):
+            found = letters(data, "ab")
+    except ReadError as error:
+        message = str(error)
+    else:
+        assert all(letter.region.is_valid for letter in found.values())
+        return
+    assert message.startswith("a.ttf: ")
+    assert len(message.splitlines()) == 1
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.sampled_from([b"", b"\0\1\0\0", b"OTTO", b"ttcf", b"true"]), st.binary(max_size=300))
+def test_any_bytes(start, data):
+    letters_or_read_error(start + data)
+
+
+@settings(deadline=None, max_examples=300)
+@given(st.data(), st.sampled_from([TRUETYPE, POSTSCRIPT]))
+def test_mutated_bytes(data, font):
+    mutated = bytearray(font)
+    for _ in range(data.draw(st.integers(1, 8))):
+        place = data.draw(st.integers(0, len(mutated) - 1))
+        mutated[place] = data.draw(st.sampled_from([0, 1, 0x7F, 0x80, 0xFF]) | st.integers(0, 255))
+    letters_or_read_error(bytes(mutated))
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.sampled_from([TRUETYPE, POSTSCRIPT]), st.floats(0, 1), st.integers(0, 30))
+def test_spliced_bytes(font, share, length):
+    place = int(share * len(font))
+    letters_or_read_error(font[:place] + font[place + length :])
+
+
+@pytest.fixture
+def soon() -> Iterator[None]:
+    began = time.perf_counter()
+    yield
+    assert time.perf_counter() - began < SECONDS_AT_MOST
+
+
+def changed(data: bytes, change: Callable[[TTFont], None]) -> bytes:
+    font = TTFont(io.BytesIO(data), recalcBBoxes=False)
+    change(font)
+    return saved(font)
+
+
+@pytest.mark.usefixtures("soon")
+@pytest.mark.parametrize("form", [12, 13])
+def test_characters_claimed_by_the_billion(form):
+    groups = struct.pack(">LLL", 0, 0xFFFFFFFF, 1) * 10_000
+    table = struct.pack(">HHLLL", form, 0, 16 + len(groups), 0, 10_000) + groups
+    cmap = struct.pack(">HHHHL", 0, 1, 3, 10, 12) + table
+    assert glyph_numbers(cmap, "a")["a"] > 0
+
+
+@pytest.mark.usefixtures("soon")
+def test_a_glyph_made_of_a_thousand_copies_of_a_thousand_copies():
+    glyphs = {".notdef": TTGlyphPen(None).glyph()}
+    names = [".notdef", *(f"g{k}" for k in range(30)), "a"]
+    for before, name in itertools.pairwise(names):
+        pen = TTGlyphPen(dict.fromkeys(names))
+        for _ in range(10):
+            pen.addComponent(before, (1, 0, 0, 1, 0, 0))
+        glyphs[name] = pen.glyph()
+        glyphs[name].xMin = glyphs[name].yMin = glyphs[name].xMax = glyphs[name].yMax = 0
+
+    def nest(font: TTFont) -> None:
+        font.setGlyphOrder(names)
+        font["glyf"] = newTable("glyf")
+        font["glyf"].glyphs, font["glyf"].glyphOrder = glyphs, names
+        font["hmtx"].metrics = dict.fromkeys(names, (600, 0))
+        for table in font["cmap"].tables:
+            table.cmap = {ord("a"): "a", ord("b"): "a"}
+
+    with pytest.raises(UnfitError, match="more than 20,000 pieces"):
+        letters(changed(TRUETYPE, nest), "a")
+
+
+@pytest.mark.usefixtures("soon")
+def test_a_glyph_made_of_itself():
+    def loop(font: TTFont) -> None:
+        font["glyf"]["b"].components[0].glyphName = "b"
+
+    with pytest.raises(UnfitError, match="damaged font"):
+        letters(changed(TRUETYPE, loop), "b")
+
+
+@pytest.mark.usefixtures("soon")
+def test_a_program_of_ten_calls_of_ten_calls():
+    def nest(font: TTFont) -> None:
+        top = font["CFF "].cff[0]
+        # Calls k of a subroutine push its number less the bias of 107.
+        programs = [[k - 1 - 107, "callgsubr"] * 10 if k else [0, 0, "rlineto"] for k in range(9)]
+        for program in programs:
+            top.GlobalSubrs.append(T2CharString(program=[*program, "return"]))
+        call = [0, 0, "rmoveto", 8 - 107, "callgsubr", "endchar"]
+        program = T2CharString(program=call, private=top.Private, globalSubrs=top.GlobalSubrs)
+        top.CharStrings["a"] = program
+
+    with pytest.raises(UnfitError, match=r"more than (20,000 pieces|200,000 steps)"):
+        letters(changed(POSTSCRIPT, nest), "a")
+
+
+@pytest.mark.usefixtures("soon")
+def test_places_of_glyphs_that_run_backwards():
+    def reverse(font: TTFont) -> None:
+        size = len(font.reader["glyf"])
+        font["loca"] = newTable("loca")
+        font["loca"].compile = lambda _: struct.pack(">4H", 0, size // 2, 0, size // 2)
+        glyf = font.reader["glyf"]
+        font["glyf"] = newTable("glyf")
+        font["glyf"].compile = lambda _: glyf
+
+    with pytest.raises(UnfitError, match="its glyphs overlap in the file"):
+        letters(changed(TRUETYPE, reverse), "a")
+
+
+def test_a_font_without_an_em():
+    at = TRUETYPE.index(b"head") + 8
+    (offset,) = struct.unpack_from(">L", TRUETYPE, at)
+    data = TRUETYPE[: offset + 18] + b"\0\0" + TRUETYPE[offset + 20 :]
+    with pytest.raises(UnfitError, match="an em of 0 units"):
+        letters(data, "a")
+
+
+@pytest.mark.parametrize(
+    ("data", "without", "problem"),
+    [(TRUETYPE, b"glyf", "without outlines"), (POSTSCRIPT, b"CFF ", "without outlines")],
+)
+def test_fonts_without_outlines(data, without, problem):
+    with pytest.raises(UnfitError, match=problem):
+        letters(data.replace(without, b"zzzz", 1), "a")
+    with pytest.raises(UnfitError, match="CFF2 outlines"):
+        letters(data.replace(without, b"CFF2", 1), "a")
+
+
+def test_a_file_that_is_too_large(tmp_path):
+    with (tmp_path / "large.ttf").open("wb") as file:
+        file.truncate(MAX_FONT_BYTES + 1)
+    with pytest.raises(ReadError, match="larger than 50 MB"):
+        container_of_words("text:a", 100, tmp_path / "large.ttf")
