@@ -29,7 +29,8 @@ PARAMETERS = [
     for parameter in command.params
 ]
 WRITING_OPTIONS = {
-    "output", "pixels", "background", "outline", "flatten", "report", "diagnose", "quiet", "loss",
+    "output", "pixels", "background", "outline", "flatten", "report", "diagnose", "save_recipe",
+    "quiet", "loss",
 }  # fmt: skip
 
 

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import packwork as pw
 from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
 from packwork.metrics.measure import measure
@@ -247,3 +248,17 @@ def test_item_weights_follow_names_not_places() -> None:
 
 def test_warming_up_changes_nothing_that_is_seen() -> None:
     pipeline.warm_up()
+
+
+def test_padding_keeps_items_apart_and_off_the_edge() -> None:
+    options = {"count": 12, "effort": "draft", "levels": "64,300", "seed": 2}
+    close = pw.fill("circle", ["star", "heart"], **options)
+    padded = pw.fill("circle", ["star", "heart"], padding=10, **options)
+    assert close.metrics["exact"]["min_gap"] < 2
+    assert padded.metrics["exact"]["min_gap"] > 7
+    assert padded.metrics["LC"] > 0.4
+
+
+def test_padding_larger_than_the_container_is_refused() -> None:
+    with pytest.raises(pw.RecipeError, match="leaves nothing of the container"):
+        pw.fill("circle", ["star"], count=2, padding="200%")

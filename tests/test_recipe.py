@@ -26,6 +26,7 @@ BAD: dict[str, list[Any]] = {
     "sizes": ["huge", "", None],
     "size_ratio": [0.99, -2, 101, NAN],
     "rotate": ["twist", "", "0", "-30", "181", "nan", "0,x", "30,inf", ","],
+    "padding": ["wide", "-1", "", "2 parsec", NAN, INF],
     "weights": [3, ["bear"], {"bear": "heavy"}],
     "holes": ["drill", True],
     "strict": ["perhaps", 7],
@@ -194,3 +195,19 @@ def test_numbers_and_tuples_say_the_same_as_text() -> None:
     assert recipe == make_recipe(container="heart", rotate="30", levels="50,200")
     assert make_recipe(container="heart", rotate=(0,)).rotation.choices == (0.0,)
     assert make_recipe(container="heart", levels=[64]).solve_options().levels == (64,)
+
+
+@pytest.mark.parametrize(
+    ("text", "pixels"),
+    [
+        ("4", 4),
+        (2.5, 2.5),
+        ("3pt", 4),
+        ("25.4mm", 96),
+        ("1 in", 96),
+        ("2%", 12),
+        (".5cm", 48 / 2.54),
+    ],
+)
+def test_lengths(text: str | float, pixels: float) -> None:
+    assert make_recipe(container="heart", padding=text).padding_cu == pytest.approx(pixels)

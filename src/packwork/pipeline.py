@@ -16,6 +16,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import PackworkError, RecipeError
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import grown
 from packwork.metrics.measure import LayoutMetrics, measure
 from packwork.metrics.pixel import pixel_metrics
 from packwork.progress import Observer, Stop, never
@@ -47,9 +48,9 @@ CHECK_RESOLUTION = 600
 WIDEST_WEIGHTS = 1e6
 """Largest weight over the smallest: beyond it the small ones could not be seen. Chosen."""
 
-ROUGH_SHARE = 5e-3
+ROUGH_SHARE = 0.03
 """Share of the container that may be overlapped or outside before a run counts as rough.
-A run that went well stays fifty times below. Chosen."""
+A run that went well stays a hundred times below. Chosen."""
 
 UNPLACED_SHARE = 0.5
 """Share of an item that is overlapped or outside from which it counts as not placed."""
@@ -193,10 +194,11 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
     recipe, clock = job.recipe, job.clock
     outlines = [item.outline for item in job.items]
     with clock.time("start"):
-        start, nominal = _start(recipe, job.container, outlines, job.weights)
+        region = padded(job.container, recipe.padding_cu)
+        start, nominal = _start(recipe, region, outlines, job.weights)
     with clock.time("levels"):
         options = recipe.solve_options()
-        outcome = solve(job.container, outlines, start, nominal, options, observer, stop)
+        outcome = solve(region, outlines, start, nominal, options, observer, stop)
     layout = Layout(job.container, job.items, outcome.poses, job.weights)
     with clock.time("measure"):
         metrics = measure(layout)
@@ -210,6 +212,22 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         unplaced=unplaced,
         skipped=job.skipped,
     )
+
+
+def padded(container: Container, padding: float) -> Container:
+    """Container drawn in by half the padding; the items' own margins are the other half.
+
+    Raises
+    ------
+    RecipeError
+        If nothing of the container is left.
+    """
+    outline = grown(container.outline, -padding / 2)
+    if padding > 0 and outline is container.outline:
+        raise RecipeError(
+            "padding", f"{padding:g} px leaves nothing of the container; use a smaller one"
+        )
+    return replace(container, outline=outline)
 
 
 def warm_up() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 import math
 import re
 from pathlib import Path
@@ -104,6 +105,10 @@ class Recipe(BaseModel):
     rotate: str = "free"
     """free, none, 30 (within 30 degrees of upright) or 0,90 (only these angles)."""
 
+    padding: str | float = "0"
+    """Gap between items and to the container's edge: 4 (px), 1mm, 3pt, 0.5cm, 0.1in, or
+    1% of the canvas' longer side."""
+
     weights: str | dict[str, float] | None = None
     """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
 
@@ -159,6 +164,12 @@ class Recipe(BaseModel):
         Rotation.parse(text)
         return text
 
+    @field_validator("padding")
+    @classmethod
+    def _padding_is_a_length(cls, value: str | float) -> str | float:
+        parse_length("padding", value, 1.0)
+        return value
+
     @field_validator("losses")
     @classmethod
     def _weights_are_finite(
@@ -194,6 +205,11 @@ class Recipe(BaseModel):
         """True if ``start`` names a layout file and no method."""
         return Path(self.start).suffix.lower() in {".geojson", ".json"}
 
+    @property
+    def padding_cu(self) -> float:
+        """Gap asked for, canvas units."""
+        return parse_length("padding", self.padding, self.canvas)
+
     def start_options(self) -> StartOptions:
         """Options of the start stage."""
         if self.starts_from_layout:
@@ -216,8 +232,43 @@ class Recipe(BaseModel):
             sizes=self.sizes,
             size_ratio=self.size_ratio,
             losses=self.losses,
+            margin=self.padding_cu / 2,
             **changes,
         )
+
+
+UNITS_PX = {
+    "": 1.0,
+    "px": 1.0,
+    "pt": 96 / 72,
+    "mm": 96 / 25.4,
+    "cm": 96 / 2.54,
+    "in": 96.0,
+}
+"""Pixels per unit of a length, 96 to the inch."""
+
+
+def parse_length(key: str, value: str | float, side: float) -> float:
+    """Length in canvas units from ``2``, ``2pt``, ``1mm`` or ``5%`` of the longer side.
+
+    Raises
+    ------
+    RecipeError
+        About ``key``, if it is no length or below zero.
+
+    Examples
+    --------
+    >>> parse_length("padding", "5%", 600.0), parse_length("padding", "1in", 600.0)
+    (30.0, 96.0)
+    """
+    found = re.fullmatch(r"([0-9]*\.?[0-9]+)\s*(%|[a-z]*)", str(value).strip().lower())
+    if found is not None:
+        number, unit = float(found[1]), found[2]
+        if unit == "%":
+            return number / 100 * side
+        if unit in UNITS_PX:
+            return number * UNITS_PX[unit]
+    raise RecipeError(key, f"use a length such as 4, 1mm, 3pt, 0.1in or 1%, not {value!r}")
 
 
 def parse_levels(text: str) -> tuple[tuple[int, ...], tuple[float, ...]]:
@@ -282,7 +333,10 @@ def _recipe_error(error: ValidationError, names: dict[str, str] | None = None) -
     key = str(first["loc"][0]) if first["loc"] else "recipe"
     key = (names or {}).get(key, key)
     if first["type"] == "extra_forbidden":
-        return RecipeError(key, f"no such option; there are {', '.join(Recipe.model_fields)}")
+        known = list(Recipe.model_fields)
+        close = difflib.get_close_matches(key, known, n=1)
+        hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(known)}"
+        return RecipeError(key, f"no such option; {hint}")
     if first["type"] == "missing":
         return RecipeError(key, "must be given")
     message = re.sub(r"^(Value error, |Input )", "", first["msg"])

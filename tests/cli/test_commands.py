@@ -185,8 +185,10 @@ def test_measure_says_what_the_run_said(folder: Path, packwork: Command) -> None
 
 
 def test_start_continues_an_earlier_layout(folder: Path, packwork: Command) -> None:
-    packwork(f"fill circle star heart -n 4 {QUICK} -q -o first.geojson")
-    result = packwork(f"fill circle star heart -n 4 {QUICK} -q --start first.geojson -o b.geojson")
+    packwork("fill circle star heart -n 4 --levels 32 --epochs 90 -q -o first.geojson")
+    result = packwork(
+        "fill circle star heart -n 4 --levels 32 --epochs 90 -q --start first.geojson -o b.geojson"
+    )
     assert result.exit_code == 0
     assert item_count(folder / "b.geojson") == 4
 

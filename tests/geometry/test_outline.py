@@ -12,7 +12,7 @@ from hypothesis import given
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.affine import similarity
-from packwork.geometry.outline import Outline
+from packwork.geometry.outline import Outline, joined
 from packwork.geometry.polygon import Region, region, signed_area
 from strategies import rounded_sets, star_rings
 
@@ -71,6 +71,32 @@ def test_mapping_scales_area_and_carries_the_centroid(ring: FloatArray) -> None:
     mapped = outline.mapped(matrix)
     assert mapped.area == pytest.approx(outline.area * 1.5**2)
     np.testing.assert_allclose(mapped.centroid, matrix[:, :2] @ outline.centroid + matrix[:, 2])
+
+
+def test_trouble_that_geos_overcomes_is_not_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = shapely.build_area
+
+    def troubled(lines: Region) -> Region:
+        np.divide(np.zeros(1), np.zeros(1))
+        return whole(lines)
+
+    monkeypatch.setattr(shapely, "build_area", troubled)
+    assert Outline.from_region(FRAME).region.equals(FRAME)
+
+
+def test_joined_outlines_count_on() -> None:
+    outlines = [Outline.from_region(shape) for shape in (FRAME, ISLANDS, KISSING)]
+    points, starts = joined(outlines)
+    rings = np.split(points, starts[1:-1])
+    expected = [ring for outline in outlines for ring in outline.rings]
+    assert len(rings) == len(expected)
+    assert all((a == b).all() for a, b in zip(rings, expected, strict=True))
+
+
+def test_no_outlines_join_to_nothing() -> None:
+    points, starts = joined([])
+    assert points.shape == (0, 2)
+    assert starts.tolist() == [0]
 
 
 def test_a_silhouette_has_no_holes() -> None:

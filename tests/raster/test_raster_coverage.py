@@ -300,3 +300,19 @@ def test_the_widest_image_keeps_its_exact_sums(side: int, rng: np.random.Generat
         image = coverage(ring, [0, 3], (3, side), dtype)
         assert not image[2].any()
         assert float(image.sum(dtype=np.float64)) == pytest.approx(signed_area(ring), abs=tolerance)
+
+
+@pytest.mark.parametrize("shape", [(3, 4), (1500, 1500)], ids=["small", "large"])
+@pytest.mark.parametrize("starts", [[0], [0, 0], [0, 0, 0]])
+def test_rings_without_points_cover_nothing(starts: list[int], shape: tuple[int, int]) -> None:
+    rasteriser = Rasteriser(shape)
+    rasteriser.sweep(np.zeros((0, 2)), np.array(starts))
+    assert rasteriser.pullback(np.ones(shape, np.float32)).shape == (0, 2)
+    assert not rasteriser.ring_integrals(np.ones(shape, np.float32)).any()
+    assert not rasteriser.density().any()
+
+
+@pytest.mark.parametrize("starts", [[0, 0, 4], [0, 4, 4]])
+def test_an_empty_ring_beside_a_full_one_changes_nothing(starts: list[int]) -> None:
+    square = np.array([[0, 0], [9, 0], [9, 9], [0, 9.0]])
+    assert coverage(square, starts, (1500, 1500)).sum() == 81

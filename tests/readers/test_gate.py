@@ -133,6 +133,7 @@ def nested_masks(levels: int) -> str:
         ('<mask id="m"><rect mask="url(#m)"/></mask><g mask="url(#m)"/>', "in a circle"),
         ("<g>" * 500 + "</g>" * 500, "more than 100 deep"),
         ("<style>" + "*{fill:red}" * 2000 + "</style>" + "<g/>" * 2000, "style rules"),
+        ("<style>" + "a," * 1_500_000 + "b{fill:red}</style>", "style rules"),
         ("<text>" + "a" * 30_000 + "</text>", "letters of text"),
     ],
 )
@@ -141,6 +142,41 @@ def test_bombs_are_refused_at_once(body, problem):
     with pytest.raises(UnfitError, match=problem):
         admit(data)
     assert time.perf_counter() - begin < HANG_S
+
+
+DASHED = '<path d="M0 0H1000" stroke="red" stroke-dasharray="{}"/>'
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        DASHED.format("0.0012") * 200,
+        DASHED.format("1 1") * 200,
+        DASHED.format("1e-300"),
+        DASHED.format("0.0001em 1"),
+        DASHED.format("0.0001% 1"),
+        "<style>path{stroke-dasharray:.001mm}</style>" + DASHED.format("9"),
+        '<g stroke-dasharray="1e-3"><use href="#a"/></g><path id="a" d="M0 0H1000"/>',
+        '<svg stroke-dasharray="0.001"><circle r="9"/><line x2="9"/><rect width="1e6"/></svg>',
+        f'<marker id="m">{DASHED.format(1)}</marker><path marker-mid="url(#m)" d="{"h1" * 400}"/>',
+        '<line x2="100%" stroke-dasharray="4"/>',
+        '<g stroke-dasharray="1e-3"><text stroke="red">a</text></g>',
+    ],
+)
+def test_dashes_beyond_count_are_drawn_solid(body):
+    data, begin = svg(body), time.perf_counter()
+    root = admit(data)
+    assert {e.get("stroke-dasharray") for e in root.iter("path")} <= {None, "none"}
+    assert {e.get("stroke-dasharray") for e in root.iter("text")} <= {None, "none"}
+    render(root)
+    assert time.perf_counter() - begin < HANG_S
+
+
+def test_dashes_that_people_draw_stay():
+    body = DASHED.format("4, 2") * 20 + '<rect width="90" height="9" stroke-dasharray="1mm"/>'
+    clean = admitted(body)
+    assert clean.count('stroke-dasharray="4, 2"') == 20
+    assert 'stroke-dasharray="1mm"' in clean
 
 
 def test_billion_laughs():

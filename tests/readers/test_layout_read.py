@@ -131,6 +131,11 @@ def test_canvas_and_weights_may_be_missing(saved):
         (edited(("features", 1, "properties", "scale"), 0), r"\.scale: must be positive"),
         (edited(("features", 1, "properties", "scale"), True), r"\.scale: must be a number"),
         (edited(("features", 1, "properties", "weight"), -1), r"\.weight: must be positive"),
+        (
+            edited(("features", 1, "properties", "fill"), "url(http://evil)"),
+            r"features\[1\]\.fill: must be a colour such as #4a5568, not 'url\(http://evil\)'",
+        ),
+        (edited(("features", 1, "properties", "fill"), ["red"]), r"\.fill: must be a colour"),
         (edited(("features", 1, "geometry"), None), "geometry must be a Polygon"),
         (edited(("features", 1, "geometry", "type"), "Point"), "geometry must be a Polygon"),
         (edited(("features", 1, "geometry", "coordinates"), []), "coordinates must be"),

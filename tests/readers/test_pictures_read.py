@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import tracemalloc
 import zlib
 from io import BytesIO
 
@@ -14,6 +15,7 @@ from PIL import Image, ImageDraw
 from packwork.errors import ReadError
 from packwork.geometry import affine
 from packwork.readers.container import read_container
+from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.pictures.silhouette import item_of_picture, read_picture
 from packwork.scene.item import PictureArt
@@ -134,6 +136,31 @@ def png_header(width: int, height: int) -> bytes:
 def test_unusable_pictures(data, problem):
     with pytest.raises(ReadError, match=problem):
         item_of_picture(data, "a", "a.png")
+
+
+@pytest.mark.parametrize(
+    ("kind", "top"), [(np.uint16, 65_535), (np.float32, 1), (np.int32, 65_535)]
+)
+def test_deep_grey_is_brought_to_eight_bits(kind, top):
+    grey = np.zeros((300, 200), kind)
+    grey[70:200, 50:150] = top
+    grey[200:230] = top // 2 if top > 1 else 0.5
+    pixels = decode_picture(saved(Image.fromarray(grey), "TIFF"), 300).pixels
+    assert pixels[[0, 100, 199, 200], [0, 60, 149, 0], 0].tolist() == [0, 255, 255, 127]
+    small = decode_picture(saved(Image.fromarray(grey), "TIFF"), 30).pixels
+    assert small.shape == (30, 20, 4)
+    assert small[10, 10].tolist() == [255] * 4
+
+
+def test_deep_grey_takes_no_more_than_its_own_size():
+    data = saved(Image.fromarray(np.zeros((2_000, 2_000), np.float32)), "TIFF")
+    tracemalloc.start()
+    try:
+        decode_picture(data, 200)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak < 2 * len(data)
 
 
 def test_missing_picture():

@@ -30,7 +30,7 @@ def level_of(outlines: list[Outline], margin: float = 5.0) -> tuple[Level, Float
     ids=["inside", "half out", "in a corner", "at the canvas' edge", "over it", "off it"],
 )
 def test_share_outside_the_container_counts(x: float, y: float, share: float) -> None:
-    level, areas = level_of([square()])
+    level, _ = level_of([square()])
     where = poses([x], [y], 0.0, 5.0)
     assert wronged_shares(level, where, level.density(where))[0] == pytest.approx(
         share, abs=1e-3
@@ -38,7 +38,7 @@ def test_share_outside_the_container_counts(x: float, y: float, share: float) ->
 
 
 def test_share_overlapped_counts_for_each_of_the_two() -> None:
-    level, areas = level_of([square(), square()])
+    level, _ = level_of([square(), square()])
     where = poses([40.0, 50.0], [50.0, 50.0], 0.0, [10.0, 5.0])
     shares = wronged_shares(level, where, level.density(where))
     np.testing.assert_allclose(shares, [50 / 400, 0.5], atol=1e-3)

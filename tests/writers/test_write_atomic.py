@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from packwork.errors import WriteError
-from packwork.writers.atomic import check_writable, write_atomic
+from packwork.writers.atomic import check_outputs, check_writable, write_all, write_atomic
 
 as_root = hasattr(os, "geteuid") and os.geteuid() == 0
 needs_user = pytest.mark.skipif(as_root, reason="root may write anywhere")
@@ -169,3 +169,66 @@ def test_writers_at_the_same_time_never_mix(tmp_path: Path) -> None:
         list(pool.map(lambda text: write_atomic(path, text), texts))
     assert path.read_bytes() in texts
     assert names(tmp_path) == ["out.svg"]
+
+
+@needs_links
+def test_two_names_of_one_file_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "link.png").symlink_to(tmp_path / "same.png")
+    with pytest.raises(WriteError, match=r"link\.png: is the same file as .*same\.png"):
+        check_outputs([tmp_path / "same.png", tmp_path / "b.svg", tmp_path / "link.png"])
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_file_inside_a_file_is_refused(tmp_path: Path, order: int) -> None:
+    paths = [tmp_path / "d" / "a.svg", tmp_path / "d" / "a.svg" / "sub" / "b.png"][::order]
+    with pytest.raises(WriteError, match=r"b\.png: lies in .*a\.svg, which is to be a file"):
+        check_outputs(paths)
+    with pytest.raises(WriteError, match="lies in"):
+        write_all([(path, b"x") for path in paths])
+    assert names(tmp_path) == []
+
+
+def test_outputs_side_by_side_pass(tmp_path: Path) -> None:
+    check_outputs([tmp_path / "a.svg", tmp_path / "a.png", tmp_path / "a" / "a.svg"])
+
+
+def test_several_files_are_all_written(tmp_path: Path) -> None:
+    paths = [tmp_path / "a" / "b" / "1", tmp_path / "a" / "2", tmp_path / "3"]
+    write_all([(path, path.name.encode()) for path in paths])
+    assert [path.read_bytes() for path in paths] == [b"1", b"2", b"3"]
+    assert names(tmp_path) == ["3", "a"]
+
+
+@pytest.mark.parametrize("stop", [KeyboardInterrupt(), OSError(errno.ENOSPC, "full")])
+def test_no_file_is_written_until_all_are_on_the_disk(
+    tmp_path: Path, stop: BaseException, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "old.svg").write_bytes(b"old")
+    calls: list[int] = []
+
+    def fail_at_the_second(handle: int) -> None:
+        calls.append(handle)
+        if len(calls) == 2:
+            raise stop
+
+    monkeypatch.setattr(os, "fsync", fail_at_the_second)
+    with pytest.raises((KeyboardInterrupt, WriteError), match=r"new\.png: the disk is full|^$"):
+        write_all([(tmp_path / "old.svg", b"new"), (tmp_path / "sub" / "new.png", b"new")])
+    assert (tmp_path / "old.svg").read_bytes() == b"old"
+    assert names(tmp_path) == ["old.svg"]
+
+
+def test_a_name_that_cannot_be_swapped_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    swap = Path.replace
+
+    def fail_for_b(self: Path, target: Path) -> Path:
+        if target.name == "b":
+            raise PermissionError(errno.EACCES, "not permitted")
+        return swap(self, target)
+
+    monkeypatch.setattr(Path, "replace", fail_for_b)
+    with pytest.raises(WriteError, match=r"b: the folder may not be written to"):
+        write_all([(tmp_path / name, b"x") for name in "abc"])
+    assert names(tmp_path) == ["a"]

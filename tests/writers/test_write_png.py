@@ -5,6 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+import resvg_py
 
 from packwork.errors import RecipeError, WriteError
 from packwork.scene.item import Item, VectorArt
@@ -71,6 +72,32 @@ def test_too_many_pixels(three: Layout) -> None:
 def test_bad_background_is_refused() -> None:
     with pytest.raises(RecipeError, match="background"):
         PngOptions(background="#12")
+
+
+class PanicException(BaseException):
+    """Named as what a panic of the native library is raised as."""
+
+
+def test_a_panic_of_the_renderer_is_one_clear_line(
+    three: Layout, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def panic(**_: object) -> bytes:
+        raise PanicException("index out of\nbounds")
+
+    monkeypatch.setattr(resvg_py, "svg_to_bytes", panic)
+    with pytest.raises(WriteError, match=r"cannot be rendered .index out of bounds"):
+        png_bytes(three, 40)
+
+
+def test_an_interruption_of_the_renderer_passes(
+    three: Layout, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stop(**_: object) -> bytes:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(resvg_py, "svg_to_bytes", stop)
+    with pytest.raises(KeyboardInterrupt):
+        png_bytes(three, 40)
 
 
 def test_broken_art_is_one_clear_line(make_layout: Callable[..., Layout], star_item: Item) -> None:

@@ -72,7 +72,7 @@ def test_no_background(three: Layout, background: str | None) -> None:
 def test_half_clear_colours(three: Layout, ring_item: Item) -> None:
     glass = replace(ring_item, art=FlatArt("#ff000080"))
     layout = replace(three, items=(glass, *three.items[1:]))
-    root = fromstring(svg_text(layout, SvgOptions(background="rgba(0, 0, 255, 51)")))
+    root = fromstring(svg_text(layout, SvgOptions(background="rgba(0, 0, 255, 0.2)")))
     assert by_id(root, "item-1").get("fill") == "#ff0000"
     assert by_id(root, "item-1").get("fill-opacity") == "0.502"
     assert by_id(root, "background").get("fill-opacity") == "0.2"

@@ -13,6 +13,7 @@ from packwork.cli.bench import bench
 from packwork.cli.demo import demo
 from packwork.cli.fill import fill
 from packwork.cli.measure import measure
+from packwork.cli.run import run
 
 app = typer.Typer(
     name="packwork",
@@ -55,6 +56,7 @@ def _main(
 
 
 app.command()(fill)
+app.command()(run)
 app.command()(measure)
 app.command()(demo)
 app.command()(bench)

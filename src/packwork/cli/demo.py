@@ -37,9 +37,10 @@ def demo(
     [bold]packwork demo dragon --folder pictures[/]
     """
     with clear_errors():
-        from packwork.cli.running import run_and_write
+        from packwork.cli.running import Outputs, run_and_write
         from packwork.writers import write_options
 
         recipe = make_recipe(container=f"builtin:{name}", **DEMOS.get(name, {"count": 100}))
-        outputs = [folder / f"{name}{ending}" for ending in (".svg", ".png", ".geojson")]
-        raise typer.Exit(run_and_write(recipe, outputs, write_options(), quiet=quiet))
+        files = [folder / f"{name}{ending}" for ending in (".svg", ".png", ".geojson")]
+        outputs = Outputs(files=files, options=write_options())
+        raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -40,6 +40,7 @@ def fill(
     sizes: shared.Sizes = "free",
     size_ratio: shared.SizeRatio = 2.0,
     rotate: shared.Rotate = "free",
+    padding: shared.Padding = "0",
     weights: shared.Weights = None,
     holes: shared.Holes = "fill",
     strict: shared.Strict = False,
@@ -55,6 +56,7 @@ def fill(
     flatten: shared.Flatten = False,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
+    save_recipe: shared.SaveRecipe = None,
     quiet: shared.Quiet = False,
 ) -> None:
     """Fill a container with items.
@@ -77,6 +79,7 @@ def fill(
             sizes=sizes,
             size_ratio=size_ratio,
             rotate=rotate,
+            padding=padding,
             weights=weights,
             holes=holes,
             strict=strict,
@@ -87,12 +90,16 @@ def fill(
             start=start,
             losses=shared.loss_weights(loss),
         )
-        from packwork.cli.running import run_and_write
+        from packwork.cli.running import Outputs, run_and_write
         from packwork.writers import write_options
 
-        writing = write_options(
-            pixels=pixels, background=background, outline=outline, flatten=flatten
+        outputs = Outputs(
+            files=output or [DEFAULT_OUTPUT],
+            options=write_options(
+                pixels=pixels, background=background, outline=outline, flatten=flatten
+            ),
+            report=report,
+            diagnose=diagnose,
+            recipe=save_recipe,
         )
-        raise typer.Exit(
-            run_and_write(recipe, output or [DEFAULT_OUTPUT], writing, report, diagnose, quiet)
-        )
+        raise typer.Exit(run_and_write(recipe, outputs, quiet))

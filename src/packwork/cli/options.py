@@ -39,6 +39,7 @@ Canvas = Annotated[float, flag("canvas", panel=PLACING)]
 Sizes = Annotated[Literal["free", "shared", "fixed"], flag("sizes", panel=PLACING)]
 SizeRatio = Annotated[float, flag("size_ratio", panel=PLACING)]
 Rotate = Annotated[str, flag("rotate", panel=PLACING)]
+Padding = Annotated[str, flag("padding", panel=PLACING)]
 Weights = Annotated[str | None, flag("weights", panel=PLACING)]
 Holes = Annotated[Literal["fill", "keep"], flag("holes", panel=PLACING)]
 Strict = Annotated[bool, flag("strict", "--strict", panel=PLACING)]
@@ -89,6 +90,14 @@ Diagnose = Annotated[
         "--diagnose",
         help="Write the diagnostic picture (PNG): container yellow, items grey, overlap "
         "red, what sticks out blue.",
+        rich_help_panel=WRITING,
+    ),
+]
+SaveRecipe = Annotated[
+    Path | None,
+    typer.Option(
+        "--save-recipe",
+        help="Write the recipe (TOML) that repeats this run.",
         rich_help_panel=WRITING,
     ),
 ]

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -16,8 +17,8 @@ from rich.console import Console
 from packwork import pipeline, writers
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.show import Bar, metrics_table, notice_if_slow, seconds_line
+from packwork.errors import WriteError
 from packwork.recipe import Recipe
-from packwork.scene.layout import Layout
 
 MOST_NAMED = 5
 """Items without a place that are named on the terminal; a report names all. Chosen."""
@@ -25,14 +26,47 @@ MOST_NAMED = 5
 COMPILING = "Compiling the kernels: on the first run only, up to 20 s ..."
 
 
-def run_and_write(
-    recipe: Recipe,
-    outputs: Sequence[Path],
-    writing: writers.WriteOptions,
-    report: Path | None = None,
-    diagnose: Path | None = None,
-    quiet: bool = False,
-) -> int:
+@dataclass(frozen=True, kw_only=True)
+class Outputs:
+    """All that one run is to write.
+
+    Parameters
+    ----------
+    files
+        Layouts, each in the format of its ending.
+    options
+        How they are drawn.
+    report, diagnose, recipe
+        Measures (JSON), the diagnostic picture (PNG), the recipe (TOML); None for none.
+    """
+
+    files: Sequence[Path]
+    options: writers.WriteOptions
+    report: Path | None = None
+    diagnose: Path | None = None
+    recipe: Path | None = None
+
+    def check(self, recipe: Recipe) -> None:
+        """Refuse paths that cannot be written, that collide, or that the run reads.
+
+        Raises
+        ------
+        WriteError
+            Before anything has been run or written.
+        """
+        sides = [side for side in (self.report, self.diagnose, self.recipe) if side is not None]
+        for path in self.files:
+            writers.check_output(path)
+        for side in sides:
+            writers.check_writable(side)
+        writers.check_outputs([*self.files, *sides])
+        read = {Path(name).resolve() for name in (recipe.container, *recipe.items)}
+        for path in (*self.files, *sides):
+            if path.resolve() in read:
+                raise WriteError(path, "is read by this run too; write to another file")
+
+
+def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     """Run a recipe, write all that was asked for, show the measures.
 
     Outputs are checked before the run, so that no run is lost to a bad path.
@@ -40,13 +74,10 @@ def run_and_write(
     Returns
     -------
     int
-        The exit code: 0, 1 if an item was not placed, 130 after Ctrl-C.
+        The exit code: 0; 1 if an item was not placed or the result is rough; 130 after
+        Ctrl-C.
     """
-    for path in outputs:
-        writers.check_output(path)
-    for side in (report, diagnose):
-        if side is not None:
-            writers.check_writable(side)
+    outputs.check(recipe)
     console = Console(quiet=quiet, highlight=False)
     job = pipeline.read(recipe)
     with notice_if_slow(console, COMPILING):
@@ -56,39 +87,33 @@ def run_and_write(
     with interrupt.listening():
         with bar.showing():
             run = pipeline.run(job, None if quiet else bar, interrupt)
-        began = time.perf_counter()
-        _write(run.layout, outputs, writing, diagnose)
-        results = run.report(time.perf_counter() - began)
-        if report is not None:
-            writers.write_atomic(report, writers.json_bytes(results))
+        results = _write(run, recipe, outputs)
     _warn(run)
-    _show(results, outputs, console)
+    _show(results, outputs.files, console)
     if interrupt.pressed:
         typer.echo("packwork: stopped by Ctrl-C; this is the best so far, still rough", err=True)
         return INTERRUPTED
     return SHORTFALL if run.unplaced or run.is_rough else 0
 
 
-def _write(
-    layout: Layout, outputs: Sequence[Path], writing: writers.WriteOptions, diagnose: Path | None
-) -> None:
-    """Draw all before anything is written, so that a drawing that fails leaves nothing."""
-    files = [(path, writers.encoded(layout, path, writing)) for path in outputs]
-    if diagnose is not None:
-        files.append((diagnose, writers.diagnose_png(layout, writing.png_side_px)))
-    for path, data in files:
-        writers.write_atomic(path, data)
+def _write(run: pipeline.Run, recipe: Recipe, outputs: Outputs) -> dict[str, Any]:
+    """Draw all, then write all, so that what fails leaves nothing; return the report."""
+    began = time.perf_counter()
+    layout, options = run.layout, outputs.options
+    files = [(path, writers.encoded(layout, path, options)) for path in outputs.files]
+    if outputs.diagnose is not None:
+        files.append((outputs.diagnose, writers.diagnose_png(layout, options.png_side_px)))
+    if outputs.recipe is not None:
+        saved = writers.recipe_bytes(recipe.plain(), outputs.recipe.parent)
+        files.append((outputs.recipe, saved))
+    results = run.report(time.perf_counter() - began)
+    if outputs.report is not None:
+        files.append((outputs.report, writers.json_bytes(results)))
+    writers.write_all(files)
+    return results
 
 
 def _warn(run: pipeline.Run) -> None:
-    if run.is_rough:
-        exact = run.metrics.exact
-        typer.echo(
-            f"packwork: still rough: {100 * exact.overlap:.1f} % of the container is covered "
-            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; try more --effort, "
-            "fewer items or --sizes free",
-            err=True,
-        )
     for unplaced in run.unplaced[:MOST_NAMED]:
         typer.echo(
             f"packwork: not placed: {unplaced.item} (item {unplaced.index + 1}): {unplaced.reason}",
@@ -102,6 +127,14 @@ def _warn(run: pipeline.Run) -> None:
         typer.echo(
             f"packwork: the items' area is {share:.1f} times the container's; "
             "use fewer, a larger --canvas or --sizes free",
+            err=True,
+        )
+    if run.is_rough:
+        exact = run.metrics.exact
+        typer.echo(
+            f"packwork: still rough: {100 * exact.overlap:.1f} % of the container is covered "
+            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; try more --effort, "
+            "fewer items or --sizes free",
             err=True,
         )
 

@@ -13,7 +13,7 @@ from shapely.geometry import LinearRing, MultiLineString, Polygon
 from packwork.arrays import FloatArray, IntArray, as_points, as_starts
 from packwork.errors import ShapeError
 from packwork.geometry import affine
-from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, signed_area
+from packwork.geometry.polygon import Region, oriented_rings, signed_area, silhouette
 
 
 @dataclass(frozen=True, eq=False)
@@ -110,7 +110,10 @@ class Outline:
         if len(self.rings) == 1:
             return Polygon(self.rings[0])
         # Even-odd nesting of rings that do not cross: holes, and islands inside holes.
-        return shapely.build_area(MultiLineString([LinearRing(r) for r in self.rings]))
+        rings = MultiLineString([LinearRing(r) for r in self.rings])
+        # GEOS tries corners that touch with numbers that are none; its answer has none.
+        with np.errstate(invalid="ignore"):
+            return shapely.build_area(rings)
 
     def mapped(self, matrix: FloatArray) -> Outline:
         """Image under an affine map (2 x 3) that does not mirror."""
@@ -118,6 +121,24 @@ class Outline:
 
     def without_holes(self) -> Outline:
         """Silhouette: every hole filled, parts that lay in holes absorbed."""
-        return Outline.from_region(
-            shapely.union_all([Polygon(p.exterior) for p in polygon_parts(self.region)])
-        )
+        return Outline.from_region(silhouette(self.region))
+
+
+def joined(outlines: Sequence[Outline]) -> tuple[FloatArray, IntArray]:
+    """Points of all outlines in one array, and the starts of all their rings.
+
+    Returns
+    -------
+    tuple of FloatArray and IntArray
+        ``(n, 2)`` and ``(rings + 1,)``, as in an outline; none and ``[0]`` for no outlines.
+
+    Examples
+    --------
+    >>> tile = Outline.from_rings([np.array([[0, 0], [1, 0], [1, 1.0]])])
+    >>> points, starts = joined([tile, tile])
+    >>> len(points), starts.tolist()
+    (6, [0, 3, 6])
+    """
+    points = np.concatenate([np.zeros((0, 2)), *(o.points for o in outlines)])
+    lengths = [np.diff(o.starts) for o in outlines]
+    return points, np.cumsum(np.concatenate([[0], *lengths]), dtype=np.int64)

@@ -66,6 +66,17 @@ def polygon_parts(shape: Region) -> list[Polygon]:
     return [p for p in flat if isinstance(p, Polygon) and not p.is_empty and p.area > 0]
 
 
+def silhouette(shape: Region) -> Region:
+    """Region with every hole filled, parts that lay in holes absorbed.
+
+    Examples
+    --------
+    >>> silhouette(shapely.box(0, 0, 3, 3) - shapely.box(1, 1, 2, 2)).area
+    9.0
+    """
+    return shapely.union_all([Polygon(part.exterior) for part in polygon_parts(shape)])
+
+
 def oriented_rings(shape: Region) -> list[FloatArray]:
     """Rings of a region, unclosed: outer ones clockwise on screen, holes the other way.
 

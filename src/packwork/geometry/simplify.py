@@ -67,6 +67,25 @@ def closed(outline: Outline, radius: float) -> Outline:
     return found if outline.has_holes else found.without_holes()
 
 
+def grown(outline: Outline, distance: float) -> Outline:
+    """Outline moved outwards by ``distance`` all round, inwards if it is negative.
+
+    Corners become round. Never vanishes: if nothing would be left, the outline comes
+    back as it was.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> square = Outline.from_rings([np.array([[0, 0], [4, 0], [4, 4], [0, 4.0]])])
+    >>> grown(square, -1.0).area
+    4.0
+    """
+    if distance == 0:
+        return outline
+    region = shapely.buffer(outline.region, distance, quad_segs=4)
+    return Outline.from_region(region) if polygon_parts(region) else outline
+
+
 def hull(outline: Outline) -> Outline:
     """Convex hull of the outline.
 

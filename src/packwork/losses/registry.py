@@ -8,12 +8,18 @@ from types import MappingProxyType
 
 from packwork.errors import RecipeError
 from packwork.losses.containment import containment
+from packwork.losses.evenness import evenness
 from packwork.losses.filling import filling
 from packwork.losses.overlap import overlap
 from packwork.losses.term import ImageLoss
 
 LOSSES: Mapping[str, ImageLoss] = MappingProxyType(
-    {"containment": containment, "overlap": overlap, "filling": filling}
+    {
+        "containment": containment,
+        "overlap": overlap,
+        "filling": filling,
+        "evenness": evenness,
+    }
 )
 
 

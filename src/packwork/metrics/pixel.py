@@ -12,7 +12,7 @@ import numpy as np
 from scipy import ndimage
 
 from packwork.arrays import BoolArray, IntArray
-from packwork.geometry.outline import Outline
+from packwork.geometry.outline import Outline, joined
 from packwork.raster.membership import centre_count
 from packwork.raster.pyramid import image_shape
 from packwork.scene.container import Container
@@ -78,13 +78,8 @@ def pixel_metrics(outlines: Sequence[Outline], container: Container) -> PixelMet
 
 
 def _counts(outlines: Sequence[Outline], px_per_cu: float, shape: tuple[int, int]) -> IntArray:
-    if not outlines:
-        return np.zeros(shape, dtype=np.int64)
-    points = np.concatenate([o.points for o in outlines]) * px_per_cu
-    offsets = np.cumsum([0] + [len(o.points) for o in outlines])
-    starts = np.concatenate([o.starts[:-1] + k for o, k in zip(outlines, offsets, strict=False)])
-    counts = centre_count(points, np.append(starts, len(points)), shape)
-    return counts.astype(np.int64)
+    points, starts = joined(outlines)
+    return centre_count(points * px_per_cu, starts, shape).astype(np.int64)
 
 
 def _non_uniformity(covered: BoolArray, inside: BoolArray) -> float:

@@ -154,7 +154,7 @@ class Rasteriser:
 
         Sums are exact in any order; neighbours in time then touch the same rows.
         """
-        if not self._is_large:
+        if not self._is_large or len(self._points) == 0:
             return np.arange(len(self._starts) - 1)
         first = np.minimum(self._starts[:-1], len(self._points) - 1)
         return np.argsort(self._points[first, 1], kind="stable")

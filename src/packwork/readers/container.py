@@ -7,15 +7,13 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import BUILTIN, builtin_container, container_names
-from packwork.readers.files import read_bytes, stem
+from packwork.readers.files import exists, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.svg.container import container_of_svg, placed_container
 from packwork.readers.text.container import PREFIX, container_of_words
 from packwork.scene.container import Container
-
-MASK_ENDINGS = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".tiff")
-"""Endings of pictures that are read as masks."""
 
 _FORMS = "a PNG or JPEG mask, an SVG, text:WORD or a built-in name such as circle or heart"
 _LATER = "around:"
@@ -50,24 +48,17 @@ def read_container(
         return builtin_container(text.removeprefix(BUILTIN), side)
     path = Path(text)
     # A folder or a note that happens to be called "heart" is not what was meant.
-    if _exists(path) and not (path.suffix == "" and text in container_names()):
+    if exists(path) and not (path.suffix == "" and text in container_names()):
         return _container_of_file(path, text, side)
     if text.startswith(PREFIX):
         return container_of_words(text, side, font)
     if text == "none" or text.startswith(_LATER):
         raise ReadError(text, f"this form of container is not known yet; give {_FORMS}")
-    if path.suffix.lower() in {".svg", *MASK_ENDINGS} or len(path.parts) > 1:
+    if path.suffix.lower() in {".svg", *PICTURE_ENDINGS} or len(path.parts) > 1:
         known = path.stem in container_names() and len(path.parts) == 1
         hint = f"; the built-in shape is {path.stem}" if known else ""
         raise ReadError(text, f"there is no such file{hint}")
     return builtin_container(text, side)
-
-
-def _exists(path: Path) -> bool:
-    try:
-        return path.exists()
-    except (OSError, ValueError):
-        return False
 
 
 def _container_of_file(path: Path, source: str, side: float) -> Container:
@@ -76,7 +67,7 @@ def _container_of_file(path: Path, source: str, side: float) -> Container:
         raise ReadError(source, f"is a folder; a container is {_FORMS}")
     if ending == ".svg":
         return container_of_svg(read_bytes(path, MAX_BYTES), stem(path), source, side)
-    if ending in MASK_ENDINGS:
+    if ending in PICTURE_ENDINGS:
         mask = trace_mask(path)
         canvas = (0.0, 0.0, mask.width, mask.height)
         return placed_container(stem(path), source, mask.region, canvas, side)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import stat
 from pathlib import Path
 
 from packwork.errors import ReadError
@@ -13,7 +14,7 @@ def read_bytes(path: str | Path, most: int) -> bytes:
     Raises
     ------
     ReadError
-        If it is missing, a folder, unreadable or larger.
+        If it is missing, a folder, a pipe, unreadable or larger.
 
     Examples
     --------
@@ -22,6 +23,10 @@ def read_bytes(path: str | Path, most: int) -> bytes:
     packwork.errors.ReadError: no such file.svg: there is no such file
     """
     try:
+        # Opening a pipe waits for whoever writes to it, and a device never ends.
+        mode = Path(path).stat().st_mode
+        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+            raise ReadError(path, "is a pipe or a device; give a file on disk")
         with Path(path).open("rb") as file:
             data = file.read(most + 1)
     except FileNotFoundError:
@@ -54,6 +59,20 @@ def read_text(path: str | Path, most: int) -> str:
         return read_bytes(path, most).decode("utf-8-sig")
     except UnicodeDecodeError:
         raise ReadError(path, "is not text in UTF-8; save it with that encoding") from None
+
+
+def exists(path: str | Path) -> bool:
+    """Whether there is a file or a folder of that name; text that can be no name has none.
+
+    Examples
+    --------
+    >>> exists("no such file.svg"), exists("a" * 10_000)
+    (False, False)
+    """
+    try:
+        return Path(path).exists()
+    except (OSError, ValueError):
+        return False
 
 
 def stem(path: str | Path) -> str:

@@ -10,7 +10,8 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, BUILTIN, builtin_item, icon_names, item_names
-from packwork.readers.container import MASK_ENDINGS
+from packwork.readers.files import exists
+from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.silhouette import read_picture
 from packwork.readers.regions import Holes
 from packwork.readers.svg.item import read_svg
@@ -20,7 +21,7 @@ _LOG = logging.getLogger("packwork")
 
 _READERS: dict[str, Callable[[str, Holes], Item]] = {
     ".svg": read_svg,
-    **dict.fromkeys(MASK_ENDINGS, read_picture),
+    **dict.fromkeys(PICTURE_ENDINGS, read_picture),
 }
 
 
@@ -93,7 +94,7 @@ def _read_source(source: str, holes: Holes, *, strict: bool) -> ItemsRead:
     if glob.has_magic(source):
         matches = sorted(f for f in glob.glob(source) if _is_readable(Path(f)))  # noqa: PTH207
         return _read_many(source, matches, holes, strict=strict)
-    if _is_file(path) or len(path.parts) > 1:
+    if exists(path) or len(path.parts) > 1:
         raise ReadError(source, _why_not(path))
     return _built_in(source, holes)
 
@@ -139,15 +140,8 @@ def _is_folder(path: Path) -> bool:
         return False
 
 
-def _is_file(path: Path) -> bool:
-    try:
-        return path.exists()
-    except (OSError, ValueError):
-        return False
-
-
 def _why_not(path: Path) -> str:
-    if not _is_file(path):
+    if not exists(path):
         return "there is no such file"
     endings = ", ".join(_READERS)
     return f"has the unknown ending {path.suffix!r}; items are files in {endings}"

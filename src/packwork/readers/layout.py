@@ -20,6 +20,7 @@ from packwork.geometry.polygon import Region
 from packwork.readers.files import read_text
 from packwork.readers.svg.lengths import MAX_COORDINATE
 from packwork.readers.unfit import UnfitError, naming
+from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
@@ -132,8 +133,20 @@ def _item(feature: Mapping[str, Any], where: str) -> Item:
     )
     outline = _outline(feature, where).mapped(back)
     name = str(properties.get("item", "item"))
-    fill = str(properties.get("fill", FlatArt().fill))
-    return Item(name, str(properties.get("source", name)), outline, outline, FlatArt(fill))
+    art = FlatArt(_fill(properties, where))
+    return Item(name, str(properties.get("source", name)), outline, outline, art)
+
+
+def _fill(properties: Mapping[str, Any], where: str) -> str:
+    fill = properties.get("fill", FlatArt().fill)
+    try:
+        # What is no colour may lead out of the file once it is written again.
+        css_colour(str(fill))
+    except ValueError:
+        raise UnfitError(
+            f"{where}.fill: must be a colour such as #4a5568, not {str(fill)[:20]!r}"
+        ) from None
+    return str(fill)
 
 
 def _pose(feature: Mapping[str, Any], where: str) -> tuple[float, float, float, float]:

@@ -10,7 +10,7 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region, polygon_parts
+from packwork.geometry.polygon import Region, polygon_parts, silhouette
 from packwork.readers.unfit import UnfitError
 
 Holes: TypeAlias = Literal["fill", "keep"]
@@ -71,14 +71,3 @@ def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
     x, y = outline.centroid
     place = affine.similarity(-float(x), -float(y), 0.0, 1.0)
     return outline.mapped(place), Outline.from_region(ink).mapped(place), place
-
-
-def silhouette(ink: Region) -> Region:
-    """Region with every hole filled.
-
-    Examples
-    --------
-    >>> silhouette(shapely.box(0, 0, 3, 3) - shapely.box(1, 1, 2, 2)).area
-    9.0
-    """
-    return shapely.union_all([shapely.Polygon(p.exterior) for p in polygon_parts(ink)])

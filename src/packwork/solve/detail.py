@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
-from packwork.geometry.simplify import closed, simplified
+from packwork.geometry.simplify import closed, grown, simplified
 
 DETAIL_PX = 0.12
 """Outlines are simplified to this many pixels of the level: larger is faster and lets
@@ -18,7 +18,9 @@ CLEFT_PX = 0.26
 items out of each other's bays, smaller lets thin limbs cross and lock. Tried."""
 
 
-def seen_at(outlines: Sequence[Outline], scales: FloatArray, px_per_cu: float) -> list[Outline]:
+def seen_at(
+    outlines: Sequence[Outline], scales: FloatArray, px_per_cu: float, margin_cu: float = 0.0
+) -> list[Outline]:
     """Outlines simplified to a level's pixels; copies of about one size are made once.
 
     What a level cannot resolve must not lock items into each other: clefts are closed
@@ -32,17 +34,24 @@ def seen_at(outlines: Sequence[Outline], scales: FloatArray, px_per_cu: float) -
         ``(n,)`` canvas units per item unit.
     px_per_cu
         Pixels of the level per canvas unit.
+    margin_cu
+        Every outline is grown by this much all round, canvas units.
     """
-    done: dict[tuple[int, int], Outline] = {}
+    done: dict[tuple[int, float], Outline] = {}
     seen = []
-    for outline, pixel in zip(outlines, 1 / (px_per_cu * scales), strict=True):
-        # Items whose pixels are within a factor of two share one outline.
-        rung = round(math.log2(pixel))
-        key = (id(outline), rung)
+    for outline, scale in zip(outlines, scales, strict=True):
+        # Items whose pixels are within a factor of two share one outline, but a margin
+        # is as wide on small items as on large ones.
+        rung = round(math.log2(1 / (px_per_cu * scale)))
+        key = (id(outline), rung if margin_cu == 0 else float(scale))
         if key not in done:
-            size = 2.0**rung
-            # Half the tolerance before closing, which is slow on many points, half after.
-            rough = simplified(outline, 0.5 * DETAIL_PX * size)
-            done[key] = simplified(closed(rough, CLEFT_PX * size), 0.5 * DETAIL_PX * size)
+            done[key] = _seen(outline, 2.0**rung, margin_cu / scale)
         seen.append(done[key])
     return seen
+
+
+def _seen(outline: Outline, pixel: float, margin: float) -> Outline:
+    """One outline at a level whose pixel is ``pixel`` item units."""
+    # Half the tolerance before closing, which is slow on many points, half after.
+    rough = simplified(outline, 0.5 * DETAIL_PX * pixel)
+    return simplified(closed(grown(rough, margin), CLEFT_PX * pixel), 0.5 * DETAIL_PX * pixel)

@@ -41,6 +41,9 @@ class SolveOptions(BaseModel):
     size_ratio: Annotated[float, Field(ge=1, le=100)] = 2.0
     """In mode free: how far up or down from its nominal scale an item may go."""
 
+    margin: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
+    """Canvas units by which items are taken for larger than they are, all round."""
+
     turn_rate: Annotated[float, Field(ge=0, le=1)] = 0.5
     """Longest turn in one epoch, rad; 0 keeps the start angles. Tried
     (the paper: 0.05)."""

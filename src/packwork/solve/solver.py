@@ -116,7 +116,9 @@ class _Run:
         """Run one level, and the herder when it is due."""
         began = time.perf_counter()
         resolution = self._options.levels[index]
-        seen = seen_at(self._outlines, self.motion.poses.scale, resolution / self._container.side)
+        px_per_cu = resolution / self._container.side
+        scales, margin = self.motion.poses.scale, self._options.margin
+        seen = seen_at(self._outlines, scales, px_per_cu, margin)
         level = Level(self._container, seen, resolution, self._options.losses)
         is_last = index == len(self._options.levels) - 1
         herding = epochs // 2 if is_last else epochs

@@ -1,4 +1,4 @@
-"""One way onto the disk: all of a file, or nothing of it."""
+"""One way onto the disk: all of a file, or nothing of it; and so for several."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ import errno
 import os
 import secrets
 import stat
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from packwork.errors import WriteError
@@ -40,13 +41,43 @@ def check_writable(path: str | Path) -> None:
     >>> check_writable("new-folder/layout.svg")
     """
     target = _target(path)
-    try:
+    with _telling(path):
         _check_target(path, target)
         folder = _nearest_folder(target.parent)
         if not os.access(folder, os.W_OK | os.X_OK):
             raise PermissionError(errno.EACCES, "not writable")
-    except OSError as error:
-        raise WriteError(path, _reason(error)) from error
+
+
+def check_outputs(paths: Iterable[str | Path]) -> None:
+    """Refuse paths that cannot all be written: one twice, or one as another's folder.
+
+    Links are followed, so that two names of one file count as one.
+
+    Raises
+    ------
+    WriteError
+        About the first path that meets another one.
+
+    Examples
+    --------
+    >>> check_outputs(["out/a.svg", "out/./a.svg"])
+    Traceback (most recent call last):
+    packwork.errors.WriteError: out/./a.svg: is the same file as out/a.svg; give each output ...
+    """
+    met: dict[Path, str | Path] = {}
+    for path in paths:
+        target = _target(path)
+        if target in met:
+            raise WriteError(
+                path, f"is the same file as {met[target]}; give each output a name of its own"
+            )
+        met[target] = path
+    for target, path in met.items():
+        for folder in target.parents:
+            if folder in met:
+                raise WriteError(
+                    path, f"lies in {met[folder]}, which is to be a file; choose another folder"
+                )
 
 
 def write_atomic(path: str | Path, data: bytes) -> None:
@@ -70,18 +101,59 @@ def write_atomic(path: str | Path, data: bytes) -> None:
     ...     Path(folder, "a.txt").read_bytes()
     b'whole'
     """
-    target = _target(path)
+    write_all([(path, data)])
+
+
+def write_all(files: Sequence[tuple[str | Path, bytes]]) -> None:
+    """Put several files in place as :func:`write_atomic` does, once all are on the disk.
+
+    What stops the write before that leaves every older file as it was. After it only
+    names are left to be swapped; should that fail for one, those before it are in place.
+
+    Raises
+    ------
+    WriteError
+        About the first file that cannot be written, or see :func:`check_outputs`.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     write_all([(Path(folder, name), b"") for name in ("a.svg", "b.svg")])
+    ...     sorted(path.name for path in Path(folder).iterdir())
+    ['a.svg', 'b.svg']
+    """
+    check_outputs(path for path, _ in files)
     made: list[Path] = []
+    staged: list[tuple[str | Path, Path, Path]] = []
     try:
-        _check_target(path, target)
-        _make_folders(target.parent, made)
-        _swap_in(target, data)
-    except OSError as error:
-        _remove_folders(made)
-        raise WriteError(path, _reason(error)) from error
+        for path, data in files:
+            with _telling(path):
+                target = _target(path)
+                _check_target(path, target)
+                _make_folders(target.parent, made)
+                beside = _beside(target)
+                staged.append((path, beside, target))
+                _stage(beside, target, data)
+        for path, beside, target in staged:
+            with _telling(path):
+                beside.replace(target)
     except BaseException:
+        for _, beside, _ in staged:
+            with contextlib.suppress(OSError):
+                beside.unlink()
         _remove_folders(made)
         raise
+    for folder in {target.parent for _, _, target in staged}:
+        _sync_folder(folder)
+
+
+@contextlib.contextmanager
+def _telling(path: str | Path) -> Iterator[None]:
+    try:
+        yield
+    except OSError as error:
+        raise WriteError(path, _reason(error)) from error
 
 
 def _target(path: str | Path) -> Path:
@@ -131,23 +203,21 @@ def _remove_folders(made: list[Path]) -> None:
             folder.rmdir()
 
 
-def _swap_in(target: Path, data: bytes) -> None:
+def _beside(target: Path) -> Path:
     # A random name, as another process may write the same file at the same time.
-    beside = target.with_name(f".packwork-{secrets.token_hex(8)}.part")
-    try:
-        with beside.open("xb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        if target.exists():
-            # Some file systems know no permissions; that is no reason to fail.
-            with contextlib.suppress(PermissionError):
-                beside.chmod(stat.S_IMODE(target.stat().st_mode))
-        beside.replace(target)
-    except BaseException:
-        beside.unlink(missing_ok=True)
-        raise
-    _sync_folder(target.parent)
+    return target.with_name(f".packwork-{secrets.token_hex(8)}.part")
+
+
+def _stage(beside: Path, target: Path, data: bytes) -> None:
+    """Bring the bytes to the disk, ready to take the place of ``target``."""
+    with beside.open("xb") as file:
+        file.write(data)
+        file.flush()
+        os.fsync(file.fileno())
+    if target.exists():
+        # Some file systems know no permissions; that is no reason to fail.
+        with contextlib.suppress(PermissionError):
+            beside.chmod(stat.S_IMODE(target.stat().st_mode))
 
 
 def _sync_folder(folder: Path) -> None:

@@ -1,16 +1,12 @@
-"""Colours as people write them, to numbers, and back to the common denominator of XML."""
+"""Colours that an option names, and colours as the common denominator of XML."""
 
 from __future__ import annotations
 
-from PIL import ImageColor
-
 from packwork.errors import RecipeError
-
-ABSENT = ("none", "transparent")
-"""Words for no colour at all."""
+from packwork.scene.colour import Colour, css_colour
 
 
-def parse_colour(key: str, text: str) -> tuple[int, int, int, int]:
+def parse_colour(key: str, text: str) -> Colour:
     """Red, green, blue and opacity, 0 to 255, of a CSS colour.
 
     Raises
@@ -22,19 +18,15 @@ def parse_colour(key: str, text: str) -> tuple[int, int, int, int]:
     --------
     >>> parse_colour("background", "tomato")
     (255, 99, 71, 255)
-    >>> parse_colour("background", "none")
-    (0, 0, 0, 0)
+    >>> parse_colour("background", "rgba(255, 0, 0, 1)")
+    (255, 0, 0, 255)
     """
-    if text.strip().lower() in ABSENT:
-        return (0, 0, 0, 0)
     try:
-        channels = ImageColor.getrgb(text.strip())
+        return css_colour(text)
     except ValueError as error:
         raise RecipeError(
             key, f"{text[:40]!r} is not a colour; use a name, '#rrggbb', 'rgb(...)' or 'none'"
         ) from error
-    red, green, blue = channels[:3]
-    return (red, green, blue, channels[3] if len(channels) == 4 else 255)
 
 
 def hex_colour(channels: tuple[int, ...]) -> str:

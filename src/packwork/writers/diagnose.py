@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from packwork.geometry.outline import Outline
+from packwork.geometry.outline import Outline, joined
 from packwork.raster.membership import centre_count
 from packwork.scene.layout import Layout
 from packwork.writers.frame import Frame, picture_frame
@@ -83,12 +83,8 @@ def _counts(
 ) -> npt.NDArray[np.int32]:
     """Outlines that hold each sample of some pixel rows."""
     shape = ((bottom - top) * SAMPLES, frame.columns * SAMPLES)
-    if not outlines:
-        return np.zeros(shape, dtype=np.int32)
-    points_px = np.concatenate([o.points for o in outlines]) * frame.px_per_cu
-    lengths = np.concatenate([np.diff(o.starts) for o in outlines])
-    starts = np.concatenate([[0], np.cumsum(lengths)])
-    return centre_count((points_px - [0.0, top]) * SAMPLES, starts, shape)
+    points, starts = joined(outlines)
+    return centre_count((points * frame.px_per_cu - [0.0, top]) * SAMPLES, starts, shape)
 
 
 def _averaged(palette: _Pixels, classes: _Pixels) -> npt.NDArray[Any]:

@@ -6,9 +6,9 @@ import base64
 import re
 from collections.abc import Mapping
 
-from packwork.errors import RecipeError
+from packwork.scene.colour import css_colour
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
-from packwork.writers.colours import hex_colour, parse_colour
+from packwork.writers.colours import hex_colour
 from packwork.writers.notation import attributes, matrix_text, path_data
 
 _ID = re.compile(r"""\bid\s*=\s*(["'])([^"']+)\1""")
@@ -45,8 +45,8 @@ def paint(item: Item) -> dict[str, str]:
     if not isinstance(item.art, FlatArt):
         return {}
     try:
-        channels = parse_colour("fill", item.art.fill)
-    except RecipeError:
+        channels = css_colour(item.art.fill)
+    except ValueError:
         return {"fill": item.art.fill}
     opacity = "" if channels[3] == 255 else f"{channels[3] / 255:.3g}"
     return {"fill": hex_colour(channels), "fill-opacity": opacity}

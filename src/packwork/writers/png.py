@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import resvg_py
-
 from packwork.errors import WriteError
+from packwork.raster.drawing import drawn_png
 from packwork.scene.layout import Layout
 from packwork.writers.colours import parse_colour
 from packwork.writers.frame import picture_frame
@@ -84,10 +83,6 @@ def png_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = 
 
 def _rendered(text: str) -> bytes:
     try:
-        # Fonts are looked up only where text is drawn: that takes longer than the rest.
-        return bytes(
-            resvg_py.svg_to_bytes(svg_string=text, dpi=96, skip_system_fonts="<text" not in text)
-        )
+        return drawn_png(text)
     except ValueError as error:
-        reason = " ".join(str(error).split())[:200]
-        raise WriteError("PNG", f"an item's drawing cannot be rendered ({reason})") from error
+        raise WriteError("PNG", f"an item's drawing cannot be rendered ({error})") from error

@@ -9,9 +9,9 @@ from collections import Counter
 import numpy as np
 from PIL import Image, UnidentifiedImageError
 
-from packwork.errors import RecipeError
+from packwork.scene.colour import ABSENT, css_colour
 from packwork.scene.item import Art, FlatArt, VectorArt
-from packwork.writers.colours import ABSENT, hex_colour, parse_colour
+from packwork.writers.colours import hex_colour
 
 NEUTRAL = "#808080"
 """Stands for arts whose colour cannot be told cheaply."""
@@ -45,8 +45,8 @@ def _solid(text: str) -> str | None:
     if text.strip().lower() in ABSENT:
         return None
     try:
-        return hex_colour(parse_colour("fill", text))
-    except RecipeError:
+        return hex_colour(css_colour(text))
+    except ValueError:
         return None
 
 

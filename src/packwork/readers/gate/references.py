@@ -56,6 +56,18 @@ def referenced_ids(element: ET.Element) -> Iterator[tuple[str, str]]:
                 yield name, target
 
 
+def paint_server(value: str) -> str | None:
+    """Id of the gradient or pattern that a paint names, None for a colour.
+
+    Examples
+    --------
+    >>> paint_server("url(#a) red"), paint_server("red")
+    ('a', None)
+    """
+    match = _URL.match(value)
+    return None if match is None else match.group(1)
+
+
 def rename_references(element: ET.Element, renamed: Callable[[str], str]) -> None:
     """Rewrite the element's own id and all ids it refers to, in place.
 

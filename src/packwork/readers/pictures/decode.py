@@ -23,8 +23,12 @@ MAX_PICTURE_BYTES = 100_000_000
 FORMATS = ("PNG", "JPEG", "WEBP", "GIF", "BMP", "TIFF")
 """Kinds that are opened, whatever the file's ending says."""
 
+PICTURE_ENDINGS = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".tiff")
+"""Endings of files that are read as pictures, in lower case."""
+
 _EMBEDDABLE = ("PNG", "JPEG", "WEBP", "GIF")
 _DEEP_GREY = 65_535.0
+_BAND_ROWS = 64
 _FAILURES = (
     UnidentifiedImageError,
     Image.DecompressionBombError,
@@ -103,7 +107,7 @@ def decode_picture(data: bytes, longest_px: int) -> Picture:
             warnings.simplefilter("ignore")
             with Image.open(BytesIO(data), formats=FORMATS) as image:
                 _check_size(image.size)
-                whole = _as_rgba(ImageOps.exif_transpose(image))
+                whole = _eight_bit(ImageOps.exif_transpose(image))
                 small = _shrunk(whole, longest_px)
                 return Picture(np.asarray(small), max(whole.size) / max(small.size))
     except UnidentifiedImageError:
@@ -124,20 +128,26 @@ def _too_large(met: str) -> str:
     return f"has {met} pixels; {MAX_PIXELS // 1_000_000} million are the most, so scale it down"
 
 
-def _as_rgba(image: Image.Image) -> Image.Image:
-    if image.mode.startswith(("I", "F")):
-        deep = np.asarray(image, dtype=np.float64)
-        top = _DEEP_GREY if image.mode.startswith("I") else 1.0
-        grey = np.clip(np.nan_to_num(deep) * (255.0 / top), 0, 255).astype(np.uint8)
-        return Image.fromarray(grey).convert("RGBA")
-    return image.convert("RGBA")
+def _eight_bit(image: Image.Image) -> Image.Image:
+    """RGBA of a picture; grey of one with deep numbers."""
+    if not image.mode.startswith(("I", "F")):
+        return image.convert("RGBA")
+    scale = 255.0 / (_DEEP_GREY if image.mode.startswith("I") else 1.0)
+    grey = np.empty(image.size[::-1], dtype=np.uint8)
+    # In bands: eight bytes for each pixel at once would be half a gigabyte.
+    for top in range(0, len(grey), _BAND_ROWS):
+        rows = grey[top : top + _BAND_ROWS]
+        deep = np.asarray(image.crop((0, top, image.width, top + len(rows))), dtype=np.float64)
+        rows[:] = np.clip(np.nan_to_num(deep) * scale, 0, 255)
+    return Image.fromarray(grey)
 
 
 def _shrunk(image: Image.Image, longest_px: int) -> Image.Image:
+    """RGBA of an eight-bit picture, ``longest_px`` long at most."""
     factor = longest_px / max(image.size)
     if factor >= 1:
-        return image
-    width, height = (max(1, round(side * factor)) for side in image.size)
+        return image.convert("RGBA")
+    size = max(1, round(image.width * factor)), max(1, round(image.height * factor))
     # Pillow weighs colours by alpha only in this mode: else edges darken.
-    weighted = image.convert("RGBa")
-    return weighted.resize((width, height), Image.Resampling.BOX).convert("RGBA")
+    weighted = image if image.mode == "L" else image.convert("RGBa")
+    return weighted.resize(size, Image.Resampling.BOX).convert("RGBA")

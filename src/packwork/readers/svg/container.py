@@ -7,10 +7,10 @@ import xml.etree.ElementTree as ET
 import shapely
 
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region
+from packwork.geometry.polygon import Region, silhouette
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
-from packwork.readers.regions import clean_union, silhouette
+from packwork.readers.regions import clean_union
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.ink import Ink
 from packwork.readers.svg.trace import TRACE_PX, page_picture

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterable
 
 import numpy as np
 
 from packwork.geometry import affine
-from packwork.readers.gate.references import elements_by_id
+from packwork.readers.gate.references import elements_by_id, paint_server
 from packwork.readers.gate.sanitise import HREF
 from packwork.readers.svg.lengths import parse_length
 from packwork.readers.svg.transforms import parse_transform
@@ -19,8 +18,6 @@ from packwork.readers.unfit import UnfitError
 LARGEST_TILE = 4.0
 """Side of a tile as a multiple of what is drawn: what lies beyond is never seen, but would
 be allocated. Chosen."""
-
-_PAINT = re.compile(r"url\(#([^()]+)\)")
 
 
 def check_tiles(root: ET.Element, shapes: Iterable[Painted], extent: float) -> None:
@@ -39,10 +36,10 @@ def check_tiles(root: ET.Element, shapes: Iterable[Painted], extent: float) -> N
     most = LARGEST_TILE * extent
     for shape in shapes if patterns else ():
         for paint in (shape.painting.fill, shape.painting.stroke):
-            match = _PAINT.match(paint)
-            if match is None or match.group(1) not in patterns:
+            pattern = patterns.get(paint_server(paint) or "")
+            if pattern is None:
                 continue
-            side = _tile_side(patterns[match.group(1)], patterns, shape)
+            side = _tile_side(pattern, patterns, shape)
             if side > most:
                 raise UnfitError(
                     f"fills a shape with a pattern tile of {side:g} px; "

@@ -15,8 +15,9 @@ from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region
+from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import document
-from packwork.readers.gate.vocabulary import TEXTS, TRACED
+from packwork.readers.gate.vocabulary import TRACED
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.svg.walk import Page
 from packwork.readers.unfit import UnfitError
@@ -31,7 +32,6 @@ Part: TypeAlias = tuple[float, float, float, float] | tuple[()]
 _MARGIN_PX = 2
 _SIMPLIFY_PX = 0.05
 _OPACITIES = ("opacity", "fill-opacity", "stroke-opacity")
-_DPI = 96.0
 
 
 def needs_tracing(root: ET.Element) -> bool:
@@ -165,16 +165,7 @@ def render(root: ET.Element) -> bytes:
     >>> render(ET.Element("svg", {"width": "2", "height": "2"}))[1:4]
     b'PNG'
     """
-    import resvg_py
-
-    has_text = any(element.tag in TEXTS for element in root.iter())
     try:
-        rendered = resvg_py.svg_to_bytes(
-            svg_string=document(root), skip_system_fonts=not has_text, dpi=_DPI
-        )
-    except BaseException as error:
-        # A panic of the native library is no Exception, and no reason to end the program.
-        if not isinstance(error, ValueError) and type(error).__name__ != "PanicException":
-            raise
-        raise UnfitError(f"cannot be rendered ({str(error)[:120]}); save it as plain SVG") from None
-    return bytes(rendered)
+        return drawn_png(document(root))
+    except ValueError as error:
+        raise UnfitError(f"cannot be rendered ({error}); save it as plain SVG") from None

@@ -1,0 +1,56 @@
+"""Recipe files (TOML) to plain options."""
+
+from __future__ import annotations
+
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from packwork.errors import ReadError
+from packwork.readers.files import read_text
+
+MAX_BYTES = 1_000_000
+"""Largest recipe file. Chosen."""
+
+
+def read_recipe(path: str | Path) -> dict[str, Any]:
+    """Options of a recipe file, paths in it taken from the file's own folder.
+
+    Names that are no files there (``heart``, ``builtin:icons``, ``text:HELLO``) stay as
+    they are. Which options there are, and what they may be, ``make_recipe`` checks.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read or is not TOML.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "recipe.toml")
+    ...     _ = file.write_text('container = "heart"')
+    ...     read_recipe(file)
+    {'container': 'heart'}
+    """
+    text = read_text(path, MAX_BYTES)
+    try:
+        options = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ReadError(path, f"is not TOML ({error}); give lines such as count = 100") from None
+    folder = Path(path).parent
+    for key in ("container", "weights", "start", "font"):
+        if isinstance(options.get(key), str):
+            options[key] = _found(options[key], folder)
+    if isinstance(options.get("items"), list):
+        options["items"] = [
+            _found(entry, folder) if isinstance(entry, str) else entry for entry in options["items"]
+        ]
+    return options
+
+
+def _found(name: str, folder: Path) -> str:
+    try:
+        return str(folder / name) if (folder / name).exists() else name
+    except (OSError, ValueError):
+        return name

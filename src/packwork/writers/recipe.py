@@ -1,0 +1,39 @@
+"""A run's options to the recipe file (TOML) that repeats it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+
+def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
+    """TOML of a recipe's plain options, files named as seen from ``folder``.
+
+    Options that are not set are left out; TOML has no null.
+
+    Examples
+    --------
+    >>> print(recipe_bytes({"container": "heart", "count": None}, Path(".")).decode(), end="")
+    container = "heart"
+    """
+    import tomli_w
+
+    kept = {key: value for key, value in options.items() if value is not None}
+    for key in ("container", "weights", "start", "font"):
+        if isinstance(kept.get(key), str):
+            kept[key] = _seen_from(folder, kept[key])
+    if "items" in kept:
+        kept["items"] = [_seen_from(folder, name) for name in kept["items"]]
+    return tomli_w.dumps(kept).encode()
+
+
+def _seen_from(folder: Path, name: str) -> str:
+    """A file's path relative to ``folder`` where that is possible, else absolute."""
+    path = Path(name)
+    if not path.exists():
+        return name
+    try:
+        return path.resolve().relative_to(folder.resolve()).as_posix()
+    except ValueError:
+        return path.resolve().as_posix()
