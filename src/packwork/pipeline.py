@@ -17,6 +17,7 @@ from packwork.errors import PackworkError, RecipeError
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
+from packwork.losses.registry import find_loss
 from packwork.metrics.measure import LayoutMetrics, measure
 from packwork.metrics.pixel import pixel_metrics
 from packwork.progress import Observer, Stop, never
@@ -171,6 +172,7 @@ class Job:
     weights: FloatArray
     skipped: tuple[PackworkError, ...]
     clock: Clock
+    earlier: Layout | None = None
 
 
 def read(
@@ -186,7 +188,11 @@ def read(
             items, skipped = found.items, found.skipped
         chosen = tuple(islice(cycle(items), recipe.count or len(items)))
         weights = item_weights(chosen, recipe.weights)
-    return Job(recipe, region, chosen, weights, skipped, clock)
+        earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
+        recipe.start_options()
+        for loss in recipe.losses:
+            find_loss(loss)
+    return Job(recipe, region, chosen, weights, skipped, clock, earlier)
 
 
 def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
@@ -195,7 +201,7 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
     outlines = [item.outline for item in job.items]
     with clock.time("start"):
         region = padded(job.container, recipe.padding_cu)
-        start, nominal = _start(recipe, region, outlines, job.weights)
+        start, nominal = _start(job, region, outlines)
     with clock.time("levels"):
         options = recipe.solve_options()
         outcome = solve(region, outlines, start, nominal, options, observer, stop)
@@ -288,10 +294,9 @@ def find_unplaced(layout: Layout) -> tuple[Unplaced, ...]:
     )
 
 
-def _start(
-    recipe: Recipe, container: Container, outlines: Sequence[Outline], weights: FloatArray
-) -> tuple[Poses, FloatArray]:
-    """First poses and nominal scales."""
+def _start(job: Job, container: Container, outlines: Sequence[Outline]) -> tuple[Poses, FloatArray]:
+    """First poses and nominal scales, in the container as the padding leaves it."""
+    recipe, weights = job.recipe, job.weights
     rng = np.random.default_rng(recipe.seed)
     options = recipe.start_options()
     areas = np.array([o.area for o in outlines])
@@ -304,19 +309,20 @@ def _start(
         hulls = hull_areas(outlines)
         nominal = nominal_scales(hulls, weights, NOMINAL_COVERAGE * container.outline.area)
         scales = yielding_scales(areas, hulls, nominal, recipe.size_ratio, total)
-    if recipe.starts_from_layout:
-        return _earlier_poses(recipe, container, nominal), nominal
+    if job.earlier is not None:
+        return _earlier_poses(recipe, job.earlier, container, nominal), nominal
     rotation = recipe.rotation
     angles = start_angles(len(outlines), rotation.limit, rotation.choices, rng)
     return first_poses(container, outlines, scales, angles, options, rng), nominal
 
 
-def _earlier_poses(recipe: Recipe, container: Container, nominal: FloatArray) -> Poses:
-    """Poses of the layout that ``start`` names, sizes and angles within the recipe's bounds.
+def _earlier_poses(
+    recipe: Recipe, earlier: Layout, container: Container, nominal: FloatArray
+) -> Poses:
+    """Poses of an earlier layout, sizes and angles within the recipe's bounds.
 
     They are stretched to this run's canvas.
     """
-    earlier = read_layout(recipe.start)
     ratio = container.side / earlier.container.side
     poses = Poses(
         earlier.poses.x * ratio,

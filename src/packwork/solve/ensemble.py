@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.geometry.outline import Outline
+from packwork.geometry.outline import Outline, joined
 from packwork.scene.pose import Poses
 from packwork.solve import _kernels
 
@@ -31,15 +31,9 @@ class Ensemble:
     """
 
     def __init__(self, outlines: Sequence[Outline]) -> None:
+        self._own, self.ring_starts = joined(outlines)
         counts = [len(o.points) for o in outlines]
-        self._own = np.concatenate([o.points for o in outlines])
-        self._item_starts: IntArray = np.concatenate([[0], np.cumsum(counts)]).astype(np.int64)
-        offsets = self._item_starts[:-1]
-        self.ring_starts: IntArray = np.concatenate(
-            [o.starts[:-1] + k for o, k in zip(outlines, offsets, strict=True)]
-            + [self._item_starts[-1:]]
-        ).astype(np.int64)
-        """Starts of all rings of all items."""
+        self._item_starts: IntArray = np.cumsum([0, *counts], dtype=np.int64)
         self._rings_before: IntArray = np.cumsum([0] + [len(o.rings) for o in outlines])[:-1]
         self._points = np.empty_like(self._own)
         self._by_pose = np.zeros((len(outlines), 4))
