@@ -81,7 +81,7 @@ def spread_out(outlines: list[Outline], container: Container) -> Poses:
     scales = nominal_scales(areas, np.ones(len(outlines)), 0.7 * container.outline.area)
     rng = np.random.default_rng(0)
     angles = rng.uniform(-np.pi, np.pi, len(outlines))
-    return first_poses(container, outlines, scales, angles, StartOptions(), rng)
+    return first_poses(container, outlines, scales, angles, StartOptions(), rng).poses
 
 
 def running_sum(shape: tuple[int, int]):

@@ -201,7 +201,7 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
     outlines = [item.outline for item in job.items]
     with clock.time("start"):
         region = padded(job.container, recipe.padding_cu)
-        start, nominal = _start(job, region, outlines)
+        start, nominal, method = _start(job, region, outlines)
     with clock.time("levels"):
         options = recipe.solve_options()
         outcome = solve(region, outlines, start, nominal, options, observer, stop)
@@ -209,7 +209,7 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
     with clock.time("measure"):
         metrics = measure(layout)
         unplaced = find_unplaced(layout)
-    manifest = _manifest(job, outcome, metrics, unplaced)
+    manifest = _manifest(job, method, outcome, metrics, unplaced)
     return Run(
         layout=replace(layout, manifest=manifest),
         metrics=metrics,
@@ -294,8 +294,10 @@ def find_unplaced(layout: Layout) -> tuple[Unplaced, ...]:
     )
 
 
-def _start(job: Job, container: Container, outlines: Sequence[Outline]) -> tuple[Poses, FloatArray]:
-    """First poses and nominal scales, in the container as the padding leaves it."""
+def _start(
+    job: Job, container: Container, outlines: Sequence[Outline]
+) -> tuple[Poses, FloatArray, str]:
+    """First poses, nominal scales and how places were found, in the padded container."""
     recipe, weights = job.recipe, job.weights
     rng = np.random.default_rng(recipe.seed)
     options = recipe.start_options()
@@ -310,10 +312,11 @@ def _start(job: Job, container: Container, outlines: Sequence[Outline]) -> tuple
         nominal = nominal_scales(hulls, weights, NOMINAL_COVERAGE * container.outline.area)
         scales = yielding_scales(areas, hulls, nominal, recipe.size_ratio, total)
     if job.earlier is not None:
-        return _earlier_poses(recipe, job.earlier, container, nominal), nominal
+        return _earlier_poses(recipe, job.earlier, container, nominal), nominal, "layout"
     rotation = recipe.rotation
     angles = start_angles(len(outlines), rotation.limit, rotation.choices, rng)
-    return first_poses(container, outlines, scales, angles, options, rng), nominal
+    first = first_poses(container, outlines, scales, angles, options, rng)
+    return first.poses, nominal, first.method
 
 
 def _earlier_poses(
@@ -346,12 +349,17 @@ def _earlier_poses(
 
 
 def _manifest(
-    job: Job, outcome: Outcome, metrics: LayoutMetrics, unplaced: Sequence[Unplaced]
+    job: Job,
+    method: str,
+    outcome: Outcome,
+    metrics: LayoutMetrics,
+    unplaced: Sequence[Unplaced],
 ) -> dict[str, Any]:
     return {
         "packwork": metadata.version("packwork"),
         "recipe": job.recipe.plain(),
         "seed": job.recipe.seed,
+        "start": method,
         "ending": outcome.ending.value,
         "levels": [asdict(level) for level in outcome.levels],
         "metrics": metrics.as_dict(),

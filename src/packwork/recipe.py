@@ -119,7 +119,9 @@ class Recipe(BaseModel):
     """Refuse a folder with an unusable file instead of leaving that file out."""
 
     start: str = "distance-field"
-    """distance-field, scatter, or a layout file (.geojson) to start from."""
+    """How the first places are found: distance-field (one after another into the largest
+    room), medial-axis (along the container's middle line first), auto (one of these two, by
+    the container's form), scatter (at random), or a layout file (.geojson) to start from."""
 
     effort: Effort = "normal"
     """How many iterations: draft, normal or best."""

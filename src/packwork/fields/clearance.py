@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from scipy import ndimage
 
-from packwork.arrays import BoolArray, FloatArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 
 
 def distance_inside(mask: BoolArray) -> FloatArray:
@@ -53,6 +53,24 @@ class Clearance:
             row, column = divmod(int(np.argmax(self._radius)), self._radius.shape[1])
             self._largest = column + 0.5, row + 0.5, float(self._radius[row, column])
         return self._largest
+
+    def largest_among(self, pixels: IntArray) -> tuple[float, float, float]:
+        """Like :meth:`largest`, of some pixels only.
+
+        Parameters
+        ----------
+        pixels
+            ``(n,)``, n > 0: ``row * columns + column`` of each.
+
+        Examples
+        --------
+        >>> Clearance(np.ones((3, 9), dtype=bool)).largest_among(np.array([9, 10]))
+        (1.5, 1.5, 1.5)
+        """
+        radii = self._radius.ravel()[pixels]
+        best = int(np.argmax(radii))
+        row, column = divmod(int(pixels[best]), self._radius.shape[1])
+        return column + 0.5, row + 0.5, float(radii[best])
 
     def occupy(self, x: float, y: float, radius: float) -> None:
         """Take a disc away; only the pixels it can concern are looked at."""

@@ -1,0 +1,1 @@
+"""Outlines of a few cubic curves, fitted to silhouettes by the renderer."""
