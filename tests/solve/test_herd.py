@@ -32,9 +32,7 @@ def level_of(outlines: list[Outline], margin: float = 5.0) -> tuple[Level, Float
 def test_share_outside_the_container_counts(x: float, y: float, share: float) -> None:
     level, _ = level_of([square()])
     where = poses([x], [y], 0.0, 5.0)
-    assert wronged_shares(level, where, level.density(where))[0] == pytest.approx(
-        share, abs=1e-3
-    )
+    assert wronged_shares(level, where, level.density(where))[0] == pytest.approx(share, abs=1e-3)
 
 
 def test_share_overlapped_counts_for_each_of_the_two() -> None:
