@@ -10,6 +10,7 @@ from hypothesis.extra import numpy as arrays
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.clearance import Clearance, distance_inside
+from strategies import generators
 
 masks = arrays.arrays(np.bool_, st.tuples(st.integers(1, 12), st.integers(1, 12)))
 discs = st.lists(
@@ -79,3 +80,17 @@ def test_no_room_is_said_so() -> None:
     room = Clearance(np.ones((4, 4), dtype=bool))
     room.occupy(2.0, 2.0, 50.0)
     assert room.largest()[2] < 0
+
+
+@given(mask=masks, rng=generators())
+def test_the_roomiest_of_some_pixels_is_their_maximum(
+    mask: BoolArray, rng: np.random.Generator
+) -> None:
+    room = Clearance(mask)
+    all_of_them = np.arange(mask.size)
+    assert room.largest_among(all_of_them) == room.largest()
+    some = np.sort(rng.choice(all_of_them, size=(mask.size + 1) // 2, replace=False))
+    x, y, radius = room.largest_among(some)
+    assert int(y) * mask.shape[1] + int(x) in some
+    of_each = [room.largest_among(np.array([pixel]))[2] for pixel in some]
+    assert radius == max(of_each)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 import pytest
@@ -17,8 +17,8 @@ from packwork.start.first_poses import first_poses, start_resolution
 from packwork.start.options import StartOptions
 from scenes import box, disc, placed, round_container, share_inside, square, star
 
-Method = Literal["distance-field", "scatter"]
-METHODS = pytest.mark.parametrize("method", ["distance-field", "scatter"])
+Method = Literal["auto", "distance-field", "medial-axis", "scatter"]
+METHODS = pytest.mark.parametrize("method", get_args(Method))
 
 
 def start(
@@ -26,7 +26,8 @@ def start(
 ) -> Poses:
     angles = np.linspace(-1, 1, len(outlines))
     options = StartOptions(method=method)
-    return first_poses(container, outlines, scales, angles, options, np.random.default_rng(seed))
+    rng = np.random.default_rng(seed)
+    return first_poses(container, outlines, scales, angles, options, rng).poses
 
 
 @METHODS
@@ -44,10 +45,11 @@ def test_centres_lie_in_the_container(method: Method) -> None:
     assert shapely.contains_xy(container.outline.region.buffer(0.5), where.x, where.y).all()
 
 
-def test_the_greedy_start_is_mostly_inside_and_apart() -> None:
+@pytest.mark.parametrize("method", ["distance-field", "medial-axis"])
+def test_a_greedy_start_is_mostly_inside_and_apart(method: Method) -> None:
     container = round_container()
     outlines = [disc(), square(), star()] * 4
-    ends = placed(outlines, start(container, outlines, np.full(12, 6.0), "distance-field"))
+    ends = placed(outlines, start(container, outlines, np.full(12, 6.0), method))
     assert min(share_inside(outline, container) for outline in ends) > 0.9
     union = shapely.union_all([outline.region for outline in ends])
     assert union.area > 0.95 * sum(outline.area for outline in ends)

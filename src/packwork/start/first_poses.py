@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, Image
 from packwork.geometry.outline import Outline
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.distance_field import distance_field
-from packwork.start.options import StartOptions
+from packwork.start.choice import suitable
+from packwork.start.distance_field import distance_field, elbow_room
+from packwork.start.medial_axis import ELBOW_ROOM, medial_axis
+from packwork.start.options import Placing, StartOptions
 from packwork.start.scatter import scatter
 from packwork.start.sizes import hull_areas
 
@@ -26,9 +29,13 @@ HULL_SHARE = 0.85
 """How much an item's hull counts against its area for the disc that stands for it:
 0 the area alone, 1 the hull alone. Tried."""
 
-ELBOW_ROOM = 1.5
-"""Radius of that disc over that of a disc of its area. Larger spreads the items along
-the container's edge first. Tried."""
+
+@dataclass(frozen=True, eq=False)
+class FirstPoses:
+    """Poses to begin with, and the method that placed them."""
+
+    poses: Poses
+    method: Placing
 
 
 def start_resolution(count: int) -> int:
@@ -49,7 +56,7 @@ def first_poses(
     angles: FloatArray,
     options: StartOptions,
     rng: np.random.Generator,
-) -> Poses:
+) -> FirstPoses:
     """Poses of items of given scales and angles, by the method asked for.
 
     Parameters
@@ -63,17 +70,37 @@ def first_poses(
     rng
         The only source of randomness.
     """
-    resolution = start_resolution(len(outlines))
+    image, px_per_cu = _container_image(container, start_resolution(len(outlines)))
+    radii = disc_radii(outlines, scales)
+    method = suitable(image, px_per_cu, radii) if options.method == "auto" else options.method
+    if method == "scatter":
+        x, y = scatter(image, px_per_cu, len(outlines), rng)
+    elif method == "medial-axis":
+        x, y = medial_axis(image, px_per_cu, radii * ELBOW_ROOM, rng)
+    else:
+        x, y = distance_field(image, px_per_cu, radii * elbow_room(len(radii)), rng)
+    return FirstPoses(Poses(x, y, angles, scales), method)
+
+
+def disc_radii(outlines: Sequence[Outline], scales: FloatArray) -> FloatArray:
+    """``(n,)`` radius, canvas units, of the disc that stands for each item.
+
+    Examples
+    --------
+    >>> square = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> (np.pi * disc_radii([square], np.array([2.0])) ** 2).round(6).tolist()
+    [16.0]
+    """
+    own = np.array([o.area for o in outlines]) ** (1 - HULL_SHARE)
+    return np.asarray(np.sqrt(own * hull_areas(outlines) ** HULL_SHARE / np.pi) * scales)
+
+
+def _container_image(container: Container, resolution: int) -> tuple[Image, float]:
+    """Coverage of the container, more than half somewhere, and its pixels per canvas unit."""
     px_per_cu = resolution / container.side
     shape = image_shape(container.width, container.height, resolution)
     image = region_image(container.outline, Rasteriser(shape), px_per_cu)
     if not (image > 0.5).any():
         # Thinner than a pixel everywhere: any pixel it touches will do.
         image = (image >= image.max()).astype(image.dtype)
-    if options.method == "scatter":
-        x, y = scatter(image, px_per_cu, len(outlines), rng)
-    else:
-        areas = np.array([o.area for o in outlines]) ** (1 - HULL_SHARE)
-        radii = np.sqrt(areas * hull_areas(outlines) ** HULL_SHARE / np.pi) * scales * ELBOW_ROOM
-        x, y = distance_field(image, px_per_cu, radii, rng)
-    return Poses(x, y, angles, scales)
+    return image, px_per_cu

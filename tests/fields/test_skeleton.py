@@ -1,0 +1,43 @@
+"""The middle line: inside, thin, in every part, in the middle."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+from scipy import ndimage
+
+from packwork.arrays import BoolArray
+from packwork.fields.skeleton import medial_axis
+
+masks = arrays.arrays(np.bool_, st.tuples(st.integers(1, 14), st.integers(1, 14)))
+EIGHT = np.ones((3, 3))
+
+
+@given(mask=masks)
+def test_the_axis_is_inside_and_in_as_many_pieces_as_the_region(mask: BoolArray) -> None:
+    axis = medial_axis(mask)
+    assert axis.shape == mask.shape
+    assert not (axis & ~mask).any()
+    parts, count = ndimage.label(mask, EIGHT)
+    assert set(np.unique(parts[axis])) == set(range(1, count + 1))
+    assert ndimage.label(axis, EIGHT)[1] == count
+
+
+@pytest.mark.parametrize("width", [5, 9, 15])
+def test_a_strip_has_its_axis_half_way_whether_or_not_it_touches_the_image(width: int) -> None:
+    alone = medial_axis(np.ones((width, 60), dtype=bool))
+    framed = medial_axis(np.pad(np.ones((width, 60), dtype=bool), 3))
+    np.testing.assert_array_equal(alone, framed[3:-3, 3:-3])
+    rows = np.nonzero(alone[:, width:-width])[0]
+    assert np.abs(rows - width // 2).max() <= 1
+    assert (alone[:, width:-width].sum(axis=0) == 1).all()
+
+
+def test_a_ring_keeps_its_hole() -> None:
+    away = np.hypot(*(np.indices((60, 60)) - 29.5))
+    axis = medial_axis((away > 15) & (away < 27))
+    np.testing.assert_allclose(away[axis], 21, atol=1.5)
+    assert ndimage.label(~axis)[1] == 2
