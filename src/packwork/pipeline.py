@@ -37,6 +37,7 @@ from packwork.solve.options import SolveOptions
 from packwork.solve.solver import Ending, Outcome, scale_bounds, solve
 from packwork.start.angles import nearest_allowed, start_angles
 from packwork.start.first_poses import first_poses
+from packwork.start.relocate import relocated
 from packwork.start.sizes import hull_areas, nominal_scales, yielding_scales
 
 NOMINAL_COVERAGE = 0.82
@@ -52,6 +53,13 @@ WIDEST_WEIGHTS = 1e6
 ROUGH_SHARE = 0.03
 """Share of the container that may be overlapped or outside before a run counts as rough.
 A run that went well stays a hundred times below. Chosen."""
+
+BURIED_RESOLUTION = 200
+"""Pixels on the longer side of the image on which buried items are found. Chosen."""
+
+BURIED_SHARE = 0.5
+"""Share of an item under others or outside from which it is moved before a run that did
+not choose its own start. Smaller undoes more of that start. Chosen."""
 
 UNPLACED_SHARE = 0.5
 """Share of an item that is overlapped or outside from which it counts as not placed."""
@@ -312,11 +320,24 @@ def _start(
         nominal = nominal_scales(hulls, weights, NOMINAL_COVERAGE * container.outline.area)
         scales = yielding_scales(areas, hulls, nominal, recipe.size_ratio, total)
     if job.earlier is not None:
-        return _earlier_poses(recipe, job.earlier, container, nominal), nominal, "layout"
+        poses = _earlier_poses(recipe, job.earlier, container, nominal)
+        return _unburied(container, outlines, poses, rng), nominal, "layout"
     rotation = recipe.rotation
     angles = start_angles(len(outlines), rotation.limit, rotation.choices, rng)
     first = first_poses(container, outlines, scales, angles, options, rng)
+    if first.method == "scatter":
+        return _unburied(container, outlines, first.poses, rng), nominal, first.method
     return first.poses, nominal, first.method
+
+
+def _unburied(
+    container: Container, outlines: Sequence[Outline], poses: Poses, rng: np.random.Generator
+) -> Poses:
+    """Poses in which items that lie mostly under others or outside have been moved."""
+    seen = seen_at(outlines, poses.scale, BURIED_RESOLUTION / container.side)
+    level = Level(container, seen, BURIED_RESOLUTION)
+    buried = np.flatnonzero(wronged_shares(level, poses, level.density(poses)) > BURIED_SHARE)
+    return relocated(container, outlines, poses, buried, rng) if len(buried) else poses
 
 
 def _earlier_poses(

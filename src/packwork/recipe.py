@@ -29,7 +29,7 @@ from packwork.start.options import StartOptions
 
 Effort: TypeAlias = Literal["draft", "normal", "best"]
 
-EPOCHS: dict[str, int] = {"draft": 200, "normal": 1_000, "best": 6_000}
+EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
 """Epochs per effort. Effort bounds iterations and never seconds, so that one seed gives
 one result on any machine. Measured in docs/benchmarks.md."""
 

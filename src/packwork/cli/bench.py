@@ -13,7 +13,7 @@ from packwork.cli.failure import clear_errors
 
 
 def bench(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="engine or outlines.")],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="engine, outlines or starts.")],
     arguments: Annotated[
         list[str] | None, typer.Argument(metavar="[ARGUMENT...]", help="Handed on as they are.")
     ] = None,

@@ -18,6 +18,10 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.ensemble import Ensemble
 
+RECALL_PX = 200
+"""Finest image on which the way back to the container is looked up. Larger costs a
+distance transform that no item notices. Chosen."""
+
 
 class Level:
     """Renders all items at one resolution and reads the losses' pose gradients.
@@ -50,7 +54,7 @@ class Level:
         self.areas = np.array([o.area for o in outlines])
         """``(n,)`` areas of the outlines as this level sees them, item units squared."""
         self._linear = LinearAdjoint(self.container_image)
-        self._recall = Recall(self.container_image, self.px_per_cu)
+        self._recall = _recall(container, min(resolution, RECALL_PX))
         self._losses: list[tuple[ImageLoss, float]] = [
             (find_loss(loss), weight) for loss, weight in (losses or {}).items()
         ]
@@ -99,3 +103,9 @@ class Level:
             term = checked_term(loss, density, self.container_image)
             adjoint += weight * density.size * term.adjoint
         return adjoint
+
+
+def _recall(container: Container, resolution: int) -> Recall:
+    px_per_cu = resolution / container.side
+    rasteriser = Rasteriser(image_shape(container.width, container.height, resolution))
+    return Recall(region_image(container.outline, rasteriser, px_per_cu), px_per_cu)

@@ -70,7 +70,7 @@ def first_poses(
     rng
         The only source of randomness.
     """
-    image, px_per_cu = _container_image(container, start_resolution(len(outlines)))
+    image, px_per_cu = container_image(container, start_resolution(len(outlines)))
     radii = disc_radii(outlines, scales)
     method = suitable(image, px_per_cu, radii) if options.method == "auto" else options.method
     if method == "scatter":
@@ -95,8 +95,16 @@ def disc_radii(outlines: Sequence[Outline], scales: FloatArray) -> FloatArray:
     return np.asarray(np.sqrt(own * hull_areas(outlines) ** HULL_SHARE / np.pi) * scales)
 
 
-def _container_image(container: Container, resolution: int) -> tuple[Image, float]:
-    """Coverage of the container, more than half somewhere, and its pixels per canvas unit."""
+def container_image(container: Container, resolution: int) -> tuple[Image, float]:
+    """Coverage of the container, more than half somewhere, and its pixels per canvas unit.
+
+    Examples
+    --------
+    >>> thread = Outline.from_rings([np.array([[10.0, 50], [90, 50], [90, 50.1], [10, 50.1]])])
+    >>> image, px_per_cu = container_image(Container("thread", "", thread, 100, 100), 50)
+    >>> bool(image.max() > 0.5), px_per_cu
+    (True, 0.5)
+    """
     px_per_cu = resolution / container.side
     shape = image_shape(container.width, container.height, resolution)
     image = region_image(container.outline, Rasteriser(shape), px_per_cu)
