@@ -12,7 +12,7 @@ from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.svg.container import container_of_svg, placed_container
-from packwork.readers.text.container import PREFIX, container_of_words
+from packwork.readers.text import PREFIX
 from packwork.scene.container import Container
 
 _FORMS = "a PNG or JPEG mask, an SVG, text:WORD or a built-in name such as circle or heart"
@@ -51,6 +51,9 @@ def read_container(
     if exists(path) and not (path.suffix == "" and text in container_names()):
         return _container_of_file(path, text, side)
     if text.startswith(PREFIX):
+        # Only words need the font library.
+        from packwork.readers.text.container import container_of_words
+
         return container_of_words(text, side, font)
     if text == "none" or text.startswith(_LATER):
         raise ReadError(text, f"this form of container is not known yet; give {_FORMS}")

@@ -8,14 +8,12 @@ from pathlib import Path
 from packwork.readers.files import read_bytes
 from packwork.readers.regions import clean_union
 from packwork.readers.svg.container import placed_container
+from packwork.readers.text import PREFIX
 from packwork.readers.text.face import Letter, letters
 from packwork.readers.text.setting import lines_of, set_lines
 from packwork.readers.text.sfnt import MAX_FONT_BYTES
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
-
-PREFIX = "text:"
-"""What a container of words begins with."""
 
 FONT = "InterDisplay-Black.otf"
 """The bundled font: thick strokes, in Latin, Greek and Cyrillic letters."""
