@@ -1,42 +1,33 @@
 """The engine's figures: ``packwork bench engine``.
 
 Prints the tables and writes them to docs/benchmarks.md. One process, one thread. Times
-are medians with quartiles; the running sum they are compared with is
+are medians with quartiles, of the processor; the running sum they are compared with is
 ``np.cumsum(image, axis=1, out=buffer)`` on a float32 image of the same size.
 """
 
 from __future__ import annotations
 
-import datetime
 import resource
 import sys
 from itertools import cycle, islice
-from pathlib import Path
 
 import numpy as np
 
 import frozen
-from measuring import Timing, machine, markdown_table, timed, timed_in_turn
+from epochs import EDGES, RECALL, EpochTiming, frozen_edges, spread_out, timed_epochs
+from measuring import Timing, machine, markdown_table, running_sum, timed, timed_in_turn, write_page
 from packwork import pipeline
-from packwork.geometry.outline import Outline
-from packwork.losses.linear import LinearAdjoint, LinearWeights
+from packwork.arrays import FloatArray
+from packwork.losses.fused import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
-from packwork.recipe import make_recipe
-from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.detail import seen_at
 from packwork.solve.level import Level
-from packwork.solve.motion import Motion
-from packwork.solve.options import SolveOptions
-from packwork.start.first_poses import first_poses
-from packwork.start.options import StartOptions
-from packwork.start.sizes import nominal_scales
+from runs import EA, EXACT_OO, LC, LNU, OO, SECONDS, on_frozen_set
 
-WEIGHTS = LinearWeights(5.0, 5.0, 1.0)
+WEIGHTS = {"containment": 5.0, "overlap": 5.0, "filling": 1.0, "evenness": 2.0}
 RESOLUTIONS = (50, 200, 600, 1_200, 2_400)
 COUNTS = (10, 100, 1_000, 10_000)
-EDGES = 6_000
-
 
 QUALITY_HEADER = ["container", "LC", "OO", "EA", "exact OO", "L-nU", "s"]
 STAGE_HEADER = [
@@ -48,7 +39,7 @@ PAGE = """# Benchmarks
 Made by `packwork bench engine` on {date}.
 {machine}.
 
-Times are medians with their quartiles in milliseconds. "Running sum" is
+Times are medians with their quartiles in milliseconds of the processor. "Running sum" is
 `np.cumsum(image, axis=1, out=buffer)` on a float32 image of the same size, in the same
 process, in turn with what it is compared with.
 
@@ -58,8 +49,9 @@ process, in turn with what it is compared with.
 
 ## The frozen set at 200 epochs (`--effort draft`)
 
-100 items from the 32 bundled icons, eight of them thin hand-drawn strokes; mean of seeds
-0 to 2 and half the range of LC. OO and EA by pixels at 1,200 px, "exact OO" by polygons.
+100 items from 32 bundled icons, eight of them thin hand-drawn strokes; mean of seeds 0 to
+2 and half the range of LC, median of the processor's seconds. OO and EA by pixels at 1,200 px,
+"exact OO" by polygons.
 
 {draft}
 
@@ -69,25 +61,10 @@ process, in turn with what it is compared with.
 
 ## Milliseconds per stage
 
-Outlines are as coarse as each level needs, as in a run.
+Outlines are as coarse as each level needs, as in a run; losses with evenness.
 
 {stages}
 """
-
-
-def spread_out(outlines: list[Outline], container: Container) -> Poses:
-    """Items of equal area, covering 0.7 of the container, placed by the start."""
-    areas = np.array([o.area for o in outlines])
-    scales = nominal_scales(areas, np.ones(len(outlines)), 0.7 * container.outline.area)
-    rng = np.random.default_rng(0)
-    angles = rng.uniform(-np.pi, np.pi, len(outlines))
-    return first_poses(container, outlines, scales, angles, StartOptions(), rng).poses
-
-
-def running_sum(shape: tuple[int, int]):
-    image = np.random.default_rng(0).random(shape, dtype=np.float32)
-    buffer = np.empty_like(image)
-    return lambda: np.cumsum(image, axis=1, out=buffer)
 
 
 def stage_rows() -> list[list[str]]:
@@ -108,18 +85,18 @@ def stage_rows() -> list[list[str]]:
 
 def _stages(level: Level, poses: Poses, count: int, edges: int) -> list[str]:
     rasteriser = level.rasteriser
-    linear = LinearAdjoint(level.container_image)
-    adjoint = linear(rasteriser.accumulation, WEIGHTS)
+    fused, weights = FusedAdjoint(level.container_image, count), FusedWeights(**WEIGHTS)
+    adjoint = fused(rasteriser.accumulation, weights)
 
     def forward() -> None:
         points = level.ensemble.place(poses, level.px_per_cu)
         rasteriser.sweep(points, level.ensemble.ring_starts)
 
     def losses() -> None:
-        linear(rasteriser.accumulation, WEIGHTS)
+        fused(rasteriser.accumulation, weights)
 
     def backward() -> None:
-        by_points = rasteriser.pullback(adjoint, WEIGHTS.containment)
+        by_points = rasteriser.pullback(adjoint, RECALL)
         level.ensemble.gather(by_points, poses, level.px_per_cu)
 
     rounds = 60 if count * level.resolution < 2_000_000 else 12
@@ -138,32 +115,6 @@ def _stages(level: Level, poses: Poses, count: int, edges: int) -> list[str]:
         str(times["forward"]), str(times["losses"]), str(times["backward"]),
         f"{total:.3g}", str(times["sum"]), f"{total / times['sum'].median:.2f}",
     ]  # fmt: skip
-
-
-def whole_epoch() -> tuple[Timing, Timing, float, int]:
-    """One epoch of the solver, poses to poses, on 100 icons of about 6,000 edges."""
-    outlines = frozen.outlines_of(EDGES)
-    container = frozen.round_container()
-    poses = spread_out(outlines, container)
-    level = Level(container, outlines, 600)
-    motion = Motion(poses, poses.scale, container.side, SolveOptions())
-    summing = running_sum(level.rasteriser.shape)
-
-    def epoch() -> None:
-        motion.follow(level.gradient(motion.poses, WEIGHTS), 1e-4)
-
-    ratios, epochs, sums = [], [], []
-    for _ in range(15):
-        # In blocks, as epochs follow each other in a run; blocks in turn, as machines drift.
-        epochs.append(timed(epoch, seconds=0.15).median)
-        sums.append(timed(summing, seconds=0.1).median)
-        ratios.append(epochs[-1] / sums[-1])
-    edges = sum(len(o.points) for o in outlines)
-    return _of(epochs), _of(sums), float(np.median(ratios)), edges
-
-
-def _of(samples: list[float]) -> Timing:
-    return Timing(*(float(v) for v in np.percentile(samples, [50, 25, 75])))
 
 
 def closed_curves() -> Timing:
@@ -187,59 +138,40 @@ def closed_curves() -> Timing:
     return timed(both, seconds=4.0)
 
 
-def budget_rows(epochs: int) -> tuple[list[list[str]], list[float]]:
-    """Quality and time of 50+200+600 on the frozen set, start included."""
-    items = frozen.items()
-    rows, means = [], []
-    pipeline.warm_up()
-    for make in frozen.CONTAINERS:
-        container = make()
-        taken = []
-        for seed in frozen.SEEDS:
-            recipe = make_recipe(
-                container="frozen", items=["icons"], seed=seed, sizes="free", epochs=epochs
-            )
-            run = pipeline.fill(recipe, items, container)
-            seconds = run.seconds["start"] + run.seconds["levels"]
-            m = run.metrics
-            taken.append(
-                [m.pixel.LC, m.pixel.OO, m.pixel.EA, m.pixel.LnU, seconds, m.exact.overlap]
-            )
-        middle = np.mean(taken, axis=0)
-        means.append(middle)
-        rows.append(_quality_row(container.name, middle, np.ptp(taken, axis=0)))
-        print("  ".join(rows[-1]), flush=True)
-    mean = np.mean(means, axis=0)
-    rows.append(_quality_row("mean", mean, np.zeros(6)))
-    print("  ".join(rows[-1]), flush=True)
-    return rows, [float(v) for v in mean]
+def budget_rows(epochs: int) -> tuple[list[list[str]], FloatArray]:
+    """Quality and time of 50+200+600 on the frozen set, start included; and their means."""
+    taken = on_frozen_set(frozen.SEEDS, epochs=epochs)
+    names = [*(make().name for make in frozen.CONTAINERS), "mean"]
+    every = np.concatenate([taken, taken.mean(axis=0, keepdims=True)])
+    rows = [_quality_row(name, one) for name, one in zip(names, every, strict=True)]
+    print("\n".join("  ".join(row) for row in rows), flush=True)
+    return rows, every[-1].mean(axis=0)
 
 
-def _quality_row(name: str, m: np.ndarray, spread: np.ndarray) -> list[str]:
+def _quality_row(name: str, taken: FloatArray) -> list[str]:
+    m = taken.mean(axis=0)
     return [
-        name, f"{m[0]:.3f} ± {spread[0] / 2:.3f}", f"{m[1]:.1e}", f"{m[2]:.1e}",
-        f"{m[5]:.1e}", f"{m[3]:.1f}", f"{m[4]:.2f}",
+        name, f"{m[LC]:.3f} ± {np.ptp(taken[:, LC]) / 2:.3f}", f"{m[OO]:.1e}", f"{m[EA]:.1e}",
+        f"{m[EXACT_OO]:.1e}", f"{m[LNU]:.1f}", f"{np.median(taken[:, SECONDS]):.2f}",
     ]  # fmt: skip
 
 
-def main() -> None:
-    """Measure, print, write docs/benchmarks.md."""
-    print(machine(), flush=True)
-    epoch, summed, ratio, edges = whole_epoch()
-    print(f"epoch {epoch} ms, running sum {summed} ms, ratio {ratio:.2f}, {edges} edges")
-    curves = closed_curves()
-    print(f"2,048 curves: {curves} ms", flush=True)
-    draft, draft_mean = budget_rows(200)
-    normal, _ = budget_rows(800)
-    stages = stage_rows()
-    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+def target_rows(
+    epochs: dict[str, EpochTiming], curves: Timing, draft: FloatArray
+) -> list[list[str]]:
+    """What was measured beside what was asked for; call it last, for the memory."""
+    edges, peak = frozen_edges(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     peak_mib = peak / (1024**2 if sys.platform == "darwin" else 1024)
-    targets = [
+    rows = [
         [
-            f"one whole epoch, poses to poses, 100 icons of {edges:,} edges, 600 px",
-            f"{epoch} ms, {ratio:.2f} x the running sum ({summed} ms)",
-            "0.6 x",
-        ],
+            f"one whole epoch, poses to poses, 100 icons of {edges:,} edges, 600 px, {name}",
+            f"{t.epoch} ms, {t.ratio} x the running sum ({t.running_sum} ms)",
+            target,
+        ]
+        for (name, t), target in zip(epochs.items(), ("0.6 x", "1.0 x"), strict=True)
+    ]
+    return [
+        *rows,
         [
             "2,048 closed curves of 32 edges, radius 30 px, 2,040 x 1,344 px, both ways",
             f"{curves} ms",
@@ -247,12 +179,12 @@ def main() -> None:
         ],
         [
             "200 epochs, 50+200+600 px, 100 items, start included",
-            f"{draft_mean[4]:.2f} s",
+            f"{draft[SECONDS]:.2f} s",
             "0.4 s",
         ],
         [
             "quality at that budget, sizes free",
-            f"LC {draft_mean[0]:.3f}, OO {draft_mean[1]:.1e}, EA {draft_mean[2]:.1e}",
+            f"LC {draft[LC]:.3f}, OO {draft[OO]:.1e}, EA {draft[EA]:.1e}",
             "LC 0.77, OO 3e-4, EA 1.5e-4",
         ],
         [
@@ -261,17 +193,32 @@ def main() -> None:
             "1,024 MiB",
         ],
     ]
-    text = PAGE.format(
-        date=datetime.date.today().isoformat(),
-        machine=machine(),
-        targets=markdown_table(["what", "measured", "target"], targets),
+
+
+def main() -> None:
+    """Measure, print, write docs/benchmarks.md."""
+    print(machine(), flush=True)
+    pipeline.warm_up()
+    epochs = timed_epochs(
+        {"without evenness": {**WEIGHTS, "evenness": 0.0}, "with evenness": WEIGHTS}
+    )
+    for name, timing in epochs.items():
+        print(f"epoch {name}: {timing.epoch} ms, ratio {timing.ratio}", flush=True)
+    curves = closed_curves()
+    print(f"2,048 curves: {curves} ms", flush=True)
+    draft, draft_mean = budget_rows(200)
+    normal, _ = budget_rows(800)
+    stages = stage_rows()
+    write_page(
+        "benchmarks.md",
+        PAGE,
+        targets=markdown_table(
+            ["what", "measured", "target"], target_rows(epochs, curves, draft_mean)
+        ),
         draft=markdown_table(QUALITY_HEADER, draft),
         normal=markdown_table(QUALITY_HEADER, normal),
         stages=markdown_table(STAGE_HEADER, stages),
     )
-    target = Path(__file__).resolve().parent.parent / "docs" / "benchmarks.md"
-    target.write_text(text, encoding="utf-8")
-    print(f"wrote {target}")
 
 
 if __name__ == "__main__":

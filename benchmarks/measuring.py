@@ -1,15 +1,24 @@
-"""Medians with their spread, and what machine they were measured on."""
+"""Medians with their spread, and what machine they were measured on.
+
+Times are the processor's, so that other programs on a busy machine do not count; on a quiet
+one they are those of a clock, since nothing here runs in more than one thread.
+"""
 
 from __future__ import annotations
 
+import datetime
 import importlib.metadata
 import platform
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+
+from packwork.arrays import FloatArray
+
+DOCS = Path(__file__).resolve().parent.parent / "docs"
 
 
 @dataclass(frozen=True)
@@ -19,6 +28,11 @@ class Timing:
     median: float
     low: float
     high: float
+
+    @classmethod
+    def of(cls, samples: Sequence[float] | FloatArray) -> Timing:
+        """Median and quartiles of samples."""
+        return cls(*(float(v) for v in np.percentile(samples, [50, 25, 75])))
 
     def __str__(self) -> str:
         return f"{self.median:.3g} ({self.low:.3g}-{self.high:.3g})"
@@ -30,13 +44,12 @@ def timed(call: Callable[[], object], seconds: float = 1.0, least: int = 7) -> T
     samples: list[float] = []
     began = time.perf_counter()
     while len(samples) < least or time.perf_counter() - began < seconds:
-        start = time.perf_counter()
+        start = time.process_time()
         call()
-        samples.append(1e3 * (time.perf_counter() - start))
+        samples.append(1e3 * (time.process_time() - start))
         if len(samples) >= 2_000:
             break
-    low, median, high = np.percentile(samples, [25, 50, 75])
-    return Timing(float(median), float(low), float(high))
+    return Timing.of(samples)
 
 
 def timed_in_turn(calls: dict[str, Callable[[], object]], rounds: int = 60) -> dict[str, Timing]:
@@ -44,13 +57,23 @@ def timed_in_turn(calls: dict[str, Callable[[], object]], rounds: int = 60) -> d
     samples: dict[str, list[float]] = {name: [] for name in calls}
     for _ in range(rounds + 1):
         for name, call in calls.items():
-            start = time.perf_counter()
+            start = time.process_time()
             call()
-            samples[name].append(1e3 * (time.perf_counter() - start))
-    return {
-        name: Timing(*(float(v) for v in np.percentile(taken[1:], [50, 25, 75])))
-        for name, taken in samples.items()
-    }
+            samples[name].append(1e3 * (time.process_time() - start))
+    return {name: Timing.of(taken[1:]) for name, taken in samples.items()}
+
+
+def running_sum(shape: tuple[int, int]) -> Callable[[], object]:
+    """What the engine is compared with: one running sum along an image's rows."""
+    image = np.random.default_rng(0).random(shape, dtype=np.float32)
+    buffer = np.empty_like(image)
+    return lambda: np.cumsum(image, axis=1, out=buffer)
+
+
+def ranged(samples: Sequence[float], form: str) -> str:
+    """Median, and the least and the most, each in a format as ``.3f``."""
+    middle, low, high = (f"{v:{form}}" for v in (np.median(samples), min(samples), max(samples)))
+    return f"{middle} ({low} to {high})" if low != high else middle
 
 
 def machine() -> str:
@@ -75,3 +98,11 @@ def markdown_table(header: list[str], rows: list[list[str]]) -> str:
     """Rows as a Markdown table."""
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
+
+
+def write_page(name: str, page: str, **parts: str) -> None:
+    """Write a page of ``docs``: a format string with ``{date}``, ``{machine}`` and parts."""
+    today = datetime.date.today().isoformat()
+    text = page.format(date=today, machine=machine(), **parts)
+    (DOCS / name).write_text(text, encoding="utf-8")
+    print(f"wrote {DOCS / name}")

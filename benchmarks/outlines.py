@@ -7,16 +7,14 @@ quartiles, without the memory of earlier fits.
 
 from __future__ import annotations
 
-import datetime
 import os
 import time
-from pathlib import Path
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
-from measuring import Timing, machine, markdown_table
+from measuring import Timing, machine, markdown_table, write_page
 from packwork.fit.fitted import FittedOutline, fit_anew
 from packwork.readers.items import read_items
 from packwork.scene.item import Item
@@ -53,7 +51,7 @@ def fit_timed(item: Item, curves: int, rounds: int) -> tuple[FittedOutline, Timi
         start = time.process_time()
         result = fit_anew(item.outline, curves)
         samples.append(1e3 * (time.process_time() - start))
-    return result, Timing(*(float(v) for v in np.percentile(samples, [50, 25, 75])))
+    return result, Timing.of(samples)
 
 
 def summary_row(curves: int, taken: list[tuple[FittedOutline, Timing]]) -> list[str]:
@@ -87,16 +85,13 @@ def main() -> None:
         summary.append(summary_row(curves, taken))
         print("  ".join(summary[-1]), flush=True)
     header = ["curves", "worst IoU", "median IoU", "median ms", "slowest ms", "fitted"]
-    text = PAGE.format(
-        date=datetime.date.today().isoformat(),
-        machine=machine(),
-        main=MAIN,
+    write_page(
+        "benchmarks-outlines.md",
+        PAGE,
+        main=str(MAIN),
         summary=markdown_table(header, summary),
         rows=markdown_table(HEADER, sorted(rows, key=lambda row: float(row[2]))),
     )
-    target = Path(__file__).resolve().parent.parent / "docs" / "benchmarks-outlines.md"
-    target.write_text(text, encoding="utf-8")
-    print(f"wrote {target}")
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ from packwork import pipeline
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
+from packwork.pipeline.beginning import NOMINAL_COVERAGE
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container
@@ -77,7 +78,7 @@ def setting(container: Container, count: int, seed: int) -> Setting:
     rng = np.random.default_rng(seed)
     areas, hulls = np.array([o.area for o in outlines]), hull_areas(outlines)
     whole = container.outline.area
-    nominal = nominal_scales(hulls, np.ones(count), pipeline.NOMINAL_COVERAGE * whole)
+    nominal = nominal_scales(hulls, np.ones(count), NOMINAL_COVERAGE * whole)
     scales = yielding_scales(areas, hulls, nominal, 2.0, StartOptions().coverage * whole)
     return Setting(container, outlines, nominal, scales, start_angles(count, None, None, rng), rng)
 

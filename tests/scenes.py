@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import fields
 
 import numpy as np
 import numpy.typing as npt
@@ -57,28 +58,34 @@ def flat_item(name: str, outline: Outline) -> Item:
 
 
 def poses(
-    x: npt.ArrayLike, y: npt.ArrayLike, angle: npt.ArrayLike = 0.0, scale: npt.ArrayLike = 1.0
+    x: npt.ArrayLike,
+    y: npt.ArrayLike,
+    angle: npt.ArrayLike = 0.0,
+    scale: npt.ArrayLike = 1.0,
+    stretch: npt.ArrayLike = 1.0,
 ) -> Poses:
     """Poses of as many items as ``x`` has entries; single numbers hold for all."""
-    columns = np.broadcast_arrays(*(np.asarray(v, np.float64) for v in (x, y, angle, scale)))
+    given = (np.asarray(v, np.float64) for v in (x, y, angle, scale, stretch))
+    columns = np.broadcast_arrays(*given)
     return Poses(*(column.copy() for column in columns))
 
 
 def taken(all_poses: Poses, order: Sequence[int] | npt.NDArray[np.int64]) -> Poses:
     """The same poses in another order."""
     k = np.asarray(order)
-    return Poses(all_poses.x[k], all_poses.y[k], all_poses.angle[k], all_poses.scale[k])
+    return Poses(*(getattr(all_poses, field.name)[k] for field in fields(Poses)))
 
 
 def as_array(all_poses: Poses) -> FloatArray:
-    """``(n, 4)``: x, y, angle and log scale, the quantities of a pose gradient."""
-    return np.column_stack([all_poses.x, all_poses.y, all_poses.angle, np.log(all_poses.scale)])
+    """``(n, 5)``: x, y, angle, log scale and log stretch, as in a pose gradient."""
+    logs = np.log(all_poses.scale), np.log(all_poses.stretch)
+    return np.column_stack([all_poses.x, all_poses.y, all_poses.angle, *logs])
 
 
 def from_array(numbers: FloatArray) -> Poses:
     """Inverse of :func:`as_array`."""
-    x, y, angle, log_scale = numbers.T
-    return Poses(x.copy(), y.copy(), angle.copy(), np.exp(log_scale))
+    x, y, angle, log_scale, log_stretch = numbers.T
+    return Poses(x.copy(), y.copy(), angle.copy(), np.exp(log_scale), np.exp(log_stretch))
 
 
 def placed(outlines: Sequence[Outline], all_poses: Poses) -> list[Outline]:

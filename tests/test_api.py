@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import copy
 import importlib
 import json
+import pickle
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -80,6 +83,28 @@ def test_metrics_are_there(layout: pw.Layout) -> None:
 def test_a_layout_shows_itself(layout: pw.Layout) -> None:
     root = ET.fromstring(layout._repr_svg_())  # noqa: S314
     assert root.tag.endswith("svg")
+
+
+@pytest.mark.parametrize(
+    "copied",
+    [copy.copy, copy.deepcopy, lambda layout: pickle.loads(pickle.dumps(layout))],  # noqa: S301
+)
+def test_a_layout_is_copied_and_pickled_whole(copied: Any, tmp_path: Path) -> None:
+    layout = pw.fill("circle", ["star", "owl"], count=6, **QUICK)
+    layout.save(tmp_path / "before.svg")
+    again = copied(layout)
+    again.save(tmp_path / "after.svg")
+    assert type(again) is pw.Layout
+    assert (tmp_path / "after.svg").read_bytes() == (tmp_path / "before.svg").read_bytes()
+    assert again.manifest == layout.manifest
+    assert again.metrics == layout.metrics
+    assert again._repr_svg_() == layout._repr_svg_()
+
+
+def test_a_layout_with_other_poses_is_measured_anew(layout: pw.Layout) -> None:
+    away = replace(layout, poses=replace(layout.poses, x=layout.poses.x + 1e4))
+    assert type(away) is pw.Layout
+    assert away.metrics["LC"] == 0 < layout.metrics["LC"]
 
 
 def test_a_layout_comes_back_from_its_file(layout: pw.Layout, tmp_path: Path) -> None:
@@ -194,7 +219,7 @@ def test_a_loss_of_ones_own_moves_items() -> None:
         title = box(0, 0, layout.container.width, layout.container.height / 3).region
         return sum(float(o.region.intersection(title).area) for o in layout.outlines)
 
-    assert covered_title({"own_loss:headroom": 10.0}) < 0.2 * covered_title({})
+    assert covered_title({"own_loss:headroom": 20.0}) < 0.2 * covered_title({})
 
 
 def test_a_loss_that_cannot_be_found_is_named() -> None:

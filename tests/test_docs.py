@@ -29,8 +29,8 @@ PARAMETERS = [
     for parameter in command.params
 ]
 WRITING_OPTIONS = {
-    "output", "pixels", "background", "outline", "flatten", "report", "diagnose", "save_recipe",
-    "quiet", "loss",
+    "output", "pixels", "background", "show_container", "flatten", "report", "diagnose",
+    "save_recipe", "quiet", "loss",
 }  # fmt: skip
 
 
@@ -71,12 +71,12 @@ def test_every_recipe_field_says_what_it_means(name: str) -> None:
 
 def test_fill_offers_every_recipe_field_under_its_own_name() -> None:
     offered = {parameter.name for parameter in COMMANDS["fill"].params}
-    fields = set(Recipe.model_fields) - {"losses"}
+    fields = set(Recipe.model_fields) - {"losses", "rules"}  # rules: in recipe files only
     assert offered == fields | WRITING_OPTIONS
 
 
 @pytest.mark.parametrize(
-    "name", sorted(set(Recipe.model_fields) - {"container", "items", "losses"})
+    "name", sorted(set(Recipe.model_fields) - {"container", "items", "losses", "rules"})
 )
 def test_help_and_default_of_an_option_are_the_recipes(name: str) -> None:
     (option,) = (p for p in COMMANDS["fill"].params if p.name == name)

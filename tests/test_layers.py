@@ -24,7 +24,9 @@ def imported(tree: ast.AST) -> Iterator[str]:
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
-            yield node.module
+            # From a package its kernels: that is an import of the kernels.
+            kernels = all(alias.name == "_kernels" for alias in node.names)
+            yield f"{node.module}._kernels" if kernels else node.module
 
 
 def parse(path: Path) -> ast.Module:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import tomllib
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,6 +15,8 @@ from hypothesis import strategies as st
 from packwork.errors import RecipeError
 from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe, parse_levels
 from packwork.solve.options import MAX_RESOLUTION, MIN_RESOLUTION
+from packwork.writers import recipe_bytes
+from scenes import square_container
 
 NAN, INF = float("nan"), float("inf")
 
@@ -21,14 +25,16 @@ BAD: dict[str, list[Any]] = {
     "font": [3, "bold.ttf"],
     "items": [7, ["star", 3]],
     "count": [0, -1, 2.5, "many", MAX_COUNT + 1],
-    "canvas": [0, -600, NAN, INF, 1e7, "wide"],
+    "canvas": [0, -600, NAN, INF, 1e7, "wide", "0x5mm", "5parsec", "-3in", "1e99mm", [200, 150]],
     "seed": [-1, 2**63, 0.5, "lucky"],
     "sizes": ["huge", "", None],
     "size_ratio": [0.99, -2, 101, NAN],
+    "stretch": [0.99, 0, -2, 101, NAN, INF, "wide"],
     "rotate": ["twist", "", "0", "-30", "181", "nan", "0,x", "30,inf", ","],
     "padding": ["wide", "-1", "", "2 parsec", NAN, INF],
     "weights": [3, ["bear"], {"bear": "heavy"}],
     "holes": ["drill", True],
+    "outline": ["rough", "", True],
     "strict": ["perhaps", 7],
     "start": ["anywhere", "", 3],
     "effort": ["lazy", 1],
@@ -37,6 +43,13 @@ BAD: dict[str, list[Any]] = {
         "", "fine", "50,", "50;200", f"{MIN_RESOLUTION - 1}", f"{MAX_RESOLUTION + 1}",
         "50:0", "50:-1", "50:nan", "50:inf", "50:1:2", "1e2", 5,
     ],
+    "hero": ["", "@", 3, "bear=", "bear@1"],
+    "palette": ["nocolour", "", 3],
+    "apart": ["perhaps", 7],
+    "rules": [3, "star", [3], [{"items": 5}], [{"itmes": "star"}], [{"items": "a", "turn": 3}]],
+    "finish": ["rough", "", True],
+    "time": [0, -1, NAN, INF, "soon", 1e9],
+    "preset": ["Paper", "", None],
     "losses": ["overlap", {"overlap": "much"}, {"overlap": NAN}, {"overlap": INF}],
 }  # fmt: skip
 
@@ -210,4 +223,23 @@ def test_numbers_and_tuples_say_the_same_as_text() -> None:
     ],
 )
 def test_lengths(text: str | float, pixels: float) -> None:
-    assert make_recipe(container="heart", padding=text).padding_cu == pytest.approx(pixels)
+    container = square_container(600.0)
+    padding = make_recipe(container="heart", padding=text).padding_cu(container)
+    assert padding == pytest.approx(pixels)
+
+
+@pytest.mark.parametrize(
+    ("text", "padding_mm"), [("1mm", 1), ("2", 2), (0.5, 0.5), ("1%", 2), ("72pt", 25.4)]
+)
+def test_lengths_are_in_units_of_the_canvas(text: str | float, padding_mm: float) -> None:
+    sheet = replace(square_container(200.0), unit="mm")
+    recipe = make_recipe(container="heart", padding=text)
+    assert recipe.padding_cu(sheet) == pytest.approx(padding_mm)
+
+
+@pytest.mark.parametrize("canvas", [None, 600, 600.5, "600", "200x150mm", "A4-landscape"])
+def test_a_canvas_survives_toml_and_json(canvas: str | float | None) -> None:
+    recipe = make_recipe(container="heart", canvas=canvas)
+    assert make_recipe(**recipe.plain()) == recipe
+    again = tomllib.loads(recipe_bytes(recipe.plain(), Path()).decode())
+    assert make_recipe(**again).canvas_size == recipe.canvas_size

@@ -9,6 +9,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 from packwork import pipeline, writers
+from packwork.display.bar import bar_for, shown
+from packwork.display.picture import notebook_png, notebook_svg
 from packwork.metrics.measure import measure
 from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
@@ -24,11 +26,34 @@ from packwork.scene.item import Item
 class Layout(scene.Layout):
     """Container + items + poses: what :func:`fill` returns, what is saved and shown.
 
+    It shows itself in a notebook, and may be copied and pickled. It never changes:
+    ``dataclasses.replace(layout, poses=...)`` gives another one.
+
+    Parameters
+    ----------
+    container
+        The region that was filled.
+    items
+        One entry per placed item; copies repeat the same :class:`Item`.
+    poses
+        Where they are: arrays ``x``, ``y`` (canvas units, y down), ``angle`` (radians,
+        clockwise on screen), ``scale`` and ``stretch``, one number per item.
+    weights
+        ``(n,)`` share of area asked for each item; all ones if none were given.
+    manifest
+        What the run did: version, recipe, seed, seconds and metrics per level.
+
     Examples
     --------
     >>> layout = fill("heart", ["circle", "star"], count=4, effort="draft", levels="50")
-    >>> len(layout.items), layout.metrics["OO"] < 0.1
-    (4, True)
+    >>> layout
+    <Layout: 4 items in heart>
+    >>> [item.name for item in layout.items]
+    ['circle', 'star', 'circle', 'star']
+    >>> layout.poses.x.shape, layout.container.width
+    ((4,), 600.0)
+    >>> layout.manifest["recipe"]["effort"]
+    'draft'
     """
 
     @classmethod
@@ -41,6 +66,16 @@ class Layout(scene.Layout):
         ------
         ReadError
             If the file is missing or is not such a layout.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     layout.save(f"{folder}/stars.geojson")
+        ...     again = Layout.load(f"{folder}/stars.geojson")
+        >>> bool(abs(again.poses.angle - layout.poses.angle).max() < 1e-9)
+        True
         """
         return _public(read_layout(Path(path)))
 
@@ -50,10 +85,10 @@ class Layout(scene.Layout):
         *,
         pixels: int = 1_600,
         background: str | None = None,
-        outline: bool = False,
+        show_container: bool = False,
         flatten: bool = False,
     ) -> None:
-        """Write the layout; the ending (.svg, .png, .geojson) picks the format.
+        """Write the layout; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format.
 
         Parameters
         ----------
@@ -62,9 +97,9 @@ class Layout(scene.Layout):
         pixels
             Longer side of a PNG.
         background
-            Any CSS colour, or ``none``. Default: none in SVG, white in PNG.
-        outline
-            Draw the container's outline.
+            Any CSS colour, or ``none``. Default: none in SVG and PDF, white in PNG.
+        show_container
+            Draw the container's line.
         flatten
             In SVG, repeat each drawing in place, for tools that choke on ``use``.
 
@@ -72,19 +107,43 @@ class Layout(scene.Layout):
         ------
         WriteError
             If the ending is unknown or the file cannot be written.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
+        ...     Path(folder, "stars.png").read_bytes()[1:4]
+        b'PNG'
         """
         options = writers.write_options(
-            pixels=pixels, background=background, outline=outline, flatten=flatten
+            pixels=pixels,
+            background=background,
+            show_container=show_container,
+            flatten=flatten,
         )
         writers.write(self, path, options)
 
     @cached_property
     def metrics(self) -> Mapping[str, Any]:
-        """Measures by name: LC, LC_ratio, OO, EA, LnU, LC_ink and a table ``exact``."""
+        """Measures by name: LC, LC_ratio, OO, EA, LnU, LC_ink and a table ``exact``.
+
+        Shares are of the container's area; docs/conventions.md says what each means.
+
+        Examples
+        --------
+        >>> layout = fill("circle", "hexagon", count=7, effort="draft", levels="50")
+        >>> 0.5 < layout.metrics["LC"] < 1, sorted(layout.metrics["exact"])[-3:]
+        (True, ['min_gap', 'outside_area', 'overlap_area'])
+        """
         return measure(self).as_dict()
 
-    def _repr_svg_(self) -> str:
-        return writers.svg_text(self)
+    def _repr_svg_(self) -> str | None:
+        return notebook_svg(self)
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]] | None:
+        return notebook_png(self)
 
 
 def fill(
@@ -93,6 +152,7 @@ def fill(
     *,
     observer: Observer | None = None,
     stop: Stop = never,
+    progress: bool | None = None,
     **options: Any,
 ) -> Layout:
     """Fill a container with items.
@@ -108,10 +168,13 @@ def fill(
         Told of progress.
     stop
         Asked before every epoch; True ends the run with what it has.
+    progress
+        True shows a bar, False none; None shows one in a notebook only.
     options
         As on the command line: ``count``, ``font``, ``canvas``, ``seed``, ``sizes``,
-        ``size_ratio``, ``rotate``, ``weights``, ``holes``, ``strict``, ``start``,
-        ``effort``, ``epochs``, ``levels``, ``losses``.
+        ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``, ``holes``,
+        ``outline``, ``strict``, ``start``, ``effort``, ``epochs``, ``levels``,
+        ``losses``.
 
     Raises
     ------
@@ -136,7 +199,9 @@ def fill(
     chosen: list[Item] | None = None
     if any(isinstance(entry, Item) for entry in given):
         chosen = _as_items(given, recipe.holes, recipe.strict)
-    run = pipeline.fill(recipe, chosen, whole, observer, stop)
+    bar = bar_for(progress, observer)
+    with shown(bar):
+        run = pipeline.fill(recipe, chosen, whole, bar or observer, stop)
     layout = _public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = run.metrics.as_dict()
@@ -177,7 +242,7 @@ def read_items(
 
 
 def read_container(
-    source: str | Path, *, canvas: float = 600.0, font: str | Path | None = None
+    source: str | Path, *, canvas: str | float | None = None, font: str | Path | None = None
 ) -> Container:
     """Container from a mask, an SVG, ``text:WORD`` or a built-in name.
 
@@ -186,7 +251,8 @@ def read_container(
     source
         As for :func:`fill`.
     canvas
-        Its longer side, in canvas units.
+        Its longer side (``600``, ``"200mm"``, ``"8in"``) or a sheet (``"200x150mm"``,
+        ``"A4"``). None: an SVG in mm, cm, in or pt keeps its size, any other is 600 px.
     font
         Font file for ``text:WORD``; the bundled one if None.
 
@@ -194,6 +260,8 @@ def read_container(
     ------
     ReadError
         If it cannot be used.
+    RecipeError
+        If the canvas has no meaning.
 
     Examples
     --------

@@ -19,24 +19,29 @@ class Step:
         Index of the level (from 0) and how many there are.
     resolution
         Pixels on the longer side at this level.
-    epoch, epochs
-        Epochs done and asked for, over all levels.
+    epoch
+        Epochs done, over all levels.
+    progress
+        How far the run is, 0 to 1.
     poses
         Where the items are now.
     coverage, overlap, outside
         Image-space shares of the container at this level: covered, covered twice,
         and covered outside it.
+    is_finish
+        Whether this is of the exact finish, after the last level.
     """
 
     level: int
     levels: int
     resolution: int
     epoch: int
-    epochs: int
+    progress: float
     poses: Poses
     coverage: float
     overlap: float
     outside: float
+    is_finish: bool = False
 
 
 class Observer(Protocol):

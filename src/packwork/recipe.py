@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import difflib
 import math
-import re
 from pathlib import Path
-from typing import Annotated, Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     BaseModel,
@@ -15,17 +13,27 @@ from pydantic import (
     ValidationError,
     ValidationInfo,
     field_validator,
+    model_validator,
 )
 
 from packwork.errors import RecipeError
+from packwork.presets import PRESETS
+from packwork.refusals import refusal
+from packwork.rules import MAX_COUNT, Rotation, Rule, as_text, hero_rule, rotation_text
 from packwork.solve.options import (
     MAX_RESOLUTION,
+    MAX_STRETCH,
     MIN_RESOLUTION,
     ImageLossFunction,
+    OutlineChoice,
     SizeMode,
     SolveOptions,
 )
 from packwork.start.options import StartOptions
+from packwork.units import CanvasSize, canvas_size, parse_length
+
+if TYPE_CHECKING:
+    from packwork.scene.container import Container
 
 Effort: TypeAlias = Literal["draft", "normal", "best"]
 
@@ -33,43 +41,12 @@ EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
 """Epochs per effort. Effort bounds iterations and never seconds, so that one seed gives
 one result on any machine. Measured in docs/benchmarks.md."""
 
-MAX_COUNT = 100_000
-"""Most items in one run; more would not be seen on any sheet. Chosen."""
+APART = 0.5
+"""Weight of the loss that keeps kinds apart. Larger leaves fewer side by side and a little
+more room between them. Tried."""
 
-
-class Rotation(BaseModel):
-    """How far items may turn, radians."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
-
-    limit: float | None = None
-    """Largest turn from upright; None for any."""
-
-    choices: tuple[float, ...] | None = None
-    """The only angles allowed; None for all within the limit."""
-
-    @classmethod
-    def parse(cls, text: str) -> Rotation:
-        """Rotation from ``free``, ``none``, ``30`` (within 30 degrees) or ``0,90``.
-
-        Examples
-        --------
-        >>> round(Rotation.parse("30").limit, 3)
-        0.524
-        >>> Rotation.parse("0,90").choices[0]
-        0.0
-        """
-        plain = text.strip().lower()
-        if plain == "free":
-            return cls()
-        if plain == "none":
-            return cls(limit=0.0)
-        numbers = [_degrees(part) for part in plain.split(",") if part.strip()]
-        if "," in plain and numbers:
-            return cls(choices=tuple(math.radians(v) for v in numbers))
-        if len(numbers) == 1 and 0 < numbers[0] <= 180:
-            return cls(limit=math.radians(numbers[0]))
-        raise _bad_rotation(text)
+MAX_SECONDS = 86_400.0
+"""Longest time for one run. Chosen."""
 
 
 class Recipe(BaseModel):
@@ -89,8 +66,10 @@ class Recipe(BaseModel):
     count: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
     """How many items in all; the given ones are repeated in turn. Default: one of each."""
 
-    canvas: Annotated[float, Field(ge=1e-3, le=1e6, allow_inf_nan=False)] = 600.0
-    """Longer side of the canvas, in px (96 to the inch): the unit of all results."""
+    canvas: str | float | None = None
+    """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as
+    200x150mm, A4 (A0 to A6, letter) or A4-landscape. Its unit is that of all results.
+    Default: an SVG container in mm, cm, in or pt keeps its size; any other becomes 600 px."""
 
     seed: Annotated[int, Field(ge=0, le=2**63 - 1)] = 0
     """Same seed, same machine, same versions: same layout."""
@@ -102,18 +81,41 @@ class Recipe(BaseModel):
     size_ratio: Annotated[float, Field(ge=1, le=100)] = 2.0
     """With free sizes: 2 lets an item be half to twice as large as the typical one."""
 
+    stretch: Annotated[float, Field(ge=1, le=MAX_STRETCH, allow_inf_nan=False)] = 1.0
+    """1.5 lets each item become up to 1.5 times as wide for its height as it was drawn, or
+    as high for its width, at the same area. 1 keeps all proportions."""
+
     rotate: str = "free"
     """free, none, 30 (within 30 degrees of upright) or 0,90 (only these angles)."""
 
     padding: str | float = "0"
-    """Gap between items and to the container's edge: 4 (px), 1mm, 3pt, 0.5cm, 0.1in, or
-    1% of the canvas' longer side."""
+    """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,
+    0.5cm, 0.1in, or 1% of the canvas' longer side."""
 
     weights: str | dict[str, float] | None = None
     """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
 
+    hero: str | None = None
+    """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
+    NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
+
+    palette: str | tuple[str, ...] | None = None
+    """New colours for items of one colour, neighbours unlike: #e63946,#457b9d or okabe-ito,
+    tol-bright, tol-vibrant, tol-muted, tol-high-contrast."""
+
+    apart: bool = False
+    """Keep copies of one item from lying side by side."""
+
+    rules: tuple[Rule, ...] = ()
+    """What is asked of single items (in Python and recipe files)."""
+
     holes: Literal["fill", "keep"] = "fill"
     """keep: the holes of items stay free, so that small items may sit in them."""
+
+    outline: OutlineChoice = "exact"
+    """What an item is taken for while it is placed: exact (its true outline), fitted (20
+    smooth curves) or hull (no item in another's bays). What is measured and written is the
+    true outline."""
 
     strict: bool = False
     """Refuse a folder with an unusable file instead of leaving that file out."""
@@ -123,18 +125,31 @@ class Recipe(BaseModel):
     room), medial-axis (along the container's middle line first), auto (one of these two, by
     the container's form), scatter (at random), or a layout file (.geojson) to start from."""
 
+    finish: Literal["exact", "none"] = "exact"
+    """exact: after the levels, items are moved, turned and sized in exact geometry until
+    nothing overlaps and nothing sticks out; none: what the levels gave, not certified."""
+
     effort: Effort = "normal"
     """How many iterations: draft, normal or best."""
 
     epochs: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
     """Iterations in all, instead of an effort."""
 
-    levels: str = "50:9,200:23,600:68"
-    """Resolutions from coarse to fine, pixels on the longer side, each with its share
-    of the epochs; without shares (50,200,600) they are even."""
+    time: Annotated[float, Field(gt=0, le=MAX_SECONDS, allow_inf_nan=False)] | None = None
+    """Seconds for the whole run, instead of a number of iterations: results then depend on
+    the machine."""
+
+    preset: Literal["default", "paper"] = "default"
+    """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
+
+    levels: str | None = None
+    """Resolutions from coarse to fine, pixels on the longer side, each with its share of
+    the epochs, as 50:9,200:23,600:68 (the default); without shares, as 50,200,600 (the
+    paper's), they are even."""
 
     losses: dict[str | ImageLossFunction, float] = Field(default_factory=dict)
-    """Further losses, by name, module:function or (in Python) as functions, with weights."""
+    """Weights of losses, by name, module:function or (in Python) as functions: in place of
+    the preset's, or beside them; 0 switches one off."""
 
     @field_validator("font", mode="before")
     @classmethod
@@ -151,25 +166,59 @@ class Recipe(BaseModel):
             )
         return font
 
-    @field_validator("rotate", "levels", mode="before")
+    @field_validator("levels", mode="before")
     @classmethod
-    def _numbers_are_text_too(cls, value: object, info: ValidationInfo) -> object:
-        """Let Python say ``rotate=30``, ``rotate=(0, 90)`` and ``levels=(50, 200)``."""
-        if isinstance(value, tuple | list):
-            alone = len(value) == 1 and info.field_name == "rotate"
-            return ",".join(str(part) for part in value) + ("," if alone else "")
-        return str(value) if isinstance(value, int | float) else value
+    def _levels_are_text_too(cls, value: object) -> object:
+        """Let Python say ``levels=(50, 200)``."""
+        return as_text(value)
 
-    @field_validator("rotate")
+    @field_validator("rotate", mode="before")
     @classmethod
-    def _rotation_is_known(cls, text: str) -> str:
-        Rotation.parse(text)
+    def _rotation_is_known(cls, value: object) -> object:
+        """Let Python say ``rotate=30`` and ``rotate=(0, 90)``."""
+        text = rotation_text(value)
+        if isinstance(text, str):
+            Rotation.parse(text)
         return text
+
+    @field_validator("rules", mode="before")
+    @classmethod
+    def _rules_are_tables(cls, value: object) -> object:
+        if not isinstance(value, list | tuple):
+            raise RecipeError("rules", f"must be a list of tables, not {str(value)[:60]!r}")
+        return value
+
+    @field_validator("hero")
+    @classmethod
+    def _hero_is_known(cls, text: str | None) -> str | None:
+        if text is not None:
+            hero_rule(text)
+        return text
+
+    @field_validator("palette", mode="before")
+    @classmethod
+    def _palette_is_known(cls, value: object) -> object:
+        if value is not None:
+            # Loads the picture library, which the command line's help can do without.
+            from packwork.scene.palette import palette_colours
+
+            try:
+                palette_colours(value)
+            except ValueError as error:
+                raise RecipeError("palette", str(error)) from None
+        return value
+
+    @field_validator("canvas")
+    @classmethod
+    def _canvas_has_a_size(cls, value: str | float | None) -> str | float | None:
+        if value is not None:
+            canvas_size(value)
+        return value
 
     @field_validator("padding")
     @classmethod
     def _padding_is_a_length(cls, value: str | float) -> str | float:
-        parse_length("padding", value, 1.0)
+        _length("padding", value, "px", 1.0)
         return value
 
     @field_validator("losses")
@@ -184,13 +233,26 @@ class Recipe(BaseModel):
 
     @field_validator("levels")
     @classmethod
-    def _levels_are_numbers(cls, text: str) -> str:
-        parse_levels(text)
+    def _levels_are_numbers(cls, text: str | None) -> str | None:
+        if text is not None:
+            parse_levels(text)
         return text
+
+    @model_validator(mode="after")
+    def _sizes_can_be_bounded(self) -> Recipe:
+        for number, rule in enumerate(self.rules, start=1):
+            if rule.scale is not None and self.sizes != "free":
+                raise RecipeError(
+                    "rules",
+                    f"rule {number}: scale bounds free sizes, not {self.sizes} ones; "
+                    'leave it out, pin the size, or use sizes = "free"',
+                )
+        return self
 
     def plain(self) -> dict[str, Any]:
         """Values that JSON can hold; a loss given as a function by its name."""
-        values = self.model_dump(exclude={"losses"}, mode="json")
+        values = self.model_dump(exclude={"losses", "rules"}, mode="json")
+        values["rules"] = [rule.model_dump(mode="json", exclude_none=True) for rule in self.rules]
         named = {
             loss if isinstance(loss, str) else getattr(loss, "__qualname__", repr(loss)): weight
             for loss, weight in self.losses.items()
@@ -198,79 +260,83 @@ class Recipe(BaseModel):
         return {**values, "losses": named}
 
     @property
+    def canvas_size(self) -> CanvasSize | None:
+        """Size of the canvas; None leaves it to the container."""
+        return None if self.canvas is None else canvas_size(self.canvas)
+
+    @property
     def rotation(self) -> Rotation:
         """How far items may turn."""
         return Rotation.parse(self.rotate)
+
+    @property
+    def keeps_apart(self) -> bool:
+        """Whether copies of one item are not to lie side by side."""
+        return self.apart or bool(self.losses.get("apart"))
 
     @property
     def starts_from_layout(self) -> bool:
         """True if ``start`` names a layout file and no method."""
         return Path(self.start).suffix.lower() in {".geojson", ".json"}
 
-    @property
-    def padding_cu(self) -> float:
-        """Gap asked for, canvas units."""
-        return parse_length("padding", self.padding, self.canvas)
+    def padding_cu(self, container: Container) -> float:
+        """Gap asked for, in units of the container's canvas."""
+        return _length("padding", self.padding, container.unit, container.side)
+
+    def may_press(self, padding_cu: float) -> bool:
+        """Whether items may be pressed together for even gaps.
+
+        Where sizes cannot yield, or a gap must be kept, pressing them costs overlap.
+        """
+        return self.sizes == "free" and padding_cu == 0
 
     def start_options(self) -> StartOptions:
         """Options of the start stage."""
         if self.starts_from_layout:
             return StartOptions()
+        asked = {"method": self.start, "coverage": PRESETS[self.preset].coverage}
         try:
-            return StartOptions.model_validate({"method": self.start})
+            return StartOptions.model_validate(asked)
         except ValidationError as error:
-            raise _recipe_error(error, {"method": "start"}) from error
+            raise refusal(error, StartOptions, {"method": "start"}) from error
 
-    def solve_options(self) -> SolveOptions:
-        """Options of the solve stage."""
-        rotation = self.rotation
-        still = rotation.choices is not None or rotation.limit == 0.0
-        changes: dict[str, Any] = {"turn_rate": 0.0} if still else {"turn_limit": rotation.limit}
-        levels, shares = parse_levels(self.levels)
-        return SolveOptions(
-            levels=levels,
-            shares=shares,
-            epochs=self.epochs or EPOCHS[self.effort],
-            sizes=self.sizes,
-            size_ratio=self.size_ratio,
-            losses=self.losses,
-            margin=self.padding_cu / 2,
-            **changes,
-        )
+    def solve_options(self, padding_cu: float = 0.0, seconds: float | None = None) -> SolveOptions:
+        """Options of the solve stage, of which only the padding depends on the container.
+
+        ``seconds``, if given, bounds the levels in place of epochs.
+        """
+        changes: dict[str, Any] = {}
+        if not any(rule.rotate for rule in self.rules):
+            # Where rules turn items each in their own way, the limits of items hold.
+            rotation = self.rotation
+            changes = {"turn_rate": 0.0} if rotation.is_still else {"turn_limit": rotation.limit}
+        preset = PRESETS[self.preset].solve
+        if self.levels is not None:
+            changes["levels"], changes["shares"] = parse_levels(self.levels)
+        losses = dict(preset.losses)
+        if self.apart:
+            losses["apart"] = APART
+        losses |= self.losses
+        if "evenness" not in self.losses and not self.may_press(padding_cu):
+            losses.pop("evenness", None)
+        changes |= {
+            "epochs": self.epochs or EPOCHS[self.effort],
+            "seconds": seconds,
+            "sizes": self.sizes,
+            "size_ratio": self.size_ratio,
+            "stretch": self.stretch,
+            "losses": {loss: weight for loss, weight in losses.items() if weight},
+            "margin": padding_cu / 2,
+        }
+        return SolveOptions(**{**dict(preset), **changes})
 
 
-UNITS_PX = {
-    "": 1.0,
-    "px": 1.0,
-    "pt": 96 / 72,
-    "mm": 96 / 25.4,
-    "cm": 96 / 2.54,
-    "in": 96.0,
-}
-"""Pixels per unit of a length, 96 to the inch."""
-
-
-def parse_length(key: str, value: str | float, side: float) -> float:
-    """Length in canvas units from ``2``, ``2pt``, ``1mm`` or ``5%`` of the longer side.
-
-    Raises
-    ------
-    RecipeError
-        About ``key``, if it is no length or below zero.
-
-    Examples
-    --------
-    >>> parse_length("padding", "5%", 600.0), parse_length("padding", "1in", 600.0)
-    (30.0, 96.0)
-    """
-    found = re.fullmatch(r"([0-9]*\.?[0-9]+)\s*(%|[a-z]*)", str(value).strip().lower())
-    if found is not None:
-        number, unit = float(found[1]), found[2]
-        if unit == "%":
-            return number / 100 * side
-        if unit in UNITS_PX:
-            return number * UNITS_PX[unit]
-    raise RecipeError(key, f"use a length such as 4, 1mm, 3pt, 0.1in or 1%, not {value!r}")
+def _length(key: str, value: str | float, unit: str, whole: float) -> float:
+    """Length in a unit; a ``RecipeError`` about ``key`` if it is none."""
+    try:
+        return parse_length(str(value), unit, whole)
+    except ValueError as error:
+        raise RecipeError(key, str(error)) from None
 
 
 def parse_levels(text: str) -> tuple[tuple[int, ...], tuple[float, ...]]:
@@ -316,54 +382,10 @@ def make_recipe(**options: Any) -> Recipe:
     try:
         return Recipe.model_validate(options)
     except ValidationError as error:
-        raise _recipe_error(error) from error
-
-
-_PLAIN_WORDS = {
-    "should be": "must be",
-    "greater than or equal to": "at least",
-    "less than or equal to": "at most",
-    "greater than": "more than",
-    "a valid integer, unable to parse string as an integer": "a whole number",
-    "a valid number, unable to parse string as a number": "a number",
-    "a valid integer, got a number with a fractional part": "a whole number",
-}
-
-
-def _recipe_error(error: ValidationError, names: dict[str, str] | None = None) -> RecipeError:
-    first = error.errors(include_url=False)[0]
-    key = str(first["loc"][0]) if first["loc"] else "recipe"
-    key = (names or {}).get(key, key)
-    if first["type"] == "extra_forbidden":
-        known = list(Recipe.model_fields)
-        close = difflib.get_close_matches(key, known, n=1)
-        hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(known)}"
-        return RecipeError(key, f"no such option; {hint}")
-    if first["type"] == "missing":
-        return RecipeError(key, "must be given")
-    message = re.sub(r"^(Value error, |Input )", "", first["msg"])
-    for said, meant in _PLAIN_WORDS.items():
-        message = message.replace(said, meant)
-    return RecipeError(key, f"{message[0].lower()}{message[1:]}, not {first['input']!r}")
-
-
-def _degrees(text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        raise _bad_rotation(text) from None
-    if not math.isfinite(value):
-        raise _bad_rotation(text)
-    return value
+        raise refusal(error, Recipe) from error
 
 
 def _bad_levels(text: str) -> RecipeError:
     return RecipeError(
         "levels", f"use resolutions like 50,200,600 or 50:9,200:23,600:68, not {text!r}"
-    )
-
-
-def _bad_rotation(text: str) -> RecipeError:
-    return RecipeError(
-        "rotate", f"use free, none, 30 (within 30 degrees) or 0,90 (only these), not {text!r}"
     )

@@ -65,8 +65,16 @@ OPTIONS = [
     ("--count -4", "not -4"),
     ("--canvas nan", "canvas: "),
     ("--canvas -1", "canvas: "),
+    ("--canvas 0x5mm", "canvas: a side is 0.000265 to 2.65e+05 mm long, not 0 mm"),
+    ("--canvas 5parsec", "canvas: use a length such as 600, 8in or 200mm"),
+    ("--canvas=-3in", "long, not -3 in"),
+    ("--canvas 1e99mm", "canvas: "),
+    ("--padding 1e308in", "padding: use a length such as 4, 1mm"),
     ("--seed -1", "seed: "),
     ("--size-ratio 0.5", "--size-ratio: "),
+    ("--stretch 0.5", "--stretch: must be at least 1, not 0.5"),
+    ("--stretch nan", "--stretch: "),
+    ("--stretch inf", "--stretch: "),
     ("--rotate twist", "rotate: use free, none, 30"),
     ("--levels fine", "levels: use resolutions like 50,200,600"),
     ("--levels 3", "levels: a level has"),
@@ -145,7 +153,8 @@ def test_a_command_line_that_cannot_be_parsed(line: str, folder: Path, packwork:
     result = packwork(line)
     assert result.exit_code == 2
     assert "Traceback" not in result.output
-    assert "Error" in result.stderr
+    assert result.stderr.startswith("packwork: ")
+    assert result.stderr.count("\n") == 1
     assert not list(folder.iterdir())
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -83,7 +84,25 @@ def test_a_mask_is_a_container(folder: Path, packwork: Command) -> None:
     Image.fromarray(mask).save(folder / "mask.png")
     packwork(f"fill mask.png star {QUICK} --canvas 160 -o out.geojson")
     canvas = json.loads((folder / "out.geojson").read_text(encoding="utf-8"))["canvas"]
-    assert canvas == {"width": 160, "height": 120}
+    assert canvas == {"width": 160, "height": 120, "unit": "px"}
+
+
+def test_a_sheet_in_mm_is_one_in_every_file(folder: Path, packwork: Command) -> None:
+    files = "-o a.svg -o a.pdf -o a.dxf -o a.geojson --report r.json"
+    result = packwork(f"fill circle star -n 3 {QUICK} --canvas 200x150mm --padding 1mm {files}")
+    assert "smallest gap, mm" in result.stdout
+    sheet = {"width": 200, "height": 150, "unit": "mm"}
+    assert json.loads((folder / "a.geojson").read_text(encoding="utf-8"))["canvas"] == sheet
+    assert json.loads((folder / "r.json").read_text(encoding="utf-8"))["canvas"] == sheet
+    assert 'width="200mm" height="150mm"' in (folder / "a.svg").read_text(encoding="utf-8")
+    assert b"MediaBox[0 0 566.92914 425.19684]" in (folder / "a.pdf").read_bytes()
+    assert (folder / "a.dxf").stat().st_size > 0
+    assert "smallest gap, mm" in packwork("measure a.geojson").stdout
+    again = packwork(f"fill a.svg star -n 3 {QUICK} -q -o b.geojson")
+    assert again.exit_code in {0, 1}
+    canvas = json.loads((folder / "b.geojson").read_text(encoding="utf-8"))["canvas"]
+    assert (canvas.pop("unit"), sheet.pop("unit")) == ("mm", "mm")
+    assert canvas == pytest.approx(sheet)
 
 
 def test_several_outputs_in_new_folders(folder: Path, packwork: Command) -> None:
@@ -99,7 +118,8 @@ def test_several_outputs_in_new_folders(folder: Path, packwork: Command) -> None
 
 def test_drawing_options_reach_the_drawing(folder: Path, packwork: Command) -> None:
     packwork(f"fill circle star -n 2 {QUICK} -q -o plain.svg")
-    packwork(f"fill circle star -n 2 {QUICK} -q --background tomato --outline --flatten -o all.svg")
+    drawing = "--background tomato --show-container --flatten"
+    packwork(f"fill circle star -n 2 {QUICK} -q {drawing} -o all.svg")
     plain, drawn = (
         (folder / name).read_text(encoding="utf-8") for name in ("plain.svg", "all.svg")
     )
@@ -107,6 +127,8 @@ def test_drawing_options_reach_the_drawing(folder: Path, packwork: Command) -> N
     assert "#ff6347" not in plain
     assert "<use" in plain
     assert "<use" not in drawn
+    assert 'display="none"' in plain
+    assert 'display="none"' not in drawn
 
 
 def test_all_as_asked_is_0_and_shows_the_measures(packwork: Command) -> None:
@@ -152,7 +174,7 @@ def test_a_report_has_the_promised_keys(folder: Path, packwork: Command) -> None
     assert report["metrics"]["exact"].keys() >= {"overlap_area", "outside_area", "min_gap"}
     assert report["seconds"].keys() >= {"read", "start", "levels", "write", "total"}
     assert (report["items"], report["placed"], report["unplaced"]) == (3, 3, [])
-    assert (report["certified"], report["seed"]) == (False, 11)
+    assert (report["certified"], report["seed"]) == (True, 11)
 
 
 def test_a_diagnosis_is_a_picture(folder: Path, packwork: Command) -> None:
@@ -193,10 +215,35 @@ def test_start_continues_an_earlier_layout(folder: Path, packwork: Command) -> N
     assert item_count(folder / "b.geojson") == 4
 
 
+@pytest.mark.parametrize("outline", ["fitted", "hull"])
+def test_files_hold_true_outlines_whatever_the_solver_saw(
+    outline: str, folder: Path, packwork: Command
+) -> None:
+    packwork(f"fill circle star -n 3 {QUICK} -q --outline {outline} -o out.geojson")
+    features = json.loads((folder / "out.geojson").read_text(encoding="utf-8"))["features"]
+    assert [len(f["geometry"]["coordinates"][0]) for f in features[1:]] == [11, 11, 11]
+
+
+def test_stretched_items_are_written_and_read_as_such(folder: Path, packwork: Command) -> None:
+    line = "fill circle square -n 5 --epochs 40 --levels 48 --stretch 2 --rotate none -q"
+    assert packwork(f"{line} -o out.geojson -o out.svg --report run.json").exit_code == 0
+    features = json.loads((folder / "out.geojson").read_text(encoding="utf-8"))["features"]
+    stretches = [f["properties"]["stretch"] for f in features[1:]]
+    assert 1.05 < max(max(s, 1 / s) for s in stretches) <= 2 * (1 + 1e-9)
+    drawing = (folder / "out.svg").read_text(encoding="utf-8")
+    assert re.search(r"scale\([\d.]+ [\d.]+\)", drawing)
+    assert packwork("measure out.geojson -q --report measured.json").exit_code == 0
+    run, measured = (
+        json.loads((folder / name).read_text(encoding="utf-8"))["metrics"]["exact"]["LC"]
+        for name in ("run.json", "measured.json")
+    )
+    assert measured == pytest.approx(run, rel=1e-6)
+
+
 def test_demo_writes_three_files(
     folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    small = {"items": ["star"], "count": 3, "epochs": 5, "levels": "32"}
+    small = {"items": ["star"], "count": 3, "epochs": 60, "levels": "32"}
     monkeypatch.setitem(sys.modules["packwork.cli.demo"].DEMOS, "heart", small)
     result = packwork("demo heart --folder pictures")
     assert result.exit_code == 0

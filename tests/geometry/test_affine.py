@@ -49,6 +49,16 @@ def test_similarities_scale_every_distance_alike_and_do_not_mirror(
     assert affine.apply(matrix, np.zeros((1, 2))).tolist() == [[x, y]]
 
 
+@given(ratio=st.floats(0.01, 100))
+def test_stretching_keeps_areas_and_makes_squares_as_wide_as_said(ratio: float) -> None:
+    matrix = affine.stretched(ratio)
+    wide, high = affine.apply(matrix, np.ones((1, 2)))[0]
+    assert wide * high == pytest.approx(1.0)
+    assert wide / high == pytest.approx(ratio)
+    back = affine.compose(affine.stretched(1 / ratio), matrix)
+    np.testing.assert_allclose(back, affine.identity(), atol=1e-12)
+
+
 def test_positive_turns_are_clockwise_on_screen() -> None:
     quarter = affine.similarity(0, 0, np.pi / 2, 1.0)
     right = np.array([[1.0, 0.0]])

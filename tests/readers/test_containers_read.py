@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from packwork.errors import ReadError
+from packwork.errors import ReadError, RecipeError
 from packwork.readers import builtin
 from packwork.readers.container import read_container
 
@@ -25,7 +25,7 @@ def svg_file(tmp_path):
 
 @pytest.mark.parametrize("name", builtin.container_names())
 def test_builtin_containers_lie_on_their_canvas(name):
-    container = read_container(name, side=300)
+    container = read_container(name, canvas=300)
     left, top, right, bottom = container.outline.bounds
     assert container.side == pytest.approx(300)
     assert min(left, top) >= -1e-6
@@ -35,7 +35,7 @@ def test_builtin_containers_lie_on_their_canvas(name):
 
 
 def test_circle_fills_its_canvas():
-    circle = read_container("circle", side=200)
+    circle = read_container("circle", canvas=200)
     assert circle.outline.area == pytest.approx(np.pi * 100**2, rel=1e-4)
 
 
@@ -85,10 +85,51 @@ def test_unknown_containers(source, problem):
         read_container(source)
 
 
-@pytest.mark.parametrize("side", [0.0, -1.0, float("nan"), float("inf")])
-def test_canvas_needs_a_side(side):
-    with pytest.raises(ReadError, match="positive side"):
-        read_container("circle", side)
+@pytest.mark.parametrize("canvas", [0.0, -1.0, float("nan"), float("inf"), "5parsec", "0x5mm"])
+def test_canvas_needs_a_size(canvas):
+    with pytest.raises(RecipeError, match=r"^canvas: .*not "):
+        read_container("circle", canvas)
+
+
+@pytest.mark.parametrize(
+    ("page", "canvas"),
+    [
+        ('width="200mm" height="150mm"', (200, 150, "mm")),
+        ('width="20cm" viewBox="0 0 40 20"', (20, 10, "cm")),
+        ('height="1.5in" viewBox="0 0 40 20"', (3, 1.5, "in")),
+        ('width="72pt" height="1in" viewBox="0 0 40 20"', (72, 72, "pt")),
+        ('width="40px" height="20" viewBox="0 0 40 20"', (600, 300, "px")),
+        ('width="100%" viewBox="0 0 40 20"', (600, 300, "px")),
+        ('width="4em" height="2em"', (600, 300, "px")),
+        ('viewBox="0 0 40 20"', (600, 300, "px")),
+    ],
+)
+def test_a_drawing_in_real_units_keeps_its_size(svg_file, page, canvas):
+    container = read_container(svg_file('<rect width="20" height="10"/>', page))
+    assert (container.width, container.height) == pytest.approx(canvas[:2], rel=1e-12)
+    assert container.unit == canvas[2]
+
+
+def test_a_drawing_in_real_units_yields_to_the_canvas_asked_for(svg_file):
+    file = svg_file('<rect width="20" height="10"/>', 'width="200mm" viewBox="0 0 40 20"')
+    assert read_container(file, 100).canvas == {"width": 100, "height": 50, "unit": "px"}
+    sheet = read_container(file, "8x8in")
+    assert sheet.canvas == {"width": 8, "height": 8, "unit": "in"}
+    assert sheet.outline.bounds == pytest.approx((0, 2, 4, 4))
+
+
+@pytest.mark.parametrize("source", ["bear", "circle", "stripe:6", "text:OX", "mask.png"])
+def test_any_container_is_fitted_onto_a_sheet(source, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Image.fromarray(np.zeros((50, 100), np.uint8)).save("mask.png")
+    own, sheet = read_container(source), read_container(source, "200x150mm")
+    assert sheet.canvas == {"width": 200, "height": 150, "unit": "mm"}
+    left, top, right, bottom = sheet.outline.bounds
+    own_left, own_top, own_right, own_bottom = own.outline.bounds
+    scale = min(200 / own.width, 150 / own.height)
+    assert right - left == pytest.approx(scale * (own_right - own_left))
+    assert (left + right) / 2 == pytest.approx(100 + scale * (own_left + own_right - own.width) / 2)
+    assert (top + bottom) / 2 == pytest.approx(75 + scale * (own_top + own_bottom - own.height) / 2)
 
 
 def test_folder_is_no_container(tmp_path):
@@ -111,6 +152,6 @@ def test_mask_scales_to_its_side(tmp_path):
     mask = np.full((50, 100), 255, np.uint8)
     mask[10:40, 20:80] = 0
     Image.fromarray(mask).save(tmp_path / "mask.png")
-    container = read_container(tmp_path / "mask.png", side=1000)
+    container = read_container(tmp_path / "mask.png", canvas=1000)
     assert (container.width, container.height) == (1000, 500)
     assert container.outline.bounds == pytest.approx((200, 100, 800, 400))

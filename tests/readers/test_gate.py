@@ -13,7 +13,7 @@ from PIL import Image
 from packwork.errors import ReadError
 from packwork.readers.gate.door import admit, document
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.trace import render
+from packwork.readers.svg.render import render
 from packwork.readers.unfit import UnfitError
 
 HANG_S = 5.0
@@ -64,6 +64,9 @@ def png_reference(side: int = 4, mark: str = "data:image/png;base64,") -> str:
         '<path d="M0 0h1v1z"><set attributeName="fill" to="evil"/></path>',
         '<path d="M0 0h1v1z"><animate attributeName="href" values="evil"/></path>',
         '<filter id="f"><feImage href="file:///evil.png"/></filter><g filter="url(#f)"/>',
+        '<path filter="url(evil.svg#f)" style="filter:url(evil.svg)" d="M0 0h1v1z"/>',
+        '<path fill="var(--x, url(evil))" d="M0 0h1v1z"/>',
+        "<style>:root{--x:url(http://evil.test)}</style><path style='mask:var(--x)'/>",
         '<text><tspan><textPath href="evil.svg#p">a</textPath></tspan></text>',
         '<x:thing xmlns:x="evil"><path d="M0 0h1v1z"/></x:thing>',
         '<g xml:base="http://evil.test/"/>',
@@ -92,6 +95,29 @@ def test_embedded_pictures_stay():
 
 def test_huge_embedded_pictures_go():
     assert "data:" not in admitted(f'<image href="{png_reference(4_100)}"/>')
+
+
+def test_addresses_as_entities_pass():
+    head = '<!DOCTYPE svg PUBLIC "x" "y" [<!ENTITY ns_svg "http://www.w3.org/2000/svg">]>'
+    assert admit(f'{head}<svg xmlns="&ns_svg;"><g/></svg>'.encode())[0].tag == "g"
+
+
+@pytest.mark.parametrize(
+    ("declared", "said"),
+    [
+        ('<!ENTITY a SYSTEM "file:///etc/passwd">', "declares"),
+        ('<!ENTITY % a "x">', "declares"),
+        ('<!ENTITY a "x"><!ENTITY b "&a;&a;">', "declares"),
+        ('<!ENTITY a "&#60;g/>">', "declares"),
+        (f'<!ENTITY a "{"x" * 400}">', "declares"),
+        ('<!NOTATION n SYSTEM "n"><!ENTITY a SYSTEM "b" NDATA n>', "declares"),
+        ('<!ENTITY a "bbbbbbbbbbbbbbbbbbbbbbbbb">', "too often"),
+    ],
+)
+def test_entities_that_could_do_more_do_not_pass(declared, said):
+    repeats = "&a;" * 100_000 if said == "too often" else ""
+    with pytest.raises(UnfitError, match=said):
+        admit(f"<!DOCTYPE svg [{declared}]>".encode() + svg(f"<desc>{repeats}</desc>"))
 
 
 def test_plain_doctype_passes():
@@ -132,6 +158,8 @@ def nested_masks(levels: int) -> str:
         ('<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>', "in a circle"),
         ('<mask id="m"><rect mask="url(#m)"/></mask><g mask="url(#m)"/>', "in a circle"),
         ("<g>" * 500 + "</g>" * 500, "more than 100 deep"),
+        ("<rect/>" * 40_000, "grows to 40,000"),
+        ("<g/>" * 300_000, "more than 200,000 elements"),
         ("<style>" + "*{fill:red}" * 2000 + "</style>" + "<g/>" * 2000, "style rules"),
         ("<style>" + "a," * 1_500_000 + "b{fill:red}</style>", "style rules"),
         ("<text>" + "a" * 30_000 + "</text>", "letters of text"),
@@ -220,6 +248,53 @@ def test_styles_become_attributes():
         '<g class="a" style="opacity:.5"/>'
     )
     assert '<g fill="red" opacity=".5" style="mix-blend-mode:multiply"/>' in clean
+
+
+def test_variables_are_filled_in():
+    clean = admitted(
+        "<style>:root{--ink:#05f;--same:var(--ink)} .a{stroke:var(--same)}</style>"
+        '<g class="a" fill="var(--none, var(--ink))" color="var(--none)"/>'
+    )
+    assert '<g fill="#05f" stroke="#05f"/>' in clean
+
+
+FILTER = '<filter id="f"{}>{}</filter><g filter="url(#f)"/>'
+
+
+def test_shading_filters_stay():
+    clean = admitted(FILTER.format("", '<feFlood flood-color="red"/><feBlend in="SourceGraphic"/>'))
+    assert 'filter="url(#f)"' in clean
+    assert '<feFlood flood-color="red"/>' in clean
+
+
+@pytest.mark.parametrize(
+    "filtered",
+    [
+        FILTER.format("", "<feTurbulence numOctaves='99'/>"),
+        FILTER.format("", "<feOffset/><feMorphology radius='99'/>"),
+        FILTER.format(' width="900%"', "<feOffset/>"),
+        FILTER.format(' filterUnits="userSpaceOnUse" width="301"', "<feOffset/>"),
+        FILTER.format("", "<feOffset/>") + '<g filter="url(#f)"/>' * 900,
+    ],
+)
+def test_filters_that_are_slow_or_large_go(filtered, caplog):
+    clean = admitted(filtered)
+    assert "filter" not in clean
+    assert "filter" in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("body", "said"),
+    [
+        ("<foreignObject><p>hello</p></foreignObject>", "HTML"),
+        ("<path d='M0 0h1v1z'><animate attributeName='d'/></path>", "animation"),
+        ("<switch><foreignObject requiredExtensions='x'/><g/></switch>", ""),
+        ("<title>a</title><script/><metadata/>", ""),
+    ],
+)
+def test_what_others_would_show_is_said(body, said, caplog):
+    admitted(body)
+    assert (said in caplog.text) if said else caplog.text == ""
 
 
 def test_unused_definitions_go():

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+import time
+
 import numpy as np
 import pytest
 from hypothesis import example, given, settings
@@ -24,6 +27,9 @@ VALID = (
     '<ellipse cx="50%" cy="40" rx="9" ry="4mm"/></g></svg>'
 ).encode()
 
+HANG_S = 10.0
+"""Far more processor time than any of these takes, far less than it would be unbounded."""
+
 TOKENS = st.sampled_from(
     [*"MmLlHvCcSqTAazZe01,", "-1", ".5", "1e3", "1e-9", "-1e7", "50", "99.9"]
 ) | (st.sampled_from(["1e300", "NaN", "inf", "00"]))
@@ -31,7 +37,7 @@ TOKENS = st.sampled_from(
 
 def item_or_read_error(data: bytes) -> None:
     try:
-        item = item_of_svg(data, "a", "a.svg")
+        item = item_of_svg(data, "a", "a.svg", is_compared=True)
     except ReadError as error:
         message = str(error)
     else:
@@ -107,6 +113,66 @@ def test_mutated_drawings_that_are_traced(data):
         place = data.draw(st.integers(0, len(traced) - 1))
         traced[place] = data.draw(st.integers(32, 126))
     item_or_read_error(bytes(traced))
+
+
+RICH = (
+    f'<svg {SPACES} viewBox="0 0 100 100"><filter id="f"><feGaussianBlur stdDeviation="2"/>'
+    '<feComposite in2="SourceAlpha" operator="in"/></filter><clipPath id="c"><circle cx="50"'
+    ' cy="50" r="40"/></clipPath><mask id="m"><rect width="60" height="90" fill="#999"/></mask>'
+    '<style>:root{--i:#05f}.a{fill:var(--i, red);clip-path:url(#c)}</style><g class="a">'
+    '<rect width="90" height="30" rx="9" filter="url(#f)"/></g><path d="M9 9H90V80" fill="none"'
+    ' stroke="#000" stroke-width="3" stroke-dasharray="5 2 0" stroke-dashoffset="3"/>'
+    '<g mask="url(#m)"><path d="M20 20h50v50z"/></g><svg x="5" width="50%" viewBox="0 0 9 9">'
+    '<text y="8" font-size="5">a<tspan fill="red" dx="1">b</tspan></text></svg></svg>'
+).encode()
+NUMBERS = st.sampled_from([b"0", b"-1", b"1e7", b"1e-7", b"NaN", b"99", b"0.5", b"1e5", b"#"])
+
+
+@settings(deadline=None, max_examples=25)
+@given(st.data())
+def test_changed_numbers_of_rich_drawings(data):
+    changed = RICH
+    for _ in range(data.draw(st.integers(1, 4))):
+        numbers = list(re.finditer(rb"\d+", changed))
+        number = numbers[data.draw(st.integers(0, len(numbers) - 1))]
+        changed = changed[: number.start()] + data.draw(NUMBERS) + changed[number.end() :]
+    item_or_read_error(changed)
+
+
+ZIGZAG = "".join(f"L{k * 0.01:.2f} {k % 2 * 90}" for k in range(3000))
+TURNS = 2.4 * np.arange(180)
+STAR = " ".join(f"{50 + 45 * np.cos(t):.2f} {50 + 45 * np.sin(t):.2f}" for t in TURNS)
+CLIP = '<clipPath id="c">{}</clipPath>'
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        f'<path d="M0 0{ZIGZAG}" fill="none" stroke="#000" stroke-width=".01"/>',
+        CLIP.format(f'<path d="M{STAR}z"/>')
+        + "".join(
+            f'<g clip-path="url(#c)" transform="rotate({k})"><path d="M{STAR}z"/></g>'
+            for k in range(100)
+        ),
+        CLIP.format('<circle r="90"/>') + '<g clip-path="url(#c)"><rect width="9"/></g>' * 900,
+        '<mask id="m"><circle r="9000" fill="#fff"/></mask><circle r="9000" mask="url(#m)"/>' * 2,
+        '<mask id="m"><circle r="90" fill="#fff"/></mask>' + '<circle r="9" mask="url(#m)"/>' * 250,
+        '<path d="' + "".join(f"M0 0H{90 - k / 100}V{90 - k / 100}z" for k in range(4000)) + '"/>',
+        '<rect width="90" height="90" opacity=".5"/>' * 2000,
+        "".join(f'<text y="{k}">word {k}</text>' for k in range(15)),
+        "".join(f'<path d="M{k} 0l90 90" stroke="#000"/>' for k in range(8200)),
+        '<filter id="f" x="-1" y="-1" width="3" height="3"><feGaussianBlur stdDeviation="90"/>'
+        '</filter>' + '<rect width="9000" height="9000" filter="url(#f)"/>' * 200,
+    ],
+    ids=[
+        "zigzag", "stars in stars", "clips", "huge masks", "masks", "nested rings", "layers",
+        "texts", "lines", "filters",
+    ],
+)  # fmt: skip
+def test_drawings_that_would_take_minutes(body):
+    begin = time.process_time()
+    item_or_read_error(svg(body))
+    assert time.process_time() - begin < HANG_S
 
 
 @settings(deadline=None, max_examples=60)

@@ -13,9 +13,11 @@ from hypothesis import strategies as st
 from packwork.errors import ReadError
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.readers.layout import read_layout
+from packwork.scene.canvas import on_canvas
 from packwork.scene.item import FlatArt
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.units import canvas_size
 from packwork.writers.geojson import geojson_text
 
 SQUARE = [[0, 0], [10, 0], [10, 10], [0, 10], [0, 0]]
@@ -29,6 +31,7 @@ ITEM = {
         "y": 5,
         "angle": 90,
         "scale": 2,
+        "stretch": 4,
         "weight": 3,
         "fill": "#123456",
     },
@@ -77,19 +80,25 @@ def test_members(saved):
     )
     assert (item.name, item.source, item.art) == ("tile", "tile.svg", FlatArt("#123456"))
     assert (layout.poses.x[0], layout.poses.angle[0], layout.poses.scale[0]) == (5, np.pi / 2, 2)
+    assert layout.poses.stretch.tolist() == [4]
     assert (layout.weights.tolist(), layout.manifest) == ([3.0], {"seed": 7})
-    assert item.outline.bounds == pytest.approx((-2.5, -2.5, 2.5, 2.5))
+    assert item.outline.bounds == pytest.approx((-1.25, -5, 1.25, 5))
     assert layout.outlines[0].bounds == pytest.approx((0, 0, 10, 10))
 
 
 def test_round_trip(saved):
     items = tuple(builtin_item(name, "keep") for name in ("ring", "heart", "stripe:3"))
-    poses = Poses(*np.array([[90.0, 300, 400], [80, 200, 500], [0.3, -2.0, 3.0], [0.9, 0.5, 1.5]]))
+    places = [[90.0, 300, 400], [80, 200, 500], [0.3, -2.0, 3.0]]
+    poses = Poses(*np.array([*places, [0.9, 0.5, 1.5], [1.0, 1.5, 0.4]]))
     layout = Layout(builtin_container("heart"), items, poses, np.array([1.0, 2.0, 3.0]), {"a": [1]})
     again = saved(geojson_text(layout))
     assert again.manifest == {"a": [1]}
     assert again.weights.tolist() == [1.0, 2.0, 3.0]
     assert again.poses.angle == pytest.approx(layout.poses.angle)
+    assert again.poses.stretch.tolist() == [1.0, 1.5, 0.4]
+    assert [item.outline.bounds for item in again.items] == [
+        pytest.approx(item.outline.bounds, abs=1e-6) for item in items
+    ]
     for before, after in zip(layout.outlines, again.outlines, strict=True):
         gap = before.region.symmetric_difference(after.region).area
         assert gap < 1e-6 * before.area
@@ -100,12 +109,23 @@ def test_layout_without_items(saved):
     assert len(layout.items) == len(layout.poses) == len(layout.weights) == 0
 
 
-def test_canvas_and_weights_may_be_missing(saved):
+def test_canvas_weights_and_stretches_may_be_missing(saved):
     plain = copy.deepcopy(LAYOUT)
-    del plain["canvas"], plain["manifest"], plain["features"][1]["properties"]["weight"]
+    del plain["canvas"], plain["manifest"]
+    for key in ("weight", "stretch"):
+        del plain["features"][1]["properties"][key]
     layout = saved(plain)
     assert (layout.container.width, layout.container.height) == (10, 10)
-    assert layout.weights.tolist() == [1.0]
+    assert layout.weights.tolist() == layout.poses.stretch.tolist() == [1.0]
+
+
+def test_the_unit_of_the_canvas_comes_back(saved):
+    assert saved(LAYOUT).container.unit == "px"
+    assert saved(edited(("canvas", "unit"), "mm")).container.unit == "mm"
+    container = on_canvas(builtin_container("heart"), canvas_size("8x9in"))
+    none = np.zeros(0)
+    again = saved(geojson_text(Layout(container, (), Poses(none, none, none, none), none)))
+    assert again.container.canvas == container.canvas == {"width": 8, "height": 9, "unit": "in"}
 
 
 @pytest.mark.parametrize(
@@ -131,6 +151,9 @@ def test_canvas_and_weights_may_be_missing(saved):
         (edited(("features", 1, "properties", "scale"), 0), r"\.scale: must be positive"),
         (edited(("features", 1, "properties", "scale"), True), r"\.scale: must be a number"),
         (edited(("features", 1, "properties", "weight"), -1), r"\.weight: must be positive"),
+        (edited(("features", 1, "properties", "stretch"), 0), r"\.stretch: must be 0\.0001 to"),
+        (edited(("features", 1, "properties", "stretch"), 2e4), r"\.stretch: must be .* 20000$"),
+        (edited(("features", 1, "properties", "stretch"), "x"), r"\.stretch: must be a number"),
         (
             edited(("features", 1, "properties", "fill"), "url(http://evil)"),
             r"features\[1\]\.fill: must be a colour such as #4a5568, not 'url\(http://evil\)'",
@@ -155,6 +178,8 @@ def test_canvas_and_weights_may_be_missing(saved):
         ),
         (edited(("canvas",), 5), "canvas: must be an object"),
         (edited(("canvas", "width"), 0), r"canvas\.width: must be positive"),
+        (edited(("canvas", "unit"), "ell"), r"canvas\.unit: must be one of px, mm.*not 'ell'"),
+        (edited(("canvas", "unit"), None), r"canvas\.unit: must be one of"),
         (edited(("manifest",), [1]), "manifest: must be an object"),
     ],
 )

@@ -195,7 +195,7 @@ def test_uniform_alpha_does_not_decide(mask_file):
 
 
 def test_all_dark_is_the_whole_canvas(mask_file):
-    container = read_container(mask_file(Image.new("L", (40, 20), 30)), side=600)
+    container = read_container(mask_file(Image.new("L", (40, 20), 30)), canvas=600)
     assert container.outline.bounds == (0, 0, 600, 300)
     assert container.outline.area == 600 * 300
 
@@ -229,7 +229,7 @@ def test_masks_keep_holes_and_parts(mask_file):
     image = disc("L", 255, 0)
     ImageDraw.Draw(image).ellipse([80, 80, 120, 120], fill=255)
     ImageDraw.Draw(image).rectangle([0, 0, 15, 15], fill=0)
-    container = read_container(mask_file(image), side=200)
+    container = read_container(mask_file(image), canvas=200)
     assert len(container.outline.rings) == 3
 
 

@@ -42,7 +42,7 @@ DRAWINGS = {
     "curved stroke": (
         '<path d="M20 80 C 20 0 80 0 80 80" fill="none" stroke="#000" stroke-width="12"/>'
     ),
-    "dots": (
+    "single points": (
         '<g stroke="#000" stroke-width="30"><path stroke-linecap="round" d="M30 30h0"/>'
         '<path stroke-linecap="square" d="M70 70z"/></g>'
     ),
@@ -109,6 +109,59 @@ DRAWINGS = {
     "clip": (
         '<clipPath id="c"><circle cx="50" cy="50" r="30"/></clipPath>'
         '<rect width="60" height="100" clip-path="url(#c)"/>'
+    ),
+    "clip of several shapes": (
+        '<clipPath id="c"><circle cx="30" cy="50" r="20"/><rect x="40" y="10" width="50"'
+        ' height="50" transform="rotate(9)"/></clipPath><g clip-path="url(#c)" transform='
+        '"translate(5)"><rect width="60" height="100"/><path d="M60 0h30v90z"/></g>'
+    ),
+    "clip with a hole": (
+        '<g clip-rule="evenodd"><clipPath id="c"><path d="M10 10h80v80h-80zM30 30h40v40h-40z"/>'
+        '</clipPath></g><rect width="100" height="100" clip-path="url(#c)"/>'
+    ),
+    "clip by use": (
+        '<defs><circle id="u" cx="30" cy="30" r="25" fill="none"/></defs><clipPath id="c"'
+        ' transform="translate(20 10)"><use href="#u"/></clipPath>'
+        '<rect width="100" height="60" clip-path="url(#c)"/>'
+    ),
+    "clipped clip": (
+        '<clipPath id="d"><rect width="50" height="90"/></clipPath><clipPath id="c"'
+        ' clip-path="url(#d)"><circle cx="50" cy="50" r="40"/></clipPath>'
+        '<rect width="100" height="70" clip-path="url(#c)" transform="rotate(10 50 50)"/>'
+    ),
+    "clipped use": (
+        '<clipPath id="c"><rect width="30" height="30"/></clipPath><defs><g id="u"><circle'
+        ' cx="20" cy="20" r="20"/></g></defs>'
+        '<use href="#u" x="30" y="40" clip-path="url(#c)" transform="scale(1.5 1)"/>'
+    ),
+    "clip with a hidden part": (
+        '<clipPath id="c"><rect width="50" height="50"/><rect x="50" width="50" height="50"'
+        ' visibility="hidden"/><rect y="50" width="9" height="50" display="none"/></clipPath>'
+        '<rect width="100" height="100" clip-path="url(#c)"/>'
+    ),
+    "clip in shares": (
+        '<clipPath id="c" clipPathUnits="objectBoundingBox"><circle cx=".5" cy=".5" r=".4"/>'
+        '</clipPath><rect x="10" y="10" width="60" height="80" clip-path="url(#c)"/>'
+    ),
+    "dashes": (
+        '<path d="M10 10h80v80h-80z" fill="none" stroke="#000" stroke-width="8"'
+        ' stroke-dasharray="15 7 3" stroke-dashoffset="4"/>'
+    ),
+    "dots": (
+        '<path d="M10 20H90" stroke="#000" stroke-width="8" stroke-dasharray="0 12"'
+        ' stroke-linecap="round"/><path d="M80 30V90" stroke="#000" stroke-width="8"'
+        ' stroke-dasharray="0 14" stroke-linecap="square"/>'
+    ),
+    "part of a ring": (
+        '<circle cx="50" cy="50" r="30" fill="none" stroke="#000" stroke-width="20"'
+        ' stroke-dasharray="70 999" transform="rotate(-90 50 50)"/>'
+    ),
+    "dash over the start of a ring": (
+        '<rect x="20" y="20" width="60" height="60" fill="none" stroke="#000" stroke-width="14"'
+        ' stroke-dasharray="50 40" stroke-dashoffset="20"/>'
+    ),
+    "hidden by a sheet": (
+        '<rect width="90" height="90"/><circle cx="40" cy="40" r="20"/><path d="M80 80h19v19z"/>'
     ),
     "mask": (
         '<mask id="m"><rect width="100" height="50" fill="#fff"/></mask>'

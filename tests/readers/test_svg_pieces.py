@@ -160,9 +160,21 @@ def test_what_is_clipped_away_is_no_ink():
     assert shapely.area(clipped.ink.region) == pytest.approx(81, rel=1e-3)
 
 
-def test_filters_are_taken_off():
-    shadow = '<filter id="f"><feDropShadow dx="20" flood-color="red"/></filter>'
+def test_shadows_beyond_the_shapes_are_taken_off(caplog):
+    shadow = '<filter id="f" width="3"><feDropShadow dx="20" flood-color="red"/></filter>'
     item = item_of(shadow + '<rect width="30" height="20" filter="url(#f)"/>')
     assert item.ink.area == pytest.approx(600)
     assert isinstance(item.art, VectorArt)
     assert item.art.markup == '<rect width="30" height="20"/>'
+    assert "a.svg: its filters were left out" in caplog.text
+
+
+def test_shading_within_the_shapes_stays(caplog):
+    shade = (
+        '<filter id="f"><feGaussianBlur stdDeviation="3"/><feComposite in2="SourceAlpha"'
+        ' operator="in"/></filter>'
+    )
+    art = item_of(shade + '<rect x="20" y="20" width="30" height="20" filter="url(#f)"/>').art
+    assert isinstance(art, VectorArt)
+    assert "feComposite" in art.markup
+    assert caplog.text == ""

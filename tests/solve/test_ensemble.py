@@ -21,7 +21,7 @@ def holed() -> Outline:
 
 def test_points_stand_where_the_matrix_puts_them(rng: np.random.Generator) -> None:
     outlines = [square(), holed(), star()]
-    where = poses(rng.normal(size=3), rng.normal(size=3), rng.normal(size=3), [0.5, 2.0, 3.0])
+    where = poses(*rng.normal(size=(3, 3)), [0.5, 2.0, 3.0], [1.0, 0.4, 2.5])
     points = Ensemble(outlines).place(where, PX_PER_CU)
     expected = np.concatenate([outline.points for outline in placed(outlines, where)])
     np.testing.assert_allclose(points, PX_PER_CU * expected, atol=1e-12)
@@ -38,7 +38,7 @@ def test_gather_is_the_transpose_of_the_derivative_of_place(
 ) -> None:
     n = len(outlines)
     ensemble = Ensemble(outlines)
-    at = np.column_stack([rng.normal(size=(n, 3)), rng.uniform(-1, 1, n)])
+    at = np.column_stack([rng.normal(size=(n, 3)), rng.uniform(-1, 1, (n, 2))])
     pull = rng.normal(size=ensemble.place(from_array(at), PX_PER_CU).shape)
 
     def value(numbers: FloatArray) -> float:
@@ -50,9 +50,10 @@ def test_gather_is_the_transpose_of_the_derivative_of_place(
 
 
 def test_as_array_and_from_array_are_inverse(rng: np.random.Generator) -> None:
-    where = poses(rng.normal(size=4), 1.0, 2.0, rng.uniform(1, 2, 4))
+    where = poses(rng.normal(size=4), 1.0, 2.0, rng.uniform(1, 2, 4), rng.uniform(1, 2, 4))
     again = from_array(as_array(where))
     np.testing.assert_allclose(again.scale, where.scale)
+    np.testing.assert_allclose(again.stretch, where.stretch)
     np.testing.assert_array_equal(again.x, where.x)
 
 

@@ -53,13 +53,14 @@ def test_a_clean_layout_is_left_alone() -> None:
 def test_the_rescued_shrinks_to_fit_the_void_within_its_bounds() -> None:
     outlines = [square(), disc()]
     level, areas = level_of(outlines)
-    where = poses([38.0, 38.0], [50.0, 50.0], 0.0, [32.0, 20.0])
+    where = poses([38.0, 38.0], [50.0, 50.0], 0.0, [32.0, 20.0], [1.0, 1.5])
     after, (rescue,) = herd(level, where, areas, where.scale / 8, where.scale)
     assert rescue.item == 1
     free = (95 - 70) / 2
     assert after.scale[1] == pytest.approx(np.sqrt(SNUGNESS * np.pi / areas[1]) * free, rel=0.05)
     assert after.x[1] == pytest.approx(82.5, abs=1)
     assert (after.x[0], after.scale[0]) == (38.0, 32.0)
+    assert after.stretch.tolist() == [1.0, 1.5]
 
 
 def test_a_fixed_size_is_kept_even_where_it_does_not_fit() -> None:

@@ -12,8 +12,8 @@ from packwork.arrays import FloatArray, Image
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.losses.containment import containment
+from packwork.losses.evenness import evenness
 from packwork.losses.filling import filling
-from packwork.losses.linear import LinearWeights
 from packwork.losses.overlap import overlap
 from packwork.losses.term import Term
 from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback
@@ -36,7 +36,8 @@ from scenes import (
     taken,
 )
 
-WEIGHTS = LinearWeights(containment=5.0, overlap=7.0, filling=1.5)
+RECALL = 5.0
+WEIGHTS = {"containment": RECALL, "overlap": 7.0, "filling": 1.5, "evenness": 2.0}
 
 
 class DoubleTwin:
@@ -58,16 +59,14 @@ class DoubleTwin:
         density = self._density(numbers)
         on_canvas = sum(weight * term.value for weight, term in self._terms(density)) * density.size
         area_px = float(np.sum(self.areas * np.exp(2 * numbers[:, 3]))) * self.px_per_cu**2
-        beyond = WEIGHTS.containment * (area_px - float(density.sum()))
+        beyond = RECALL * (area_px - float(density.sum()))
         return (on_canvas + beyond) / self.px_per_cu**2
 
     def gradient(self, numbers: FloatArray) -> FloatArray:
         density = self._density(numbers)
         adjoint = sum(weight * term.adjoint for weight, term in self._terms(density)) * density.size
         points = self.ensemble.place(from_array(numbers), self.px_per_cu)
-        by_points = coverage_pullback(
-            points, self.ensemble.ring_starts, adjoint, WEIGHTS.containment
-        )
+        by_points = coverage_pullback(points, self.ensemble.ring_starts, adjoint, RECALL)
         by_pose = self.ensemble.gather(by_points, from_array(numbers), self.px_per_cu)
         return by_pose / self.px_per_cu**2
 
@@ -77,9 +76,10 @@ class DoubleTwin:
 
     def _terms(self, density: Image) -> list[tuple[float, Term]]:
         return [
-            (WEIGHTS.containment, containment(density, self.image)),
-            (WEIGHTS.overlap, overlap(density, self.image)),
-            (WEIGHTS.filling, filling(density, self.image)),
+            (WEIGHTS["containment"], containment(density, self.image)),
+            (WEIGHTS["overlap"], overlap(density, self.image)),
+            (WEIGHTS["filling"], filling(density, self.image)),
+            (WEIGHTS["evenness"], evenness(density, self.image, len(self.areas))),
         ]
 
 
@@ -87,7 +87,8 @@ def scene(rng: np.random.Generator) -> tuple[list[Outline], Poses]:
     """Items that overlap, stick out of the container and hang off the canvas."""
     outlines = [star(), disc(), square(), star(1.2, 7)]
     x, y = [12.0, 50.0, 60.0, 87.0], [48.0, 50.0, 57.0, 60.0]
-    return outlines, poses(x, y, rng.uniform(-3, 3, 4), [16.0, 18.0, 12.0, 21.0])
+    stretches = [1.4, 1.0, 0.75, 1.6]
+    return outlines, poses(x, y, rng.uniform(-3, 3, 4), [16.0, 18.0, 12.0, 21.0], stretches)
 
 
 def test_gradient_equals_differences_in_double_precision(rng: np.random.Generator) -> None:
@@ -101,19 +102,20 @@ def test_level_agrees_with_its_double_twin(rng: np.random.Generator) -> None:
     outlines, where = scene(rng)
     twin = DoubleTwin(square_container(), outlines, 40)
     level = Level(square_container(), outlines, 40)
-    met = compare(level.gradient(where, WEIGHTS), twin.gradient(as_array(where)))
+    met = compare(level.gradient(where, WEIGHTS, RECALL), twin.gradient(as_array(where)))
     assert met.error < 2e-3, met
     assert abs(met.bias) < 1e-3, met
 
 
 def test_physics_does_not_change_with_the_level(rng: np.random.Generator) -> None:
     outlines = [disc(1.0, 64), star(), square()]
-    where = poses([45.0, 62.0, 20.0], [50.0, 55.0, 30.0], [0.3, 1.0, 0.4], [16.0, 15.0, 14.0])
+    angles, scales, stretches = [0.3, 1.0, 0.4], [16.0, 15.0, 14.0], [1.5, 1.2, 0.9]
+    where = poses([45.0, 62.0, 20.0], [50.0, 55.0, 30.0], angles, scales, stretches)
     coarse, fine = (
-        Level(round_container(), outlines, resolution).gradient(where, WEIGHTS)
+        Level(round_container(), outlines, resolution).gradient(where, WEIGHTS, RECALL)
         for resolution in (200, 600)
     )
-    for column in range(4):
+    for column in range(5):
         met = compare(coarse[:, column], fine[:, column])
         assert met.error < 0.05, (column, met)
 
@@ -121,7 +123,7 @@ def test_physics_does_not_change_with_the_level(rng: np.random.Generator) -> Non
 def test_an_item_outside_is_called_straight_back() -> None:
     container = square_container()
     level = Level(container, [disc(), disc()], 50)
-    gradient = level.gradient(poses([-60.0, 50.0], [50.0, 170.0], 0.0, 5.0), WEIGHTS)
+    gradient = level.gradient(poses([-60.0, 50.0], [50.0, 170.0], 0.0, 5.0), WEIGHTS, RECALL)
     assert gradient[0, 0] < 0 < gradient[1, 1]
     assert abs(gradient[0, 1]) < 0.1 * abs(gradient[0, 0])
     assert abs(gradient[1, 0]) < 0.1 * abs(gradient[1, 1])
@@ -130,25 +132,29 @@ def test_an_item_outside_is_called_straight_back() -> None:
 def test_permuting_items_permutes_the_gradient_bit_for_bit(rng: np.random.Generator) -> None:
     outlines, where = scene(rng)
     order = [2, 0, 3, 1]
-    straight = Level(square_container(), outlines, 50).gradient(where, WEIGHTS)
+    straight = Level(square_container(), outlines, 50).gradient(where, WEIGHTS, RECALL)
     turned = Level(square_container(), [outlines[k] for k in order], 50)
-    np.testing.assert_array_equal(turned.gradient(taken(where, order), WEIGHTS), straight[order])
+    np.testing.assert_array_equal(
+        turned.gradient(taken(where, order), WEIGHTS, RECALL), straight[order]
+    )
 
 
 def test_a_further_loss_adds_its_weighted_gradient(rng: np.random.Generator) -> None:
     outlines, where = scene(rng)
-    plain, more = (
-        Level(square_container(), outlines, 50, losses) for losses in (None, {"overlap": 3.0})
-    )
-    heavier = LinearWeights(WEIGHTS.containment, WEIGHTS.overlap + 3.0, WEIGHTS.filling)
+    plain = Level(square_container(), outlines, 50)
+    more = Level(square_container(), outlines, 50, [*WEIGHTS, overlap])
+    heavier = {**WEIGHTS, "overlap": WEIGHTS["overlap"] + 3.0}
     np.testing.assert_allclose(
-        more.gradient(where, WEIGHTS), plain.gradient(where, heavier), rtol=1e-4, atol=1e-2
+        more.gradient(where, {**WEIGHTS, overlap: 3.0}, RECALL),
+        plain.gradient(where, heavier, RECALL),
+        rtol=1e-4,
+        atol=1e-2,
     )
 
 
 def test_an_unknown_loss_is_refused_by_name() -> None:
     with pytest.raises(RecipeError, match=r"loss: no loss is called 'charm'.*containment"):
-        Level(square_container(), [disc()], 50, {"charm": 1.0})
+        Level(square_container(), [disc()], 50, ["charm"])
 
 
 def test_shares_are_what_geometry_says() -> None:

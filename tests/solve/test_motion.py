@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from packwork.scene.limits import Limits
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
 from scenes import poses
 
 Options = Callable[..., SolveOptions]
-PUSH = np.array([[1.0, 0.0, 1.0, 1.0], [-1.0, 0.0, -1.0, -1.0]])
+PUSH = np.array([[1.0, 0.0, 1.0, 1.0, 1.0], [-1.0, 0.0, -1.0, -1.0, -1.0]])
 
 
 def pair(side: float, options: SolveOptions) -> Motion:
@@ -22,13 +24,28 @@ def pair(side: float, options: SolveOptions) -> Motion:
 
 @pytest.mark.parametrize("side", [1.0, 600.0])
 def test_steps_are_shares_of_the_canvas(side: float, quick: Options) -> None:
-    motion = pair(side, quick(position_rate=0.01, turn_rate=0.1, size_rate=0.02))
+    rates = {"position_rate": 0.01, "turn_rate": 0.1, "size_rate": 0.02, "stretch_rate": 0.04}
+    motion = pair(side, quick(**rates, stretch=2))
     motion.follow(PUSH, 0.5)
     # Adam's floor shortens a first step by a percent or two.
     end = motion.poses
     np.testing.assert_allclose((end.x / side - [0.4, 0.6]) / 0.005, [-1, 1], rtol=0.05)
     np.testing.assert_allclose(end.angle / 0.05, [-1, 1], rtol=0.05)
     np.testing.assert_allclose(np.log(end.scale / (0.1 * side)) / 0.01, [-1, 1], rtol=0.05)
+    np.testing.assert_allclose(np.log(end.stretch) / 0.02, [-1, 1], rtol=0.05)
+
+
+def test_stretches_end_at_their_bounds(quick: Options) -> None:
+    motion = pair(100.0, quick(stretch=1.2, stretch_rate=0.05))
+    for _ in range(9):
+        motion.follow(PUSH, 1.0)
+    np.testing.assert_allclose(motion.poses.stretch, [1 / 1.2, 1.2], rtol=1e-12)
+
+
+def test_nothing_is_stretched_unless_asked(quick: Options) -> None:
+    motion = pair(100.0, quick())
+    motion.follow(PUSH, 1.0)
+    assert motion.poses.stretch.tolist() == [1.0, 1.0]
 
 
 def test_poses_given_out_do_not_change_later(quick: Options) -> None:
@@ -39,14 +56,66 @@ def test_poses_given_out_do_not_change_later(quick: Options) -> None:
 
 
 def test_an_item_moved_by_force_does_not_drift_on(quick: Options) -> None:
-    motion = pair(100.0, quick(sizes="free"))
+    motion = pair(100.0, quick(sizes="free", stretch=9))
     for _ in range(5):
         motion.follow(PUSH, 1.0)
     moved = motion.poses
     moved.x[0] = 10.0
     motion.replace(moved, [0])
-    motion.follow(np.zeros((2, 4)), 1.0)
+    motion.follow(np.zeros((2, 5)), 1.0)
     end = motion.poses
     assert (end.x[0], end.angle[0]) == (10.0, moved.angle[0])
     assert end.scale[0] == pytest.approx(moved.scale[0], rel=1e-12)
+    assert end.stretch[0] == pytest.approx(moved.stretch[0], rel=1e-12)
     assert end.x[1] > moved.x[1]
+
+
+def held_pair(options: SolveOptions, **limits: object) -> Motion:
+    start = poses([40.0, 60.0], 50.0, 0.2, 10.0)
+    bounds = {"smallest": np.full(2, 5.0), "largest": np.full(2, 20.0)}
+    given = replace(Limits.free(2), **(bounds | limits))
+    return Motion(start, start.scale, 100.0, options, given)
+
+
+@pytest.mark.parametrize("sizes", ["free", "shared", "fixed"])
+def test_what_is_held_does_not_move_by_a_bit(sizes: str, quick: Options) -> None:
+    first = np.array([40.0, np.nan])
+    motion = held_pair(
+        quick(sizes=sizes, stretch=2), x=first, y=np.array([50.0, np.nan]),
+        angle=np.array([0.2, np.nan]), smallest=np.array([10.0, 5.0]),
+        largest=np.array([10.0, 20.0]), rigid=np.array([True, False]),
+    )  # fmt: skip
+    for _ in range(20):
+        motion.follow(2 * PUSH, 1.0)
+    end = motion.poses
+    assert (end.x[0], end.y[0], end.angle[0], end.stretch[0]) == (40.0, 50.0, 0.2, 1.0)
+    assert end.scale[0] == pytest.approx(10.0, rel=1e-14)
+    assert end.x[1] != 60.0
+    assert end.angle[1] != 0.2
+    assert (end.scale[1] != pytest.approx(10.0, rel=1e-6)) is (sizes != "fixed")
+
+
+def test_only_what_is_given_is_held(quick: Options) -> None:
+    motion = held_pair(quick(), x=np.array([40.0, np.nan]))
+    motion.follow(PUSH + np.array([0.0, 1.0, 0.0, 0.0, 0.0]), 1.0)
+    end = motion.poses
+    assert end.x[0] == 40.0
+    assert end.y[0] != 50.0
+    assert end.angle[0] != 0.2
+    assert end.scale[0] != 10.0
+
+
+def test_each_item_has_bounds_of_its_own(quick: Options) -> None:
+    motion = held_pair(
+        quick(size_rate=0.2, turn_rate=0.3), turn_limit=np.array([0.4, np.inf]),
+        smallest=np.array([9.0, 5.0]), largest=np.array([11.0, 12.0]),
+    )  # fmt: skip
+    for _ in range(30):
+        motion.follow(np.abs(PUSH), 1.0)
+    np.testing.assert_allclose(motion.poses.scale, [9.0, 5.0], rtol=1e-12)
+    assert motion.poses.angle[0] == -0.4
+    assert motion.poses.angle[1] < -2
+    for _ in range(60):
+        motion.follow(-np.abs(PUSH), 1.0)
+    np.testing.assert_allclose(motion.poses.scale, [11.0, 12.0], rtol=1e-12)
+    assert motion.poses.angle[0] == 0.4

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.solve.options import SolveOptions
-from packwork.solve.schedule import epochs_per_level, rate_factor, weights_at
+from packwork.solve.schedule import epochs_per_level, growth, rate_factor, weights_at
 
 
 @given(
@@ -30,19 +30,26 @@ def test_rates_fall_from_one_to_cooling(progress: float, cooling: float) -> None
 
 
 def test_penalties_grow_by_hardening() -> None:
-    options = SolveOptions(overlap=2, containment=3, hardening=10)
-    first, last = weights_at(options, 0.0), weights_at(options, 1.0)
-    assert (first.overlap, first.containment) == (2, 3)
-    assert (last.overlap, last.containment) == pytest.approx((20, 30))
+    options = SolveOptions(losses={"overlap": 2, "containment": 3, "evenness": 1}, hardening=10)
+    assert weights_at(options, 0.0) == {"overlap": 2, "containment": 3, "evenness": 1}
+    last = weights_at(options.model_copy(update={"settling": 0.0}), 1.0)
+    assert last == pytest.approx({"overlap": 20, "containment": 30, "evenness": 10})
+    assert growth(options, 1.0) == pytest.approx(10)
 
 
-def test_filling_is_cut_only_while_settling() -> None:
-    options = SolveOptions(settling=0.25, settling_filling=0.1)
-    assert [weights_at(options, p).filling for p in (0.0, 0.5, 0.74, 0.76, 1.0)] == [
+def test_rewards_are_cut_only_while_settling() -> None:
+    options = SolveOptions(losses={"filling": 1.0}, settling=0.25, settling_reward=0.1)
+    assert [weights_at(options, p)["filling"] for p in (0.0, 0.5, 0.74, 0.76, 1.0)] == [
         1, 1, 1, 0.1, 0.1,
     ]  # fmt: skip
 
 
-def test_without_settling_filling_stays() -> None:
-    options = SolveOptions(settling=0.0)
-    assert weights_at(options, 1.0).filling == 1
+def test_without_settling_rewards_stay() -> None:
+    options = SolveOptions(losses={"filling": 1.0}, settling=0.0)
+    assert weights_at(options, 1.0) == {"filling": 1}
+
+
+def test_losses_of_ones_own_harden_like_penalties() -> None:
+    options = SolveOptions(losses={"mine:calm": 2.0}, hardening=10, settling=0.5)
+    assert weights_at(options, 0.0) == {"mine:calm": 2.0}
+    assert weights_at(options, 1.0) == pytest.approx({"mine:calm": 20.0})

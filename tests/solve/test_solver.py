@@ -10,10 +10,12 @@ import pytest
 
 from packwork.geometry.outline import Outline
 from packwork.progress import Step
+from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import Ending, solve
 from scenes import (
+    box,
     disc,
     overlap_area,
     placed,
@@ -42,7 +44,7 @@ class Log:
 
 
 def assert_same(got: Poses, expected: Poses) -> None:
-    for name in ("x", "y", "angle", "scale"):
+    for name in ("x", "y", "angle", "scale", "stretch"):
         np.testing.assert_array_equal(getattr(got, name), getattr(expected, name), err_msg=name)
 
 
@@ -113,6 +115,32 @@ def test_free_sizes_stay_within_their_ratio(crowd: Scene, quick: Options) -> Non
     assert np.ptp(ratios[-1]) > 0.05
 
 
+@pytest.mark.parametrize("sizes", ["free", "shared", "fixed"])
+def test_stretches_stay_within_their_bounds_and_change_no_area(
+    sizes: str, crowd: Scene, quick: Options
+) -> None:
+    outlines, start = crowd
+    log = Log()
+    options = quick(sizes=sizes, stretch=1.3)
+    end = solve(round_container(), outlines, start, start.scale, options, log).poses
+    stretches = np.array([step.poses.stretch for step in log.steps])
+    assert stretches.max() <= 1.3 * (1 + 1e-12)
+    assert stretches.min() >= 1 / 1.3 * (1 - 1e-12)
+    assert np.ptp(stretches[-1]) > 0.1
+    areas = [o.area * scale**2 for o, scale in zip(outlines, end.scale, strict=True)]
+    np.testing.assert_allclose([o.area for o in placed(outlines, end)], areas, rtol=1e-9)
+
+
+def test_a_square_is_stretched_into_a_slot_too_low_for_it(quick: Options) -> None:
+    """54 x 54 into 80 x 40: only a stretch of 1.82 to 2.19 fits."""
+    container = Container("slot", "", box(10, 30, 90, 70), 100, 100)
+    start = poses([50.0], [50.0], 0.0, 27.0)
+    options = quick(epochs=150, sizes="fixed", stretch=3.0, turn_rate=0.0)
+    end = solve(container, [square()], start, start.scale, options).poses
+    assert 1.75 < end.stretch[0] < 2.3
+    assert share_inside(placed([square()], end)[0], container) > 0.98
+
+
 def test_no_turn_rate_keeps_the_angles(crowd: Scene, quick: Options) -> None:
     outlines, start = crowd
     end = solve(round_container(), outlines, start, start.scale, quick(turn_rate=0.0)).poses
@@ -155,12 +183,30 @@ def test_the_observer_is_told_now_and_then_and_at_the_end_of_levels(
     log = Log(every=4)
     options = quick(levels=(32, 64), epochs=20, shares=(1, 1))
     outcome = solve(round_container(), outlines, start, start.scale, options, log)
-    assert [step.epoch for step in log.steps] == [1, 5, 9, 10, 11, 15, 19, 20]
-    assert [step.level for step in log.steps] == [0, 0, 0, 0, 1, 1, 1, 1]
-    assert {(step.levels, step.epochs) for step in log.steps} == {(2, 20)}
+    assert [step.epoch for step in log.steps] == [1, 5, 9, 10, 13, 17, 20]
+    assert [step.level for step in log.steps] == [0, 0, 0, 0, 1, 1, 1]
+    assert {step.levels for step in log.steps} == {2}
+    shares = [step.progress for step in log.steps]
+    assert shares == sorted(shares)
+    assert shares[-1] == 1
     assert {step.resolution for step in log.steps} == {32, 64}
     assert_same(outcome.poses, log.steps[-1].poses)
     assert [report.epochs for report in outcome.levels] == [10, 10]
+
+
+def test_a_time_is_kept_and_shared_among_levels(crowd: Scene, quick: Options) -> None:
+    outlines, start = crowd
+    options = quick(levels=(32, 64), shares=(1, 1), seconds=0.6)
+    outcome = solve(round_container(), outlines, start, start.scale, options)
+    assert outcome.ending is Ending.DONE
+    assert all(report.epochs > 0 for report in outcome.levels)
+
+
+def test_no_time_keeps_the_start(crowd: Scene, quick: Options) -> None:
+    outlines, start = crowd
+    outcome = solve(round_container(), outlines, start, start.scale, quick(seconds=0.0))
+    assert outcome.levels == []
+    np.testing.assert_array_equal(outcome.poses.x, start.x)
 
 
 def test_observing_changes_nothing(crowd: Scene, quick: Options) -> None:

@@ -25,7 +25,8 @@ def test_a_heap_comes_apart_inside_the_container() -> None:
 
 
 def test_only_buried_items_move_and_only_their_places_change() -> None:
-    before = poses([30.0, 70.0, 70.0], [50.0, 50.0, 50.0], [0.1, 0.2, 0.3], [9.0, 9.0, 4.0])
+    angles, scales, stretches = [0.1, 0.2, 0.3], [9.0, 9.0, 4.0], [1.0, 2.0, 0.5]
+    before = poses([30.0, 70.0, 70.0], 50.0, angles, scales, stretches)
     after = relocated(
         round_container(), [disc()] * 3, before, np.array([2]), np.random.default_rng(0)
     )
@@ -33,6 +34,7 @@ def test_only_buried_items_move_and_only_their_places_change() -> None:
     np.testing.assert_array_equal(after.y[:2], before.y[:2])
     np.testing.assert_array_equal(after.angle, before.angle)
     np.testing.assert_array_equal(after.scale, before.scale)
+    np.testing.assert_array_equal(after.stretch, before.stretch)
     assert np.hypot(after.x[2] - before.x[:2], after.y[2] - before.y[:2]).min() > 13
     assert before.x[2] == 70
 

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from packwork.start.sizes import hull_areas, nominal_scales, yielding_scales
+from packwork.start.sizes import hull_areas, nominal_scales, shared_scales, yielding_scales
 from scenes import disc, square, star
 from strategies import generators
 
@@ -19,6 +19,19 @@ def test_nominal_areas_are_in_the_shares_of_the_weights(
     areas, weights = rng.uniform(0.1, 10, n), rng.uniform(0.1, 10, n)
     taken = areas * nominal_scales(areas, weights, total) ** 2
     np.testing.assert_allclose(taken, total * weights / weights.sum(), rtol=1e-12)
+
+
+@given(rng=generators(), n=st.integers(1, 20), total=st.floats(1, 1e6))
+def test_true_areas_are_shared_out_whatever_stands_for_the_items(
+    rng: np.random.Generator, n: int, total: float
+) -> None:
+    areas, seen, weights = rng.uniform(0.1, 10, (3, n))
+    scales = shared_scales(areas, seen, weights, total)
+    shares = areas * scales**2 / np.sum(areas * scales**2)
+    np.testing.assert_allclose(shares, weights / weights.sum(), rtol=1e-12)
+    assert np.sum(seen * scales**2) == pytest.approx(total)
+    plain = nominal_scales(areas, weights, total)
+    np.testing.assert_array_equal(shared_scales(areas, areas, weights, total), plain)
 
 
 @given(rng=generators(), n=st.integers(1, 20), ratio=st.floats(1, 5), total=st.floats(1, 100))

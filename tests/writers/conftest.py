@@ -72,6 +72,7 @@ def make_layout() -> LayoutMaker:
         y: Sequence[float] | None = None,
         angle: Sequence[float] | None = None,
         scale: Sequence[float] | None = None,
+        stretch: Sequence[float] | None = None,
         container: Container | None = None,
         **manifest: object,
     ) -> Layout:
@@ -81,6 +82,7 @@ def make_layout() -> LayoutMaker:
             np.asarray(y if y is not None else np.full(n, 30.0), dtype=np.float64),
             np.asarray(angle if angle is not None else np.zeros(n), dtype=np.float64),
             np.asarray(scale if scale is not None else np.ones(n), dtype=np.float64),
+            np.asarray(stretch if stretch is not None else np.ones(n), dtype=np.float64),
         )
         room = Outline.from_region(shapely.box(2, 2, 78, 58))
         return Layout(

@@ -30,7 +30,7 @@ def parsed(layout: Layout) -> dict[str, Any]:
 def test_members(three: Layout) -> None:
     found = parsed(three)
     assert found["type"] == "FeatureCollection"
-    assert found["canvas"] == {"width": 80.0, "height": 60.0}
+    assert found["canvas"] == {"width": 80.0, "height": 60.0, "unit": "px"}
     assert found["manifest"] == {"seed": 7}
     roles = [f["properties"]["role"] for f in found["features"]]
     assert roles == ["container", "item", "item", "item"]
@@ -46,6 +46,7 @@ def test_properties_say_where_an_item_is(three: Layout) -> None:
         "y": 20.0,
         "angle": math.degrees(0.3),
         "scale": 0.9,
+        "stretch": 1.0,
         "weight": 1.0,
         "fill": "#008080",
     }
@@ -55,6 +56,14 @@ def test_turns_are_brought_home(three: Layout) -> None:
     layout = replace(three, poses=replace(three.poses, angle=np.array([7.0, -7.0, 0.0])))
     angles = [f["properties"]["angle"] for f in parsed(layout)["features"][1:]]
     assert np.allclose(angles, [math.degrees(7) - 360, 360 - math.degrees(7), 0])
+
+
+def test_a_stretch_is_in_the_properties_and_in_the_outline(three: Layout) -> None:
+    upright = replace(three.poses, angle=np.zeros(3), stretch=np.array([4.0, 1.0, 0.25]))
+    ring = parsed(replace(three, poses=upright))["features"][1]
+    assert ring["properties"]["stretch"] == 4.0
+    left, top, right, bottom = shape(ring["geometry"]).bounds
+    assert (right - left, bottom - top) == pytest.approx((36.0, 9.0))
 
 
 def test_areas_come_back(three: Layout) -> None:

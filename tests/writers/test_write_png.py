@@ -18,7 +18,7 @@ ReadPicture = Callable[[bytes], np.ndarray]
 
 
 def test_golden(three: Layout, assert_same_picture: Callable[[bytes, str], None]) -> None:
-    assert_same_picture(png_bytes(three, 160, PngOptions(container_outline=True)), "three.png")
+    assert_same_picture(png_bytes(three, 160, PngOptions(show_container=True)), "three.png")
 
 
 @pytest.mark.xfail(
@@ -28,7 +28,7 @@ def test_golden_of_another_layout(
     three: Layout, assert_same_picture: Callable[[bytes, str], None]
 ) -> None:
     moved = replace(three, poses=replace(three.poses, x=three.poses.x + 0.5))
-    assert_same_picture(png_bytes(moved, 160, PngOptions(container_outline=True)), "three.png")
+    assert_same_picture(png_bytes(moved, 160, PngOptions(show_container=True)), "three.png")
 
 
 def test_flattened_looks_the_same(three: Layout, read_picture: ReadPicture) -> None:

@@ -12,7 +12,14 @@ from packwork.writers import SvgOptions, WriteOptions, check_output, write
 
 @pytest.mark.parametrize(
     ("name", "beginning"),
-    [("a.svg", b"<?xml"), ("a.PNG", b"\x89PNG"), ("a.geojson", b'{"type"'), ("a.json", b'{"type"')],
+    [
+        ("a.svg", b"<?xml"),
+        ("a.PNG", b"\x89PNG"),
+        ("a.pdf", b"%PDF"),
+        ("a.dxf", b"  0\nSECTION"),
+        ("a.geojson", b'{"type"'),
+        ("a.json", b'{"type"'),
+    ],
 )
 def test_the_ending_picks_the_format(
     three: Layout, tmp_path: Path, name: str, beginning: bytes
@@ -30,7 +37,7 @@ def test_options_reach_their_writer(three: Layout, tmp_path: Path) -> None:
 @pytest.mark.parametrize("name", ["a.bmp", "a", ".svg", "a.svg.gz"])
 def test_unknown_ending(three: Layout, tmp_path: Path, name: str) -> None:
     for act in (check_output, lambda path: write(three, path)):
-        with pytest.raises(WriteError, match=r"use one of \.svg, \.png, \.geojson, \.json"):
+        with pytest.raises(WriteError, match=r"use one of \.svg, \.png, \.pdf, \.dxf, \.geo"):
             act(tmp_path / name)
     assert not list(tmp_path.iterdir())
 
@@ -44,7 +51,7 @@ def test_a_refused_option_leaves_the_old_file(three: Layout, tmp_path: Path) -> 
 
 
 def test_same_layout_same_bytes(three: Layout, tmp_path: Path) -> None:
-    for ending in ("svg", "geojson", "png"):
+    for ending in ("svg", "geojson", "png", "pdf", "dxf"):
         for name in ("a", "b"):
             write(three, tmp_path / f"{name}.{ending}")
         first, second = ((tmp_path / f"{n}.{ending}").read_bytes() for n in "ab")

@@ -37,14 +37,13 @@ def placed_points(root: Element, copy: Element) -> np.ndarray:
     numbers = [float(v) for v in re.findall(r"-?[\d.]+", path.get("d", ""))]
     values = dict(re.findall(r"(\w+)\(([^)]*)\)", copy.get("transform", "")))
     x, y = (float(v) for v in values["translate"].split())
-    matrix = affine.similarity(
-        x, y, np.radians(float(values.get("rotate", 0))), float(values.get("scale", 1))
-    )
-    return affine.apply(matrix, np.reshape(numbers, (-1, 2)))
+    scales = [float(v) for v in values.get("scale", "1").split()]
+    matrix = affine.similarity(x, y, np.radians(float(values.get("rotate", 0))), 1.0)
+    return affine.apply(matrix, np.reshape(numbers, (-1, 2)) * scales)
 
 
 def test_golden(three: Layout, golden_text: Callable[[str], str]) -> None:
-    options = SvgOptions(background="#fffaf0", container_outline=True)
+    options = SvgOptions(background="#fffaf0", show_container=True)
     assert svg_text(three, options) == golden_text("three.svg")
 
 
@@ -58,8 +57,17 @@ def test_groups_and_names(three: Layout) -> None:
     assert [e.get("data-name") for e in items] == ["ring", "star", "photo"]
 
 
+@pytest.mark.parametrize("unit", ["mm", "cm", "in", "pt"])
+def test_real_units_are_those_of_the_canvas(three: Layout, unit: str) -> None:
+    layout = replace(three, container=replace(three.container, unit=unit))
+    root = fromstring(svg_text(layout))
+    assert (root.get("width"), root.get("height")) == (f"80{unit}", f"60{unit}")
+    assert root.get("viewBox") == "0 0 80 60"
+    assert svg_text(layout).split("\n")[2:] == svg_text(three).split("\n")[2:]
+
+
 def test_container_shown_on_demand(three: Layout) -> None:
-    root = fromstring(svg_text(three, SvgOptions(container_outline=True)))
+    root = fromstring(svg_text(three, SvgOptions(show_container=True)))
     assert by_id(root, "container").get("display") is None
 
 
@@ -140,6 +148,7 @@ def test_points_are_where_they_belong(crowd: Layout, side: float, unit: float) -
     grow = affine.similarity(0, 0, 0, side / 1000)
     poses = replace(
         crowd.poses,
+        stretch=np.geomspace(0.25, 4.0, 1000),
         x=crowd.poses.x * side / 1000,
         y=crowd.poses.y * side / 1000,
         scale=crowd.poses.scale * side / 1000 / unit,
@@ -155,6 +164,18 @@ def test_points_are_where_they_belong(crowd: Layout, side: float, unit: float) -
     for copy, ink in list(zip(by_id(root, "items"), layout.inks, strict=True))[::50]:
         error = np.hypot(*(placed_points(root, copy) - ink.points).T).max()
         assert error <= PRECISION * side
+
+
+def test_only_a_stretched_copy_has_two_scales(
+    make_layout: Callable[..., Layout], ring_item: Item
+) -> None:
+    text = svg_text(make_layout([ring_item] * 3, scale=[1, 3, 3], stretch=[1, 1, 4]))
+    transforms = [use.get("transform") for use in fromstring(text).iter(f"{SVG}use")]
+    assert transforms == [
+        "translate(10 30)",
+        "translate(30 30)scale(3)",
+        "translate(50 30)scale(6 1.5)",
+    ]
 
 
 @pytest.mark.parametrize("name", HOSTILE)

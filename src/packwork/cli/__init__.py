@@ -14,9 +14,11 @@ from packwork.cli.demo import demo
 from packwork.cli.fill import fill
 from packwork.cli.measure import measure
 from packwork.cli.run import run
+from packwork.cli.usage import OneLineGroup
 
 app = typer.Typer(
     name="packwork",
+    cls=OneLineGroup,
     help="Arrange shapes so that they fill a container of any form.\n\n"
     "Try [bold]packwork demo[/] first, then [bold]packwork fill heart your-icons/[/].",
     no_args_is_help=True,

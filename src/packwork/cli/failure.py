@@ -26,7 +26,7 @@ def clear_errors() -> Iterator[None]:
         yield
     except PackworkError as error:
         line = " ".join(str(error).split())
-        if isinstance(error, RecipeError) and error.key not in {"container", "items"}:
+        if isinstance(error, RecipeError) and error.key not in {"container", "items", "rules"}:
             line = "--" + error.key.replace("_", "-") + line.removeprefix(error.key)
         typer.echo(f"packwork: {line}", err=True)
         raise typer.Exit(BAD_INPUT) from None

@@ -9,7 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
-from packwork.recipe import Recipe, make_recipe
+from packwork.recipe import make_recipe
 
 DEFAULT_OUTPUT = Path("collage.svg")
 
@@ -36,23 +36,31 @@ def fill(
     output: shared.Output = None,
     count: shared.Count = None,
     font: shared.Font = None,
-    canvas: shared.Canvas = 600.0,
+    canvas: shared.Canvas = None,
     sizes: shared.Sizes = "free",
     size_ratio: shared.SizeRatio = 2.0,
+    stretch: shared.Stretch = 1.0,
     rotate: shared.Rotate = "free",
     padding: shared.Padding = "0",
     weights: shared.Weights = None,
+    hero: shared.Hero = None,
+    palette: shared.Palette = None,
+    apart: shared.Apart = False,
     holes: shared.Holes = "fill",
+    outline: shared.OutlineChoice = "exact",
     strict: shared.Strict = False,
     seed: shared.Seed = 0,
+    finish: shared.Finish = "exact",
     effort: shared.Effort = "normal",
     epochs: shared.Epochs = None,
-    levels: shared.Levels = Recipe.model_fields["levels"].default,
+    time: shared.Time = None,
+    preset: shared.Preset = "default",
+    levels: shared.Levels = None,
     start: shared.Start = "distance-field",
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
-    outline: shared.DrawOutline = False,
+    show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
@@ -78,14 +86,22 @@ def fill(
             canvas=canvas,
             sizes=sizes,
             size_ratio=size_ratio,
+            stretch=stretch,
             rotate=rotate,
             padding=padding,
             weights=weights,
+            hero=hero,
+            palette=palette,
+            apart=apart,
             holes=holes,
+            outline=outline,
             strict=strict,
             seed=seed,
+            finish=finish,
             effort=effort,
             epochs=epochs,
+            time=time,
+            preset=preset,
             levels=levels,
             start=start,
             losses=shared.loss_weights(loss),
@@ -96,7 +112,10 @@ def fill(
         outputs = Outputs(
             files=output or [DEFAULT_OUTPUT],
             options=write_options(
-                pixels=pixels, background=background, outline=outline, flatten=flatten
+                pixels=pixels,
+                background=background,
+                show_container=show_container,
+                flatten=flatten,
             ),
             report=report,
             diagnose=diagnose,

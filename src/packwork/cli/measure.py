@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from packwork.cli import options as shared
-from packwork.cli.failure import clear_errors
+from packwork.cli.failure import SHORTFALL, clear_errors
 
 
 def measure(
@@ -22,13 +22,16 @@ def measure(
 ) -> None:
     """Measure a saved layout: coverage, overlap, what sticks out, evenness, gaps.
 
+    Exit code 1 if it does not keep what its run promised.
+
     [bold]packwork measure bear.geojson --diagnose bear-check.png[/]
     """
     with clear_errors():
         from rich.console import Console
 
         from packwork import writers
-        from packwork.cli.show import metrics_table
+        from packwork.cli.show import certificate_line, metrics_table
+        from packwork.metrics.certificate import Promise, broken
         from packwork.metrics.measure import measure as measure_layout
         from packwork.readers.layout import read_layout
 
@@ -36,14 +39,31 @@ def measure(
             if path is not None:
                 writers.check_writable(path)
         found = read_layout(layout)
-        metrics = measure_layout(found).as_dict()
+        measured = measure_layout(found)
+        metrics = measured.as_dict()
+        promise = Promise.of(found.manifest)
+        faults = () if promise is None else broken(promise, found, measured.exact)
         # A saved layout holds outlines, not what was drawn in them.
         del metrics["LC_ink"]
         picture = None if diagnose is None else writers.diagnose_png(found, pixels)
         if report is not None:
             writers.write_atomic(
-                report, writers.json_bytes({"metrics": metrics, "items": len(found.items)})
+                report,
+                writers.json_bytes(
+                    {
+                        "metrics": metrics,
+                        "items": len(found.items),
+                        "certified": promise is not None and not faults,
+                        "broken": faults,
+                    }
+                ),
             )
         if diagnose is not None and picture is not None:
             writers.write_atomic(diagnose, picture)
-        Console(quiet=quiet, highlight=False).print(metrics_table(metrics))
+        console = Console(quiet=quiet, highlight=False)
+        console.print(metrics_table(metrics, found.container.unit))
+        console.print(certificate_line(promise is not None, not faults), soft_wrap=True)
+        for fault in faults:
+            typer.echo(f"packwork: {layout}: {fault}", err=True)
+        if faults:
+            raise typer.Exit(SHORTFALL)

@@ -28,32 +28,40 @@ Output = Annotated[
     typer.Option(
         "-o",
         "--output",
-        help="File to write; the ending (.svg, .png, .geojson) picks the format. "
+        help="File to write; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format. "
         "May be given several times.",
         rich_help_panel=WRITING,
     ),
 ]
 Count = Annotated[int | None, flag("count", "-n", "--count", panel=PLACING)]
 Font = Annotated[str | None, flag("font", panel=PLACING)]
-Canvas = Annotated[float, flag("canvas", panel=PLACING)]
+Canvas = Annotated[str | None, flag("canvas", panel=PLACING)]
 Sizes = Annotated[Literal["free", "shared", "fixed"], flag("sizes", panel=PLACING)]
 SizeRatio = Annotated[float, flag("size_ratio", panel=PLACING)]
+Stretch = Annotated[float, flag("stretch", panel=PLACING)]
 Rotate = Annotated[str, flag("rotate", panel=PLACING)]
 Padding = Annotated[str, flag("padding", panel=PLACING)]
+Hero = Annotated[str | None, flag("hero", panel=PLACING)]
+Palette = Annotated[str | None, flag("palette", panel=PLACING)]
+Apart = Annotated[bool, flag("apart", "--apart", panel=PLACING)]
 Weights = Annotated[str | None, flag("weights", panel=PLACING)]
 Holes = Annotated[Literal["fill", "keep"], flag("holes", panel=PLACING)]
+OutlineChoice = Annotated[Literal["exact", "fitted", "hull"], flag("outline", panel=PLACING)]
 Strict = Annotated[bool, flag("strict", "--strict", panel=PLACING)]
 Seed = Annotated[int, flag("seed", panel=SOLVING)]
+Finish = Annotated[Literal["exact", "none"], flag("finish", panel=SOLVING)]
 Effort = Annotated[Literal["draft", "normal", "best"], flag("effort", panel=SOLVING)]
 Epochs = Annotated[int | None, flag("epochs", panel=SOLVING)]
-Levels = Annotated[str, flag("levels", panel=SOLVING)]
+Time = Annotated[float | None, flag("time", panel=SOLVING)]
+Preset = Annotated[Literal["default", "paper"], flag("preset", panel=SOLVING)]
+Levels = Annotated[str | None, flag("levels", panel=SOLVING)]
 Start = Annotated[str, flag("start", panel=SOLVING)]
 Loss = Annotated[
     list[str] | None,
     typer.Option(
         "--loss",
-        help="A further loss and its weight, NAME=1 or MODULE:FUNCTION=1. "
-        "May be given several times.",
+        help="A loss and its weight, in place of the preset's or beside them: NAME=1 or "
+        "MODULE:FUNCTION=1; 0 switches one off. May be given several times.",
         rich_help_panel=SOLVING,
     ),
 ]
@@ -64,13 +72,13 @@ Background = Annotated[
     str | None,
     typer.Option(
         "--background",
-        help="Any CSS colour, or none. Default: none in SVG, white in PNG.",
+        help="Any CSS colour, or none. Default: none in SVG and PDF, white in PNG.",
         rich_help_panel=WRITING,
     ),
 ]
-DrawOutline = Annotated[
+ShowContainer = Annotated[
     bool,
-    typer.Option("--outline", help="Draw the container's outline.", rich_help_panel=WRITING),
+    typer.Option("--show-container", help="Draw the container's line.", rich_help_panel=WRITING),
 ]
 Flatten = Annotated[
     bool,

@@ -20,7 +20,7 @@ def run(
     output: shared.Output = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
-    outline: shared.DrawOutline = False,
+    show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
@@ -41,7 +41,10 @@ def run(
         outputs = Outputs(
             files=output or [DEFAULT_OUTPUT],
             options=write_options(
-                pixels=pixels, background=background, outline=outline, flatten=flatten
+                pixels=pixels,
+                background=background,
+                show_container=show_container,
+                flatten=flatten,
             ),
             report=report,
             diagnose=diagnose,

@@ -16,7 +16,7 @@ from rich.console import Console
 
 from packwork import pipeline, writers
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
-from packwork.cli.show import Bar, metrics_table, notice_if_slow, seconds_line
+from packwork.cli.show import Bar, certificate_line, metrics_table, notice_if_slow, seconds_line
 from packwork.errors import WriteError
 from packwork.recipe import Recipe
 
@@ -74,7 +74,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     Returns
     -------
     int
-        The exit code: 0; 1 if an item was not placed or the result is rough; 130 after
+        The exit code: 0; 1 if an item was not placed or the result is not certified; 130 after
         Ctrl-C.
     """
     outputs.check(recipe)
@@ -82,18 +82,18 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     job = pipeline.read(recipe)
     with notice_if_slow(console, COMPILING):
         pipeline.warm_up()
-    bar = Bar(recipe.solve_options().epochs, console)
+    bar = Bar(console)
     interrupt = Interrupt()
     with interrupt.listening():
         with bar.showing():
             run = pipeline.run(job, None if quiet else bar, interrupt)
         results = _write(run, recipe, outputs)
     _warn(run)
-    _show(results, outputs.files, console)
+    _show(results, outputs.files, console, run.layout.container.unit)
     if interrupt.pressed:
         typer.echo("packwork: stopped by Ctrl-C; this is the best so far, still rough", err=True)
         return INTERRUPTED
-    return SHORTFALL if run.unplaced or run.is_rough else 0
+    return 0 if run.certified else SHORTFALL
 
 
 def _write(run: pipeline.Run, recipe: Recipe, outputs: Outputs) -> dict[str, Any]:
@@ -129,23 +129,27 @@ def _warn(run: pipeline.Run) -> None:
             "use fewer, a larger --canvas or --sizes free",
             err=True,
         )
+    for fault in run.broken:
+        typer.echo(f"packwork: {fault}", err=True)
     if run.is_rough:
         exact = run.metrics.exact
+        remedy = "more --effort" if run.layout.manifest["recipe"]["time"] is None else "more --time"
         typer.echo(
             f"packwork: still rough: {100 * exact.overlap:.1f} % of the container is covered "
-            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; try more --effort, "
+            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; try {remedy}, "
             "fewer items or --sizes free",
             err=True,
         )
 
 
-def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console) -> None:
-    console.print(metrics_table(results["metrics"]))
+def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console, unit: str) -> None:
+    console.print(metrics_table(results["metrics"], unit))
     console.print(
         f"{results['placed']} of {results['items']} items placed; "
         f"{seconds_line(results['seconds'])}",
         style="dim",
         soft_wrap=True,
     )
+    console.print(certificate_line(results["promised"], results["certified"]))
     written = ", ".join(str(path) for path in outputs)
     console.print(f"wrote {written}", soft_wrap=True, markup=False)

@@ -13,8 +13,8 @@ from rich.table import Table
 
 from packwork.progress import Step
 
-STEPS_SHOWN = 40
-"""Times the bar is refreshed in a run: each costs about one epoch. Chosen."""
+EPOCHS_BETWEEN = 20
+"""Epochs between two moves of the bar: each costs about one epoch. Chosen."""
 
 SLOW_SECONDS = 1.5
 """Patience before a notice explains a wait. Chosen."""
@@ -23,26 +23,29 @@ SLOW_SECONDS = 1.5
 class Bar:
     """Progress of a run on the terminal: level, epoch, coverage, overlap."""
 
-    def __init__(self, epochs: int, console: Console) -> None:
-        self.every = max(1, epochs // STEPS_SHOWN)
+    every = EPOCHS_BETWEEN
+
+    def __init__(self, console: Console) -> None:
         self._progress = Progress(
             TextColumn("{task.description}"),
             BarColumn(),
-            TextColumn("{task.completed:.0f}/{task.total:.0f}"),
+            TextColumn("{task.percentage:.0f} %"),
             TextColumn("{task.fields[shares]}"),
             TimeElapsedColumn(),
             console=console,
             transient=True,
             disable=not console.is_terminal,
         )
-        self._task = self._progress.add_task("starting", total=epochs, shares="")
+        self._task = self._progress.add_task("starting", total=1.0, shares="")
 
     def on_step(self, step: Step) -> None:
         """Move the bar."""
         self._progress.update(
             self._task,
-            completed=step.epoch,
-            description=f"level {step.level + 1}/{step.levels} ({step.resolution} px)",
+            completed=step.progress,
+            description="exact finish"
+            if step.is_finish
+            else f"level {step.level + 1}/{step.levels} ({step.resolution} px)",
             shares=f"covered {100 * step.coverage:.1f} %  overlap {100 * step.overlap:.2f} %",
         )
 
@@ -65,8 +68,14 @@ def notice_if_slow(console: Console, text: str) -> Iterator[None]:
         timer.cancel()
 
 
-def metrics_table(metrics: Mapping[str, Any]) -> Table:
-    """Measures, one a row: by pixels beside exact ones, and the paper's names for them."""
+def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
+    """Measures, one a row: by pixels beside exact ones, and the paper's names for them.
+
+    Parameters
+    ----------
+    unit
+        What one canvas unit is: that of the smallest gap.
+    """
     exact = metrics.get("exact", {})
     table = Table(box=None, pad_edge=False, header_style="dim")
     for heading in ("of the container", "pixels", "exact"):
@@ -79,8 +88,23 @@ def metrics_table(metrics: Mapping[str, Any]) -> Table:
     table.add_row("outside", _percent(metrics["EA"]), _percent(exact.get("EA")), "EA")
     table.add_row("unevenness of the gaps, px²", f"{metrics['LnU']:.1f}", "", "L-nU")
     gap = exact.get("min_gap")
-    table.add_row("smallest gap, px", "", "" if gap is None else f"{gap:.3g}", "")
+    table.add_row(f"smallest gap, {unit}", "", "" if gap is None else f"{gap:.3g}", "")
     return table
+
+
+def certificate_line(was_promised: bool, certified: bool) -> str:
+    """Whether a layout is certified, on one line.
+
+    Examples
+    --------
+    >>> certificate_line(True, True)
+    'certified: nothing overlaps, nothing sticks out'
+    """
+    if not was_promised:
+        return "not certified: there was no exact finish"
+    if not certified:
+        return "not certified: not all that was asked holds"
+    return "certified: nothing overlaps, nothing sticks out"
 
 
 def seconds_line(seconds: Mapping[str, float]) -> str:

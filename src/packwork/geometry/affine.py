@@ -34,6 +34,18 @@ def similarity(x: float, y: float, angle_rad: float, scale: float) -> FloatArray
     return np.array([[cosine, -sine, x], [sine, cosine, y]])
 
 
+def stretched(ratio: float) -> FloatArray:
+    """Map that makes a square ``ratio`` times as wide as high; areas stay.
+
+    Examples
+    --------
+    >>> stretched(4.0).tolist()
+    [[2.0, 0.0, 0.0], [0.0, 0.5, 0.0]]
+    """
+    root = np.sqrt(ratio)
+    return np.array([[root, 0.0, 0.0], [0.0, 1.0 / root, 0.0]])
+
+
 def compose(outer: FloatArray, inner: FloatArray) -> FloatArray:
     """Map that does ``inner`` first and ``outer`` after it.
 

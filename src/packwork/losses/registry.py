@@ -7,11 +7,15 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from packwork.errors import RecipeError
+from packwork.losses.apart import apart
+from packwork.losses.area_shares import area_shares
 from packwork.losses.containment import containment
 from packwork.losses.evenness import evenness
 from packwork.losses.filling import filling
 from packwork.losses.overlap import overlap
-from packwork.losses.term import ImageLoss
+from packwork.losses.paper_containment import paper_containment
+from packwork.losses.paper_evenness import paper_evenness
+from packwork.losses.term import ImageLoss, PoseLoss
 
 LOSSES: Mapping[str, ImageLoss] = MappingProxyType(
     {
@@ -19,12 +23,19 @@ LOSSES: Mapping[str, ImageLoss] = MappingProxyType(
         "overlap": overlap,
         "filling": filling,
         "evenness": evenness,
+        "paper-containment": paper_containment,
+        "paper-evenness": paper_evenness,
     }
 )
 
+"""Losses read from the image."""
+
+POSE_LOSSES: Mapping[str, PoseLoss] = MappingProxyType({"area-shares": area_shares, "apart": apart})
+"""Losses read from the poses: of the object space."""
+
 
 def find_loss(name: str | ImageLoss) -> ImageLoss:
-    """Loss by its registered name, by ``module:function``, or given as a function.
+    """Image loss by its registered name, by ``module:function``, or given as a function.
 
     Raises
     ------
@@ -42,8 +53,10 @@ def find_loss(name: str | ImageLoss) -> ImageLoss:
         return LOSSES[name]
     module, colon, function = name.partition(":")
     if not colon:
+        known = ", ".join([*LOSSES, *POSE_LOSSES])
         raise RecipeError(
-            "loss", f"no loss is called {name!r}; use one of {', '.join(LOSSES)} or module:function"
+            "loss",
+            f"no loss is called {name!r}; use one of {known} or module:function",
         )
     try:
         found = getattr(importlib.import_module(module), function)

@@ -7,8 +7,9 @@ from typing import Protocol
 
 import numpy as np
 
-from packwork.arrays import FloatArray, Image
+from packwork.arrays import FloatArray, Image, IntArray
 from packwork.errors import RecipeError
+from packwork.scene.pose import Poses
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,8 +74,30 @@ def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
 
 
 @dataclass(frozen=True, eq=False)
+class Placed:
+    """What an object-space loss sees of n items.
+
+    Parameters
+    ----------
+    poses
+        Where they are.
+    areas
+        ``(n,)`` areas of their outlines, item units squared.
+    nominal
+        ``(n,)`` scales that were asked for.
+    kinds
+        ``(n,)`` items of one number are copies of one thing; None if nobody asks.
+    """
+
+    poses: Poses
+    areas: FloatArray
+    nominal: FloatArray
+    kinds: IntArray | None = None
+
+
+@dataclass(frozen=True, eq=False)
 class PoseTerm:
-    """Value of an object-space loss and its derivative by position.
+    """Value of an object-space loss and its derivative by the poses.
 
     Parameters
     ----------
@@ -82,8 +105,19 @@ class PoseTerm:
         The loss.
     x, y
         ``(n,)`` derivatives by the items' positions, per canvas unit.
+    log_scale
+        ``(n,)`` derivatives by the logarithm of their scales; None if zero.
     """
 
     value: float
     x: FloatArray
     y: FloatArray
+    log_scale: FloatArray | None = None
+
+
+class PoseLoss(Protocol):
+    """A pure function of the poses: an object-space loss."""
+
+    def __call__(self, placed: Placed) -> PoseTerm:
+        """Return the value and its derivative."""
+        ...

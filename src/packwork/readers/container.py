@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from pathlib import Path
 
 from packwork.errors import ReadError
@@ -13,21 +12,26 @@ from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.svg.container import container_of_svg, placed_container
 from packwork.readers.text import PREFIX
+from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
+from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
 
 _FORMS = "a PNG or JPEG mask, an SVG, text:WORD or a built-in name such as circle or heart"
 _LATER = "around:"
 
 
 def read_container(
-    source: str | Path, side: float = 600.0, font: str | Path | None = None
+    source: str | Path,
+    canvas: str | float | CanvasSize | None = None,
+    font: str | Path | None = None,
 ) -> Container:
     """Container of a mask, an SVG, ``text:WORD`` or a built-in name; a path that exists wins.
 
     Parameters
     ----------
-    side
-        Longer side of the canvas, in canvas units.
+    canvas
+        Its size, as ``scene.canvas`` reads it. None: that of an SVG in real units,
+        else 600 px on the longer side.
     font
         Font file for ``text:WORD``; the bundled one if None.
 
@@ -35,17 +39,29 @@ def read_container(
     ------
     ReadError
         If there is no such file or name, or it cannot be used.
+    RecipeError
+        If the canvas has no meaning or no possible size.
 
     Examples
     --------
     >>> read_container("circle", 100.0).outline.area.__round__()
     7854
+    >>> tile = read_container("square", "200x150mm")
+    >>> tile.width, tile.height, tile.unit, tile.outline.bounds
+    (200.0, 150.0, 'mm', (25.0, 0.0, 175.0, 150.0))
     """
-    text = str(source)
-    if not (math.isfinite(side) and side > 0):
-        raise ReadError(text, f"the canvas needs a positive side, not {side:g}")
+    size = canvas_size(canvas) if isinstance(canvas, str | int | float) else canvas
+    container = _container(str(source), None if size is None else size.side, font)
+    if size is not None:
+        return on_canvas(container, size)
+    check_side(container.side, container.unit)
+    return container
+
+
+def _container(text: str, side: float | None, font: str | Path | None) -> Container:
+    """Container whose canvas is ``side`` long; None lets the file decide."""
     if text.startswith(BUILTIN):
-        return builtin_container(text.removeprefix(BUILTIN), side)
+        return builtin_container(text.removeprefix(BUILTIN), side or DEFAULT_SIDE)
     path = Path(text)
     # A folder or a note that happens to be called "heart" is not what was meant.
     if exists(path) and not (path.suffix == "" and text in container_names()):
@@ -54,17 +70,17 @@ def read_container(
         # Only words need the font library.
         from packwork.readers.text.container import container_of_words
 
-        return container_of_words(text, side, font)
+        return container_of_words(text, side or DEFAULT_SIDE, font)
     if text == "none" or text.startswith(_LATER):
         raise ReadError(text, f"this form of container is not known yet; give {_FORMS}")
     if path.suffix.lower() in {".svg", *PICTURE_ENDINGS} or len(path.parts) > 1:
         known = path.stem in container_names() and len(path.parts) == 1
         hint = f"; the built-in shape is {path.stem}" if known else ""
         raise ReadError(text, f"there is no such file{hint}")
-    return builtin_container(text, side)
+    return builtin_container(text, side or DEFAULT_SIDE)
 
 
-def _container_of_file(path: Path, source: str, side: float) -> Container:
+def _container_of_file(path: Path, source: str, side: float | None) -> Container:
     ending = path.suffix.lower()
     if path.is_dir():
         raise ReadError(source, f"is a folder; a container is {_FORMS}")
@@ -73,5 +89,5 @@ def _container_of_file(path: Path, source: str, side: float) -> Container:
     if ending in PICTURE_ENDINGS:
         mask = trace_mask(path)
         canvas = (0.0, 0.0, mask.width, mask.height)
-        return placed_container(stem(path), source, mask.region, canvas, side)
+        return placed_container(stem(path), source, mask.region, canvas, side or DEFAULT_SIDE)
     raise ReadError(source, f"has the unknown ending {ending!r}; a container is {_FORMS}")

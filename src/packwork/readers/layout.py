@@ -14,6 +14,7 @@ from shapely.errors import GEOSException
 from shapely.geometry import MultiPolygon, Polygon
 
 from packwork.arrays import FloatArray, as_points
+from packwork.errors import RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
@@ -23,13 +24,20 @@ from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
+from packwork.scene.label import Label
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.units import UNITS, as_unit
 
 MAX_LAYOUT_BYTES = 64_000_000
 """Size of a layout file: thousands of items with hundreds of vertices each. Chosen."""
 
+WIDEST_STRETCH = 1e4
+"""Width over height, or height over width, of an item against its own shape at most.
+Larger: numbers whose inverse drowns in rounding. Chosen."""
+
 _POSE = ("x", "y", "angle", "scale")
+_LABEL = ("name", "link", "title")
 
 
 def read_layout(path: str | Path) -> Layout:
@@ -61,12 +69,12 @@ def read_layout(path: str | Path) -> Layout:
         container = _container(containers, collection)
         items = tuple(_item(feature, where) for where, feature in placed)
         rows = [_pose(feature, where) for where, feature in placed]
-        x, y, angle, scale = np.array(rows, dtype=np.float64).reshape(-1, 4).T.copy()
+        columns = np.array(rows, dtype=np.float64).reshape(-1, 5).T.copy()
         weights = np.array([_weight(feature, where) for where, feature in placed])
         manifest = collection.get("manifest") or {}
         if not isinstance(manifest, dict):
             raise UnfitError("manifest: must be an object")
-        return Layout(container, items, Poses(x, y, angle, scale), weights, manifest)
+        return Layout(container, items, Poses(*columns), weights, manifest)
 
 
 def _parsed(text: str) -> Mapping[str, Any]:
@@ -120,21 +128,38 @@ def _container(found: list[_Placed], collection: Mapping[str, Any]) -> Container
     if not isinstance(canvas, dict):
         raise UnfitError("canvas: must be an object with width and height")
     width, height = (_positive(canvas, side, "canvas") for side in ("width", "height"))
+    unit = as_unit(canvas.get("unit", "px"))
+    if unit is None:
+        known = ", ".join(UNITS)
+        raise UnfitError(f"canvas.unit: must be one of {known}, not {str(canvas['unit'])[:20]!r}")
     name = str(properties.get("name", "container"))
-    return Container(name, str(properties.get("source", name)), outline, width, height)
+    return Container(name, str(properties.get("source", name)), outline, width, height, unit)
 
 
 def _item(feature: Mapping[str, Any], where: str) -> Item:
     properties = _properties(feature, where)
-    x, y, angle_rad, scale = _pose(feature, where)
-    # Undo the pose: move back, turn back, scale back.
+    x, y, angle_rad, scale, stretch = _pose(feature, where)
+    # Undo the pose: move back, turn back, scale back, stretch back.
     back = affine.compose(
         affine.similarity(0.0, 0.0, -angle_rad, 1.0 / scale), affine.similarity(-x, -y, 0.0, 1.0)
     )
+    back = affine.compose(affine.stretched(1.0 / stretch), back)
     outline = _outline(feature, where).mapped(back)
     name = str(properties.get("item", "item"))
     art = FlatArt(_fill(properties, where))
-    return Item(name, str(properties.get("source", name)), outline, outline, art)
+    source = str(properties.get("source", name))
+    return Item(name, source, outline, outline, art, _label(properties, where))
+
+
+def _label(properties: Mapping[str, Any], where: str) -> Label:
+    said = {key: properties[key] for key in _LABEL if properties.get(key) is not None}
+    for key, text in said.items():
+        if not isinstance(text, str):
+            raise UnfitError(f"{where}.{key}: must be text, not {str(text)[:20]!r}")
+    try:
+        return Label(**said)
+    except RecipeError as error:
+        raise UnfitError(f"{where}.{error}") from None
 
 
 def _fill(properties: Mapping[str, Any], where: str) -> str:
@@ -149,11 +174,21 @@ def _fill(properties: Mapping[str, Any], where: str) -> str:
     return str(fill)
 
 
-def _pose(feature: Mapping[str, Any], where: str) -> tuple[float, float, float, float]:
-    """Position, angle in radians and scale."""
+def _pose(feature: Mapping[str, Any], where: str) -> tuple[float, float, float, float, float]:
+    """Position, angle in radians, scale and stretch."""
     properties = _properties(feature, where)
     x, y, angle, _ = (_number(properties, key, where) for key in _POSE)
-    return x, y, math.radians(angle), _positive(properties, "scale", where)
+    scale = _positive(properties, "scale", where)
+    return x, y, math.radians(angle), scale, _stretch(properties, where)
+
+
+def _stretch(properties: Mapping[str, Any], where: str) -> float:
+    stretch, least = _number({"stretch": 1.0, **properties}, "stretch", where), 1 / WIDEST_STRETCH
+    if not least <= stretch <= WIDEST_STRETCH:
+        raise UnfitError(
+            f"{where}.stretch: must be {least:g} to {WIDEST_STRETCH:g}, not {stretch:g}"
+        )
+    return stretch
 
 
 def _weight(feature: Mapping[str, Any], where: str) -> float:

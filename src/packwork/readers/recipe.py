@@ -46,6 +46,10 @@ def read_recipe(path: str | Path) -> dict[str, Any]:
         options["items"] = [
             _found(entry, folder) if isinstance(entry, str) else entry for entry in options["items"]
         ]
+    rules = options.get("rules")
+    for rule in rules if isinstance(rules, list) else ():
+        if isinstance(rule, dict) and isinstance(rule.get("region"), str):
+            rule["region"] = _found(rule["region"], folder)
     return options
 
 

@@ -19,6 +19,20 @@ class UnfitError(Exception):
     """What is wrong with the content being read; the reader adds the file's name."""
 
 
+class TooRichError(UnfitError):
+    """What takes too long to be computed from shapes; its picture may still be traced.
+
+    Parameters
+    ----------
+    what
+        What is too much of it, as in "has 9,000 shapes".
+    """
+
+    def __init__(self, what: str) -> None:
+        super().__init__(f"{what}; simplify it")
+        self.what = what
+
+
 @contextmanager
 def naming(file: str) -> Iterator[None]:
     """Turn refusals inside the block into a ``ReadError`` about ``file``.

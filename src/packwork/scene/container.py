@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from packwork.geometry.outline import Outline
+from packwork.units import Unit
 
 
 @dataclass(frozen=True, eq=False)
@@ -21,6 +22,8 @@ class Container:
         Holes and several parts allowed; canvas units, y down.
     width, height
         The canvas, in canvas units; its top left corner is the origin.
+    unit
+        What one canvas unit is; px are 96 to the inch.
     """
 
     name: str
@@ -28,6 +31,19 @@ class Container:
     outline: Outline
     width: float
     height: float
+    unit: Unit = "px"
+
+    @property
+    def canvas(self) -> dict[str, float | str]:
+        """The canvas as files state it.
+
+        Examples
+        --------
+        >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+        >>> Container("tile", "tile", tile, 4.0, 3.0, "mm").canvas
+        {'width': 4.0, 'height': 3.0, 'unit': 'mm'}
+        """
+        return {"width": float(self.width), "height": float(self.height), "unit": self.unit}
 
     @property
     def side(self) -> float:

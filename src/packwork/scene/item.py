@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import TypeAlias
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.scene.label import Label
 
 
 @dataclass(frozen=True)
@@ -74,6 +75,8 @@ class Item:
         What is really drawn, holes and gaps taken off; same units and origin.
     art
         How it is drawn.
+    label
+        What this one is called in a file, where it links to, its tooltip.
     """
 
     name: str
@@ -81,3 +84,4 @@ class Item:
     outline: Outline
     ink: Outline
     art: Art
+    label: Label = field(default_factory=Label)

@@ -1,11 +1,18 @@
-"""Where items are: translations, turns and scales."""
+"""Where items are: translations, turns, scales and stretches."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+
+import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.errors import ShapeError
 from packwork.geometry import affine
+
+
+def _none_given() -> FloatArray:
+    return np.ones(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -20,26 +27,61 @@ class Poses:
         ``(n,)`` radians, clockwise on screen.
     scale
         ``(n,)`` canvas units per item unit, positive.
+    stretch
+        ``(n,)`` width over height of what was square in the item's own frame, before it
+        was turned: the paper's elementwise scale is ``scale * sqrt(stretch)`` along the
+        item's own x and ``scale / sqrt(stretch)`` along its y, so areas do not depend on
+        it. All ones if none are given.
+
+    Raises
+    ------
+    ShapeError
+        If there are not as many stretches as items.
     """
 
     x: FloatArray
     y: FloatArray
     angle: FloatArray
     scale: FloatArray
+    stretch: FloatArray = field(default_factory=_none_given)
+
+    def __post_init__(self) -> None:
+        if len(self.stretch) == len(self.x):
+            return
+        if len(self.stretch):
+            raise ShapeError(
+                f"poses need as many stretches as items ({len(self.x)}), not {len(self.stretch)}"
+            )
+        object.__setattr__(self, "stretch", np.ones(len(self.x)))
 
     def __len__(self) -> int:
         return len(self.x)
+
+    @property
+    def axis_scales(self) -> FloatArray:
+        """``(n, 2)`` canvas units per item unit along each item's own x and y.
+
+        Wang and Lu 2025 call them s: P' = r (P * s) + t.
+
+        Examples
+        --------
+        >>> one = np.ones(1)
+        >>> Poses(one, one, one, 3 * one, 4 * one).axis_scales.tolist()
+        [[6.0, 1.5]]
+        """
+        root = np.sqrt(self.stretch)
+        return np.column_stack([self.scale * root, self.scale / root])
 
     def matrix(self, k: int) -> FloatArray:
         """2 x 3 map from the units of item ``k`` to canvas units.
 
         Examples
         --------
-        >>> import numpy as np
         >>> one = np.ones(1)
         >>> Poses(2 * one, 3 * one, 0 * one, one).matrix(0)[:, 2].tolist()
         [2.0, 3.0]
         """
-        return affine.similarity(
+        place = affine.similarity(
             float(self.x[k]), float(self.y[k]), float(self.angle[k]), float(self.scale[k])
         )
+        return affine.compose(place, affine.stretched(float(self.stretch[k])))

@@ -8,21 +8,33 @@ from numba import njit
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def place(own, item_starts, x, y, angle, scale, px_per_cu, points):
-    """Write each item's points, in pixels: scaled, turned, moved."""
+def place(own, item_starts, x, y, angle, scale, stretch, px_per_cu, points):
+    """Write each item's points, in pixels: scaled and stretched, turned, moved."""
     for i in range(item_starts.shape[0] - 1):
-        cosine = px_per_cu * scale[i] * math.cos(angle[i])
-        sine = px_per_cu * scale[i] * math.sin(angle[i])
+        root = math.sqrt(stretch[i])
+        wide = px_per_cu * scale[i] * root
+        high = px_per_cu * scale[i] / root
+        cosine = math.cos(angle[i])
+        sine = math.sin(angle[i])
+        right_x = wide * cosine
+        right_y = wide * sine
+        down_x = high * sine
+        down_y = high * cosine
         move_x = px_per_cu * x[i]
         move_y = px_per_cu * y[i]
         for v in range(item_starts[i], item_starts[i + 1]):
-            points[v, 0] = move_x + cosine * own[v, 0] - sine * own[v, 1]
-            points[v, 1] = move_y + sine * own[v, 0] + cosine * own[v, 1]
+            points[v, 0] = move_x + right_x * own[v, 0] - down_x * own[v, 1]
+            points[v, 1] = move_y + right_y * own[v, 0] + down_y * own[v, 1]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def gather(points, gradient, item_starts, x, y, px_per_cu, by_pose):
-    """Sum vertex gradients into d/dx, d/dy (per canvas unit), d/dangle, d/dlog scale."""
+def gather(points, gradient, item_starts, x, y, angle, px_per_cu, by_pose):
+    """Sum vertex gradients into those by x, y (per canvas unit), angle, log scale, log stretch.
+
+    By log stretch a vertex moves by half of its arm (a, b) mirrored in the item's own x
+    axis, which is (a, -b) turned by twice the item's angle: two sums do for any angle,
+    and half of each is in the torque and the growth.
+    """
     for i in range(item_starts.shape[0] - 1):
         move_x = px_per_cu * x[i]
         move_y = px_per_cu * y[i]
@@ -30,6 +42,8 @@ def gather(points, gradient, item_starts, x, y, px_per_cu, by_pose):
         push_y = 0.0
         torque = 0.0
         growth = 0.0
+        growth_x = 0.0
+        torque_x = 0.0
         for v in range(item_starts[i], item_starts[i + 1]):
             arm_x = points[v, 0] - move_x
             arm_y = points[v, 1] - move_y
@@ -37,10 +51,15 @@ def gather(points, gradient, item_starts, x, y, px_per_cu, by_pose):
             push_y += gradient[v, 1]
             torque += gradient[v, 1] * arm_x - gradient[v, 0] * arm_y
             growth += gradient[v, 0] * arm_x + gradient[v, 1] * arm_y
+            growth_x += gradient[v, 0] * arm_x
+            torque_x += gradient[v, 1] * arm_x
         by_pose[i, 0] = push_x * px_per_cu
         by_pose[i, 1] = push_y * px_per_cu
         by_pose[i, 2] = torque
         by_pose[i, 3] = growth
+        upright = growth_x - 0.5 * growth
+        diagonal = torque_x - 0.5 * torque
+        by_pose[i, 4] = math.cos(2.0 * angle[i]) * upright + math.sin(2.0 * angle[i]) * diagonal
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

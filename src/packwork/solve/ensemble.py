@@ -36,13 +36,13 @@ class Ensemble:
         self._item_starts: IntArray = np.cumsum([0, *counts], dtype=np.int64)
         self._rings_before: IntArray = np.cumsum([0] + [len(o.rings) for o in outlines])[:-1]
         self._points = np.empty_like(self._own)
-        self._by_pose = np.zeros((len(outlines), 4))
+        self._by_pose = np.zeros((len(outlines), 5))
 
     def place(self, poses: Poses, px_per_cu: float) -> FloatArray:
         """Points in pixels, ``(n, 2)``; a buffer that the next call reuses."""
         _kernels.place(
             self._own, self._item_starts, poses.x, poses.y, poses.angle, poses.scale,
-            px_per_cu, self._points,
+            poses.stretch, px_per_cu, self._points,
         )  # fmt: skip
         return self._points
 
@@ -52,12 +52,13 @@ class Ensemble:
         Returns
         -------
         FloatArray
-            ``(items, 4)``: by x and y (per canvas unit), angle (rad) and log scale; a
-            buffer that the next call reuses.
+            ``(items, 5)``: by x and y (per canvas unit), angle (rad), log scale and log
+            stretch; a buffer that the next call reuses.
         """
         _kernels.gather(
-            self._points, gradient, self._item_starts, poses.x, poses.y, px_per_cu, self._by_pose
-        )
+            self._points, gradient, self._item_starts, poses.x, poses.y, poses.angle,
+            px_per_cu, self._by_pose,
+        )  # fmt: skip
         return self._by_pose
 
     def per_item(self, per_ring: FloatArray) -> FloatArray:

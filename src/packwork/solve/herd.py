@@ -6,12 +6,13 @@ shrinking. Between levels, and half-way through the last, the worst are lifted o
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
+from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
 
@@ -39,19 +40,27 @@ class Rescue:
 
 
 def wronged_shares(level: Level, poses: Poses, density: Image) -> FloatArray:
-    """Share of each item's area that is overlapped or outside the container, ``(n,)``.
+    """Share of each item's area that is overlapped or outside the container or its zone.
 
-    ``density`` must be the one whose walk the level still has on record.
+    ``(n,)``; ``density`` must be the one whose walk the level still has on record.
     """
     wrong = np.maximum(np.clip(density - 1, 0, 1), 1 - level.container_image)
     per_item = level.ensemble.per_item(level.rasteriser.ring_integrals(wrong))
+    for zone in level.zones:
+        wrong_here = level.rasteriser.ring_integrals(np.maximum(wrong, zone.outside))
+        per_item[zone.items] = level.ensemble.per_item(wrong_here)[zone.items]
     areas_px = level.areas * (poses.scale * level.px_per_cu) ** 2
     on_canvas = level.ensemble.per_item(level.rasteriser.ring_integrals(np.ones_like(density)))
     return np.asarray((per_item + np.maximum(areas_px - on_canvas, 0)) / areas_px)
 
 
 def herd(
-    level: Level, poses: Poses, areas: FloatArray, smallest: FloatArray, largest: FloatArray
+    level: Level,
+    poses: Poses,
+    areas: FloatArray,
+    smallest: FloatArray,
+    largest: FloatArray,
+    limits: Limits | None = None,
 ) -> tuple[Poses, list[Rescue]]:
     """Move the worst trapped items into the largest voids.
 
@@ -65,9 +74,14 @@ def herd(
         ``(n,)`` areas of the items' outlines, item units squared.
     smallest, largest
         ``(n,)`` bounds of the scales; equal where an item may not change.
+    limits
+        Who is held in place, and who has to stay in which zone of the level's.
     """
     density = level.density(poses)
     shares = wronged_shares(level, poses, density)
+    if limits is not None:
+        shares = shares * limits.is_movable
+    homes = {int(k): np.flatnonzero(zone.room) for zone in level.zones for k in zone.items}
     worst = np.argsort(-shares, kind="stable")[: max(1, int(MOST_AT_ONCE * len(poses)))]
     worst = worst[shares[worst] > TRAPPED_SHARE]
     if len(worst) == 0:
@@ -76,7 +90,10 @@ def herd(
     x, y, scale = poses.x.copy(), poses.y.copy(), poses.scale.copy()
     rescues = []
     for k in worst:
-        x_px, y_px, free_px = room.largest()
+        home = homes.get(int(k))
+        x_px, y_px, free_px = room.largest() if home is None else room.largest_among(home)
+        if free_px <= 0 and home is not None:
+            continue
         if free_px <= 0:
             break  # No void is left: wherever it went, it would be worse off.
         free = free_px / level.px_per_cu
@@ -90,4 +107,4 @@ def herd(
                 float(x[k]), float(y[k]),
             )
         )  # fmt: skip
-    return Poses(x, y, poses.angle.copy(), scale), rescues
+    return replace(poses, x=x, y=y, scale=scale), rescues

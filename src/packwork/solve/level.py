@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.geometry.outline import Outline
-from packwork.losses.linear import LinearAdjoint, LinearWeights
+from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
 from packwork.losses.recall import Recall
-from packwork.losses.registry import find_loss
-from packwork.losses.term import ImageLoss, checked_term
+from packwork.losses.registry import POSE_LOSSES, find_loss
+from packwork.losses.term import ImageLoss, Placed, PoseLoss, PoseTerm, checked_term
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
+from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.ensemble import Ensemble
+from packwork.solve.zones import ZonePull
 
 RECALL_PX = 200
 """Finest image on which the way back to the container is looked up. Larger costs a
@@ -35,7 +37,11 @@ class Level:
     resolution
         Pixels on the canvas' longer side.
     losses
-        Further image losses, by name or as functions, with their weights.
+        Those that will be weighed, by name or as functions.
+    nominal
+        ``(n,)`` scales that were asked for; all ones if None.
+    limits
+        Zones that items stay in and kinds to keep apart; None for none.
     """
 
     def __init__(
@@ -43,7 +49,9 @@ class Level:
         container: Container,
         outlines: Sequence[Outline],
         resolution: int,
-        losses: Mapping[str | ImageLoss, float] | None = None,
+        losses: Iterable[str | ImageLoss] = FUSED,
+        nominal: FloatArray | None = None,
+        limits: Limits | None = None,
     ) -> None:
         self.resolution = resolution
         self.px_per_cu = resolution / container.side
@@ -53,28 +61,54 @@ class Level:
         self.ensemble = Ensemble(outlines)
         self.areas = np.array([o.area for o in outlines])
         """``(n,)`` areas of the outlines as this level sees them, item units squared."""
-        self._linear = LinearAdjoint(self.container_image)
+        self._fused = FusedAdjoint(self.container_image, len(outlines))
+        self._container_area = container.outline.area
         self._recall = _recall(container, min(resolution, RECALL_PX))
-        self._losses: list[tuple[ImageLoss, float]] = [
-            (find_loss(loss), weight) for loss, weight in (losses or {}).items()
-        ]
+        self._nominal = np.ones(len(outlines)) if nominal is None else nominal
+        zones = () if limits is None else limits.zones
+        self._kinds = None if limits is None else limits.kinds
+        self.zones = [ZonePull(zone, outlines, shape, self.px_per_cu) for zone in zones]
+        self._further: dict[str | ImageLoss, ImageLoss] = {}
+        self._of_poses: dict[str, PoseLoss] = {}
+        for loss in losses:
+            if isinstance(loss, str) and loss in POSE_LOSSES:
+                self._of_poses[loss] = POSE_LOSSES[loss]
+            elif loss not in FUSED:
+                self._further[loss] = find_loss(loss)
 
-    def gradient(self, poses: Poses, weights: LinearWeights) -> FloatArray:
-        """Derivative of the weighted losses by x, y, angle and log scale, ``(n, 4)``.
+    def gradient(
+        self, poses: Poses, weights: Mapping[str | ImageLoss, float], recall: float = 0.0
+    ) -> FloatArray:
+        """Derivative of the losses by x, y, angle, log scale and log stretch, ``(n, 5)``.
 
         Losses count in squared canvas units (sums over pixels times a pixel's area), so
         that a level change does not change the physics.
+
+        Parameters
+        ----------
+        poses
+            Where the items are.
+        weights
+            By loss; one that is not named weighs nothing.
+        recall
+            Weight of the pull on items whose centre is outside the container or their
+            zone, and price of a pixel's area beyond the image or outside a zone.
         """
         points = self.ensemble.place(poses, self.px_per_cu)
         self.rasteriser.sweep(points, self.ensemble.ring_starts)
         adjoint = self._adjoint(weights)
-        by_points = self.rasteriser.pullback(adjoint, beyond=weights.containment)
+        by_points = self.rasteriser.pullback(adjoint, beyond=recall)
         by_pose = self.ensemble.gather(by_points, poses, self.px_per_cu)
         by_pose /= self.px_per_cu**2
-        recall = self._recall(poses.x, poses.y, self.areas * poses.scale**2)
-        pull = weights.containment * self.px_per_cu / self.resolution
-        by_pose[:, 0] += pull * recall.x
-        by_pose[:, 1] += pull * recall.y
+        called = self._recall(poses.x, poses.y, self.areas * poses.scale**2)
+        _add(by_pose, called, recall * self.px_per_cu / self.resolution)
+        for zone in self.zones:
+            zone.add(by_pose, poses, recall)
+        for name, loss in self._of_poses.items():
+            # Their values have no unit: weighed by the container's area, as a mean over
+            # its pixels would be.
+            weight = weights.get(name, 0.0) * self._container_area
+            _add(by_pose, loss(Placed(poses, self.areas, self._nominal, self._kinds)), weight)
         return by_pose
 
     def density(self, poses: Poses) -> Image:
@@ -93,16 +127,24 @@ class Level:
         outside = float((covered * (1 - self.container_image)).sum())
         return inside / whole, twice / whole, outside / whole
 
-    def _adjoint(self, weights: LinearWeights) -> Image:
-        if not self._losses:
-            return self._linear(self.rasteriser.accumulation, weights)
+    def _adjoint(self, weights: Mapping[str | ImageLoss, float]) -> Image:
+        fused = FusedWeights(*(weights.get(name, 0.0) for name in FUSED))
+        if not self._further:
+            return self._fused(self.rasteriser.accumulation, fused)
         accumulation = self.rasteriser.accumulation.copy()
         density = self.rasteriser.density()
-        adjoint = self._linear(accumulation, weights)
-        for loss, weight in self._losses:
+        adjoint = self._fused(accumulation, fused)
+        for key, loss in self._further.items():
             term = checked_term(loss, density, self.container_image)
-            adjoint += weight * density.size * term.adjoint
+            adjoint += weights.get(key, 0.0) * density.size * term.adjoint
         return adjoint
+
+
+def _add(by_pose: FloatArray, term: PoseTerm, weight: float) -> None:
+    by_pose[:, 0] += weight * term.x
+    by_pose[:, 1] += weight * term.y
+    if term.log_scale is not None:
+        by_pose[:, 3] += weight * term.log_scale
 
 
 def _recall(container: Container, resolution: int) -> Recall:

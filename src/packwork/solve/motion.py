@@ -5,13 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.adam import Adam
 from packwork.solve.options import SolveOptions
 
 
 class Motion:
-    """Moves, turns and resizes items step by step, within their bounds.
+    """Moves, turns, resizes and stretches items step by step, within their bounds.
 
     Parameters
     ----------
@@ -23,9 +24,18 @@ class Motion:
         Longer side of the canvas.
     options
         Modes, rates and bounds.
+    limits
+        Bounds of single items, in place of those of the options; None for none.
     """
 
-    def __init__(self, poses: Poses, nominal: FloatArray, side: float, options: SolveOptions):
+    def __init__(
+        self,
+        poses: Poses,
+        nominal: FloatArray,
+        side: float,
+        options: SolveOptions,
+        limits: Limits | None = None,
+    ) -> None:
         self._options = options
         self._side = side
         n = len(poses)
@@ -33,43 +43,67 @@ class Motion:
         self.angle = poses.angle.copy()
         self._nominal = np.log(nominal)
         self._growth = np.log(poses.scale) - self._nominal
+        self._shape = np.log(poses.stretch)
+        bound = np.log(options.size_ratio)
+        self._growth_range: tuple[FloatArray | float, FloatArray | float] = (-bound, bound)
+        self._turn_limit: FloatArray | float | None = options.turn_limit
+        self._free: FloatArray | None = None
+        if limits is not None:
+            self._bound_items(limits)
         decay = (options.momentum, options.memory)
         self._moves, self._turns = Adam((n, 2), decay), Adam((n, 1), decay)
         self._sizes = Adam((1 if options.sizes == "shared" else n, 1), decay)
+        self._shapes = Adam((n, 1), decay)
 
     @property
     def poses(self) -> Poses:
         """Where the items are now; arrays of its own."""
-        return Poses(
-            self.x.copy(), self.y.copy(), self.angle.copy(), np.exp(self._nominal + self._growth)
-        )
+        scale, stretch = np.exp(self._nominal + self._growth), np.exp(self._shape)
+        return Poses(self.x.copy(), self.y.copy(), self.angle.copy(), scale, stretch)
 
     def follow(self, gradient: FloatArray, factor: float) -> None:
         """One step against the pose gradient, at ``factor`` of the full rates."""
         options = self._options
+        if self._free is not None:
+            gradient = gradient * self._free
         move = self._moves.step(gradient[:, :2], options.position_rate * self._side * factor)
         self.x += move[:, 0]
         self.y += move[:, 1]
         if options.turn_rate > 0:
             self.angle += self._turns.step(gradient[:, 2:3], options.turn_rate * factor)[:, 0]
-            if options.turn_limit is not None:
-                np.clip(self.angle, -options.turn_limit, options.turn_limit, out=self.angle)
+            if self._turn_limit is not None:
+                np.clip(self.angle, -self._turn_limit, self._turn_limit, out=self.angle)
         self._resize(gradient[:, 3:4], options.size_rate * factor)
+        if options.stretch > 1:
+            self._reshape(gradient[:, 4:5], options.stretch_rate * factor)
+
+    def _bound_items(self, limits: Limits) -> None:
+        self._free = np.logical_not(limits.held).astype(np.float64)
+        self._turn_limit = limits.turn_limit
+        if self._options.sizes == "free":
+            low, high = np.log(limits.smallest), np.log(limits.largest)
+            self._growth_range = (low - self._nominal, high - self._nominal)
 
     def _resize(self, gradient: FloatArray, rate: float) -> None:
         if self._options.sizes == "free":
-            bound = np.log(self._options.size_ratio)
             self._growth += self._sizes.step(gradient, rate)[:, 0]
-            np.clip(self._growth, -bound, bound, out=self._growth)
+            np.clip(self._growth, *self._growth_range, out=self._growth)
         elif self._options.sizes == "shared":
             total = gradient.sum(axis=0, keepdims=True)
-            self._growth += self._sizes.step(total, rate)[0, 0]
+            step = self._sizes.step(total, rate)[0, 0]
+            self._growth += step if self._free is None else step * self._free[:, 3]
+
+    def _reshape(self, gradient: FloatArray, rate: float) -> None:
+        bound = np.log(self._options.stretch)
+        self._shape += self._shapes.step(gradient, rate)[:, 0]
+        np.clip(self._shape, -bound, bound, out=self._shape)
 
     def replace(self, poses: Poses, items: list[int]) -> None:
         """Take over poses in which ``items`` were moved by force."""
         self.x, self.y, self.angle = poses.x.copy(), poses.y.copy(), poses.angle.copy()
         self._growth = np.log(poses.scale) - self._nominal
-        self._moves.forget(items)
-        self._turns.forget(items)
+        self._shape = np.log(poses.stretch)
+        for adam in (self._moves, self._turns, self._shapes):
+            adam.forget(items)
         if self._options.sizes == "free":
             self._sizes.forget(items)

@@ -6,8 +6,14 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from packwork.losses.linear import LinearWeights
-from packwork.solve.options import SolveOptions
+from packwork.solve.options import ImageLossFunction, SolveOptions
+
+STEADY = frozenset({"filling"})
+"""Losses that do not harden. All others do: at a constant weight, evenness or a loss of
+one's own is drowned at the end, where it is needed. Tried."""
+
+REWARDS = frozenset({"filling", "evenness"})
+"""Losses that draw items into contact, cut while a run settles."""
 
 
 def epochs_per_level(epochs: int, shares: Sequence[float]) -> list[int]:
@@ -33,17 +39,30 @@ def rate_factor(options: SolveOptions, progress: float) -> float:
     return float(options.cooling**progress)
 
 
-def weights_at(options: SolveOptions, progress: float) -> LinearWeights:
-    """Loss weights at ``progress`` (0..1) through the run.
-
-    Penalties grow geometrically, filling stays one until the run settles.
+def growth(options: SolveOptions, progress: float) -> float:
+    """By how much penalties have grown at ``progress`` (0..1) through the run.
 
     Examples
     --------
-    >>> weights_at(SolveOptions(overlap=2, hardening=9), 0.5).overlap
-    6.0
+    >>> growth(SolveOptions(hardening=9), 0.5)
+    3.0
     """
-    growth = float(options.hardening**progress)
-    settles = progress > 1 - options.settling
-    filling = options.settling_filling if settles else 1.0
-    return LinearWeights(options.containment * growth, options.overlap * growth, filling)
+    return float(options.hardening**progress)
+
+
+def weights_at(options: SolveOptions, progress: float) -> dict[str | ImageLossFunction, float]:
+    """Weight of each loss at ``progress`` (0..1) through the run.
+
+    All but filling grow geometrically; rewards are cut while the run settles.
+
+    Examples
+    --------
+    >>> weights_at(SolveOptions(losses={"overlap": 2.0}, hardening=9), 0.5)
+    {'overlap': 6.0}
+    """
+    grown = growth(options, progress)
+    reward = options.settling_reward if progress > 1 - options.settling else 1.0
+    return {
+        name: weight * (1.0 if name in STEADY else grown) * (reward if name in REWARDS else 1.0)
+        for name, weight in options.losses.items()
+    }

@@ -13,13 +13,20 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.progress import Observer, Step, Stop, never
 from packwork.scene.container import Container
+from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
-from packwork.solve.detail import seen_at
+from packwork.solve.exchange import exchange
 from packwork.solve.herd import Rescue, herd
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
-from packwork.solve.schedule import epochs_per_level, rate_factor, weights_at
+from packwork.solve.pace import pace_of
+from packwork.solve.schedule import growth, rate_factor, weights_at
+from packwork.solve.shaped import seen_posed
+
+EXCHANGES = (0.15, 0.3, 0.45)
+"""When, as shares of the run, items leave the side of their kind. Later ones leave fewer
+together and less time to settle: a part of the coverage. Tried."""
 
 
 class Ending(Enum):
@@ -59,6 +66,7 @@ def solve(
     options: SolveOptions,
     observer: Observer | None = None,
     stop: Stop = never,
+    limits: Limits | None = None,
 ) -> Outcome:
     """Move, turn and size items so that they fill the container and do not overlap.
 
@@ -81,12 +89,14 @@ def solve(
         Told of progress.
     stop
         Asked before every epoch; True ends the run.
+    limits
+        Bounds of single items, which the start has to keep; None for none.
     """
-    run = _Run(container, outlines, start, nominal, options, observer, stop)
-    shares = epochs_per_level(options.epochs, options.shares or [1.0] * len(options.levels))
+    run = _Run(container, outlines, start, nominal, options, observer, stop, limits)
     reports = []
-    for index, epochs in enumerate(shares):
-        reports.append(run.level(index, epochs))
+    for index in range(len(options.levels)):
+        if not run.pace.has_reached(index, 1.0):
+            reports.append(run.level(index))
         if run.is_stopped:
             return Outcome(run.motion.poses, Ending.STOPPED, reports)
     return Outcome(run.motion.poses, Ending.DONE, reports)
@@ -104,69 +114,89 @@ class _Run:
         options: SolveOptions,
         observer: Observer | None,
         stop: Stop,
+        limits: Limits | None,
     ) -> None:
-        self.motion = Motion(start, nominal, container.side, options)
+        self.motion = Motion(start, nominal, container.side, options, limits)
+        self.pace = pace_of(options)
         self.is_stopped = False
         self._container, self._outlines, self._nominal = container, outlines, nominal
         self._areas = np.array([o.area for o in outlines])
         self._options, self._observer, self._stop = options, observer, stop
+        self._limits = None if limits is None else limits.widened(options.margin)
         self._done = 0
+        is_apart = limits is not None and limits.kinds is not None
+        self._exchanges = list(EXCHANGES) if is_apart else []
 
-    def level(self, index: int, epochs: int) -> LevelReport:
+    def level(self, index: int) -> LevelReport:
         """Run one level, and the herder when it is due."""
-        began = time.perf_counter()
+        began, before = time.perf_counter(), self._done
         resolution = self._options.levels[index]
         px_per_cu = resolution / self._container.side
-        scales, margin = self.motion.poses.scale, self._options.margin
-        seen = seen_at(self._outlines, scales, px_per_cu, margin)
-        level = Level(self._container, seen, resolution, self._options.losses)
+        seen = seen_posed(self._outlines, self.motion.poses, px_per_cu, self._options.margin)
+        level = Level(
+            self._container, seen, resolution, self._options.losses, self._nominal, self._limits
+        )
         is_last = index == len(self._options.levels) - 1
-        herding = epochs // 2 if is_last else epochs
-        rescues: list[Rescue] = []
-        before = self._done
-        for epoch in range(1, epochs + 1):
+        rescues: list[Rescue] | None = None if self._options.herd else []
+        while not self.pace.has_reached(index, 1.0):
             if self._stop():
                 self.is_stopped = True
                 break
             self._epoch(level)
-            if epoch == herding and self._options.herd:
+            if self._limits and self._exchanges and self.pace.progress() >= self._exchanges[0]:
+                self._part_kinds(seen, self._limits)
+            if rescues is None and self.pace.has_reached(index, 0.5 if is_last else 1.0):
                 rescues = self._herd(level)
-            self._tell(level, index, epoch, epochs)
+            self._tell(level, index)
         shares = level.shares(level.density(self.motion.poses))
-        done = self._done - before
         seconds = time.perf_counter() - began
-        return LevelReport(resolution, done, seconds, *shares, rescues=tuple(rescues))
+        return LevelReport(
+            resolution, self._done - before, seconds, *shares, rescues=tuple(rescues or ())
+        )
 
     def _epoch(self, level: Level) -> None:
-        progress = self._done / max(self._options.epochs - 1, 1)
-        gradient = level.gradient(self.motion.poses, weights_at(self._options, progress))
-        self.motion.follow(gradient, rate_factor(self._options, progress))
+        options, progress = self._options, self.pace.progress()
+        recall = options.recall * growth(options, progress)
+        gradient = level.gradient(self.motion.poses, weights_at(options, progress), recall)
+        self.motion.follow(gradient, rate_factor(options, progress))
+        self.pace.advance()
         self._done += 1
 
     def _herd(self, level: Level) -> list[Rescue]:
         poses = self.motion.poses
-        bounds = scale_bounds(self._nominal, poses.scale, self._options)
-        moved, rescues = herd(level, poses, self._areas, *bounds)
+        bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
+        moved, rescues = herd(level, poses, self._areas, *bounds, self._limits)
         self.motion.replace(moved, [rescue.item for rescue in rescues])
         return rescues
 
-    def _tell(self, level: Level, index: int, epoch: int, epochs: int) -> None:
+    def _part_kinds(self, seen: Sequence[Outline], limits: Limits) -> None:
+        """Exchange items that lie beside their kind, with outlines as the level sees them."""
+        self._exchanges.pop(0)
+        poses = self.motion.poses
+        bounds = scale_bounds(self._nominal, poses.scale, self._options, limits)
+        moved, items = exchange(seen, poses, limits, *bounds)
+        self.motion.replace(moved, items)
+
+    def _tell(self, level: Level, index: int) -> None:
         observer = self._observer
-        if observer is None or ((epoch - 1) % observer.every and epoch != epochs):
+        is_end = self.pace.has_reached(index, 1.0)
+        if observer is None or ((self._done - 1) % observer.every and not is_end):
             return
         poses = self.motion.poses
         observer.on_step(
             Step(
                 index, len(self._options.levels), level.resolution, self._done,
-                self._options.epochs, poses, *level.shares(level.density(poses)),
+                self.pace.progress(), poses, *level.shares(level.density(poses)),
             )
         )  # fmt: skip
 
 
 def scale_bounds(
-    nominal: FloatArray, scale: FloatArray, options: SolveOptions
+    nominal: FloatArray, scale: FloatArray, options: SolveOptions, limits: Limits | None = None
 ) -> tuple[FloatArray, FloatArray]:
     """Smallest and largest scale of each item, ``(n,)`` each."""
+    if options.sizes == "free" and limits is not None:
+        return limits.smallest, limits.largest
     if options.sizes == "free":
         return nominal / options.size_ratio, nominal * options.size_ratio
     return scale, scale

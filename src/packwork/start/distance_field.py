@@ -9,6 +9,7 @@ import numpy as np
 from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
 from packwork.start.greedy import place_discs
+from packwork.start.homes import Homes
 
 FEW, MANY = 20, 100
 """Counts of items up to which, and from which, elbow room does not change. Tried."""
@@ -32,7 +33,11 @@ def elbow_room(count: int) -> float:
 
 
 def distance_field(
-    container: Image, px_per_cu: float, radii_cu: FloatArray, rng: np.random.Generator
+    container: Image,
+    px_per_cu: float,
+    radii_cu: FloatArray,
+    rng: np.random.Generator,
+    homes: Homes | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, canvas units, of discs placed largest first.
 
@@ -50,6 +55,8 @@ def distance_field(
         ``(n,)`` radius of the disc to keep free for each item.
     rng
         Breaks ties.
+    homes
+        Pixels for discs that may not lie anywhere.
 
     Examples
     --------
@@ -59,5 +66,5 @@ def distance_field(
     True
     """
     room = Clearance(container > 0.5)
-    x, y = place_discs(room, radii_cu * px_per_cu, lambda radius: room.largest(), rng)
+    x, y = place_discs(room, radii_cu * px_per_cu, lambda radius: room.largest(), rng, homes)
     return x / px_per_cu, y / px_per_cu

@@ -13,9 +13,11 @@ from packwork.geometry.outline import Outline
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
+from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.start.choice import suitable
 from packwork.start.distance_field import distance_field, elbow_room
+from packwork.start.homes import Homes, around, homes
 from packwork.start.medial_axis import ELBOW_ROOM, medial_axis
 from packwork.start.options import Placing, StartOptions
 from packwork.start.scatter import scatter
@@ -56,8 +58,12 @@ def first_poses(
     angles: FloatArray,
     options: StartOptions,
     rng: np.random.Generator,
+    limits: Limits | None = None,
 ) -> FirstPoses:
     """Poses of items of given scales and angles, by the method asked for.
+
+    Items that have to lie at one point come first and take their room, so that the others
+    find their places round them.
 
     Parameters
     ----------
@@ -69,17 +75,59 @@ def first_poses(
         ``(n,)``.
     rng
         The only source of randomness.
+    limits
+        Which items have to lie where; None if all may lie anywhere.
     """
     image, px_per_cu = container_image(container, start_resolution(len(outlines)))
-    radii = disc_radii(outlines, scales)
-    method = suitable(image, px_per_cu, radii) if options.method == "auto" else options.method
-    if method == "scatter":
-        x, y = scatter(image, px_per_cu, len(outlines), rng)
-    elif method == "medial-axis":
-        x, y = medial_axis(image, px_per_cu, radii * ELBOW_ROOM, rng)
-    else:
-        x, y = distance_field(image, px_per_cu, radii * elbow_room(len(radii)), rng)
+    if limits is not None:
+        return _round_given(image, px_per_cu, outlines, scales, angles, options, rng, limits)
+    x, y, method = _places(image, px_per_cu, disc_radii(outlines, scales), options, rng)
     return FirstPoses(Poses(x, y, angles, scales), method)
+
+
+def _round_given(
+    image: Image,
+    px_per_cu: float,
+    outlines: Sequence[Outline],
+    scales: FloatArray,
+    angles: FloatArray,
+    options: StartOptions,
+    rng: np.random.Generator,
+    limits: Limits,
+) -> FirstPoses:
+    """Poses of items of which some have to lie at one point, on a line or in a zone."""
+    poses = Poses(limits.x.copy(), limits.y.copy(), angles, scales)
+    placed = limits.held[:, :2].all(axis=1)
+    left = around(image, px_per_cu, outlines, poses, np.flatnonzero(placed))
+    others = [int(k) for k in np.flatnonzero(~placed)]
+    radii = disc_radii([outlines[k] for k in others], scales[others])
+    of_all = homes(limits, left, px_per_cu)
+    x, y, method = _places(left, px_per_cu, radii, options, rng, [of_all[k] for k in others])
+    for given, found in ((poses.x, x), (poses.y, y)):
+        given[others] = np.where(np.isnan(given[others]), found, given[others])
+    return FirstPoses(poses, method)
+
+
+def _places(
+    image: Image,
+    px_per_cu: float,
+    radii: FloatArray,
+    options: StartOptions,
+    rng: np.random.Generator,
+    own: Homes | None = None,
+) -> tuple[FloatArray, FloatArray, Placing]:
+    """Places for discs, and how they were found."""
+    method: Placing = "distance-field"
+    if options.method != "auto":
+        method = options.method
+    elif len(radii):
+        method = suitable(image, px_per_cu, radii)
+    if method == "scatter":
+        return *scatter(image, px_per_cu, len(radii), rng, own), method
+    if method == "medial-axis":
+        return *medial_axis(image, px_per_cu, radii * ELBOW_ROOM, rng, own), method
+    room = elbow_room(len(radii))
+    return *distance_field(image, px_per_cu, radii * room, rng, own), method
 
 
 def disc_radii(outlines: Sequence[Outline], scales: FloatArray) -> FloatArray:

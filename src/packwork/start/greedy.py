@@ -1,4 +1,4 @@
-"""Discs placed one after another, the largest first."""
+"""Discs placed one after another: those that are bound to a place, then the largest."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.fields.clearance import Clearance
+from packwork.start.homes import Homes
 
 Spot: TypeAlias = tuple[float, float, float]
 """Pixel coordinates ``(x, y)`` and the radius of the free disc there."""
@@ -23,6 +24,7 @@ def place_discs(
     radii_px: FloatArray,
     spot_for: Callable[[float], Spot],
     rng: np.random.Generator,
+    homes: Homes | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, pixels, in the order of the radii.
 
@@ -36,6 +38,8 @@ def place_discs(
         Chooses the place for a disc of a given radius from the room that is left.
     rng
         Shifts the discs a little.
+    homes
+        Pixels for discs that may not lie anywhere: they choose before the others.
 
     Examples
     --------
@@ -47,9 +51,11 @@ def place_discs(
     True
     """
     x, y = np.empty(len(radii_px)), np.empty(len(radii_px))
-    for k in np.argsort(-radii_px, kind="stable"):
+    bound = [home is not None for home in homes or [None] * len(radii_px)]
+    for k in np.lexsort((-radii_px, np.logical_not(bound))):
         radius = float(radii_px[k])
-        at_x, at_y, free = spot_for(radius)
+        home = None if homes is None else homes[k]
+        at_x, at_y, free = spot_for(radius) if home is None else room.largest_among(home)
         shift = min(radius, max(free, 0.0)) * JITTER * rng.uniform(-1, 1, size=2)
         room.occupy(at_x, at_y, radius)
         x[k], y[k] = at_x + shift[0], at_y + shift[1]

@@ -8,6 +8,7 @@ from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
 from packwork.fields.skeleton import medial_axis as axis_of
 from packwork.start.greedy import Spot, place_discs
+from packwork.start.homes import Homes
 
 ELBOW_ROOM = 1.5
 """As for the distance field; closer, because items on a line have two neighbours only.
@@ -15,7 +16,11 @@ Tried."""
 
 
 def medial_axis(
-    container: Image, px_per_cu: float, radii_cu: FloatArray, rng: np.random.Generator
+    container: Image,
+    px_per_cu: float,
+    radii_cu: FloatArray,
+    rng: np.random.Generator,
+    homes: Homes | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, canvas units: along the axis first, beside it when that is full.
 
@@ -34,6 +39,8 @@ def medial_axis(
         ``(n,)`` radius of the disc to keep free for each item.
     rng
         Breaks ties.
+    homes
+        Pixels for discs that may not lie anywhere.
 
     Examples
     --------
@@ -50,5 +57,5 @@ def medial_axis(
         on_axis = room.largest_among(axis)
         return on_axis if on_axis[2] >= radius else room.largest()
 
-    x, y = place_discs(room, radii_cu * px_per_cu, spot_for, rng)
+    x, y = place_discs(room, radii_cu * px_per_cu, spot_for, rng, homes)
     return x / px_per_cu, y / px_per_cu

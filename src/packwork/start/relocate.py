@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -10,10 +11,12 @@ from packwork.arrays import IntArray
 from packwork.fields.clearance import Clearance
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
+from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.start.distance_field import elbow_room
 from packwork.start.first_poses import container_image, disc_radii, start_resolution
 from packwork.start.greedy import place_discs
+from packwork.start.homes import homes
 
 
 def relocated(
@@ -22,6 +25,7 @@ def relocated(
     poses: Poses,
     buried: IntArray,
     rng: np.random.Generator,
+    limits: Limits | None = None,
 ) -> Poses:
     """Poses in which buried items lie where the others leave most room, the largest first.
 
@@ -36,11 +40,13 @@ def relocated(
     outlines
         One per item, item units.
     poses
-        Where the items are; angles and scales are kept.
+        Where the items are; angles, scales and stretches are kept.
     buried
         Which items to move: those of which most is overlapped or outside.
     rng
         Shifts them a little.
+    limits
+        Who may not be moved at all, and who only within a zone.
 
     Examples
     --------
@@ -53,11 +59,16 @@ def relocated(
     True
     """
     image, px_per_cu = container_image(container, start_resolution(len(outlines)))
+    own = None
+    if limits is not None:
+        buried = buried[limits.is_movable[buried]]
+        of_all = homes(limits, image, px_per_cu)
+        own = [of_all[k] for k in buried]
     radii_px = disc_radii(outlines, poses.scale) * elbow_room(len(outlines)) * px_per_cu
     room = Clearance(image > 0.5)
     for k in np.setdiff1d(np.arange(len(outlines)), buried):
         room.occupy(float(poses.x[k]) * px_per_cu, float(poses.y[k]) * px_per_cu, radii_px[k])
-    found_x, found_y = place_discs(room, radii_px[buried], lambda radius: room.largest(), rng)
+    found_x, found_y = place_discs(room, radii_px[buried], lambda radius: room.largest(), rng, own)
     x, y = poses.x.copy(), poses.y.copy()
     x[buried], y[buried] = found_x / px_per_cu, found_y / px_per_cu
-    return Poses(x, y, poses.angle, poses.scale)
+    return replace(poses, x=x, y=y)

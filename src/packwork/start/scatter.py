@@ -5,10 +5,15 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
+from packwork.start.homes import Homes
 
 
 def scatter(
-    container: Image, px_per_cu: float, count: int, rng: np.random.Generator
+    container: Image,
+    px_per_cu: float,
+    count: int,
+    rng: np.random.Generator,
+    homes: Homes | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, canvas units, uniform over the container's pixels.
 
@@ -18,6 +23,8 @@ def scatter(
         Coverage of the container.
     px_per_cu
         Pixels of that image per canvas unit.
+    homes
+        Pixels for items that may not lie anywhere.
 
     Examples
     --------
@@ -25,9 +32,13 @@ def scatter(
     >>> bool((x >= 1).all() and (x <= 2).all())
     True
     """
-    rows, columns = np.nonzero(container > 0.5)
-    picks = rng.integers(len(rows), size=count)
+    inside = np.flatnonzero(container > 0.5)
+    picks = inside[rng.integers(len(inside), size=count)]
+    for k, home in enumerate(homes or ()):
+        if home is not None:
+            picks[k] = rng.choice(home)
+    rows, columns = np.divmod(picks, container.shape[1])
     return (
-        (columns[picks] + rng.uniform(0, 1, count)) / px_per_cu,
-        (rows[picks] + rng.uniform(0, 1, count)) / px_per_cu,
+        (columns + rng.uniform(0, 1, count)) / px_per_cu,
+        (rows + rng.uniform(0, 1, count)) / px_per_cu,
     )

@@ -38,6 +38,31 @@ def nominal_scales(areas: FloatArray, weights: FloatArray, total_cu2: float) -> 
     return np.asarray(np.sqrt(total_cu2 * shares / shares.sum() / areas))
 
 
+def shared_scales(
+    areas: FloatArray, seen: FloatArray, weights: FloatArray, total_cu2: float
+) -> FloatArray:
+    """Scales where areas are data: true areas in the shares of the weights.
+
+    Parameters
+    ----------
+    areas
+        ``(n,)`` true areas of the items, item units squared.
+    seen
+        ``(n,)`` areas of what stands for them while they are placed.
+    weights
+        ``(n,)``, positive.
+    total_cu2
+        Sum of the areas seen, canvas units squared.
+
+    Examples
+    --------
+    >>> shared_scales(np.array([1.0, 4.0]), np.array([2.0, 8.0]), np.ones(2), 16.0).tolist()
+    [2.0, 1.0]
+    """
+    larger = float(np.average(seen / areas, weights=weights))
+    return nominal_scales(areas, weights, total_cu2 / larger)
+
+
 def hull_areas(outlines: Sequence[Outline]) -> FloatArray:
     """Area of each outline's convex hull; copies are measured once."""
     known: dict[int, float] = {}

@@ -1,7 +1,7 @@
 """Layouts as GeoJSON: true outlines in place, for any geometry tool to check.
 
-Canvas units, y down: outer rings run clockwise on screen, which is the right-hand rule
-of RFC 7946 in numbers.
+Canvas units (``canvas.unit`` says what one is), y down: outer rings run clockwise on
+screen, which is the right-hand rule of RFC 7946 in numbers.
 """
 
 from __future__ import annotations
@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import math
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from pathlib import PurePath
 from typing import Any
 
@@ -31,7 +32,7 @@ def geojson_text(layout: Layout) -> str:
     """GeoJSON FeatureCollection: the container, then one feature per item.
 
     Coordinates are rounded to ``PRECISION``; ``x``, ``y``, ``angle`` (degrees clockwise,
-    -180 to 180) and ``scale`` are written in full. Numbers that JSON has no word for
+    -180 to 180), ``scale`` and ``stretch`` are written in full. Numbers that JSON has no word for
     (NaN, infinity) become null in the manifest.
 
     Examples
@@ -50,7 +51,7 @@ def geojson_text(layout: Layout) -> str:
     digits = decimals(container.side * PRECISION)
     collection = {
         "type": "FeatureCollection",
-        "canvas": {"width": float(container.width), "height": float(container.height)},
+        "canvas": container.canvas,
         "manifest": plain(layout.manifest),
     }
     features = [_container_feature(layout, digits), *_item_features(layout, digits)]
@@ -112,7 +113,10 @@ def _item_properties(layout: Layout, k: int, item: Item) -> dict[str, Any]:
         "y": float(poses.y[k]),
         "angle": math.remainder(math.degrees(poses.angle[k]), 360.0),
         "scale": float(poses.scale[k]),
+        "stretch": float(poses.stretch[k]),
         "weight": float(layout.weights[k]),
+        # Those that are empty are left out.
+        **{key: text for key, text in asdict(item.label).items() if text},
     }
 
 

@@ -81,7 +81,18 @@ def xml_text(text: str) -> str:
     >>> xml_text('R&D <"1">')
     'R&amp;D &lt;&quot;1&quot;&gt;'
     """
-    return _NOT_XML.sub("\ufffd", text).translate(_ESCAPES)
+    return sound_text(text).translate(_ESCAPES)
+
+
+def sound_text(text: str) -> str:
+    """Text that can be encoded and shown; control characters become U+FFFD.
+
+    Examples
+    --------
+    >>> sound_text("R&D" + chr(0)) == "R&D" + chr(0xFFFD)
+    True
+    """
+    return _NOT_XML.sub("\ufffd", text)
 
 
 def attributes(pairs: Mapping[str, str]) -> str:

@@ -20,7 +20,7 @@ class PngOptions:
     ----------
     background
         CSS colour behind everything; ``None`` or ``"transparent"`` leaves it clear.
-    container_outline
+    show_container
         Draw the container's line.
 
     Raises
@@ -35,7 +35,7 @@ class PngOptions:
     """
 
     background: str | None = "#ffffff"
-    container_outline: bool = False
+    show_container: bool = False
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -71,13 +71,10 @@ def png_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = 
     options = options or PngOptions()
     frame = picture_frame(layout.container, longer_side_px)
     # Whole pixels both ways: the renderer fits a fractional canvas with soft edges.
-    sheet = Sheet(
-        width_px=frame.columns,
-        height_px=frame.rows,
-        width=frame.columns / frame.px_per_cu,
-        height=frame.rows / frame.px_per_cu,
-    )
-    drawn = SvgOptions(background=options.background, container_outline=options.container_outline)
+    size = (float(frame.columns), float(frame.rows))
+    view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
+    sheet = Sheet(size=size, unit="px", view=view)
+    drawn = SvgOptions(background=options.background, show_container=options.show_container)
     return _rendered(svg_document(layout, drawn, sheet))
 
 

@@ -25,7 +25,13 @@ def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
             kept[key] = _seen_from(folder, kept[key])
     if "items" in kept:
         kept["items"] = [_seen_from(folder, name) for name in kept["items"]]
-    return tomli_w.dumps(kept).encode()
+    rules = [
+        {**rule, "region": _seen_from(folder, rule["region"])}
+        if isinstance(rule.get("region"), str)
+        else rule
+        for rule in kept.pop("rules", ())
+    ]
+    return tomli_w.dumps({**kept, "rules": rules} if rules else kept).encode()
 
 
 def _seen_from(folder: Path, name: str) -> str:

@@ -11,8 +11,11 @@ from typing import TypeAlias
 from packwork.errors import WriteError
 from packwork.scene.layout import Layout
 from packwork.writers.atomic import check_writable, write_atomic
+from packwork.writers.dxf import dxf_bytes
+from packwork.writers.extras import check_extra
 from packwork.writers.frame import check_side
 from packwork.writers.geojson import geojson_text
+from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
@@ -24,7 +27,7 @@ class WriteOptions:
     Parameters
     ----------
     svg, png
-        How the layout is drawn.
+        How the layout is drawn; ``svg`` holds for PDF too.
     png_side_px
         Longer side of a PNG.
 
@@ -58,12 +61,27 @@ def _png(layout: Layout, options: WriteOptions) -> bytes:
     return png_bytes(layout, options.png_side_px, options.png)
 
 
+def _pdf(layout: Layout, options: WriteOptions) -> bytes:
+    return pdf_bytes(layout, options.svg)
+
+
+def _dxf(layout: Layout, _: WriteOptions) -> bytes:
+    return dxf_bytes(layout)
+
+
 def _geojson(layout: Layout, _: WriteOptions) -> bytes:
     return geojson_text(layout).encode()
 
 
 WRITERS: Mapping[str, Encoder] = MappingProxyType(
-    {".svg": _svg, ".png": _png, ".geojson": _geojson, ".json": _geojson}
+    {
+        ".svg": _svg,
+        ".png": _png,
+        ".pdf": _pdf,
+        ".dxf": _dxf,
+        ".geojson": _geojson,
+        ".json": _geojson,
+    }
 )
 """File ending, in lower case, to the function that makes the file's bytes."""
 
@@ -74,7 +92,8 @@ def check_output(path: str | Path) -> None:
     Raises
     ------
     WriteError
-        If the ending is unknown or nothing can be written there.
+        If the ending is unknown, its format needs a package that is missing, or nothing
+        can be written there.
 
     Examples
     --------
@@ -147,6 +166,7 @@ def _encoder(path: str | Path) -> Encoder:
         known = ", ".join(WRITERS)
         met = f"the ending {ending!r} is not known" if ending else "the name has no ending"
         raise WriteError(path, f"{met}; use one of {known}")
+    check_extra(path)
     return WRITERS[ending]
 
 
@@ -154,7 +174,7 @@ def write_options(
     *,
     pixels: int = 1_600,
     background: str | None = None,
-    outline: bool = False,
+    show_container: bool = False,
     flatten: bool = False,
 ) -> WriteOptions:
     """Options of every format from the few that people give.
@@ -164,9 +184,9 @@ def write_options(
     pixels
         Longer side of a PNG.
     background
-        Any CSS colour, or ``none``. None: none in SVG, white in PNG.
-    outline
-        Draw the container's outline.
+        Any CSS colour, or ``none``. None: none in SVG and PDF, white in PNG.
+    show_container
+        Draw the container's line.
     flatten
         In SVG, repeat each drawing in place.
 
@@ -181,9 +201,9 @@ def write_options(
     True
     """
     colour = None if background in {None, "none", "transparent"} else background
-    png = PngOptions(container_outline=outline)
+    png = PngOptions(show_container=show_container)
     return WriteOptions(
-        svg=SvgOptions(background=colour, container_outline=outline, flatten=flatten),
+        svg=SvgOptions(background=colour, show_container=show_container, flatten=flatten),
         png=png if background is None else replace(png, background=colour),
         png_side_px=pixels,
     )

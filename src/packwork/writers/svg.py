@@ -2,32 +2,36 @@
 
 Each distinct shape is defined once and every copy is one short ``use``. The document
 has a group ``container`` and a group ``items``; item ``k`` is ``item-k``, counted from
-1 in the layout's order, its name in ``data-name``. References are written the older
-way, ``xlink:href``, which browsers and old cutters both understand.
+1 in the layout's order, its name in ``data-name``; a name of its own makes its id, a link
+puts it into an ``a``. References inside the document are written the older way,
+``xlink:href``, which browsers and old cutters both understand.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
+from packwork.units import Unit
 from packwork.writers.colours import hex_colour, parse_colour
+from packwork.writers.labels import item_ids, labelled
 from packwork.writers.marks import element, paint, shape_key, with_fresh_ids
 from packwork.writers.notation import attributes, decimals, number, path_data, xml_text
 
-PRECISION = 1e-6
+PRECISION = 1e-7
 """Every point drawn lies within this share of the canvas's longer side of its place in
-the layout. Smaller: longer files. Chosen: a tenth of the finest gap a finish keeps."""
+the layout. Smaller: longer files, a twelfth for each digit, and programs that count in
+single precision do not see it. Chosen: far below the finest gap a finish keeps."""
 
 _STEP_SHARE = PRECISION / 4
 """Last digit of each rounded quantity, as a share of the canvas. A point gathers the
 rounding of its path, scale, turn and place: half a step each, in two directions for the
 path and the place, 2.4 half steps in all. Derived."""
 
-_NAME_LENGTH = 80
+NAME_LENGTH = 80
 """Characters of a name that are kept: it is repeated on every copy. Chosen."""
 
 _CONTAINER_STROKE = "#1a202c"
@@ -43,7 +47,7 @@ class SvgOptions:
     ----------
     background
         CSS colour behind everything; ``None`` or ``"none"`` leaves it clear.
-    container_outline
+    show_container
         Show the container's line. Its path is in the file either way.
     flatten
         Write every copy in full, for tools that do not know ``use``.
@@ -60,7 +64,7 @@ class SvgOptions:
     """
 
     background: str | None = None
-    container_outline: bool = False
+    show_container: bool = False
     flatten: bool = False
 
     def __post_init__(self) -> None:
@@ -70,16 +74,25 @@ class SvgOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class Sheet:
-    """What a document's root states: size in px, and the canvas units it shows."""
+    """What a document's root states.
 
-    width_px: float
-    height_px: float
-    width: float
-    height: float
+    Parameters
+    ----------
+    size
+        Width and height on paper or screen, in ``unit``.
+    unit
+        As CSS names it; px are written without a name.
+    view
+        Width and height in canvas units.
+    """
+
+    size: tuple[float, float]
+    unit: Unit
+    view: tuple[float, float]
 
 
 def svg_text(layout: Layout, options: SvgOptions | None = None) -> str:
-    """SVG document of a layout, in canvas units (96 to the inch).
+    """SVG document of a layout, as large as its canvas, in canvas units.
 
     Points are within ``PRECISION`` of the canvas; arts keep their colours.
 
@@ -99,8 +112,9 @@ def svg_text(layout: Layout, options: SvgOptions | None = None) -> str:
     >>> '<use id="item-1" data-name="square"' in text
     True
     """
-    width, height = layout.container.width, layout.container.height
-    sheet = Sheet(width_px=width, height_px=height, width=width, height=height)
+    container = layout.container
+    size = (container.width, container.height)
+    sheet = Sheet(size=size, unit=container.unit, view=size)
     return svg_document(layout, options or SvgOptions(), sheet)
 
 
@@ -118,10 +132,9 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
     >>> empty = Layout(
     ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
     ... )
-    >>> text = svg_document(
-    ...     empty, SvgOptions(), Sheet(width_px=64, height_px=64, width=4.0, height=4.0)
-    ... )
-    >>> 'width="64" height="64" viewBox="0 0 4 4"' in text
+    >>> sheet = Sheet(size=(64.0, 64.0), unit="mm", view=(4.0, 4.0))
+    >>> text = svg_document(empty, SvgOptions(), sheet)
+    >>> 'width="64mm" height="64mm" viewBox="0 0 4 4"' in text
     True
     """
     digits = decimals(layout.container.side * _STEP_SHARE)
@@ -129,10 +142,10 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         _root(sheet),
-        f"<title>{xml_text(layout.container.name[:_NAME_LENGTH])}</title>",
+        f"<title>{xml_text(layout.container.name[:NAME_LENGTH])}</title>",
         *([] if options.flatten else _definitions(shapes.values())),
         *_background(options.background),
-        *_container(layout, options.container_outline, digits),
+        *_container(layout, options.show_container, digits),
         '<g id="items">',
         *_copies(layout, shapes, digits, flatten=options.flatten),
         "</g>",
@@ -155,9 +168,10 @@ class _Shape:
 
 def _shapes(layout: Layout) -> dict[int, _Shape]:
     """One definition for each distinct drawing, fine enough for its largest copy."""
+    scales = layout.poses.axis_scales.max(axis=1).tolist()
     largest: dict[int, float] = {}
     items: dict[int, Item] = {}
-    for item, scale in zip(layout.items, layout.poses.scale.tolist(), strict=True):
+    for item, scale in zip(layout.items, scales, strict=True):
         key = shape_key(item)
         items.setdefault(key, item)
         largest[key] = max(largest.get(key, 0.0), scale)
@@ -180,12 +194,12 @@ def _shape(name: str, item: Item, scale: float, step: float) -> _Shape:
 
 
 def _root(sheet: Sheet) -> str:
-    width_px, height_px, width, height = (
-        f"{v:.12g}" for v in (sheet.width_px, sheet.height_px, sheet.width, sheet.height)
-    )
+    width, height, view_width, view_height = (f"{v:.12g}" for v in (*sheet.size, *sheet.view))
+    unit = "" if sheet.unit == "px" else sheet.unit
     return (
         '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
-        f' width="{width_px}" height="{height_px}" viewBox="0 0 {width} {height}">'
+        f' width="{width}{unit}" height="{height}{unit}"'
+        f' viewBox="0 0 {view_width} {view_height}">'
     )
 
 
@@ -208,7 +222,7 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
     head = attributes(
         {
             "id": "container",
-            "data-name": container.name[:_NAME_LENGTH],
+            "data-name": container.name[:NAME_LENGTH],
             "fill": "none",
             "stroke": _CONTAINER_STROKE,
             "stroke-width": f"{container.side * _CONTAINER_STROKE_SHARE:.6g}",
@@ -220,13 +234,14 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
 
 def _copies(layout: Layout, shapes: dict[int, _Shape], digits: int, *, flatten: bool) -> list[str]:
     copies = []
+    scales, ids = layout.poses.axis_scales.tolist(), item_ids(layout.items)
     for k, item in enumerate(layout.items):
         shape = shapes[shape_key(item)]
-        own = {"id": f"item-{k + 1}", "data-name": item.name[:_NAME_LENGTH], **paint(item)}
-        place = _place(layout, k, shape, digits)
-        copies.append(
-            _in_full(item, own, place, shape, k + 1) if flatten else _use(own, place, shape)
-        )
+        name = (item.label.name or item.name)[:NAME_LENGTH]
+        own = {"id": ids[k], "data-name": name, **paint(item)}
+        place = _place(layout, k, scales[k], shape, digits)
+        drawn = _in_full(item, own, place, shape, k + 1) if flatten else _use(own, place, shape)
+        copies.append(labelled(drawn, item.label))
     return copies
 
 
@@ -242,12 +257,13 @@ def _in_full(item: Item, own: dict[str, str], place: str, shape: _Shape, count: 
     return element(item, own, place, shape.path_digits)
 
 
-def _place(layout: Layout, k: int, shape: _Shape, digits: int) -> str:
+def _place(layout: Layout, k: int, scales: Sequence[float], shape: _Shape, digits: int) -> str:
     """Transform of one copy; turns of 0 and scales of 1 are left out."""
     poses = layout.poses
     x, y = (number(float(v), digits) for v in (poses.x[k], poses.y[k]))
     turn = number(math.remainder(math.degrees(poses.angle[k]), 360.0), shape.turn_digits)
-    scale = number(float(poses.scale[k]), shape.scale_digits)
+    wide, high = (number(v, shape.scale_digits) for v in scales)
+    scale = wide if wide == high else f"{wide} {high}"
     text = f"translate({x} {y})"
     text += f"rotate({turn})" if turn != "0" else ""
     return text + (f"scale({scale})" if scale != "1" else "")

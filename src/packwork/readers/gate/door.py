@@ -5,7 +5,8 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from xml.sax.saxutils import escape, quoteattr
 
-from packwork.readers.gate.expansion import bound_expansion
+from packwork.readers.gate.expansion import bound_expansion, check_size
+from packwork.readers.gate.filters import settle_filters
 from packwork.readers.gate.references import drop_dangling, prune_unused
 from packwork.readers.gate.sanitise import HREF, sanitised
 from packwork.readers.gate.xml_tree import parse_xml
@@ -44,8 +45,11 @@ def admit(data: bytes) -> ET.Element:
         raise UnfitError(
             f"has {len(data) // 1_000_000} MB; {MAX_BYTES // 1_000_000} MB are the most for an SVG"
         )
-    root = sanitised(parse_xml(data))
+    raw = parse_xml(data)
+    check_size(raw)
+    root = sanitised(raw)
     drop_dangling(root)
+    settle_filters(root)
     prune_unused(root)
     bound_expansion(root)
     return root

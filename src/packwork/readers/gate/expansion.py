@@ -13,13 +13,13 @@ from packwork.readers.gate.dashes import dashes_per_unit, draw_solid, line_lengt
 from packwork.readers.gate.embedded import embedded_size
 from packwork.readers.gate.references import elements_by_id, referenced_ids
 from packwork.readers.gate.sanitise import HREF
-from packwork.readers.gate.vocabulary import GRADIENTS, SHAPES
+from packwork.readers.gate.vocabulary import FILTER_STEPS, GRADIENTS, NEVER_DRAWN, SHAPES
 from packwork.readers.gate.xml_tree import MAX_DEPTH
 from packwork.readers.unfit import UnfitError, notice
 
-MAX_EXPANDED = 50_000
+MAX_EXPANDED = 30_000
 """Elements of a drawing after expansion. Icons have some tens, rich illustrations some
-thousands; beyond this a drawing takes minutes to resolve. Chosen."""
+thousands; each costs a tenth of a millisecond. Chosen."""
 
 MAX_LAYERS = 16
 """Clips, masks and blended groups inside one another: each is a picture of its
@@ -31,8 +31,30 @@ MAX_DASHES = 20_000
 _PIXELS_PER_ELEMENT = 10_000
 _COUNTABLE = 10**15
 _PAINT_NAMES = frozenset({"fill", "stroke", "marker-start", "marker-mid", "marker-end"})
-_LAYER_COSTS = {"clip-path": 25, "mask": 100, "opacity": 10, "style": 10}
+_LAYER_COSTS = {"clip-path": 25, "mask": 100, "opacity": 10, "style": 10, "filter": 25}
 """Elements that an off-screen layer counts for when the drawing is rendered. Chosen."""
+
+_STEP_COST = 10
+"""Elements that a step of a filter counts for. Chosen."""
+
+
+def check_size(raw: ET.Element) -> None:
+    """Refuse a parsed document of too many shapes before anyone looks at each of them.
+
+    Raises
+    ------
+    UnfitError
+        If even without following references there are more than ``MAX_EXPANDED``.
+
+    Examples
+    --------
+    >>> check_size(ET.fromstring("<svg><g/></svg>"))
+    """
+    count = sum(str(element.tag).rpartition("}")[2] in SHAPES for element in raw.iter())
+    if count > MAX_EXPANDED:
+        raise UnfitError(
+            f"grows to {count:,} elements; {MAX_EXPANDED:,} are the most, so simplify it"
+        )
 
 
 def bound_expansion(root: ET.Element) -> None:
@@ -72,6 +94,21 @@ def bound_expansion(root: ET.Element) -> None:
         notice(f"dashed lines are drawn solid, for they have more than {MAX_DASHES:,} dashes")
 
 
+def count_expanded(root: ET.Element) -> tuple[int, float]:
+    """Elements of a clean drawing after expansion, and the layers that they need.
+
+    Costly elements are counted several times. Layers are clips, masks and blended groups,
+    each of which is a picture of its own while the drawing is rendered.
+
+    Examples
+    --------
+    >>> count_expanded(ET.fromstring('<svg><g opacity=".5"/><g opacity=".5"/></svg>'))
+    (23, 2.0)
+    """
+    size = _Counter(elements_by_id(root), is_dashed=False).measure(root, 0)
+    return size.count, float(size.pictures)
+
+
 @dataclass(frozen=True)
 class _Size:
     """What an element comes to after expansion."""
@@ -79,6 +116,7 @@ class _Size:
     count: int
     levels: int
     layers: int
+    pictures: float
     length: float
     dashes: float
 
@@ -116,6 +154,11 @@ class _Counter:
 
     def _sum(self, element: ET.Element, depth: int) -> _Size:
         inside = [self.measure(child, depth + 1) for child in element]
+        drawn = [
+            part
+            for part, child in zip(inside, element, strict=True)
+            if child.tag not in NEVER_DRAWN
+        ]
         painted: list[tuple[int, _Size]] = []
         for name, target in referenced_ids(element):
             part = self.measure(self._by_id[target], depth + 1)
@@ -123,14 +166,17 @@ class _Counter:
                 painted.append((_paint_times(element, name, self._by_id[target]), part))
             else:
                 inside.append(part)
+                drawn.append(part)
         count = _own_cost(element) + sum(part.count for part in inside)
         length, dashes = self._dashed(element, inside)
         shapes = float(min(count, _COUNTABLE))
+        pictures = _own_layers(element) + sum(part.pictures for part in drawn)
         reached = [*inside, *(part for _, part in painted)]
         return _Size(
             count=count * (1 + sum(times * part.count for times, part in painted)),
             levels=1 + max((part.levels for part in reached), default=0),
-            layers=_is_layer(element) + max((part.layers for part in reached), default=0),
+            layers=min(_own_layers(element), 1) + max((part.layers for part in reached), default=0),
+            pictures=pictures + shapes * sum(times * part.pictures for times, part in painted),
             length=length,
             dashes=dashes + shapes * sum(times * part.dashes for times, part in painted),
         )
@@ -143,12 +189,13 @@ class _Counter:
         return length, length * dashes_per_unit(element) + sum(part.dashes for part in inside)
 
 
-def _is_layer(element: ET.Element) -> bool:
-    return any(name in element.attrib for name in _LAYER_COSTS)
+def _own_layers(element: ET.Element) -> int:
+    return sum(name in element.attrib for name in _LAYER_COSTS) + (element.tag in FILTER_STEPS)
 
 
 def _own_cost(element: ET.Element) -> int:
     cost = 1 + sum(cost for name, cost in _LAYER_COSTS.items() if name in element.attrib)
+    cost += _STEP_COST * (element.tag in FILTER_STEPS)
     if element.tag == "image":
         width, height = embedded_size(element.get(HREF, "")) or (0, 0)
         cost += width * height // _PIXELS_PER_ELEMENT

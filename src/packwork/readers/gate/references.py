@@ -19,6 +19,7 @@ _TARGETS = {
     "stroke": _PAINTS,
     "clip-path": {"clipPath"},
     "mask": {"mask"},
+    "filter": {"filter"},
     "marker-start": {"marker"},
     "marker-mid": {"marker"},
     "marker-end": {"marker"},

@@ -1,8 +1,4 @@
-"""The part of SVG that is let in: elements, attributes and properties by name.
-
-Filters are not: what they paint lies beyond the outline, where the neighbours are, and a
-line of markup can make them cost minutes. Shapes are drawn without them.
-"""
+"""The part of SVG that is let in: elements, attributes and properties by name."""
 
 from __future__ import annotations
 
@@ -12,15 +8,23 @@ GROUPS = frozenset({"svg", "g", "defs", "symbol", "use"})
 
 GRADIENTS = frozenset({"linearGradient", "radialGradient"})
 
-NEVER_DRAWN = GRADIENTS | {"defs", "symbol", "clipPath", "mask", "pattern", "marker"}
+FILTER_STEPS = frozenset(
+    {"feBlend", "feColorMatrix", "feComponentTransfer", "feComposite", "feDropShadow"}
+    | {"feFlood", "feGaussianBlur", "feMerge", "feOffset"}
+)
+"""What a filter may do. Pictures, noise, light, and what is slow by design it may not."""
+
+FILTER_PARTS = FILTER_STEPS | {"feFuncA", "feFuncB", "feFuncG", "feFuncR", "feMergeNode"}
+
+NEVER_DRAWN = GRADIENTS | {"defs", "symbol", "clipPath", "mask", "pattern", "marker", "filter"}
 """Elements that show only where something refers to them."""
 
-TRACED = frozenset({"text", "image", "clipPath", "mask", "pattern", "marker"})
+TRACED = frozenset({"text", "image", "mask", "pattern", "marker"})
 """What the plain geometry of shapes does not tell: drawn, then traced."""
 
 TEXTS = frozenset({"text", "tspan", "textPath"})
 
-ELEMENTS = SHAPES | GROUPS | NEVER_DRAWN | TEXTS | {"image", "stop", "style"}
+ELEMENTS = SHAPES | GROUPS | NEVER_DRAWN | TEXTS | FILTER_PARTS | {"image", "stop", "style"}
 
 RENAMED = {"a": "g", "switch": "g"}
 """Elements that are groups once links and languages are gone."""
@@ -32,12 +36,16 @@ PROPERTIES = frozenset(
         "clip-path",
         "clip-rule",
         "color",
+        "color-interpolation-filters",
         "direction",
         "display",
         "dominant-baseline",
         "fill",
         "fill-opacity",
         "fill-rule",
+        "filter",
+        "flood-color",
+        "flood-opacity",
         "font-family",
         "font-size",
         "font-stretch",
@@ -91,35 +99,54 @@ CSS_ONLY = frozenset({"isolation", "mix-blend-mode"})
 
 ATTRIBUTES = (PROPERTIES - CSS_ONLY) | frozenset(
     {
+        "amplitude",
         "clipPathUnits",
         "d",
         "dx",
         "dy",
+        "exponent",
+        "filterUnits",
         "fr",
         "fx",
         "fy",
         "gradientTransform",
         "gradientUnits",
         "id",
+        "in",
+        "in2",
+        "intercept",
+        "k1",
+        "k2",
+        "k3",
+        "k4",
         "lengthAdjust",
         "markerHeight",
         "markerUnits",
         "markerWidth",
         "maskContentUnits",
         "maskUnits",
+        "mode",
         "offset",
+        "operator",
         "orient",
         "patternContentUnits",
         "patternTransform",
         "patternUnits",
         "points",
         "preserveAspectRatio",
+        "primitiveUnits",
         "refX",
         "refY",
+        "result",
         "rotate",
+        "slope",
         "spreadMethod",
         "startOffset",
+        "stdDeviation",
+        "tableValues",
         "textLength",
+        "type",
+        "values",
         "viewBox",
         "x1",
         "x2",

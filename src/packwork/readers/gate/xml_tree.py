@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from functools import partial
 from typing import Any
 
 from defusedxml import DefusedXmlException
@@ -21,29 +22,42 @@ MAX_NAMESPACE = 500
 """Letters of a namespace's address: the parser repeats it in every name. Chosen."""
 
 
-def parse_xml(data: bytes) -> ET.Element:
-    """Root of a document without entities and without a document type of its own.
+_REMEDY = "save it as plain SVG without them"
+_DECLARES = f"declares XML entities or a document type of its own; {_REMEDY}"
 
-    A plain ``<!DOCTYPE svg PUBLIC ...>`` passes: nothing is fetched for it. An internal
-    subset does not, for its entities and default attributes multiply.
+MAX_ENTITY = 300
+"""Letters of an entity, as some programs declare for the addresses of namespaces. Chosen."""
+
+MAX_REPLACED = 2_000_000
+"""Letters that all entities of a document may come to. Chosen."""
+
+
+def parse_xml(data: bytes) -> ET.Element:
+    """Root of a document, without default attributes and all but the plainest entities.
+
+    A ``<!DOCTYPE svg PUBLIC ...>`` passes: nothing is fetched for it. Its own entities
+    pass if each is a short plain text, so that none can multiply.
 
     Raises
     ------
     UnfitError
-        If it is not well-formed, too deep, too large or declares entities.
+        If it is not well-formed, too deep, too large or declares other entities.
 
     Examples
     --------
     >>> parse_xml(b"<svg><g/></svg>").tag
     'svg'
     """
-    parser = XMLParser(target=_BoundedBuilder())
-    parser.parser.StartDoctypeDeclHandler = _refuse_internal_subset
+    parser = XMLParser(target=_BoundedBuilder(), forbid_entities=False)
+    references = data.count(b"&")
+    parser.parser.EntityDeclHandler = partial(_check_entity, references)
+    parser.parser.UnparsedEntityDeclHandler = _refuse_declaration
+    parser.parser.AttlistDeclHandler = _refuse_declaration
     try:
         parser.feed(data)
         root: ET.Element = parser.close()
     except DefusedXmlException:
-        raise UnfitError("declares XML entities; save it as plain SVG without them") from None
+        raise UnfitError(_DECLARES) from None
     except ET.ParseError as error:
         raise UnfitError(f"is not well-formed XML ({error}); save it again as SVG") from None
     except (ValueError, LookupError) as error:
@@ -51,14 +65,19 @@ def parse_xml(data: bytes) -> ET.Element:
     return root
 
 
-def _refuse_internal_subset(
-    name: str, system_id: str | None, public_id: str | None, has_internal_subset: int
+def _check_entity(
+    references: int, name: str, is_parameter: int, value: str | None, *_where: object
 ) -> None:
-    if has_internal_subset:
-        raise UnfitError(
-            f"declares entities or a document type of its own in <!DOCTYPE {name[:20]} [...]>; "
-            "save it as plain SVG without them"
-        )
+    """Refuse an entity that is no short plain text, or that may be repeated too often."""
+    is_plain = not is_parameter and value is not None and not set(value) & set("&<%")
+    if not is_plain or len(value or "") > MAX_ENTITY:
+        raise UnfitError(_DECLARES)
+    if references * len(value or "") > MAX_REPLACED:
+        raise UnfitError(f"repeats the XML entity {name[:20]!r} too often; {_REMEDY}")
+
+
+def _refuse_declaration(*_what: object) -> None:
+    raise UnfitError(_DECLARES)
 
 
 class _BoundedBuilder:

@@ -12,7 +12,7 @@ from packwork.geometry import affine
 from packwork.readers.gate.door import link_declaration, serialised, uses_links
 from packwork.readers.gate.references import elements_by_id, rename_references
 from packwork.readers.gate.vocabulary import GRADIENTS
-from packwork.readers.svg.walk import Page
+from packwork.readers.svg.page import Page
 from packwork.scene.item import VectorArt
 
 _OWN_TO_ROOT = frozenset(
@@ -46,6 +46,9 @@ def vector_art(
     """
     drawing = copy.deepcopy(root)
     _make_ids_unique(drawing)
+    if any("mix-blend-mode" in element.get("style", "") for element in drawing.iter()):
+        # What blends, blends with the drawing's own, not with what lies below it elsewhere.
+        drawing.set("style", "isolation:isolate")
     matrix = place
     if page is not None and (is_cut or _has_percentages(drawing)):
         drawing.attrib |= {"width": repr(page.width), "height": repr(page.height)}
@@ -95,5 +98,5 @@ def _has_percentages(drawing: ET.Element) -> bool:
 
 def _is_relative(element: ET.Element) -> bool:
     """Whether the element's percentages refer to the shape that uses it."""
-    is_paint = element.tag in GRADIENTS | {"stop", "pattern", "mask"}
+    is_paint = element.tag in GRADIENTS | {"stop", "pattern", "mask", "filter"}
     return is_paint and "userSpaceOnUse" not in element.attrib.values()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 
 import shapely
 
@@ -17,13 +18,17 @@ from packwork.readers.svg.trace import TRACE_PX, page_picture
 from packwork.readers.svg.walk import Page
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
+from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
 
 WHOLE_PAGE = 0.999
 """Share of the page from which a drawing counts as painted all over. Chosen."""
 
 
-def container_of_svg(data: bytes, name: str, source: str, side: float) -> Container:
+def container_of_svg(data: bytes, name: str, source: str, side: float | None = None) -> Container:
     """Container of an SVG's bytes, its canvas the page, scaled to ``side``.
+
+    Without a side a page in mm, cm, in or pt keeps its size and unit; any other becomes
+    600 px long.
 
     Filled shapes count, with their holes and parts, and of shapes drawn as lines the
     inside. Where that is the whole page, as with a white sheet behind the drawing, its
@@ -41,6 +46,10 @@ def container_of_svg(data: bytes, name: str, source: str, side: float) -> Contai
     >>> container = container_of_svg(data, "half", "half.svg", 600.0)
     >>> container.width, container.height, container.outline.bounds
     (600.0, 300.0, (0.0, 0.0, 300.0, 300.0))
+    >>> data = b'<svg width="4cm" viewBox="0 0 20 10"><rect width="10" height="10"/></svg>'
+    >>> container = container_of_svg(data, "half", "half.svg")
+    >>> container.width, container.height, container.unit
+    (4.0, 2.0, 'cm')
     """
     with naming(source):
         drawing = read_drawing(data)
@@ -50,7 +59,30 @@ def container_of_svg(data: bytes, name: str, source: str, side: float) -> Contai
             left, top, right, bottom = 0.0, 0.0, drawing.page.width, drawing.page.height
             if region.area > WHOLE_PAGE * (right * bottom):
                 region = _dark_part(drawing.root, drawing.page)
-        return placed_container(name, source, region, (left, top, right - left, bottom - top), side)
+        canvas = (left, top, right - left, bottom - top)
+        unit = stated_unit(drawing.root) if side is None else None
+        if unit is not None:
+            side = convert(max(canvas[2:]), "px", unit)
+        placed = placed_container(name, source, region, canvas, side or DEFAULT_SIDE)
+        return placed if unit is None else replace(placed, unit=unit)
+
+
+def stated_unit(root: ET.Element) -> Unit | None:
+    """The real unit in which a drawing states its size; None for px and shares.
+
+    Where width and height have different ones, the width's.
+
+    Examples
+    --------
+    >>> stated_unit(ET.Element("svg", {"width": "20mm"})), stated_unit(ET.Element("svg"))
+    ('mm', None)
+    """
+    for name in ("width", "height"):
+        length = split_length(root.get(name, ""))
+        unit = as_unit(length[1]) if length is not None else None
+        if unit is not None and unit != "px":
+            return unit
+    return None
 
 
 def placed_container(

@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
+import copy
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
-from shapely.geometry import Polygon
+from shapely.errors import GEOSException
 
 from packwork.readers.gate.door import admit
-from packwork.readers.svg.ink import Ink, drawing_box, painted_ink
+from packwork.readers.svg.compare import LEAST_AGREEMENT, Comparison
+from packwork.readers.svg.extent import drawing_box
+from packwork.readers.svg.ink import Ink, painted_ink
+from packwork.readers.svg.lettering import set_in_outlines
+from packwork.readers.svg.page import Page, read_page
+from packwork.readers.svg.painted import Painted
 from packwork.readers.svg.patterns import check_tiles
+from packwork.readers.svg.solid import solid_twin
 from packwork.readers.svg.trace import inked_part, needs_tracing, traced_ink
-from packwork.readers.svg.walk import Page, Painted, painted_shapes, read_page
-from packwork.readers.unfit import UnfitError
+from packwork.readers.svg.walk import painted_shapes
+from packwork.readers.svg.work import Work, work_of
+from packwork.readers.unfit import TooRichError, UnfitError, notice
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,15 +37,36 @@ class Drawing:
         What viewers show, if the file says so.
     ink
         In CSS pixels, right and down from the page's corner.
+    shapes
+        What it paints, as far as shapes tell.
     """
 
     root: ET.Element
     page: Page | None
     ink: Ink
+    shapes: Sequence[Painted]
+
+    @cached_property
+    def work(self) -> Work:
+        """What its solid twin is to render."""
+        return work_of(solid_twin(self.root), self.shapes, self.page)
 
 
-def read_drawing(data: bytes) -> Drawing:
+MAX_SHAPES = 8_000
+"""Shapes that are followed one by one, in about a quarter of a millisecond each; of
+strangers' drawings with more, the picture is traced. Chosen."""
+
+
+def read_drawing(data: bytes, *, is_compared: bool = False) -> Drawing:
     """Drawing of an SVG file's bytes.
+
+    Parameters
+    ----------
+    data
+        The file's content.
+    is_compared
+        Whether what was computed from shapes is compared with a rendering, and traced
+        from that where it differs, with a notice.
 
     Raises
     ------
@@ -50,16 +81,50 @@ def read_drawing(data: bytes) -> Drawing:
     """
     root = admit(data)
     page = read_page(root)
+    set_in_outlines(root, page)
     shapes = painted_shapes(root, page)
-    if not needs_tracing(root):
-        return Drawing(root, page, painted_ink(shapes))
+    if needs_tracing(root):
+        return _traced(root, page, shapes)
+    if is_compared:
+        return _compared(root, page, shapes)
+    return Drawing(root, page, painted_ink(shapes), shapes)
+
+
+def _compared(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Drawing:
+    """Drawing as computed from its shapes, or traced where that is nearer to its picture."""
+    try:
+        if len(shapes) > MAX_SHAPES:
+            raise TooRichError(f"has {len(shapes):,} shapes")
+        drawing = Drawing(root, page, painted_ink(shapes), shapes)
+        comparison = Comparison(root, page, drawing.ink.body, drawing.work)
+        share = comparison.agreement(drawing.ink.whole)
+    except (TooRichError, GEOSException) as problem:
+        traced = _traced(root, page, shapes)
+        why = problem.what if isinstance(problem, TooRichError) else "has edges too close to tell"
+        notice(f"is traced from its picture, for it {why}")
+        return traced
+    if share >= LEAST_AGREEMENT or drawing.work.hairs > 0:
+        # Of lines thinner than its pixels a picture tells little.
+        return drawing
+    traced = _traced(root, page, shapes)
+    # Without a page the traced one stands elsewhere.
+    if page is not None and comparison.agreement(traced.ink.whole) <= share:
+        return drawing
+    notice(f"is traced from its picture, with which its shapes as read agree to {share:.1%} only")
+    return traced
+
+
+def _traced(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Drawing:
     if page is None:
+        root = copy.copy(root)
         page = _framed(root, shapes)
+    work = work_of(solid_twin(root), shapes, page)
     # Twice: the tiles must suit the page to find the ink, and the ink to look closer.
     check_tiles(root, shapes, max(page.width, page.height))
-    part = inked_part(root, page)
-    check_tiles(root, shapes, max(part[2:], default=0.0))
-    return Drawing(root, page, Ink(traced_ink(root, page, part), Polygon(), Polygon(), is_cut=True))
+    part = inked_part(root, page, work)
+    if part is not None:
+        check_tiles(root, shapes, max(part[2:]))
+    return Drawing(root, page, traced_ink(root, page, part, work), shapes)
 
 
 def _framed(root: ET.Element, shapes: list[Painted]) -> Page:
@@ -67,11 +132,9 @@ def _framed(root: ET.Element, shapes: list[Painted]) -> Page:
     box = drawing_box(shapes)
     if box is None:
         raise UnfitError("states no size; give its <svg> a viewBox")
-    left, top = float(box[0]), float(box[1])
-    width, height = float(box[2] - box[0]), float(box[3] - box[1])
-    root.attrib |= {"viewBox": f"{left!r} {top!r} {width!r} {height!r}"}
-    for name in ("width", "height"):
-        root.attrib.pop(name, None)
+    left, top, width, height = box[0], box[1], box[2] - box[0], box[3] - box[1]
+    root.attrib = {k: v for k, v in root.attrib.items() if k not in {"width", "height"}}
+    root.attrib["viewBox"] = f"{left!r} {top!r} {width!r} {height!r}"
     page = read_page(root)
     if page is None:
         raise UnfitError("states no size; give its <svg> a viewBox")

@@ -1,216 +1,214 @@
-"""Painted shapes to the regions their fills and strokes cover."""
+"""What a drawing covers: all its fills and strokes together."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from functools import cached_property
+from typing import final
 
 import numpy as np
 import shapely
 from shapely.geometry import Polygon
 
-from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, region
-from packwork.readers.svg.lengths import MAX_COORDINATE
-from packwork.readers.svg.path_data import SubPath
-from packwork.readers.svg.shapes import flattened, step_counts
-from packwork.readers.svg.strokes import Pen, stroke_region
-from packwork.readers.svg.walk import Painted
-from packwork.readers.unfit import UnfitError
-
-FLATTENING = 2e-5
-"""Largest distance of a curve from its chords, as a share of the drawing's extent: half
-a pixel of a print 25,000 px wide. Smaller costs vertices everywhere, larger shows on
-posters. Chosen."""
+from packwork.geometry.bezier import MAX_STEPS
+from packwork.geometry.polygon import Region
+from packwork.readers.svg.extent import drawing_box, is_inside, shown_box
+from packwork.readers.svg.follow import FLATTENING as FLATTENING
+from packwork.readers.svg.follow import Follower
+from packwork.readers.svg.painted import Painted
+from packwork.readers.svg.shapes import step_counts
+from packwork.readers.unfit import TooRichError
 
 MAX_POINTS = 500_000
 """Vertices of one drawing after flattening. Chosen."""
 
-MAX_CROSSINGS = 20_000
-"""Places where one shape may cross itself, by estimate: some seconds' work. Chosen."""
-
-MAX_UNION_CROSSINGS = 500_000
-"""Places where the shapes of a drawing may cross, by estimate: as long. Chosen."""
-
-_SAMPLED, _COMPARED = 60, 20_000
-"""Edges whose crossings are counted for the estimate, and those they are met with."""
+_MOST_COVERS, _LEAST_COVER = 4, 0.05
+"""Large fills that are tried for hiding other shapes, and the least share of the drawing
+that they have to cover. More tries cost time where nothing is hidden. Chosen."""
 
 
-@dataclass(frozen=True, eq=False)
-class Ink:
-    """What a drawing covers, in CSS pixels.
+class Ink(ABC):
+    """What a drawing covers, in CSS pixels; each region is computed when it is asked for."""
 
-    Parameters
-    ----------
-    fills, strokes
-        Regions, each possibly empty.
-    lines
-        The part of ``strokes`` that belongs to shapes without a fill.
-    is_cut
-        Whether a page or a viewport cuts off part of what is drawn.
-    """
+    @property
+    @abstractmethod
+    def whole(self) -> Region:
+        """All that is painted."""
 
-    fills: Region
-    strokes: Region
-    lines: Region
-    is_cut: bool
+    @property
+    @abstractmethod
+    def body(self) -> Region:
+        """The same with the short gaps of dashed lines closed: what an outline goes round."""
+
+    @property
+    @abstractmethod
+    def fills(self) -> Region:
+        """What is filled; possibly empty."""
+
+    @property
+    @abstractmethod
+    def strokes(self) -> Region:
+        """What is stroked; possibly empty."""
+
+    @property
+    @abstractmethod
+    def lines(self) -> Region:
+        """The part of ``strokes`` that belongs to shapes without a fill."""
+
+    @property
+    @abstractmethod
+    def is_cut(self) -> bool:
+        """Whether a page or a viewport cuts off part of what is drawn."""
 
 
 def painted_ink(shapes: Sequence[Painted]) -> Ink:
-    """Union of all fills and union of all strokes; either may be empty.
+    """Ink of shapes, curves followed to ``FLATTENING`` of the drawing's extent.
 
     Raises
     ------
     UnfitError
-        If coordinates are absurd or outlines need too much detail.
+        If coordinates are absurd.
+    TooRichError
+        If outlines need too much detail; asking for a region also if its edges cross too
+        often.
 
     Examples
     --------
-    >>> painted_ink([]).fills.is_empty
+    >>> painted_ink([]).whole.is_empty
     True
     """
     box = drawing_box(shapes)
-    extent = 0.0 if box is None else float((box[2:] - box[:2]).max())
+    extent = 0.0 if box is None else max(box[2] - box[0], box[3] - box[1])
     if extent <= 0:
-        return Ink(Polygon(), Polygon(), Polygon(), is_cut=False)
-    tolerance = FLATTENING * extent
-    _check_detail(shapes, tolerance)
-    cut: list[Painted] = []
-
-    def shown(painted: Region, shape: Painted) -> Region:
-        if shape.window is None or _holds(shape.window, painted, tolerance):
-            return painted
-        cut.append(shape)
-        return _clipped(painted, shape.window)
-
-    fills = [shown(_fill(s, tolerance), s) for s in shapes if s.painting.has_fill]
-    stroked = [(s, shown(_stroke(s, tolerance), s)) for s in shapes if s.painting.has_stroke]
-    lines = [region for shape, region in stroked if not shape.painting.has_fill]
-    strokes = [region for _, region in stroked]
-    return Ink(_union(fills), _union(strokes), _union(lines), is_cut=bool(cut))
+        return TracedInk(Polygon(), is_cut=False)
+    _check_detail(shapes, FLATTENING * extent)
+    return PaintedInk(shapes, extent)
 
 
-def drawing_box(shapes: Iterable[Painted]) -> FloatArray | None:
-    """Box ``(left, top, right, bottom)`` round control points and pens that can show.
+@final
+class TracedInk(Ink):
+    """Ink that was found as one region, of which nobody knows how it was drawn."""
 
-    Examples
-    --------
-    >>> drawing_box([]) is None
-    True
+    def __init__(self, whole: Region, body: Region = None, *, is_cut: bool = True) -> None:
+        self._whole = whole
+        self._body = whole if body is None else body
+        self._is_cut = is_cut
+
+    @property
+    def whole(self) -> Region:
+        """The region that was found."""
+        return self._whole
+
+    @property
+    def body(self) -> Region:
+        """The region that was found with its lines drawn solid."""
+        return self._body
+
+    @property
+    def fills(self) -> Region:
+        """All of it."""
+        return self._body
+
+    @property
+    def strokes(self) -> Region:
+        """None of it."""
+        return Polygon()
+
+    @property
+    def lines(self) -> Region:
+        """None of it."""
+        return Polygon()
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether the drawing was shown on its page."""
+        return self._is_cut
+
+
+@final
+class PaintedInk(Ink):
+    """Ink computed from a drawing's shapes.
+
+    Parameters
+    ----------
+    shapes
+        In painting order.
+    extent
+        Longer side of the box round what shows of them.
     """
-    boxes = [box for shape in shapes if (box := _box(shape)) is not None]
-    if not boxes:
-        return None
-    low = np.min([box[:2] for box in boxes], axis=0)
-    high = np.max([box[2:] for box in boxes], axis=0)
-    return np.concatenate([low, high])
 
+    def __init__(self, shapes: Sequence[Painted], extent: float) -> None:
+        self._shapes = [shape for shape in shapes if shown_box(shape) is not None]
+        self._extent = extent
+        self._follower = Follower(extent)
 
-def _box(shape: Painted) -> FloatArray | None:
-    points = [np.array([piece.start]) for piece in shape.pieces]
-    points += [piece.segments.reshape(-1, 2) for piece in shape.pieces]
-    placed = affine.apply(shape.matrix, np.concatenate(points))
-    margin = _stretch(shape.matrix) * _pen_width(shape) / 2
-    box = np.concatenate([placed.min(axis=0) - margin, placed.max(axis=0) + margin])
-    if not np.isfinite(box).all() or np.abs(box).max() > MAX_COORDINATE:
-        raise UnfitError(f"reaches beyond {MAX_COORDINATE:g} px; give it a smaller scale")
-    if shape.window is not None:
-        if shape.window.is_empty:
-            return None
-        left, top, right, bottom = shape.window.bounds
-        box[:2] = np.maximum(box[:2], (left, top))
-        box[2:] = np.minimum(box[2:], (right, bottom))
-    return box if (box[2:] >= box[:2]).all() else None
+    @cached_property
+    def whole(self) -> Region:
+        """All that is painted."""
+        return self._together(is_bridged=False)
 
+    @cached_property
+    def body(self) -> Region:
+        """The same with the short gaps of dashed lines closed."""
+        is_dashed = any(shape.painting.pen.dashes for shape in self._shapes)
+        return self._together(is_bridged=True) if is_dashed else self.whole
 
-def _pen_width(shape: Painted) -> float:
-    return shape.painting.pen.width if shape.painting.has_stroke else 0.0
+    @cached_property
+    def fills(self) -> Region:
+        """What is filled."""
+        return self._follower.united(
+            self._follower.fill(s) for s in self._shapes if s.painting.has_fill
+        )
 
+    @cached_property
+    def strokes(self) -> Region:
+        """What is stroked."""
+        return self._follower.united(
+            self._follower.stroke(s) for s in self._shapes if s.painting.has_stroke
+        )
 
-def _stretch(matrix: FloatArray) -> float:
-    """Largest factor by which a map lengthens anything."""
-    return float(np.linalg.norm(matrix[:, :2], 2))
+    @cached_property
+    def lines(self) -> Region:
+        """What is stroked of shapes without a fill, dashes as solid lines."""
+        return self._follower.united(
+            self._follower.stroke(shape, is_bridged=True)
+            for shape in self._shapes
+            if shape.painting.has_stroke and not shape.painting.has_fill
+        )
+
+    @cached_property
+    def is_cut(self) -> bool:
+        """Whether the page or a viewport cuts off part of any shape."""
+        return any(self._follower.is_cut(shape) for shape in self._shapes)
+
+    def _together(self, *, is_bridged: bool) -> Region:
+        """Union of all shapes but those that larger ones hide: these are never followed."""
+        boxes = [shown_box(shape, is_safe=True) for shape in self._shapes]
+        sizes = [0.0 if b is None else (b[2] - b[0]) * (b[3] - b[1]) for b in boxes]
+        covers: list[Region] = []
+        regions: list[Region] = []
+        for k in sorted(range(len(sizes)), key=sizes.__getitem__, reverse=True):
+            shape, box = self._shapes[k], boxes[k]
+            if box is None or any(is_inside(cover, box) for cover in covers):
+                continue
+            regions += self._follower.parts(shape, is_bridged=is_bridged)
+            is_large = sizes[k] > _LEAST_COVER * self._extent**2
+            if is_large and shape.painting.has_fill and len(covers) < _MOST_COVERS:
+                covers.append(self._follower.fill(shape))
+                shapely.prepare(covers[-1])
+        return self._follower.united(regions)
 
 
 def _check_detail(shapes: Sequence[Painted], tolerance: float) -> None:
+    pieces = (piece for shape in shapes for piece in shape.pieces)
+    if sum(len(piece.segments) for piece in pieces) * MAX_STEPS <= MAX_POINTS:
+        return
     total = 0.0
     for shape in shapes:
-        for piece in shape.pieces:
-            total += float(step_counts(_placed(piece, shape.matrix).segments, tolerance).sum())
+        cubics = np.concatenate([piece.segments for piece in shape.pieces])
+        placed = affine.apply(shape.matrix, cubics.reshape(-1, 2)).reshape(-1, 4, 2)
+        total += float(step_counts(placed, tolerance).sum())
     if total > MAX_POINTS:
-        raise UnfitError(
-            f"needs {total:,.0f} points to follow its curves; {MAX_POINTS:,} are the most, "
-            "so simplify it"
-        )
-
-
-def _placed(piece: SubPath, matrix: FloatArray) -> SubPath:
-    """Piece in CSS pixels."""
-    points = np.concatenate([np.array([piece.start]), piece.segments.reshape(-1, 2)])
-    placed = affine.apply(matrix, points)
-    start = (float(placed[0, 0]), float(placed[0, 1]))
-    return SubPath(placed[1:].reshape(-1, 4, 2), start, piece.is_closed)
-
-
-def _fill(shape: Painted, tolerance: float) -> Region:
-    rings = [flattened(_placed(piece, shape.matrix), tolerance) for piece in shape.pieces]
-    check_crossings(rings)
-    return region(rings, shape.painting.fill_rule)
-
-
-def _stroke(shape: Painted, tolerance: float) -> Region:
-    """Stroke in the shape's own units, where the pen is round, then placed."""
-    stretch = _stretch(shape.matrix)
-    if stretch == 0 or abs(np.linalg.det(shape.matrix[:, :2])) < 1e-12 * stretch**2:
-        return Polygon()
-    own_tolerance = tolerance / stretch
-    painted = [_pen_stroke(piece, shape.painting.pen, own_tolerance) for piece in shape.pieces]
-    return shapely.transform(
-        shapely.union_all(painted), lambda points: affine.apply(shape.matrix, points)
-    )
-
-
-def _union(regions: Sequence[Region]) -> Region:
-    rings = [ring for each in regions for ring in oriented_rings(each)]
-    check_crossings(rings, MAX_UNION_CROSSINGS)
-    return shapely.union_all(regions)
-
-
-def _pen_stroke(piece: SubPath, pen: Pen, tolerance: float) -> Region:
-    line = flattened(piece, tolerance)
-    check_crossings([line])
-    return stroke_region(line, piece.is_closed, pen, tolerance)
-
-
-def _holds(window: Region, painted: Region, slack: float) -> bool:
-    return bool(shapely.covers(window.buffer(slack, join_style="mitre"), painted))
-
-
-def _clipped(painted: Region, window: Region) -> Region:
-    return shapely.union_all(polygon_parts(shapely.intersection(painted, window)))
-
-
-def check_crossings(rings: Sequence[FloatArray], most: float = MAX_CROSSINGS) -> None:
-    """Refuse scribbles whose crossings would take minutes to resolve.
-
-    The number is estimated from evenly spaced edges.
-
-    Examples
-    --------
-    >>> check_crossings([np.random.default_rng(0).random((5000, 2))])
-    Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: crosses itself about ... times; ...
-    """
-    if sum(len(ring) for ring in rings) ** 2 / 2 <= most:
-        return
-    edges = shapely.linestrings(
-        np.concatenate([np.stack([ring, np.roll(ring, -1, axis=0)], axis=1) for ring in rings])
-    )
-    others = edges[:: 1 + len(edges) // _COMPARED]
-    sample = edges[:: 1 + len(edges) // _SAMPLED]
-    pairs = shapely.STRtree(others).query(sample, predicate="crosses")
-    share = pairs.shape[1] / (len(sample) * len(others))
-    crossings = share * len(edges) ** 2 / 2
-    if crossings > most:
-        raise UnfitError(f"crosses itself about {crossings:,.0f} times; simplify it")
+        raise TooRichError(f"needs {total:,.0f} points to follow its curves")

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from packwork.geometry.outline import Outline
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import read_drawing
+from packwork.readers.svg.glow import without_glow
+from packwork.readers.svg.rounds import with_short_arcs
 from packwork.readers.unfit import naming
 from packwork.scene.item import Item
 
@@ -16,7 +19,7 @@ from packwork.scene.item import Item
 def read_svg(path: str | Path, holes: Holes = "fill") -> Item:
     """Item of an SVG file, its units CSS pixels (96 to the inch).
 
-    Curves and round strokes are flattened to ``ink.FLATTENING`` of the drawing's
+    Curves and round strokes are flattened to ``follow.FLATTENING`` of the drawing's
     extent. Text, clips, masks and pictures are rendered and traced.
 
     Raises
@@ -33,11 +36,25 @@ def read_svg(path: str | Path, holes: Holes = "fill") -> Item:
     ...     read_svg(file).outline.bounds
     (-2.0, -1.0, 2.0, 1.0)
     """
-    return item_of_svg(read_bytes(path, MAX_BYTES), stem(path), str(path), holes)
+    data = read_bytes(path, MAX_BYTES)
+    return item_of_svg(data, stem(path), str(path), holes, is_compared=True)
 
 
-def item_of_svg(data: bytes, name: str, source: str, holes: Holes = "fill") -> Item:
+def item_of_svg(
+    data: bytes, name: str, source: str, holes: Holes = "fill", *, is_compared: bool = False
+) -> Item:
     """Item of an SVG's bytes.
+
+    Parameters
+    ----------
+    data
+        The file's content.
+    name, source
+        What the item is called and where it came from.
+    holes
+        Whether the outline is the silhouette or keeps its holes.
+    is_compared
+        Whether the ink is held against a rendering, as strangers' files should be.
 
     Raises
     ------
@@ -52,8 +69,10 @@ def item_of_svg(data: bytes, name: str, source: str, holes: Holes = "fill") -> I
     (1, 2)
     """
     with naming(source):
-        drawing = read_drawing(data)
-        ink = clean_union(drawing.ink.fills, drawing.ink.strokes)
-        outline, centred_ink, place = centred(ink, holes)
-        art = vector_art(drawing.root, drawing.page, is_cut=drawing.ink.is_cut, place=place)
-    return Item(name, source, outline, centred_ink, art)
+        drawing = read_drawing(data, is_compared=is_compared)
+        outline, ink, place = centred(clean_union(drawing.ink.body), holes)
+        if drawing.ink.body is not drawing.ink.whole:
+            ink = Outline.from_region(clean_union(drawing.ink.whole)).mapped(place)
+        root = with_short_arcs(without_glow(drawing))
+        art = vector_art(root, drawing.page, is_cut=drawing.ink.is_cut, place=place)
+    return Item(name, source, outline, ink, art)

@@ -6,6 +6,8 @@ import math
 import re
 
 from packwork.readers.unfit import UnfitError
+from packwork.units import NUMBER as NUMBER
+from packwork.units import PER_INCH, split_length
 
 MAX_COORDINATE = 1e7
 """Largest number a drawing may hold, in its units: beyond it, differences of
@@ -13,24 +15,14 @@ coordinates lose the digits that flattening and noding need. Chosen."""
 
 PX_PER_UNIT = {
     "": 1.0,
-    "px": 1.0,
-    "in": 96.0,
-    "mm": 96.0 / 25.4,
-    "cm": 96.0 / 2.54,
-    "pt": 96.0 / 72.0,
-    "pc": 16.0,
-    "q": 96.0 / 101.6,
+    **{unit: PER_INCH["px"] / per_inch for unit, per_inch in PER_INCH.items()},
     "em": 16.0,
     "rem": 16.0,
     "ex": 8.0,
 }
 """CSS pixels, 96 to the inch; font-relative units for a plain 16 px font."""
 
-NUMBER = r"(?>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
-"""Pattern of one number. Atomic: hostile runs of digits are never tried twice."""
-
 _NUMBER = re.compile(NUMBER)
-_LENGTH = re.compile(rf"({NUMBER})\s*(%|[a-zA-Z]*)")
 _NOT_FINITE = re.compile(r"[-+]?(?:nan|inf(?:inity)?)", re.IGNORECASE)
 
 
@@ -49,11 +41,11 @@ def parse_length(text: str | None, percent_of: float) -> float | None:
     """
     if text is None:
         return None
-    match = _LENGTH.fullmatch(text.strip())
-    if match is None:
+    found = split_length(text)
+    if found is None:
         refuse_not_finite(text)
         return None
-    number, unit = checked(float(match.group(1))), match.group(2).lower()
+    number, unit = checked(found[0]), found[1]
     if unit == "%":
         return number / 100 * percent_of
     return checked(number * PX_PER_UNIT[unit]) if unit in PX_PER_UNIT else None

@@ -15,6 +15,11 @@ _CLEAR = re.compile(
     r"|(?:rgb|hsl)a?\([^()]*[,/]\s*[-+]?(?:0+(?:\.0*)?|\.0+)%?\s*\)",
     re.IGNORECASE,
 )
+_INHERITED = frozenset(
+    {"fill", "stroke", "color", "visibility", "fill-opacity", "stroke-opacity"}
+    | {"fill-rule", "clip-rule", "stroke-width", "stroke-linecap", "stroke-linejoin"}
+    | {"stroke-miterlimit", "stroke-dasharray", "stroke-dashoffset"}
+)
 _COMMAS = 3
 """Commas that a colour needs for its last number to be its opacity."""
 _WORDS = {
@@ -39,6 +44,7 @@ class Painting:
     fill_opacity: float = 1.0
     stroke_opacity: float = 1.0
     fill_rule: FillRule = "nonzero"
+    clip_rule: FillRule = "nonzero"
     pen: Pen = field(default_factory=Pen)
     is_visible: bool = True
 
@@ -62,7 +68,11 @@ class Painting:
         diagonal
             What percentages of the stroke's width refer to.
         """
-        set_here = {k: v for k, v in attributes.items() if v not in {"inherit", ""}}
+        set_here = {
+            k: v for k, v in attributes.items() if k in _INHERITED and v not in {"inherit", ""}
+        }
+        if not set_here:
+            return self
         return replace(
             self,
             fill=set_here.get("fill", self.fill),
@@ -71,6 +81,7 @@ class Painting:
             fill_opacity=opacity(set_here.get("fill-opacity"), self.fill_opacity),
             stroke_opacity=opacity(set_here.get("stroke-opacity"), self.stroke_opacity),
             fill_rule=_fill_rule(set_here.get("fill-rule"), self.fill_rule),
+            clip_rule=_fill_rule(set_here.get("clip-rule"), self.clip_rule),
             pen=_pen(set_here, self.pen, diagonal),
             is_visible=set_here.get("visibility", "visible" if self.is_visible else "hidden")
             not in {"hidden", "collapse"},
@@ -114,12 +125,27 @@ def _fill_rule(word: str | None, otherwise: FillRule) -> FillRule:
 def _pen(attributes: Mapping[str, str], pen: Pen, diagonal: float) -> Pen:
     width = parse_length(attributes.get("stroke-width"), diagonal)
     limit = parse_length(attributes.get("stroke-miterlimit"), 1.0)
+    offset = parse_length(attributes.get("stroke-dashoffset"), diagonal)
+    dashes = attributes.get("stroke-dasharray")
     return Pen(
         width=pen.width if width is None else max(width, 0.0),
         cap=_word(attributes, "stroke-linecap", pen.cap),
         join=_word(attributes, "stroke-linejoin", pen.join),
         miter_limit=pen.miter_limit if limit is None else max(limit, 1.0),
+        dashes=pen.dashes if dashes is None else _pattern(dashes, diagonal),
+        dash_offset=pen.dash_offset if offset is None else offset,
     )
+
+
+def _pattern(text: str, diagonal: float) -> tuple[float, ...]:
+    """Dashes and gaps, an even number of them; none if they make no pattern."""
+    lengths = [parse_length(word, diagonal) for word in text.replace(",", " ").split()]
+    if any(length is None or length < 0 for length in lengths):
+        return ()
+    pattern = tuple(length for length in lengths if length is not None)
+    if sum(pattern[1::2] if len(pattern) % 2 == 0 else pattern) == 0:
+        return ()
+    return pattern if len(pattern) % 2 == 0 else pattern * 2
 
 
 def _word(attributes: Mapping[str, str], name: str, otherwise: str) -> str:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import math
 import xml.etree.ElementTree as ET
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.geometry.bezier import flatten_cubic
+from packwork.geometry.bezier import MAX_STEPS
 from packwork.readers.svg.arcs import circle_cubics
 from packwork.readers.svg.lengths import parse_length, parse_numbers
 from packwork.readers.svg.path_data import MAX_SEGMENTS, SubPath, parse_path
@@ -50,15 +50,34 @@ def flattened(piece: SubPath, tolerance: float) -> FloatArray:
     >>> flattened(parse_path("M0 0h4v4z")[0], 0.1).tolist()
     [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0]]
     """
-    cubics = piece.segments
-    runs = [np.array([piece.start])]
-    for cubic, steps in zip(cubics, step_counts(cubics, tolerance), strict=True):
-        runs.append(
-            flatten_cubic(cubic[0], cubic[1], cubic[2], cubic[3], tolerance)
-            if steps > 1
-            else cubic[3:]
-        )
-    return np.concatenate(runs)
+    return flattened_all([piece], tolerance)[0]
+
+
+def flattened_all(pieces: Sequence[SubPath], tolerance: float) -> list[FloatArray]:
+    """Polylines of several pieces at once, which is faster than one by one.
+
+    Examples
+    --------
+    >>> [len(line) for line in flattened_all(parse_path("M0 0h4v4z M9 9h1"), 0.1)]
+    [3, 2]
+    """
+    if not pieces:
+        return []
+    cubics = np.concatenate([piece.segments for piece in pieces])
+    counts = np.minimum(step_counts(cubics, tolerance), MAX_STEPS).astype(np.int64)
+    ends = np.cumsum(counts)
+    curve = np.repeat(np.arange(len(counts)), counts)
+    step = np.arange(1, len(curve) + 1) - (ends - counts)[curve]
+    t = (step / counts[curve])[:, None]
+    s = 1 - t
+    p0, p1, p2, p3 = cubics[curve].swapaxes(0, 1)
+    points = s**3 * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t**3 * p3
+    cuts = np.concatenate([[0], ends])[np.cumsum([len(piece.segments) for piece in pieces])]
+    parts = np.split(points, cuts[:-1])
+    return [
+        np.concatenate([np.array([piece.start]), part])
+        for piece, part in zip(pieces, parts, strict=True)
+    ]
 
 
 def step_counts(cubics: FloatArray, tolerance: float) -> FloatArray:

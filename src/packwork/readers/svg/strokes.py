@@ -36,12 +36,23 @@ class Pen:
         SVG's words.
     miter_limit
         Largest ratio of a mitre's length to the width.
+    dashes
+        Lengths of dashes and gaps in turn, an even number of them; none for a solid line.
+    dash_offset
+        Where in that pattern a line begins.
     """
 
     width: float = 1.0
     cap: str = "butt"
     join: str = "miter"
     miter_limit: float = 4.0
+    dashes: tuple[float, ...] = ()
+    dash_offset: float = 0.0
+
+    @property
+    def longest_gap(self) -> float:
+        """Length of the longest gap between dashes, caps not counted."""
+        return max(self.dashes[1::2], default=0.0)
 
 
 def stroke_region(points: FloatArray, is_closed: bool, pen: Pen, tolerance: float) -> Region:
@@ -71,9 +82,8 @@ def stroke_region(points: FloatArray, is_closed: bool, pen: Pen, tolerance: floa
         cap_style=_CAPS.get(pen.cap, "flat"),
         join_style=_JOINS.get(pen.join, "bevel"),
     )
-    if pen.join in _JOINS:
-        return painted
-    return shapely.union_all([painted, *_mitres(line, is_ring, pen, tolerance)])
+    spikes = [] if pen.join in _JOINS else _mitres(line, is_ring, pen, tolerance)
+    return shapely.union_all([painted, *spikes]) if spikes else painted
 
 
 def _distinct(points: FloatArray, is_closed: bool) -> FloatArray:
@@ -113,6 +123,8 @@ def _mitres(line: FloatArray, is_ring: bool, pen: Pen, tolerance: float) -> list
     # The corners of a flattened curve need none: their spikes are below the tolerance.
     is_sharp = half * (1 - half_cosine**2) > tolerance * half_cosine
     allowed = is_sharp & (turn != 0) & (half_cosine * pen.miter_limit >= 1)
+    if not allowed.any():
+        return []
     side = -np.sign(turn)[:, None] * half
     left = at + side * _normals(before)
     right = at + side * _normals(after)

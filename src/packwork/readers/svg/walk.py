@@ -12,109 +12,18 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
-from packwork.readers.gate.references import elements_by_id
+from packwork.readers.gate.references import elements_by_id, paint_server
 from packwork.readers.gate.sanitise import HREF
 from packwork.readers.gate.vocabulary import NEVER_DRAWN, SHAPES
-from packwork.readers.svg.lengths import MAX_COORDINATE, parse_length, parse_numbers
+from packwork.readers.svg.lengths import parse_length
+from packwork.readers.svg.page import PLAIN_VIEWPORT, view_box
+from packwork.readers.svg.page import Page as Page
+from packwork.readers.svg.painted import Clip, Painted, PlacedText
 from packwork.readers.svg.painting import Painting, opacity
 from packwork.readers.svg.path_data import MAX_SEGMENTS, SubPath
 from packwork.readers.svg.shapes import Viewport, diagonal, shape_pieces
 from packwork.readers.svg.transforms import parse_transform, view_matrix
 from packwork.readers.unfit import UnfitError
-
-PLAIN_VIEWPORT: Viewport = (100.0, 100.0)
-"""What percentages refer to in a drawing that states no size."""
-
-
-@dataclass(frozen=True, eq=False)
-class Page:
-    """The rectangle of a drawing that viewers show, in CSS pixels from the origin.
-
-    Parameters
-    ----------
-    width, height
-        Its size.
-    matrix
-        2 x 3 map from the root's user units to CSS pixels.
-    """
-
-    width: float
-    height: float
-    matrix: FloatArray
-
-
-@dataclass(frozen=True, eq=False)
-class Painted:
-    """One shape that leaves ink.
-
-    Parameters
-    ----------
-    pieces
-        In the shape's own units.
-    matrix
-        2 x 3 map from those to CSS pixels.
-    painting
-        How it is filled and stroked.
-    window
-        What shows of it, in CSS pixels; None if all does.
-    """
-
-    pieces: list[SubPath]
-    matrix: FloatArray
-    painting: Painting
-    window: Region | None
-
-
-def read_page(root: ET.Element) -> Page | None:
-    """Page of a clean ``<svg>``; None if it states neither its size nor a ``viewBox``.
-
-    Raises
-    ------
-    UnfitError
-        If the page or its ``viewBox`` has no area.
-
-    Examples
-    --------
-    >>> page = read_page(ET.Element("svg", {"viewBox": "0 0 24 12", "width": "1in"}))
-    >>> page.width, page.height, page.matrix[0, 0].item()
-    (96.0, 48.0, 4.0)
-    """
-    view = view_box(root)
-    width, height = (_absolute(root.get(name)) for name in ("width", "height"))
-    if view is not None:
-        if width is None:
-            width = view[2] if height is None else height * view[2] / view[3]
-        if height is None:
-            height = width * view[3] / view[2]
-    if width is None or height is None:
-        return None
-    if min(width, height) <= 0 or max(width, height) > MAX_COORDINATE:
-        raise UnfitError(f"has a page of {width:g} x {height:g} px; give it a width and a height")
-    fit = root.get("preserveAspectRatio", "")
-    matrix = view_matrix(view, width, height, fit) if view else affine.identity()
-    return Page(width, height, matrix)
-
-
-def view_box(element: ET.Element) -> tuple[float, float, float, float] | None:
-    """Left, top, width and height of a ``viewBox``, if the element has one.
-
-    Raises
-    ------
-    UnfitError
-        If it has no area.
-
-    Examples
-    --------
-    >>> view_box(ET.Element("svg", {"viewBox": "0,0,2,1"}))
-    (0.0, 0.0, 2.0, 1.0)
-    """
-    numbers = parse_numbers(element.get("viewBox"))
-    if len(numbers) != 4:
-        return None
-    left, top, width, height = numbers
-    if min(width, height) <= 0:
-        raise UnfitError(f"has a viewBox of {width:g} x {height:g}; give it a width and a height")
-    return left, top, width, height
 
 
 def painted_shapes(root: ET.Element, page: Page | None) -> list[Painted]:
@@ -131,22 +40,39 @@ def painted_shapes(root: ET.Element, page: Page | None) -> list[Painted]:
     >>> len(painted_shapes(root, None))
     1
     """
+    return _walked(root, page).painted
+
+
+def placed_texts(root: ET.Element, page: Page | None) -> list[PlacedText]:
+    """Every text element of a clean drawing that is drawn in its own place.
+
+    Raises
+    ------
+    UnfitError
+        As for ``painted_shapes``.
+
+    Examples
+    --------
+    >>> root = ET.fromstring('<svg><g transform="scale(2)"><text>a</text></g></svg>')
+    >>> [(text.matrix[0, 0].item(), len(text.above)) for text in placed_texts(root, None)]
+    [(2.0, 2)]
+    """
+    return _walked(root, page).texts
+
+
+def _walked(root: ET.Element, page: Page | None) -> _Walk:
+    """Walk through the whole of a clean drawing."""
     walk = _Walk(root)
     view = view_box(root)
     if page is None:
-        frame = _Frame(affine.identity(), Painting(), PLAIN_VIEWPORT, None)
+        frame = _Frame(affine.identity(), Painting(), PLAIN_VIEWPORT)
     else:
         viewport = (view[2], view[3]) if view else (page.width, page.height)
         window = shapely.box(0, 0, page.width, page.height)
         frame = _Frame(page.matrix, Painting(), viewport, window)
     if not walk.is_hidden(root):
         walk.visit_children(root, walk.framed(root, frame))
-    return walk.painted
-
-
-def _absolute(text: str | None) -> float | None:
-    """A page's side; a share of an unknown window is none."""
-    return None if text is not None and "%" in text else parse_length(text, 0.0)
+    return walk
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,7 +82,9 @@ class _Frame:
     matrix: FloatArray
     painting: Painting
     viewport: Viewport
-    window: Region | None
+    window: Region | None = None
+    clips: tuple[Clip, ...] = ()
+    is_repeated: bool = False
 
 
 class _Walk:
@@ -164,8 +92,12 @@ class _Walk:
 
     def __init__(self, root: ET.Element) -> None:
         self.painted: list[Painted] = []
+        self.texts: list[PlacedText] = []
         self._by_id = elements_by_id(root)
+        self._parents = {child: parent for parent in root.iter() for child in parent}
         self._known: dict[tuple[ET.Element, Viewport], list[SubPath]] = {}
+        self._known_clips: dict[tuple[ET.Element, bytes, Viewport], Clip] = {}
+        self._known_paintings: dict[ET.Element, Painting] = {}
         self._segments = 0
 
     def visit(self, element: ET.Element, frame: _Frame) -> None:
@@ -177,6 +109,8 @@ class _Walk:
             self._paint(element, inner)
         elif element.tag == "use":
             self._follow(element, inner)
+        elif element.tag == "text":
+            self._place(element, inner)
         elif element.tag == "svg":
             self._enter_viewport(element, element, inner)
         else:
@@ -192,32 +126,96 @@ class _Walk:
         return element.get("display") == "none" or opacity(element.get("opacity"), 1.0) == 0
 
     def framed(self, element: ET.Element, frame: _Frame) -> _Frame:
-        """Frame with the element's own transform and properties."""
-        own = parse_transform(element.get("transform"))
+        """Frame with the element's own transform, properties and clip."""
+        if not element.attrib:
+            return frame
+        matrix = frame.matrix
+        if "transform" in element.attrib:
+            matrix = affine.compose(matrix, parse_transform(element.get("transform")))
+        if element.tag == "use":
+            # Its place is part of its transform: clips move with it.
+            x = parse_length(element.get("x"), frame.viewport[0]) or 0.0
+            y = parse_length(element.get("y"), frame.viewport[1]) or 0.0
+            matrix = affine.compose(matrix, affine.similarity(x, y, 0.0, 1.0))
         painting = frame.painting.inherited(element.attrib, diagonal(frame.viewport))
-        return replace(frame, matrix=affine.compose(frame.matrix, own), painting=painting)
+        inner = replace(frame, matrix=matrix, painting=painting)
+        clip = self._clip(element, inner)
+        return inner if clip is None else replace(inner, clips=(*inner.clips, clip))
 
     def _paint(self, element: ET.Element, frame: _Frame) -> None:
         if not (frame.painting.has_fill or frame.painting.has_stroke):
             return
-        key = (element, frame.viewport)
+        pieces = self._pieces(element, frame.viewport)
+        if pieces:
+            self.painted.append(
+                Painted(pieces, frame.matrix, frame.painting, frame.window, frame.clips)
+            )
+
+    def _pieces(self, element: ET.Element, viewport: Viewport) -> list[SubPath]:
+        key = (element, viewport)
         if key not in self._known:
-            self._known[key] = shape_pieces(element, frame.viewport)
+            self._known[key] = shape_pieces(element, viewport)
         pieces = self._known[key]
         self._segments += sum(len(piece.segments) for piece in pieces)
         if self._segments > MAX_SEGMENTS:
             raise UnfitError(f"has more than {MAX_SEGMENTS:,} path segments; simplify it")
-        if pieces:
-            self.painted.append(Painted(pieces, frame.matrix, frame.painting, frame.window))
+        return pieces
+
+    def _place(self, text: ET.Element, frame: _Frame) -> None:
+        if frame.is_repeated:
+            return
+        above: list[ET.Element] = []
+        parent = self._parents.get(text)
+        while parent is not None:
+            above.append(parent)
+            parent = self._parents.get(parent)
+        self.texts.append(PlacedText(text, frame.matrix, frame.viewport, tuple(above[::-1])))
+
+    def _clip(self, element: ET.Element, frame: _Frame) -> Clip | None:
+        """Clip of an element whose own frame is known; one that is used again is shared."""
+        target = self._by_id.get(paint_server(element.get("clip-path", "")) or "")
+        if target is None:
+            return None
+        key = (target, frame.matrix.tobytes(), frame.viewport)
+        if key not in self._known_clips:
+            painting = self._inherited_painting(target)
+            own = replace(frame, painting=painting, window=None, clips=())
+            inside = self.framed(target, own)
+            shapes = [shape for child in target for shape in self._stencils(child, inside)]
+            self._known_clips[key] = Clip(tuple(shapes))
+        return self._known_clips[key]
+
+    def _stencils(self, element: ET.Element, frame: _Frame) -> list[Painted]:
+        """Shapes, if any, that a child of a clip path cuts out, whatever their paints."""
+        if element.get("display") == "none":
+            return []
+        inner = self.framed(element, frame)
+        if element.tag == "use":
+            target = self._target(element)
+            return [] if target is None or target.tag == "use" else self._stencils(target, inner)
+        if element.tag not in SHAPES or not inner.painting.is_visible:
+            return []
+        pieces = self._pieces(element, inner.viewport)
+        painting = Painting(fill_rule=inner.painting.clip_rule)
+        return [Painted(pieces, inner.matrix, painting, None, inner.clips)] if pieces else []
+
+    def _inherited_painting(self, element: ET.Element) -> Painting:
+        """What an element inherits where it stands, not from who refers to it."""
+        parent = self._parents.get(element)
+        if parent is None:
+            return Painting()
+        if parent not in self._known_paintings:
+            above = self._inherited_painting(parent)
+            self._known_paintings[parent] = above.inherited(parent.attrib, 0.0)
+        return self._known_paintings[parent]
+
+    def _target(self, use: ET.Element) -> ET.Element | None:
+        return self._by_id.get(use.get(HREF, "")[1:])
 
     def _follow(self, use: ET.Element, frame: _Frame) -> None:
-        target = self._by_id.get(use.get(HREF, "")[1:])
+        target, moved = self._target(use), replace(frame, is_repeated=True)
         if target is None:
             return
-        x = parse_length(use.get("x"), frame.viewport[0]) or 0.0
-        y = parse_length(use.get("y"), frame.viewport[1]) or 0.0
-        shift = affine.similarity(x, y, 0.0, 1.0)
-        moved = replace(frame, matrix=affine.compose(frame.matrix, shift))
         if target.tag in {"symbol", "svg"} and not self.is_hidden(target):
             self._enter_viewport(target, use, self.framed(target, moved))
         else:
@@ -236,7 +234,8 @@ class _Walk:
         if element.get("overflow") not in {"visible", "auto"} and (view or element.tag == "svg"):
             window = _narrowed(window, place, width, height)
         viewport = (view[2], view[3]) if view else (width, height)
-        nested = _Frame(affine.compose(place, inner), frame.painting, viewport, window)
+        matrix = affine.compose(place, inner)
+        nested = replace(frame, matrix=matrix, viewport=viewport, window=window)
         self.visit_children(element, nested)
 
     def _viewport(

@@ -1,0 +1,44 @@
+"""Wrong use of the command line: one line, like every other error."""
+
+from __future__ import annotations
+
+import sys
+from typing import Any
+
+import typer
+from typer.core import TyperGroup
+
+from packwork.cli.failure import BAD_INPUT, INTERRUPTED
+
+
+class OneLineGroup(TyperGroup):
+    """Commands whose usage errors are one line and exit code 2, without a box."""
+
+    def main(self, *args: Any, **extra: Any) -> Any:
+        """Run a command line; see ``typer.core.TyperGroup.main``."""
+        run: Any = super().main
+        if not extra.pop("standalone_mode", True):
+            return run(*args, **extra, standalone_mode=False)
+        try:
+            code = run(*args, **extra, standalone_mode=False)
+        except typer.Abort:
+            sys.exit(INTERRUPTED)
+        except Exception as error:
+            # Typer brings its own copy of click's exceptions or not, by version: those
+            # about usage are known by what they can do.
+            if not hasattr(error, "format_message"):
+                raise
+            if type(error).__name__ == "NoArgsIsHelpError":
+                typer.echo(error.format_message())
+            else:
+                typer.echo(f"packwork: {_line(error)}", err=True)
+            sys.exit(BAD_INPUT)
+        sys.exit(code or 0)
+
+
+def _line(error: Any) -> str:
+    """What is wrong, and where to look up what would do."""
+    said = " ".join(str(error.format_message()).replace("Value error, ", "").split()).rstrip(".")
+    context = getattr(error, "ctx", None)
+    command = context.command_path if context is not None else "packwork"
+    return f"{said[0].lower()}{said[1:]}; see {command} --help"

@@ -1,0 +1,169 @@
+"""Progress of a run, in a notebook or on a terminal."""
+
+from __future__ import annotations
+
+import importlib
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import AbstractContextManager, contextmanager, nullcontext
+from html import escape
+from typing import Any, Protocol
+
+from packwork.progress import Observer, Step
+
+EPOCHS_BETWEEN = 20
+"""Epochs between two moves of the bar: each costs about one epoch. Chosen."""
+
+SECONDS_BETWEEN = 0.1
+"""Least time between two pictures that a notebook is sent: more flood its page. Chosen."""
+
+BEFORE = "starting (kernels compile on the first run only, up to 20 s)"
+
+
+class Bar(Observer, Protocol):
+    """Observer that is on show while a run goes on."""
+
+    def showing(self) -> AbstractContextManager[None]:
+        """Be seen while the block runs."""
+        ...
+
+
+def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None:
+    """Bar where one is to be shown, which tells the observer too; else None.
+
+    Parameters
+    ----------
+    wanted
+        None: in a notebook only.
+    observer
+        If given, says how often both are told.
+
+    Examples
+    --------
+    >>> bar_for(None) is None
+    True
+    """
+    notebook = in_notebook()
+    if not (notebook if wanted is None else wanted):
+        return None
+    bar: Bar = NotebookBar() if notebook else TerminalBar()
+    return bar if observer is None else Together(bar, observer)
+
+
+def in_notebook() -> bool:
+    """Whether a Jupyter kernel runs this; loads nothing to find out.
+
+    Examples
+    --------
+    >>> in_notebook()
+    False
+    """
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    # A kernel's shell knows its kernel; that of a terminal has none.
+    return getattr(shell, "kernel", None) is not None
+
+
+class Together:
+    """A bar and an observer of one's own, told at the same steps."""
+
+    def __init__(self, bar: Bar, observer: Observer) -> None:
+        self._bar, self._observer = bar, observer
+        self.every = observer.every
+
+    def on_step(self, step: Step) -> None:
+        """Tell both."""
+        self._bar.on_step(step)
+        self._observer.on_step(step)
+
+    def showing(self) -> AbstractContextManager[None]:
+        """Show the bar."""
+        return self._bar.showing()
+
+
+class NotebookBar:
+    """One line of a cell's output, replaced as the run goes on; it needs no widgets."""
+
+    every = EPOCHS_BETWEEN
+
+    def __init__(self) -> None:
+        self._share, self._text = 0.0, BEFORE
+        self._is_over = False
+        self._handle: Any = None
+        self._sent = 0.0
+
+    def on_step(self, step: Step) -> None:
+        """Move the bar, unless it has just been moved."""
+        self._share, self._text = step.progress, f"{_level(step)}, {_shares(step)}"
+        if time.monotonic() - self._sent >= SECONDS_BETWEEN:
+            self._send()
+
+    @contextmanager
+    def showing(self) -> Iterator[None]:
+        """Show the bar while the block runs; nothing of it stays."""
+        self._handle = importlib.import_module("IPython.display").display(self, display_id=True)
+        self._sent = time.monotonic()
+        try:
+            yield
+        finally:
+            self._is_over = True
+            self._send()
+
+    def _send(self) -> None:
+        self._handle.update(self)
+        self._sent = time.monotonic()
+
+    def _repr_html_(self) -> str:
+        if self._is_over:
+            return ""
+        bar = f'<progress value="{self._share:.3f}" max="1"></progress>'
+        return f"{bar} <small>{escape(self._text)}</small>"
+
+    def __repr__(self) -> str:
+        return "" if self._is_over else f"{100 * self._share:.0f} %: {self._text}"
+
+
+class TerminalBar:
+    """A line on standard error that is gone when the run is over; none if that is a file."""
+
+    every = EPOCHS_BETWEEN
+
+    def __init__(self) -> None:
+        from rich.console import Console
+        from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
+
+        console = Console(stderr=True)
+        self._progress = Progress(
+            TextColumn("{task.description}"),
+            BarColumn(),
+            TextColumn("{task.percentage:.0f} %"),
+            TimeElapsedColumn(),
+            console=console,
+            transient=True,
+            disable=not console.is_terminal,
+        )
+        self._task = self._progress.add_task(BEFORE, total=1.0)
+
+    def on_step(self, step: Step) -> None:
+        """Move the bar."""
+        text = f"{_level(step)}, {_shares(step)}"
+        self._progress.update(self._task, completed=step.progress, description=text)
+
+    @contextmanager
+    def showing(self) -> Iterator[None]:
+        """Draw the bar while the block runs."""
+        with self._progress:
+            yield
+
+
+def shown(bar: Bar | None) -> AbstractContextManager[None]:
+    """Block in which the bar, if there is one, is on show."""
+    return nullcontext() if bar is None else bar.showing()
+
+
+def _level(step: Step) -> str:
+    return f"level {step.level + 1}/{step.levels} ({step.resolution} px)"
+
+
+def _shares(step: Step) -> str:
+    return f"covered {100 * step.coverage:.1f} %, overlap {100 * step.overlap:.2f} %"

@@ -1,0 +1,108 @@
+"""A layout as a notebook shows it: an SVG, or a PNG where that would be too long."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+
+from packwork.scene.item import Item, PictureArt, VectorArt
+from packwork.scene.layout import Layout
+from packwork.writers.marks import shape_key
+from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.svg import Sheet, SvgOptions, svg_document
+
+SIDE_PX = 600
+"""Longer side of the picture on screen, whatever the canvas: fits a notebook's column.
+Chosen."""
+
+SHARPNESS = 2
+"""Pixels of a PNG per pixel on screen: smaller is blurred on fine screens. Chosen."""
+
+LONGEST_SVG = 2_000_000
+"""Characters of an SVG, about, beyond which a PNG is shown: a notebook keeps what it shows,
+and photographs are in an SVG at full size. Larger makes heavy notebooks. Chosen."""
+
+PAPER = "white"
+"""Behind the items, or dark ones would be lost on a dark page. Chosen."""
+
+_PER_POINT = 16
+_PER_COPY = 130
+_SHAPE_ID = re.compile(r'( id="| xlink:href="#)(shape-\d+)"')
+
+
+def notebook_svg(layout: Layout) -> str | None:
+    """SVG to stand in a page beside others; None where it would be too long.
+
+    Some notebooks put the SVGs of all cells into one page, where each id must be unique.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> sheet = Container("tile", "tile", tile, 200.0, 100.0, "mm")
+    >>> empty = Layout(sheet, (), Poses(none, none, none, none), none)
+    >>> 'width="600" height="300" viewBox="0 0 200 100"' in notebook_svg(empty)
+    True
+    """
+    if _is_long(layout):
+        return None
+    container = layout.container
+    width, height = _size(layout)
+    sheet = Sheet(size=(width, height), unit="px", view=(container.width, container.height))
+    text = svg_document(layout, SvgOptions(background=PAPER), sheet)
+    digest = hashlib.sha256(text.encode()).hexdigest()[:10]
+    return _SHAPE_ID.sub(rf'\1\2-{digest}"', text)
+
+
+def notebook_png(layout: Layout) -> tuple[bytes, dict[str, int]] | None:
+    """PNG and its size on screen; None where an SVG is shown.
+
+    Raises
+    ------
+    WriteError
+        If an item's drawing cannot be rendered.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> empty = Layout(
+    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
+    ... )
+    >>> notebook_png(empty) is None
+    True
+    """
+    if not _is_long(layout):
+        return None
+    width, height = _size(layout)
+    picture = png_bytes(layout, SHARPNESS * SIDE_PX, PngOptions(background=PAPER))
+    return picture, {"width": round(width), "height": round(height)}
+
+
+def _size(layout: Layout) -> tuple[float, float]:
+    container = layout.container
+    per_cu = SIDE_PX / container.side
+    return container.width * per_cu, container.height * per_cu
+
+
+def _is_long(layout: Layout) -> bool:
+    drawings = {shape_key(item): item for item in layout.items}.values()
+    length = sum(_length(item) for item in drawings) + _PER_COPY * len(layout.items)
+    return length > LONGEST_SVG
+
+
+def _length(item: Item) -> float:
+    """About how many characters a drawing takes."""
+    if isinstance(item.art, VectorArt):
+        return len(item.art.markup)
+    if isinstance(item.art, PictureArt):
+        return len(item.art.png) * 4 / 3
+    return _PER_POINT * len(item.ink.points)

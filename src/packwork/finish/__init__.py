@@ -1,0 +1,1 @@
+"""Almost clean layouts to exactly clean ones: compaction by linear programmes."""

@@ -1,0 +1,1 @@
+"""Outlines with few vertices that still hold all of the true ones."""

@@ -1,0 +1,80 @@
+"""Regions with few vertices that hold all of another, or lie inside it."""
+
+from __future__ import annotations
+
+import shapely
+
+from packwork.finish.covers import _kernels
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region, polygon_parts
+
+MARGIN = 0.1
+"""Share of the tolerance that goes into a plain simplification first, and into the margin
+that makes up for it. Larger gives fewer vertices to the second step and more excess.
+Tried."""
+
+MITRE_LIMIT = 4.0
+"""How far a sharp corner of that margin may stand out, in margins. Larger keeps needles
+sharp but longer; smaller cuts them with an edge more. Chosen."""
+
+MARGINS = (1.0, 1.5, 2.25)
+"""Margins tried in turn, simplification's tolerances: GEOS may drop the vertex at which a
+ring starts, and then is off by twice that."""
+
+
+def covering(region: Region, tolerance: float) -> Region:
+    """Region with fewer vertices that holds all of ``region``.
+
+    Its boundary is within about one and a half times ``tolerance`` of the old one. Bays
+    lose vertices, and convex edges go by prolonging their neighbours: the excess is a
+    third of what simplifying and growing by the tolerance would give.
+
+    Examples
+    --------
+    >>> disc = shapely.Point(0, 0).buffer(1.0, quad_segs=100)
+    >>> cover = covering(disc, 0.01)
+    >>> bool(cover.covers(disc)), len(cover.exterior.coords) < 40
+    (True, True)
+    """
+    if tolerance <= 0:
+        return region
+    if not region.is_valid:
+        region = shapely.make_valid(region)
+    loose = _grown(region, MARGIN * tolerance)
+    rings = [_kernels.shed(ring, tolerance) for ring in Outline.from_region(loose).rings]
+    if min(map(len, rings)) >= 3:
+        cover = Outline.from_rings(rings).region
+        # Bays that close upon each other may leave rings that cross, or fill a hole.
+        excess = cover.area - region.area
+        if cover.is_valid and cover.covers(region) and excess < 2 * tolerance * region.length:
+            return cover
+    return loose
+
+
+def _grown(region: Region, tolerance: float) -> Region:
+    """Region simplified, then grown by as much."""
+    fewer = shapely.simplify(region, tolerance, preserve_topology=True)
+    for margin in MARGINS:
+        cover = shapely.buffer(
+            fewer, margin * tolerance, join_style="mitre", mitre_limit=MITRE_LIMIT
+        )
+        if cover.is_valid and cover.covers(region):
+            return cover
+    return region
+
+
+def lining(region: Region, tolerance: float) -> Region:
+    """Region with fewer vertices that lies inside ``region``: a container's safe side.
+
+    Examples
+    --------
+    >>> disc = shapely.Point(0, 0).buffer(1.0, quad_segs=100)
+    >>> bool(disc.covers(lining(disc, 0.01)))
+    True
+    """
+    if tolerance <= 0:
+        return region
+    frame = shapely.box(*region.bounds).buffer(8 * tolerance, join_style="mitre")
+    inside = shapely.difference(frame, covering(frame.difference(region), tolerance))
+    parts = polygon_parts(inside)
+    return shapely.union_all(parts) if parts else region

@@ -1,0 +1,52 @@
+"""Arrangements of outlines as fine as a stage of the finish needs them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.finish.arrangement import Arrangement
+from packwork.finish.covers.cover import covering, lining
+from packwork.geometry.outline import Outline
+from packwork.scene.pose import Poses
+
+
+class Detail:
+    """Covers of the outlines at one tolerance, finer ones inside coarser ones.
+
+    Parameters
+    ----------
+    outlines
+        One per item, item units; copies are simplified once.
+    container
+        In canvas units.
+    poses
+        First poses: their scales, angles and stretches are taken in.
+    """
+
+    def __init__(self, outlines: Sequence[Outline], container: Outline, poses: Poses) -> None:
+        self._outlines, self._container, self._poses = outlines, container, poses
+
+    def covers(self, tolerance: float) -> Detail:
+        """The same with fewer vertices: ``tolerance`` in shares of each item's extent."""
+        known: dict[int, Outline] = {}
+        for outline in self._outlines:
+            if id(outline) not in known:
+                cover = covering(outline.region, tolerance * outline.extent)
+                known[id(outline)] = Outline.from_region(cover)
+        outlines = [known[id(outline)] for outline in self._outlines]
+        sizes = [outline.extent for outline in self._outlines] * self._poses.scale
+        slack = tolerance * float(np.median(sizes))
+        container = Outline.from_region(lining(self._container.region, slack))
+        return Detail(outlines, container, self._poses)
+
+    def arrangement(self, places: FloatArray) -> Arrangement:
+        """Outlines in place: ``(n, 4)`` x, y, turn and growth against the first poses."""
+        own = []
+        for k, outline in enumerate(self._outlines):
+            matrix = self._poses.matrix(k).copy()
+            matrix[:, 2] = 0.0
+            own.append(outline.mapped(matrix))
+        return Arrangement(own, self._container, places)

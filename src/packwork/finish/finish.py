@@ -1,0 +1,282 @@
+"""From an almost clean layout to one in which nothing meets, in exact geometry."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.finish._kernels import Wishes
+from packwork.finish.blocks import blocks
+from packwork.finish.compaction import compact
+from packwork.finish.detail import Detail
+from packwork.finish.offenders import Offender, find_offenders
+from packwork.finish.options import HAIR, FinishOptions
+from packwork.finish.part import part
+from packwork.finish.relocate import relocate
+from packwork.finish.search import Room, search
+from packwork.finish.sizing import FixedSize, FreeSizes, SharedSize, Sizing, turn_ranges
+from packwork.geometry.outline import Outline
+from packwork.progress import Observer, Step, Stop, never
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+
+COARSE, FINE = 4e-3, 3e-4
+"""Tolerance of the outlines that rounds work on, shares of an item's extent: first and
+last. Larger is faster and wastes room (the fine one 0.1 % of the coverage). Tried."""
+
+FIRST_TRUST, LAST_TRUST = 0.08, 0.003
+"""Trust region of the first and the last round, shares of the side of an item's share of
+the container. A larger first one lets items pass each other and fails more checks, a
+smaller last one gains what nobody sees. Tried."""
+
+COARSE_SHARE = 0.6
+"""Share of the rounds that work on coarse outlines. Tried."""
+
+
+SEARCH_SPREAD = 0.03
+"""Logarithm of size within which trials weigh the smaller items more, where sizes are
+common. Tried."""
+
+COMMON_ROUNDS = 3
+"""Times as many rounds where sizes are common: growth must get round from loose to tight
+places. Tried."""
+
+LEVELLING_TRUST, LEVELLING_ROUNDS = (0.006, 0.0006), 8
+"""Trust region, as above, and number of the last rounds where sizes are shared, in which
+all come down to the smallest. More rounds end nearer to it. Tried."""
+
+RESCUES = 3
+"""Times that items which stay behind are moved to voids. Chosen."""
+
+BACK = (0.0, 0.0, 1e-4, 1e-3, 0.003, 0.01, 0.03, 0.1, 0.3)
+"""Logarithms of size given back in turn until one common size has no conflict. Chosen."""
+
+SIZE_TOLERANCE = 1e-3
+"""Logarithm of size below which nobody is too small: steps end a little off their bounds,
+and a thousandth is not seen. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Finished:
+    """Result of a finish.
+
+    Parameters
+    ----------
+    poses
+        Where the items are now.
+    clean
+        Whether no two items, and no item and the edge, are nearer than was asked.
+    offenders
+        What is still in conflict; empty if clean.
+    undersized
+        Items that found no room at the size that they should have at least.
+    rounds
+        Linear programmes for each item.
+    seconds
+        Time taken.
+    """
+
+    poses: Poses
+    clean: bool
+    offenders: tuple[Offender, ...]
+    undersized: tuple[int, ...]
+    rounds: int
+    seconds: float
+
+
+def finish(
+    container: Container,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    options: FinishOptions,
+    observer: Observer | None = None,
+    stop: Stop = never,
+) -> Finished:
+    """Poses near the given ones at which nothing meets, grown into the room that is left.
+
+    Deterministic for one seed of the options.
+
+    Parameters
+    ----------
+    container
+        The region that items must stay in; its holes are walls.
+    outlines
+        One per item, item units, origin where the poses have it.
+    poses
+        An almost clean layout.
+    options
+        Gap, sizes, turns, rounds.
+    observer
+        Told of each round.
+    stop
+        Asked before each round; True ends with what there is, which is clean as well.
+
+    Examples
+    --------
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[2.0, 0, 5], [0, 1.0, 5]]))
+    >>> two = Poses(np.array([4.2, 5.8]), np.full(2, 5.0), np.zeros(2), np.ones(2))
+    >>> done = finish(Container("", "", wall, 10, 10), [box] * 2, two, FinishOptions())
+    >>> done.clean, bool(done.poses.scale.min() > 0.99)
+    (True, True)
+    """
+    began = time.perf_counter()
+    if len(outlines) == 0:
+        return Finished(poses, True, (), (), 0, 0.0)
+    run = _Run(container, outlines, poses, options, observer, stop)
+    run.coarse()
+    run.search()
+    run.fine()
+    run.level()
+    found = run.result()
+    offenders = find_offenders(container, outlines, found, run.gap)
+    return Finished(
+        found, not offenders, offenders, run.undersized(), run.rounds, time.perf_counter() - began
+    )
+
+
+class _Run:
+    """State of one finish between its rounds."""
+
+    def __init__(
+        self,
+        container: Container,
+        outlines: Sequence[Outline],
+        poses: Poses,
+        options: FinishOptions,
+        observer: Observer | None,
+        stop: Stop,
+    ) -> None:
+        self._poses, self._options, self._observer, self._stop = poses, options, observer, stop
+        self._area = container.outline.area
+        self.hair = HAIR * container.side
+        self.gap = options.gap_cu + self.hair
+        self.rounds = 0
+        self._planned = options.rounds * (1 if options.sizes == "free" else COMMON_ROUNDS)
+        self._spacing = float(np.sqrt(self._area / len(poses)))
+        own = np.array([outline.area for outline in outlines])
+        self._sizing = _sizing(poses, own * poses.scale**2, options)
+        exact = Detail(outlines, container.outline, poses)
+        self._fine = exact.covers(FINE)
+        self._coarse = self._fine if options.sizes == "fixed" else self._fine.covers(COARSE)
+        zero = np.zeros(len(poses))
+        self.arrangement = self._coarse.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))
+
+    def coarse(self) -> None:
+        """Take conflicts apart and grow, on coarse outlines; move those that stay behind."""
+        part(self.arrangement, self.gap)
+        count = round(COARSE_SHARE * self._planned)
+        self._compact(range(count))
+        for _ in range(RESCUES):
+            laggards = self._sizing.laggards(self.arrangement.places[:, 3])
+            if len(laggards) == 0 or self._stop():
+                break
+            relocate(self.arrangement, laggards, self.gap)
+            part(self.arrangement, self.gap)
+            self._compact(range(count // 2, count))
+
+    def search(self) -> None:
+        """Turn and exchange items where that gains."""
+        growth = self.arrangement.places[:, 3]
+        wishes = self._sizing.wishes(growth, SEARCH_SPREAD)
+        trials = round(self._options.trials * len(growth) / 100)
+        room = Room(self._spacing, self.gap, self.hair)
+        rng = np.random.default_rng(self._options.seed)
+        search(self.arrangement, wishes, trials, room, rng)
+
+    def fine(self) -> None:
+        """Grow into what the coarse outlines left."""
+        self.arrangement = self._fine.arrangement(self.arrangement.places)
+        part(self.arrangement, self.gap)
+        self._compact(range(round(COARSE_SHARE * self._planned), self._planned))
+
+    def _compact(self, rounds: range) -> None:
+        for index in rounds:
+            if self._stop() or self._sizing.is_done(self.arrangement.places[:, 3]):
+                return
+            done = index / max(self._planned - 1, 1)
+            trust = self._spacing * FIRST_TRUST * (LAST_TRUST / FIRST_TRUST) ** done
+            self._round(trust)
+            self.rounds += 1
+            self._tell(done)
+
+    def _round(self, trust: float) -> None:
+        arrangement = self.arrangement
+        spread = trust / float(np.median(arrangement.radii))
+        wishes = self._sizing.wishes(arrangement.places[:, 3], spread)
+        self._blocks(wishes, trust)
+
+    def _blocks(self, wishes: Wishes, trust: float) -> None:
+        for block in blocks(self.arrangement.places[:, :2], self.rounds):
+            compact(self.arrangement, wishes, block, trust, self.gap, self.hair)
+
+    def result(self) -> Poses:
+        """Poses as they are now; one common factor where that was asked."""
+        growth = self.arrangement.places[:, 3]
+        if self._options.sizes == "fixed":
+            growth = np.zeros(len(self._poses))
+        elif self._options.sizes == "shared":
+            growth = np.full(len(self._poses), growth.min())
+        x, y, turn, _ = self.arrangement.places.T
+        # An interior point is a little off its bounds; the hair of the gap is far wider.
+        turn = np.clip(turn, *turn_ranges(self._poses.angle, self._options))
+        angle, scale = self._poses.angle + turn, self._poses.scale * np.exp(growth)
+        return replace(self._poses, x=x.copy(), y=y.copy(), angle=angle, scale=scale)
+
+    def level(self) -> None:
+        """Where sizes are shared, bring all to one common factor without a conflict."""
+        if not isinstance(self._sizing, SharedSize):
+            return
+        trusts = np.geomspace(*LEVELLING_TRUST, LEVELLING_ROUNDS) * self._spacing
+        for back in BACK:
+            for trust in trusts:
+                wishes = self._sizing.levelling(self.arrangement.places[:, 3], back)
+                self._blocks(wishes, trust)
+            if self._put_at_one_size():
+                return
+
+    def _put_at_one_size(self) -> bool:
+        """Make all as small as the smallest; False, and undone, if that makes a conflict."""
+        arrangement, everyone = self.arrangement, np.arange(self.arrangement.count)
+        before = arrangement.places.copy()
+        level = before.copy()
+        level[:, 3] = before[:, 3].min()
+        arrangement.put(everyone, level)
+        if len(arrangement.conflicts(arrangement.pairs(self.gap), self.gap)) == 0:
+            return True
+        arrangement.put(everyone, before)
+        return False
+
+    def undersized(self) -> tuple[int, ...]:
+        """Items that are smaller than they should be."""
+        if not isinstance(self._sizing, FreeSizes):
+            return ()
+        lag = self._sizing.smallest - self.arrangement.places[:, 3]
+        return tuple(int(k) for k in np.flatnonzero(lag > SIZE_TOLERANCE))
+
+    def _tell(self, done: float) -> None:
+        if self._observer is None:
+            return
+        growth = self.arrangement.places[:, 3]
+        covered = float((self._sizing.areas * np.exp(2 * growth)).sum() / self._area)
+        x, y, turn, _ = self.arrangement.places.T
+        poses = replace(
+            self._poses, x=x.copy(), y=y.copy(), angle=self._poses.angle + turn,
+            scale=self._poses.scale * np.exp(growth),
+        )  # fmt: skip
+        self._observer.on_step(Step(0, 1, 0, self.rounds, done, poses, covered, 0.0, 0.0))
+
+
+def _sizing(poses: Poses, areas: FloatArray, options: FinishOptions) -> Sizing:
+    turns = turn_ranges(poses.angle, options)
+    if options.sizes == "free":
+        smallest = poses.scale / 2 if options.smallest is None else np.array(options.smallest)
+        largest = poses.scale * 2 if options.largest is None else np.array(options.largest)
+        return FreeSizes(
+            areas, turns, np.log(smallest / poses.scale), np.log(largest / poses.scale)
+        )
+    return (FixedSize if options.sizes == "fixed" else SharedSize)(areas, turns)

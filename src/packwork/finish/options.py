@@ -1,0 +1,48 @@
+"""What a finish is asked to do."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field
+
+SizeMode: TypeAlias = Literal["free", "shared", "fixed"]
+
+HAIR = 1e-5
+"""Gap kept beyond the one asked for, as a share of the canvas: ten times the precision
+of the files that are written, so that what was checked still holds when it is read back.
+Larger wastes room (this one 0.1 % of it with 100 items). Derived."""
+
+
+class FinishOptions(BaseModel):
+    """Gap, size mode, turns and rounds of one finish."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    gap_cu: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
+    """Gap between items and to the container's edge, canvas units. A hair is added:
+    :data:`HAIR` of the canvas."""
+
+    sizes: SizeMode = "free"
+    """free: each item's scale varies; shared: one common factor; fixed: none."""
+
+    smallest: tuple[float, ...] | None = None
+    """In mode free: smallest scale of each item; half of what it was given at if None."""
+
+    largest: tuple[float, ...] | None = None
+    """In mode free: largest scale of each item; twice what it was given at if None."""
+
+    turning: bool = True
+    """False keeps every angle as it is."""
+
+    turn_limit: Annotated[float, Field(ge=0)] | None = None
+    """Largest turn from upright, rad; None for any."""
+
+    rounds: Annotated[int, Field(ge=1, le=10_000)] = 24
+    """Linear programmes of each item in one compaction. More fills a little better."""
+
+    trials: Annotated[int, Field(ge=0, le=1_000_000)] = 0
+    """Exchanges of items that are tried after the compaction, for each hundred items."""
+
+    seed: Annotated[int, Field(ge=0)] = 0
+    """Of the trials."""

@@ -1,0 +1,77 @@
+"""Layouts with conflicts to layouts without: offenders shrink, hopeless ones move."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import BoolArray, IntArray
+from packwork.finish.arrangement import Arrangement
+from packwork.finish.relocate import relocate
+
+CUT = 0.004
+"""Logarithm of size that an item in conflict loses at a time. Larger gives room away,
+smaller needs more checks. Tried."""
+
+PATIENT, HASTE = 150, 1.03
+"""Checks after which that loss grows with each check, and by how much, so that even hopeless
+layouts come to an end. Chosen."""
+
+HOPELESS = 0.3
+"""Logarithm of size an item may lose before the smaller one of a pair in conflict is moved
+to a void instead. Smaller moves items that had a place, larger makes dwarfs. Tried."""
+
+LEAST_GROWTH = -10.0
+"""Logarithm of size below which no item falls: a 20,000th. Chosen."""
+
+MOST_CHECKS = 400
+"""Checks at most; what is in conflict after them is reported."""
+
+
+def part(arrangement: Arrangement, gap: float) -> IntArray:
+    """Make items in conflict smaller until none is; the items that had to be moved.
+
+    Only items in conflict change. Some conflicts may be left, if the container has no
+    room at all.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
+    >>> two = Arrangement([box] * 2, wall, np.array([[0.0, 0, 0, 0], [1.9, 0, 0, 0]]))
+    >>> moved = part(two, 0.01)
+    >>> len(moved), len(two.conflicts(two.pairs(1.0), 0.01))
+    (0, 0)
+    """
+    first = arrangement.places[:, 3].copy()
+    moved: list[int] = []
+    for check in range(MOST_CHECKS):
+        bad = arrangement.conflicts(arrangement.pairs(gap), gap)
+        if len(bad) == 0:
+            break
+        items = _items(bad, arrangement.count)
+        places = arrangement.places[items]
+        places[:, 3] -= CUT * HASTE ** max(check - PATIENT, 0)
+        places[:, 3] = np.maximum(places[:, 3], LEAST_GROWTH)
+        arrangement.put(items, places)
+        worn = arrangement.places[:, 3] < first - HOPELESS
+        hopeless = _smaller_of(bad, worn, arrangement)
+        if len(hopeless):
+            relocate(arrangement, hopeless, gap)
+            first[hopeless] = arrangement.places[hopeless, 3]
+            moved += hopeless.tolist()
+    return np.unique(np.array(moved, dtype=np.int64))
+
+
+def _items(pairs: IntArray, count: int) -> IntArray:
+    found = np.unique(pairs)
+    return found[found < count]
+
+
+def _smaller_of(bad: IntArray, worn: BoolArray, arrangement: Arrangement) -> IntArray:
+    """The smaller item of each pair in conflict of which one has shrunk too much."""
+    radii = np.append(arrangement.radii, np.inf)
+    worn = np.append(worn, False)
+    bad = bad[worn[bad].any(axis=1)]
+    smaller = np.where(radii[bad[:, 0]] <= radii[bad[:, 1]], bad[:, 0], bad[:, 1])
+    return np.unique(smaller)

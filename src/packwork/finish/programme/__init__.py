@@ -1,0 +1,1 @@
+"""Linear programmes over small steps of items, by an interior-point method."""

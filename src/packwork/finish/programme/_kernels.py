@@ -1,0 +1,308 @@
+"""Mehrotra's interior-point method for programmes whose rows touch one item or two.
+
+Maximise ``gain . z`` with ``coefficients . z <= limits`` and ``low <= z <= high``; four
+unknowns an item. A row's second item of -1 is none: a wall, or an item that stands still.
+The Newton matrix is kept by its envelope: row ``r`` of ``band`` holds the columns
+``r - width`` to ``r``, of which those from ``begins[r // 4]`` on may differ from zero.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+MOST_STEPS = 30
+"""Newton steps at most. Programmes of this kind take 7 to 15. Tried."""
+
+STEP_BACK = 0.99
+"""Share of the way to the nearest bound that one step may go. Usual."""
+
+FIRST_BARRIER, FIRST_SLACK = 0.1, 0.2
+"""First products of slack and price, and smallest first slack: trust regions. With slacks
+as small as those of items that touch, the first steps lead nowhere. Tried."""
+
+LEAST_WIDTH = 1e-6
+"""Least distance of two bounds: an unknown that is held is held by this. Chosen."""
+
+ROUNDING = 1e-9
+"""What counts as nothing beside one. Chosen."""
+
+FEASIBLE = 1e-4
+"""Trust regions by which rows may be off at the end; the caller checks. Chosen."""
+
+
+class Rows(NamedTuple):
+    """Conditions ``coefficients . z <= limits``.
+
+    ``first``, ``second``: ``(m,)`` items that a row touches, -1 for none;
+    ``coefficients``: ``(m, 8)``, four for the first, four for the second; ``limits``:
+    ``(m,)``, none negative, so that standing still is allowed.
+    """
+
+    first: np.ndarray
+    second: np.ndarray
+    coefficients: np.ndarray
+    limits: np.ndarray
+
+
+class Iterate(NamedTuple):
+    """Unknowns, slacks of the rows and their prices, rooms to the bounds and their tolls.
+
+    ``room``, ``toll``: ``(n, 2)``, to the lower bound and to the upper one.
+    """
+
+    z: np.ndarray
+    slack: np.ndarray
+    price: np.ndarray
+    room: np.ndarray
+    toll: np.ndarray
+
+
+@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+def _dot(a, i, b, j, count):
+    total = 0.0
+    for k in range(count):
+        total += a[i + k] * b[j + k]
+    return total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def envelope(first, second, count):
+    """First item that each item shares a row with, in its own order; and the band's width."""
+    begins = np.empty(count, np.int64)
+    for i in range(count):
+        begins[i] = i
+    for k in range(first.shape[0]):
+        i, j = first[k], second[k]
+        if j >= 0:
+            begins[max(i, j)] = min(begins[max(i, j)], min(i, j))
+    width = 3
+    for i in range(count):
+        width = max(width, 4 * (i - begins[i]) + 3)
+    return begins, width
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _normal(rows, weights, diagonal, width, band):
+    """Write the weighted sum of the rows' squares plus a diagonal."""
+    for r in range(diagonal.shape[0]):
+        for c in range(width):
+            band[r, c] = 0.0
+        band[r, width] = diagonal[r]
+    for k in range(rows.first.shape[0]):
+        i, j, row = rows.first[k], rows.second[k], rows.coefficients[k]
+        for c in range(4):
+            left = weights[k] * row[c]
+            for d in range(c + 1):
+                band[4 * i + c, width + d - c] += left * row[d]
+        if j < 0:
+            continue
+        low, high = (i, j) if i < j else (j, i)
+        before, behind = (0, 4) if i < j else (4, 0)
+        for c in range(4):
+            left = weights[k] * row[4 + c]
+            for d in range(c + 1):
+                band[4 * j + c, width + d - c] += left * row[4 + d]
+            left = weights[k] * row[behind + c]
+            for d in range(4):
+                band[4 * high + c, width + 4 * (low - high) + d - c] += left * row[before + d]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def factorise(band, begins, width):
+    """Cholesky factor in place; False if the matrix is not positive definite."""
+    for r in range(band.shape[0]):
+        begin = 4 * begins[r // 4]
+        for c in range(begin, r + 1):
+            since = max(begin, 4 * begins[c // 4])
+            total = band[r, width + c - r] - _dot(
+                band[r], width + since - r, band[c], width + since - c, c - since
+            )
+            if c < r:
+                band[r, width + c - r] = total / band[c, width]
+            elif total > 0.0:
+                band[r, width] = math.sqrt(total)
+            else:
+                return False
+    return True
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def substitute(band, begins, width, right):
+    """Solve in place, given the factor."""
+    for r in range(band.shape[0]):
+        begin = 4 * begins[r // 4]
+        total = right[r] - _dot(band[r], width + begin - r, right, begin, r - begin)
+        right[r] = total / band[r, width]
+    for r in range(band.shape[0] - 1, -1, -1):
+        right[r] /= band[r, width]
+        for c in range(4 * begins[r // 4], r):
+            right[c] -= band[r, width + c - r] * right[r]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _row(rows, z, k):
+    """Product of a row with the unknowns."""
+    i, j = 4 * rows.first[k], 4 * rows.second[k]
+    total = 0.0
+    for c in range(4):
+        total += rows.coefficients[k, c] * z[i + c]
+    if j >= 0:
+        for c in range(4):
+            total += rows.coefficients[k, 4 + c] * z[j + c]
+    return total
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _add_row(rows, k, weight, out):
+    i, j = 4 * rows.first[k], 4 * rows.second[k]
+    for c in range(4):
+        out[i + c] += rows.coefficients[k, c] * weight
+    if j >= 0:
+        for c in range(4):
+            out[j + c] += rows.coefficients[k, 4 + c] * weight
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _direction(rows, now, step, band, begins, width, off_rows, off_cost, centring):
+    """Newton direction towards ``centring``, less the second-order terms of the last one."""
+    n, m = step.z.shape[0], now.slack.shape[0]
+    rest_rows, rest = np.empty(m), np.empty((n, 2))
+    right = -off_cost
+    for k in range(m):
+        rest_rows[k] = centring - now.slack[k] * now.price[k] - step.slack[k] * step.price[k]
+        weight = -(rest_rows[k] + now.price[k] * off_rows[k]) / now.slack[k]
+        _add_row(rows, k, weight, right)
+    for r in range(n):
+        for s in range(2):
+            bent = step.room[r, s] * step.toll[r, s]
+            rest[r, s] = centring - now.room[r, s] * now.toll[r, s] - bent
+        right[r] += rest[r, 0] / now.room[r, 0] - rest[r, 1] / now.room[r, 1]
+    substitute(band, begins, width, right)
+    for r in range(n):
+        step.z[r] = step.room[r, 0] = right[r]
+        step.room[r, 1] = -right[r]
+        for s in range(2):
+            step.toll[r, s] = (rest[r, s] - now.toll[r, s] * step.room[r, s]) / now.room[r, s]
+    for k in range(m):
+        step.slack[k] = -off_rows[k] - _row(rows, step.z, k)
+        step.price[k] = (rest_rows[k] - now.price[k] * step.slack[k]) / now.slack[k]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _length(value, change, most):
+    """How far numbers may go along their change and stay above zero, ``most`` at most."""
+    for k in range(value.shape[0]):
+        if change[k] < 0.0:
+            most = min(most, -value[k] / change[k])
+    return most
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _lengths(now, step):
+    """How far unknowns and prices may go along a direction."""
+    whole = 1.0 / STEP_BACK
+    primal = _length(now.slack, step.slack, whole)
+    primal = _length(now.room.ravel(), step.room.ravel(), primal)
+    dual = _length(now.price, step.price, whole)
+    dual = _length(now.toll.ravel(), step.toll.ravel(), dual)
+    return STEP_BACK * primal, STEP_BACK * dual
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _advance(now, step, primal, dual):
+    for k in range(now.slack.shape[0]):
+        now.slack[k] += primal * step.slack[k]
+        now.price[k] += dual * step.price[k]
+    for r in range(now.z.shape[0]):
+        now.z[r] += primal * step.z[r]
+        for s in range(2):
+            now.room[r, s] += primal * step.room[r, s]
+            now.toll[r, s] += dual * step.toll[r, s]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _barrier(now, step, primal, dual):
+    """Mean product of rooms and prices after a step."""
+    total = 0.0
+    for k in range(now.slack.shape[0]):
+        slack = now.slack[k] + primal * step.slack[k]
+        total += slack * (now.price[k] + dual * step.price[k])
+    for r in range(now.z.shape[0]):
+        for s in range(2):
+            room = now.room[r, s] + primal * step.room[r, s]
+            total += room * (now.toll[r, s] + dual * step.toll[r, s])
+    return total / (now.slack.shape[0] + 2 * now.z.shape[0])
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _iterate(m, n):
+    return Iterate(np.zeros(n), np.zeros(m), np.zeros(m), np.zeros((n, 2)), np.zeros((n, 2)))
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _begin(rows, low, high, now):
+    """First iterate: standing still, as far as the bounds leave room on both sides."""
+    for r in range(now.z.shape[0]):
+        width = max(high[r] - low[r], 2 * LEAST_WIDTH)
+        now.z[r] = min(max(0.0, low[r] + 0.1 * width), low[r] + 0.9 * width)
+        now.room[r, 0], now.room[r, 1] = now.z[r] - low[r], low[r] + width - now.z[r]
+        for s in range(2):
+            now.toll[r, s] = FIRST_BARRIER / now.room[r, s]
+    for k in range(now.slack.shape[0]):
+        now.slack[k] = max(rows.limits[k] - _row(rows, now.z, k), FIRST_SLACK)
+        now.price[k] = FIRST_BARRIER / now.slack[k]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _clear(step):
+    for k in range(step.slack.shape[0]):
+        step.slack[k] = 0.0
+    for r in range(step.z.shape[0]):
+        step.room[r, 0] = step.room[r, 1] = 0.0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def maximise(rows, gain, low, high, accuracy):
+    """Nearly the best unknowns; all vectors have four numbers an item."""
+    m, n = rows.first.shape[0], gain.shape[0]
+    begins, width = envelope(rows.first, rows.second, n // 4)
+    now, step = _iterate(m, n), _iterate(m, n)
+    weights, diagonal, off_rows, off_cost = np.empty(m), np.empty(n), np.empty(m), np.empty(n)
+    band = np.empty((n, width + 1))
+    scale, nothing = 1e-300, 0.0
+    for r in range(n):
+        scale = max(scale, abs(gain[r]))
+    _begin(rows, low, high, now)
+    for _ in range(MOST_STEPS):
+        worst, value, heaviest = 0.0, 0.0, 0.0
+        for r in range(n):
+            value += gain[r] / scale * now.z[r]
+            off_cost[r] = -gain[r] / scale + now.toll[r, 1] - now.toll[r, 0]
+        for k in range(m):
+            off_rows[k] = _row(rows, now.z, k) + now.slack[k] - rows.limits[k]
+            worst = max(worst, abs(off_rows[k]))
+            weights[k] = now.price[k] / now.slack[k]
+            heaviest = max(heaviest, weights[k])
+            _add_row(rows, k, now.price[k], off_cost)
+        _clear(step)
+        barrier = _barrier(now, step, nothing, nothing)
+        if barrier * (m + 2 * n) < accuracy * (abs(value) + ROUNDING) and worst < FEASIBLE:
+            break
+        for r in range(n):
+            diagonal[r] = now.toll[r, 0] / now.room[r, 0] + now.toll[r, 1] / now.room[r, 1]
+            # A hair on the diagonal: far below what matters, far above rounding.
+            diagonal[r] += ROUNDING * (1.0 + heaviest)
+        _normal(rows, weights, diagonal, width, band)
+        if not factorise(band, begins, width):
+            break
+        _direction(rows, now, step, band, begins, width, off_rows, off_cost, nothing)
+        primal, dual = _lengths(now, step)
+        centring = (_barrier(now, step, primal, dual) / barrier) ** 3 * barrier
+        _direction(rows, now, step, band, begins, width, off_rows, off_cost, centring)
+        primal, dual = _lengths(now, step)
+        _advance(now, step, primal, dual)
+    return now.z

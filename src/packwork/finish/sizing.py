@@ -1,0 +1,171 @@
+"""What items may do and what their growth is worth, by size mode and turn limit."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from typing import final
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.finish._kernels import Wishes
+from packwork.finish.options import FinishOptions
+
+LAGGARD = 0.05
+"""Logarithm of size by which an item must stay behind what was asked to be moved to a
+void. Smaller moves items that would have caught up. Chosen."""
+
+AHEAD = 0.5
+"""How far above the smallest item others may grow where sizes are common, growths of one
+step. Larger lets them take room that the smallest needs. Tried."""
+
+URGENCY = 1.0
+"""How much more a step of growth is worth for an item that is one step smaller, as a
+logarithm. Larger cares for the smallest item only. Tried."""
+
+MOST_URGENT = 4.0
+"""Bound of that logarithm, about the median item. Chosen."""
+
+MOST_EXPONENT = 300.0
+"""Largest exponent that worths may have: float64 ends at 709. Derived."""
+
+LEAST_GROWTH = -10.0
+"""Logarithm of growth that no item falls below. Chosen."""
+
+OVERSHOOT = 1e-4
+"""Logarithm of size by which items may exceed a fixed size, so that they reach it. Far
+below the tolerance of the outlines. Derived."""
+
+
+AREA_POWER = 2.0
+"""Area goes with the square of the scale."""
+
+
+class Sizing(ABC):
+    """A size mode: what to wish for in the next round, and who stayed behind.
+
+    Parameters
+    ----------
+    areas
+        ``(n,)`` of the items at growth 0, squared canvas units.
+    turns
+        Farthest turns back and on, ``(n,)`` each, rad.
+    """
+
+    def __init__(self, areas: FloatArray, turns: tuple[FloatArray, FloatArray]) -> None:
+        self.areas = areas
+        self.turns = turns
+
+    @abstractmethod
+    def wishes(self, growth: FloatArray, spread: float) -> Wishes:
+        """Bounds and worths at these growths; ``spread``: the most that one step grows."""
+
+    @abstractmethod
+    def laggards(self, growth: FloatArray) -> IntArray:
+        """Items much smaller than they may be, or than the others are."""
+
+    @abstractmethod
+    def is_done(self, growth: FloatArray) -> bool:
+        """Whether nothing is left to wish for."""
+
+
+@final
+class FreeSizes(Sizing):
+    """Each item within its own bounds, all area worth the same.
+
+    ``smallest``, ``largest``: ``(n,)`` logarithms of growth.
+    """
+
+    def __init__(
+        self,
+        areas: FloatArray,
+        turns: tuple[FloatArray, FloatArray],
+        smallest: FloatArray,
+        largest: FloatArray,
+    ) -> None:
+        super().__init__(areas, turns)
+        self.smallest, self.largest = smallest, largest
+
+    def wishes(self, growth: FloatArray, spread: float) -> Wishes:
+        """Bounds and worths, the same in all rounds."""
+        return Wishes(self.smallest, self.largest, *self.turns, AREA_POWER * self.areas, AREA_POWER)
+
+    def laggards(self, growth: FloatArray) -> IntArray:
+        """Items below their smallest size."""
+        return np.flatnonzero(growth < self.smallest - LAGGARD)
+
+    def is_done(self, growth: FloatArray) -> bool:
+        """False: there is always room to grow into, unless all are as large as they may."""
+        return bool((growth >= self.largest).all())
+
+
+class CommonSize(Sizing):
+    """One common factor: the smallest is worth most."""
+
+    def _wishes(self, growth: FloatArray, spread: float, largest: FloatArray) -> Wishes:
+        """Worths that rise with how far an item is behind the median, in ``spread``."""
+        steepest = MOST_EXPONENT / max(float(np.abs(growth).max()), 1.0)
+        power = -min(URGENCY / spread, steepest)
+        behind = power * (growth - np.median(growth))
+        value = np.exp(np.clip(behind, -MOST_URGENT, MOST_URGENT))
+        smallest = np.full_like(growth, LEAST_GROWTH)
+        return Wishes(smallest, largest, *self.turns, value * np.exp(-power * growth), power)
+
+
+@final
+class SharedSize(CommonSize):
+    """As large as goes; none runs far ahead of the smallest."""
+
+    def wishes(self, growth: FloatArray, spread: float) -> Wishes:
+        """An aim a little above the smallest; the farther behind, the worthier."""
+        largest = np.maximum(growth, growth.min() + AHEAD * spread)
+        return self._wishes(growth, spread, largest)
+
+    def levelling(self, growth: FloatArray, back: float) -> Wishes:
+        """All smaller than the smallest by ``back``, a logarithm, and no more."""
+        aim = np.full_like(growth, growth.min() - back)
+        return Wishes(aim, aim, *self.turns, np.exp(-growth), 1.0)
+
+    def laggards(self, growth: FloatArray) -> IntArray:
+        """Items far smaller than most."""
+        return np.flatnonzero(growth < np.median(growth) - LAGGARD)
+
+    def is_done(self, growth: FloatArray) -> bool:
+        """False: there is always room to grow into."""
+        return False
+
+
+@final
+class FixedSize(CommonSize):
+    """The sizes as they are: all that was shrunk to come free grows back, no farther."""
+
+    def wishes(self, growth: FloatArray, spread: float) -> Wishes:
+        """Back to growth 0; the farther behind, the worthier."""
+        return self._wishes(growth, spread, np.maximum(growth, OVERSHOOT))
+
+    def laggards(self, growth: FloatArray) -> IntArray:
+        """Items far from back."""
+        return np.flatnonzero(growth < -LAGGARD)
+
+    def is_done(self, growth: FloatArray) -> bool:
+        """Whether all are back."""
+        return bool((growth >= 0).all())
+
+
+def turn_ranges(angle: FloatArray, options: FinishOptions) -> tuple[FloatArray, FloatArray]:
+    """How far items at these angles may turn back and on, ``(n,)`` each.
+
+    Examples
+    --------
+    >>> back, on = turn_ranges(np.array([0.1]), FinishOptions(turn_limit=0.5))
+    >>> back.round(6).tolist(), on.round(6).tolist()
+    ([-0.6], [0.4])
+    """
+    if not options.turning:
+        return np.zeros_like(angle), np.zeros_like(angle)
+    if options.turn_limit is None or options.turn_limit >= math.pi:
+        return np.full_like(angle, -np.inf), np.full_like(angle, np.inf)
+    upright = np.remainder(angle + math.pi, 2 * math.pi) - math.pi
+    back, on = -options.turn_limit - upright, options.turn_limit - upright
+    return np.minimum(back, 0.0), np.maximum(on, 0.0)

@@ -1,0 +1,49 @@
+"""The paper's uniform loss: windows of growing size that are wholly empty."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import Image
+from packwork.fields.boxes import box_mean
+from packwork.losses.term import Term
+
+WINDOWS_PX = (5, 11, 17, 23, 29, 35)
+"""Sides of the windows, pixels of the level: 5 px is a tenth of an image of 50 px (the
+paper's)."""
+
+WEIGHTS = (1, 2, 3, 4, 5, 6)
+"""Weight of each window (the paper's code)."""
+
+ALMOST_EMPTY = 0.999
+"""Emptiness from which a window counts (the paper's code)."""
+
+GAIN = 1_000.0
+"""Factor on what is above that (the paper's code)."""
+
+
+def paper_evenness(density: Image, container: Image) -> Term:
+    """Windows that hold nothing but empty container, larger ones weighing more.
+
+    Wang and Lu 2025, section 3.3: the empty space is dilated by kernels of growing size
+    and only what is almost wholly empty is kept. A window that sticks out of the image
+    or the container is not wholly empty container.
+
+    Examples
+    --------
+    >>> empty, full = np.zeros((9, 9)), np.ones((9, 9))
+    >>> paper_evenness(full, full).value, paper_evenness(empty, full).value > 0.1
+    (0.0, True)
+    """
+    free = density < 1
+    room = container * free
+    empty = np.ascontiguousarray(room * (1 - density))
+    total, by_empty = 0.0, np.zeros_like(empty)
+    for size, weight in zip(WINDOWS_PX, WEIGHTS, strict=True):
+        above = box_mean(empty, size) - ALMOST_EMPTY
+        counts = above > 0
+        if not counts.any():
+            break  # A larger window is no emptier.
+        total += weight * GAIN * float(above[counts].sum())
+        by_empty += weight * GAIN * box_mean(counts.astype(empty.dtype), size)
+    return Term(total / density.size, (-room * by_empty / density.size).astype(density.dtype))

@@ -1,0 +1,80 @@
+"""Whether a layout keeps what its run promised, checked by exact measures alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from packwork.metrics.exact import ExactMetrics
+from packwork.scene.layout import Layout
+
+HAIR = 1e-6
+"""Least gap of a certified layout, as a share of the canvas: ten times the precision of
+the files that are written, and more than curves bulge past the polygons that were
+checked. Smaller would certify touching curves. Derived."""
+
+SHARE_TOLERANCE = 1e-3
+"""How far areas may be off the shares asked for. Chosen."""
+
+
+@dataclass(frozen=True)
+class Promise:
+    """What a run says of its layout.
+
+    Parameters
+    ----------
+    gap
+        Smallest distance between items and to the container's edge, canvas units.
+    areas_in_shares
+        Whether the items' areas are in the shares of their weights.
+    """
+
+    gap: float = 0.0
+    areas_in_shares: bool = False
+
+    @classmethod
+    def of(cls, manifest: Mapping[str, Any]) -> Promise | None:
+        """Promise that a manifest holds; None if it has none, or one that is no promise."""
+        found = manifest.get("promised")
+        if not isinstance(found, Mapping):
+            return None
+        gap, shares = found.get("gap", 0.0), found.get("areas_in_shares", False)
+        if isinstance(gap, bool) or not isinstance(gap, int | float) or not gap >= 0:
+            return None
+        return cls(float(gap), shares is True)
+
+
+def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, ...]:
+    """What of the promise does not hold, a sentence each; empty if all of it does.
+
+    Shares no code with the finish: it reads the measures of :func:`exact_metrics`.
+
+    Examples
+    --------
+    >>> from packwork.metrics.exact import ExactMetrics
+    >>> import packwork as pw
+    >>> layout = pw.fill("circle", "star", count=3, effort="draft", levels="50")
+    >>> touching = ExactMetrics(
+    ...     coverage=0.5, overlap=0, exceeding=0, overlap_area=0, outside_area=0, min_gap=0
+    ... )
+    >>> broken(Promise(), layout, touching)
+    ('the smallest gap is 0 instead of 0.0006 or more',)
+    """
+    unit, side = layout.container.unit, layout.container.side
+    least = max(promise.gap, HAIR * side)
+    found = []
+    if exact.overlap_area > 0:
+        found.append(f"items overlap by {exact.overlap_area:.3g} {unit}² in all")
+    if exact.outside_area > 0:
+        found.append(f"items stick out by {exact.outside_area:.3g} {unit}² in all")
+    if not found and exact.min_gap < least:
+        found.append(f"the smallest gap is {exact.min_gap:.3g} instead of {least:.3g} or more")
+    if promise.areas_in_shares and len(layout.items):
+        per_weight = layout.areas / layout.weights
+        off = float(np.ptp(per_weight) / per_weight.mean())
+        if off > SHARE_TOLERANCE:
+            found.append(f"areas are off the shares asked for by {100 * off:.2g} %")
+    return tuple(found)

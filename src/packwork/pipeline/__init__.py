@@ -1,0 +1,20 @@
+"""The one place that knows every stage: from a recipe to a measured layout."""
+
+from packwork.pipeline.casting import item_weights
+from packwork.pipeline.job import Clock, Job, read
+from packwork.pipeline.outcome import Run, Unplaced, find_unplaced
+from packwork.pipeline.run import fill, padded, run, warm_up
+
+__all__ = [
+    "Clock",
+    "Job",
+    "Run",
+    "Unplaced",
+    "fill",
+    "find_unplaced",
+    "item_weights",
+    "padded",
+    "read",
+    "run",
+    "warm_up",
+]

@@ -1,0 +1,122 @@
+"""What is asked of each copy, once all rules have been heard."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from fnmatch import fnmatchcase
+from typing import Any
+
+from packwork.errors import RecipeError
+from packwork.recipe import Recipe
+from packwork.rules import Pin, Rotation, Rule, hero_rule
+
+
+@dataclass(frozen=True)
+class Voice:
+    """Who asks: for messages.
+
+    Parameters
+    ----------
+    key
+        The recipe's option.
+    place
+        Words that say where in it; may be empty.
+    """
+
+    key: str
+    place: str = ""
+
+    def error(self, problem: str) -> RecipeError:
+        """Error about what this voice asked.
+
+        Examples
+        --------
+        >>> print(Voice("rules", "rule 2: ").error("asks too much"))
+        rules: rule 2: asks too much
+        """
+        return RecipeError(self.key, f"{self.place}{problem}")
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What rules ask of one copy: of two that speak of one thing the later one holds.
+
+    Parameters
+    ----------
+    values
+        By key of a rule, but not ``items``, ``count`` and ``pin``.
+    pin
+        What of the pose is given, by key.
+    voices
+        Who asked, by the same keys, those of the pin with ``pin.`` before them.
+    """
+
+    values: Mapping[str, Any] = field(default_factory=dict)
+    pin: Mapping[str, Any] = field(default_factory=dict)
+    voices: Mapping[str, Voice] = field(default_factory=dict)
+
+    def heard(self, rule: Rule, voice: Voice) -> Asked:
+        """The same after one more rule.
+
+        Examples
+        --------
+        >>> first = Asked().heard(Rule(items="a", color="red", weight=2), Voice("rules"))
+        >>> dict(first.heard(Rule(items="a", color="blue"), Voice("rules")).values)
+        {'weight': 2.0, 'color': 'blue'}
+        """
+        said = {key: value for key, value in rule if key not in {"items", "count", "pin"}}
+        said = {key: value for key, value in said.items() if value is not None}
+        pinned = {k: v for k, v in rule.pin or Pin() if v is not None}
+        speaks = [*said, *(f"pin.{key}" for key in pinned)]
+        return Asked(
+            values={**self.values, **said},
+            pin={**self.pin, **pinned},
+            voices={**self.voices, **dict.fromkeys(speaks, voice)},
+        )
+
+    @property
+    def is_placed(self) -> bool:
+        """Whether the copy has to lie at one point."""
+        return "x" in self.pin and "y" in self.pin
+
+    @property
+    def rotation(self) -> Rotation | None:
+        """How far the copy may turn; None if no rule says it."""
+        text = self.values.get("rotate")
+        return None if text is None else Rotation.parse(text)
+
+
+def voices(recipe: Recipe) -> list[tuple[Voice, Rule]]:
+    """All rules of a recipe in the order in which they are heard, the hero's last."""
+    said = [(Voice("rules", f"rule {k}: "), rule) for k, rule in enumerate(recipe.rules, start=1)]
+    return said if recipe.hero is None else [*said, (Voice("hero"), hero_rule(recipe.hero))]
+
+
+def named(rule: Rule, voice: Voice, names: Sequence[str]) -> list[int]:
+    """Which of the items a rule names.
+
+    Raises
+    ------
+    RecipeError
+        If one of its patterns names none.
+
+    Examples
+    --------
+    >>> named(Rule(items=["b*", "fox"]), Voice("rules"), ["bear", "fox", "owl", "bee"])
+    [0, 1, 3]
+    """
+    found: set[int] = set()
+    for pattern in rule.items:
+        hits = {k for k, name in enumerate(names) if fnmatchcase(name, pattern)}
+        if not hits:
+            raise voice.error(f"no item is called {pattern!r}; {_there_are(pattern, names)}")
+        found |= hits
+    return sorted(found)
+
+
+def _there_are(name: str, names: Sequence[str]) -> str:
+    known = sorted(set(names))
+    close = difflib.get_close_matches(name, known, n=1)
+    return f"did you mean {close[0]}?" if close else f"there are {', '.join(known[:12])}"

@@ -1,0 +1,197 @@
+"""From what was read to the first poses: sizes, angles, limits, places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
+from packwork.pipeline.job import Job
+from packwork.pipeline.limiting import check_poses, held_to, item_limits, pinned_scales
+from packwork.rules import Rotation
+from packwork.scene.canvas import brought_over
+from packwork.scene.container import Container
+from packwork.scene.layout import Layout
+from packwork.scene.limits import Limits
+from packwork.scene.mixing import mixed
+from packwork.scene.neighbours import neighbour_pairs
+from packwork.scene.pose import Poses
+from packwork.solve.herd import wronged_shares
+from packwork.solve.level import Level
+from packwork.solve.shaped import seen_posed
+from packwork.solve.solver import scale_bounds
+from packwork.start.angles import nearest_allowed, start_angles
+from packwork.start.first_poses import disc_radii, first_poses
+from packwork.start.relocate import relocated
+from packwork.start.sizes import hull_areas, nominal_scales, shared_scales, yielding_scales
+from packwork.units import convert
+
+NOMINAL_COVERAGE = 0.82
+"""With free sizes: area of all items' hulls at their nominal sizes over the container's.
+Smaller lets the largest stand out more. Tried."""
+
+BURIED_RESOLUTION = 200
+"""Pixels on the longer side of the image on which buried items are found. Chosen."""
+
+BURIED_SHARE = 0.5
+"""Share of an item under others or outside from which it is moved before a run that did
+not choose its own start. Smaller undoes more of that start. Chosen."""
+
+ALIKE = 1.3
+"""Factor in radius between two items that may change places to come apart from others of
+their kind. Larger finds more partners and upsets the start more. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Beginning:
+    """All that a solve begins from.
+
+    Parameters
+    ----------
+    poses
+        First poses, which keep the limits.
+    nominal
+        ``(n,)`` scales that weights ask for.
+    method
+        How places were found.
+    limits
+        What rules ask of single items; None if nothing.
+    """
+
+    poses: Poses
+    nominal: FloatArray
+    method: str
+    limits: Limits | None
+
+
+def begin(job: Job, container: Container, outlines: Sequence[Outline]) -> Beginning:
+    """First poses in the padded container, of the outlines that the solver will see.
+
+    Raises
+    ------
+    RecipeError
+        If what is asked of single items cannot be.
+    """
+    recipe = job.recipe
+    rng = np.random.default_rng(recipe.seed)
+    nominal, scales = _scales(job, container, outlines)
+    earlier = None if job.earlier is None else _earlier_poses(job, job.earlier, nominal)
+    angles = _angles(job, rng, earlier)
+    limits = item_limits(job, nominal, scales, angles) if job.is_limited else None
+    if limits is not None:
+        scales = np.clip(scales, limits.smallest, limits.largest)
+    if earlier is not None:
+        poses, method = replace(earlier, angle=angles), "layout"
+        poses = poses if limits is None else held_to(limits, poses)
+    else:
+        options = recipe.start_options()
+        first = first_poses(container, outlines, scales, angles, options, rng, limits)
+        poses, method = first.poses, str(first.method)
+    if limits is not None:
+        check_poses(job, container, poses, limits)
+    if method in {"layout", "scatter"}:
+        poses = _unburied(container, outlines, poses, rng, limits)
+    if limits is not None and limits.kinds is not None:
+        poses = _kinds_apart(outlines, poses, limits, limits.kinds)
+    return Beginning(poses, nominal, method, limits)
+
+
+def _scales(
+    job: Job, container: Container, outlines: Sequence[Outline]
+) -> tuple[FloatArray, FloatArray]:
+    """Nominal and first scales; the items that are free share what pinned ones leave."""
+    recipe = job.recipe
+    pinned = pinned_scales(job)
+    scales, nominal = pinned.copy(), pinned.copy()
+    free = [k for k, scale in enumerate(pinned) if np.isnan(scale)]
+    true = np.array([item.outline.area for item in job.items])
+    room = container.outline.area - float(np.nansum(true * pinned**2))
+    if room <= 0:
+        largest = int(np.nanargmax(true * pinned**2))
+        raise job.asked[largest].voices["pin.size"].error(
+            f"pins {job.items[largest].name} so large that no room is left in the container"
+        )
+    if len(free) == 0:
+        return nominal, scales
+    total = recipe.start_options().coverage * room
+    seen = [outlines[k] for k in free]
+    areas = np.array([outline.area for outline in seen])
+    if recipe.sizes == "fixed":
+        # Items are in px, as their files say; the canvas may be in mm.
+        nominal[free] = scales[free] = convert(1.0, "px", container.unit)
+    elif recipe.sizes == "shared":
+        nominal[free] = scales[free] = shared_scales(true[free], areas, job.weights[free], total)
+    else:
+        hulls = hull_areas(seen)
+        nominal[free] = nominal_scales(hulls, job.weights[free], NOMINAL_COVERAGE * room)
+        scales[free] = yielding_scales(areas, hulls, nominal[free], recipe.size_ratio, total)
+    return nominal, scales
+
+
+def _angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> FloatArray:
+    """First angles, or those of an earlier layout: as the recipe, rules and pins allow."""
+
+    def allowed(rotation: Rotation, items: IntArray) -> FloatArray:
+        bounds = rotation.limit, rotation.choices
+        if earlier is None:
+            return start_angles(len(items), *bounds, rng)
+        return nearest_allowed(earlier.angle[items], *bounds)
+
+    angles = allowed(job.recipe.rotation, np.arange(len(job.items))).copy()
+    for k, one in enumerate(job.asked):
+        if one.rotation is not None:
+            angles[k] = allowed(one.rotation, np.array([k]))[0]
+        if "angle" in one.pin:
+            angles[k] = np.radians(one.pin["angle"])
+    return angles
+
+
+def _unburied(
+    container: Container,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    rng: np.random.Generator,
+    limits: Limits | None,
+) -> Poses:
+    """Poses in which items that lie mostly under others or outside have been moved."""
+    seen = seen_posed(outlines, poses, BURIED_RESOLUTION / container.side)
+    level = Level(container, seen, BURIED_RESOLUTION, limits=limits)
+    buried = np.flatnonzero(wronged_shares(level, poses, level.density(poses)) > BURIED_SHARE)
+    return relocated(container, outlines, poses, buried, rng, limits) if len(buried) else poses
+
+
+def _kinds_apart(
+    outlines: Sequence[Outline], poses: Poses, limits: Limits, kinds: IntArray
+) -> Poses:
+    """Poses in which items of about one size have changed places, away from their kind."""
+    sizes = np.log(disc_radii(outlines, poses.scale)) / np.log(ALIKE)
+    order = mixed(kinds, neighbour_pairs(poses.x, poses.y), limits.groups, sizes)
+    x, y = poses.x.copy(), poses.y.copy()
+    x[order], y[order] = poses.x, poses.y
+    return replace(poses, x=x, y=y)
+
+
+def _earlier_poses(job: Job, earlier: Layout, nominal: FloatArray) -> Poses:
+    """Poses of an earlier layout, sizes and stretches within the recipe's bounds.
+
+    On a canvas of another size or unit their container's box is brought onto this one's.
+    """
+    recipe = job.recipe
+    poses = brought_over(earlier.poses, earlier.container, job.container)
+    if len(poses) != len(nominal):
+        raise RecipeError(
+            "start",
+            f"{recipe.start} has {len(poses)} items, this run {len(nominal)}; give as many",
+        )
+    if recipe.sizes == "shared":
+        scale = nominal * np.sqrt(np.mean((poses.scale / nominal) ** 2))
+    elif recipe.sizes == "fixed":
+        scale = nominal
+    else:
+        scale = np.clip(poses.scale, *scale_bounds(nominal, nominal, recipe.solve_options()))
+    stretch = np.clip(poses.stretch, 1 / recipe.stretch, recipe.stretch)
+    return replace(poses, scale=np.asarray(scale), stretch=stretch)

@@ -1,0 +1,81 @@
+"""Colours, names, links and tooltips, once it is known who lies beside whom."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.pipeline.asking import Asked
+from packwork.pipeline.beside import beside
+from packwork.pipeline.job import Job
+from packwork.scene.item import Item
+from packwork.scene.label import Label
+from packwork.scene.layout import Layout
+from packwork.scene.mixing import mixed
+from packwork.scene.palette import palette_colours
+from packwork.writers.recolour import has_one_colour, recoloured
+
+
+def dressed(job: Job, layout: Layout) -> Layout:
+    """Layout whose items look and are called as rules and palette ask.
+
+    Colours of a palette are given out in the order of the items, as many of each; then
+    neighbours of one colour exchange theirs with others.
+    """
+    palettes = _palettes(job)
+    if not any(palettes) and not any(_label(one) for one in job.asked):
+        return layout
+    colours = _colours(palettes, layout)
+    known: dict[tuple[int, str | None, Label | None], Item] = {}
+    items = []
+    for item, one, colour in zip(layout.items, job.asked, colours, strict=True):
+        key = (id(item), colour, _label(one))
+        if key not in known:
+            known[key] = _dressed(item, colour, key[2])
+        items.append(known[key])
+    return replace(layout, items=tuple(items))
+
+
+def _dressed(item: Item, colour: str | None, label: Label | None) -> Item:
+    item = item if colour is None else recoloured(item, colour)
+    return item if label is None else replace(item, label=label)
+
+
+def _label(one: Asked) -> Label | None:
+    said = {key: one.values[key] for key in ("name", "link", "title") if key in one.values}
+    return Label(**said) if said else None
+
+
+def _palettes(job: Job) -> list[tuple[str, ...]]:
+    """Colours that each copy may have; none for those that keep theirs."""
+    common = () if job.recipe.palette is None else palette_colours(job.recipe.palette)
+    plain: dict[int, bool] = {}
+    found = []
+    for item, one in zip(job.items, job.asked, strict=True):
+        if "color" in one.values:
+            found.append(palette_colours(one.values["color"]))
+            continue
+        if common and id(item) not in plain:
+            plain[id(item)] = has_one_colour(item.art)
+        found.append(common if plain.get(id(item)) else ())
+    return found
+
+
+def _colours(palettes: list[tuple[str, ...]], layout: Layout) -> list[str | None]:
+    """One colour of each copy's palette, unlike its neighbours' where there is a choice."""
+    several = sorted({palette for palette in palettes if palette})
+    known = sorted({colour for palette in several for colour in palette})
+    numbers = {colour: k for k, colour in enumerate(known)}
+    # Copies that keep their colours are like nobody.
+    labels: IntArray = len(known) + np.arange(len(palettes))
+    groups = np.full(len(palettes), -1)
+    for number, palette in enumerate(several):
+        members = [k for k, own in enumerate(palettes) if own == palette]
+        groups[members] = number
+        labels[members] = np.resize([numbers[colour] for colour in palette], len(members))
+    if any(len(palette) > 1 for palette in several):
+        pairs = beside(layout)
+        labels = labels[mixed(labels, pairs, groups)]
+    return [known[label] if label < len(known) else None for label in labels]

@@ -1,0 +1,220 @@
+"""From the solver's layout to an exact one."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from dataclasses import fields, replace
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import ShapeError
+from packwork.finish.finish import Finished, finish
+from packwork.finish.options import HAIR, FinishOptions
+from packwork.geometry.outline import Outline
+from packwork.pipeline.beginning import Beginning
+from packwork.pipeline.job import Job
+from packwork.pipeline.outcome import Unplaced
+from packwork.pipeline.settling import settled
+from packwork.progress import Observer, Step, Stop
+from packwork.readers.svg.follow import FLATTENING
+from packwork.scene.pose import Poses
+from packwork.solve.options import OutlineChoice
+from packwork.solve.solver import scale_bounds
+from packwork.solve.stand_ins import stand_ins
+
+TRIALS = {"draft": 0, "normal": 0, "best": 2_000}
+"""Exchanges tried by effort, for each hundred items. Measured in docs/benchmarks."""
+
+PRESSING = frozenset(
+    {
+        "containment",
+        "overlap",
+        "filling",
+        "evenness",
+        "paper-containment",
+        "paper-evenness",
+        "area-shares",
+        "apart",
+    }
+)
+"""Losses that have no say in which room stays free."""
+
+
+def finished(
+    job: Job, start: Beginning, poses: Poses, observer: Observer | None, stop: Stop
+) -> Finished:
+    """Exact poses near the solver's, of the true outlines.
+
+    Items pinned in place stay as they are and count as wall. Those that a zone holds come
+    first, in their zone; all others take what is left. Where a time was given, the rounds
+    end with it; what they have then is clean too.
+    """
+    # A hull holds its item, so what is clean for hulls is clean; a fitted outline may not.
+    choice: OutlineChoice = "hull" if job.recipe.outline == "hull" else "exact"
+    outlines = stand_ins([item.outline for item in job.items], choice)
+    told = None if observer is None else _Closing(observer)
+    until = _until(stop, job.seconds_left(1.0))
+    smallest, largest = _bounds(job, start, poses)
+    limits = start.limits
+    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
+    results = []
+    done = np.flatnonzero(groups < 0)
+    if limits is not None and len(done):
+        gap = _gap(job, done, largest[done]) + HAIR * job.container.side
+        kept = replace(limits, smallest=smallest, largest=largest)
+        poses = settled(job.container, outlines, poses, kept, done, gap)
+    for group in [*range(1, groups.max(initial=0) + 1), 0]:
+        items = np.flatnonzero(groups == group)
+        if len(items) == 0:
+            continue
+        whole = job.container.outline if group == 0 or limits is None else (
+            limits.zones[group - 1].outline
+        )  # fmt: skip
+        room = _without(whole, [outlines[k].mapped(poses.matrix(int(k))) for k in done])
+        result = finish(
+            replace(job.container, outline=room),
+            [outlines[k] for k in items],
+            _some(poses, items),
+            _options(job, start, items, smallest[items], largest[items]),
+            told,
+            until,
+        )
+        poses = _put(poses, items, result.poses)
+        results.append((items, result))
+        done = np.append(done, items)
+    return _together(poses, results)
+
+
+def _bounds(job: Job, start: Beginning, poses: Poses) -> tuple[FloatArray, FloatArray]:
+    """Smallest and largest scale of each item, ``(n,)`` each."""
+    options = job.recipe.solve_options()
+    smallest, largest = scale_bounds(start.nominal, poses.scale, options, start.limits)
+    if any(loss not in PRESSING for loss in job.recipe.losses):
+        # Room that a loss of one's own keeps free must not be grown into.
+        largest = np.minimum(largest, poses.scale)
+    if start.limits is not None:
+        # Items of a zone come first: they may not grow over those that come later.
+        early = start.limits.groups > 0
+        largest = np.where(early, np.minimum(largest, np.maximum(poses.scale, smallest)), largest)
+    return smallest, largest
+
+
+def _options(
+    job: Job, start: Beginning, items: IntArray, smallest: FloatArray, largest: FloatArray
+) -> FinishOptions:
+    recipe, rotation = job.recipe, job.recipe.rotation
+    turning, limit = not rotation.is_still, rotation.limit
+    if start.limits is not None:
+        # One bound for all of a group: the narrowest that a rule gives.
+        turning = turning and bool(np.isnan(start.limits.angle[items]).all())
+        narrowest = float(start.limits.turn_limit[items].min())
+        limit = narrowest if np.isfinite(narrowest) else None
+    return FinishOptions(
+        gap_cu=_gap(job, items, largest),
+        sizes=recipe.sizes,
+        smallest=tuple(smallest.tolist()),
+        largest=tuple(largest.tolist()),
+        turning=turning,
+        turn_limit=limit if turning else None,
+        # A trial does not know who is to stay apart from whom.
+        trials=0 if recipe.keeps_apart else TRIALS[recipe.effort],
+        seed=recipe.seed,
+    )
+
+
+def _without(whole: Outline, walls: Sequence[Outline]) -> Outline:
+    """A region less the items that stand in it."""
+    if not walls:
+        return whole
+    solid = shapely.union_all([wall.region for wall in walls])
+    try:
+        return Outline.from_region(shapely.difference(whole.region, solid))
+    except ShapeError:
+        return whole
+
+
+def _some(poses: Poses, items: IntArray) -> Poses:
+    return Poses(*(getattr(poses, column.name)[items] for column in fields(Poses)))
+
+
+def _put(poses: Poses, items: IntArray, some: Poses) -> Poses:
+    """Poses with those of some items replaced."""
+    columns = {}
+    for column in fields(Poses):
+        values = getattr(poses, column.name).copy()
+        values[items] = getattr(some, column.name)
+        columns[column.name] = values
+    return Poses(**columns)
+
+
+def _together(poses: Poses, results: Sequence[tuple[IntArray, Finished]]) -> Finished:
+    """One result of all groups, items numbered as in the run."""
+    offenders = tuple(
+        replace(
+            found,
+            item=int(items[found.item]),
+            other=None if found.other is None else int(items[found.other]),
+        )
+        for items, result in results
+        for found in result.offenders
+    )
+    undersized = tuple(int(items[k]) for items, result in results for k in result.undersized)
+    return Finished(
+        poses,
+        not offenders,
+        offenders,
+        undersized,
+        sum(result.rounds for _, result in results),
+        sum(result.seconds for _, result in results),
+    )
+
+
+def _gap(job: Job, items: IntArray, largest: FloatArray) -> float:
+    """Gap between outlines that leaves the one asked for between curves.
+
+    Those may come nearer than the polygons that stand for them.
+    """
+    extents = np.array([job.items[k].outline.extent for k in items])
+    bulge = 2 * FLATTENING * float(np.max(extents * largest))
+    return job.recipe.padding_cu(job.container) + bulge
+
+
+def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
+    """Items that are still in conflict, or smaller than they may be, and why."""
+    unit = job.container.unit
+    found: dict[int, str] = {}
+    for offender in result.offenders:
+        partner = None if offender.other is None else job.items[offender.other].name
+        whom = "the container's edge" if partner is None else f"{partner}"
+        if offender.overlap_cu2 > 0:
+            how = "sticks out of the container" if partner is None else f"overlaps {partner}"
+            reason = f"{how} by {offender.overlap_cu2:.3g} {unit}²"
+        else:
+            reason = f"is {offender.gap_cu:.3g} {unit} from {whom}, nearer than asked"
+        found.setdefault(offender.item, reason)
+    for k in result.undersized:
+        found.setdefault(k, "found no room at the smallest size that it may have")
+    return tuple(Unplaced(job.items[k].name, k, found[k]) for k in sorted(found))
+
+
+class _Closing:
+    """Passes steps on as those of a last level."""
+
+    def __init__(self, observer: Observer) -> None:
+        self._observer = observer
+        self.every = observer.every
+
+    def on_step(self, step: Step) -> None:
+        """Tell the run's observer."""
+        self._observer.on_step(replace(step, is_finish=True))
+
+
+def _until(stop: Stop, seconds: float | None) -> Stop:
+    """Stop when asked to, or when the time is over."""
+    if seconds is None:
+        return stop
+    ends = time.perf_counter() + seconds
+    return lambda: stop() or time.perf_counter() >= ends

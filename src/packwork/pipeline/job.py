@@ -1,0 +1,109 @@
+"""A recipe and all that it names, read and found usable."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from packwork.arrays import FloatArray
+from packwork.errors import PackworkError
+from packwork.losses.registry import POSE_LOSSES, find_loss
+from packwork.pipeline.asking import Asked
+from packwork.pipeline.casting import cast
+from packwork.pipeline.regions import Region, read_regions
+from packwork.readers.container import read_container
+from packwork.readers.items import read_items
+from packwork.readers.layout import read_layout
+from packwork.recipe import Recipe
+from packwork.scene.canvas import on_canvas
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+
+
+@dataclass
+class Clock:
+    """Seconds per part of a run."""
+
+    seconds: dict[str, float] = field(default_factory=dict)
+
+    @contextmanager
+    def time(self, part: str) -> Iterator[None]:
+        """Add what the block takes to ``part``."""
+        began = time.perf_counter()
+        try:
+            yield
+        finally:
+            self.seconds[part] = self.seconds.get(part, 0.0) + time.perf_counter() - began
+
+
+@dataclass(frozen=True, eq=False)
+class Job:
+    """A recipe and all that it names, read and found usable.
+
+    Parameters
+    ----------
+    recipe
+        What to do.
+    container
+        On its canvas.
+    items, asked, weights
+        One entry per copy: what it is, what rules ask of it, its share of area.
+    regions
+        Parts of the container that copies have to stay in.
+    skipped
+        Files that were left out, with the reason.
+    clock
+        What has been used so far.
+    earlier
+        The layout to start from, if any.
+    """
+
+    recipe: Recipe
+    container: Container
+    items: tuple[Item, ...]
+    asked: tuple[Asked, ...]
+    weights: FloatArray
+    regions: tuple[Region, ...]
+    skipped: tuple[PackworkError, ...]
+    clock: Clock
+    earlier: Layout | None = None
+
+    @property
+    def is_limited(self) -> bool:
+        """Whether anything is asked of single items."""
+        return self.recipe.keeps_apart or any(one.voices for one in self.asked)
+
+    def seconds_left(self, share: float) -> float | None:
+        """That share of the time that the recipe allows and nothing has used; None if any."""
+        if self.recipe.time is None:
+            return None
+        return share * max(self.recipe.time - sum(self.clock.seconds.values()), 0.0)
+
+
+def read(
+    recipe: Recipe, items: Sequence[Item] | None = None, container: Container | None = None
+) -> Job:
+    """Read what a recipe names; the first half of :func:`fill`."""
+    clock = Clock()
+    skipped: tuple[PackworkError, ...] = ()
+    with clock.time("read"):
+        if container is None:
+            region = read_container(recipe.container, recipe.canvas_size, recipe.font)
+        else:
+            region = on_canvas(container, recipe.canvas_size)
+        if items is None:
+            found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
+            items, skipped = found.items, found.skipped
+        chosen = cast(recipe, items)
+        regions = read_regions(chosen.asked, region)
+        earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
+        recipe.start_options()
+        for loss in recipe.losses:
+            if loss not in POSE_LOSSES:
+                find_loss(loss)
+    return Job(
+        recipe, region, chosen.items, chosen.asked, chosen.weights, regions, skipped, clock, earlier
+    )

@@ -1,0 +1,103 @@
+"""Scribbles that would take minutes to resolve, told from drawings by a sample."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray
+from packwork.readers.unfit import TooRichError
+
+MAX_CROSSINGS = 20_000
+"""Places where the shapes of a drawing may cross themselves, by estimate: some seconds'
+work. Chosen."""
+
+MAX_UNION_CROSSINGS = 200_000
+"""Places where shapes may cross each other, by estimate: as long. Chosen."""
+
+_SAMPLED, _COMPARED, _COMPARED_SHARE = 60, 5_000, 0.04
+"""Edges whose crossings are counted for the estimate, and those they are met with: so
+many at least, and that share where there are many. Fewer blur the estimate, more cost
+as much as the reading. Chosen."""
+
+_FREE = 2_000
+"""Crossings for which no estimate is worth its time. Chosen."""
+
+
+class Allowance:
+    """Crossings that may still be resolved.
+
+    Parameters
+    ----------
+    most
+        Of all rings that are spent together.
+
+    Examples
+    --------
+    >>> Allowance(20_000).spend([np.random.default_rng(0).random((5000, 2))])
+    Traceback (most recent call last):
+    packwork.readers.unfit.TooRichError: crosses itself about ... times; ...
+    """
+
+    def __init__(self, most: float) -> None:
+        self._most = most
+        self._spent = 0.0
+
+    def spend(self, rings: Sequence[FloatArray]) -> None:
+        """Take off what closed rings need, by estimate.
+
+        Raises
+        ------
+        TooRichError
+            If that is more than is left.
+        """
+        if sum(len(ring) for ring in rings) ** 2 / 2 <= _FREE:
+            return
+        self._spent += estimated_crossings(rings)
+        if self._spent > self._most:
+            raise TooRichError(f"crosses itself about {self._spent:,.0f} times")
+
+
+def estimated_crossings(rings: Sequence[FloatArray]) -> float:
+    """Number of crossings of closed rings with themselves and each other.
+
+    Examples
+    --------
+    >>> bow_tie = np.array([[0, 0], [2, 2], [2, 0], [0, 2.0]])
+    >>> estimated_crossings([bow_tie])
+    1.0
+    """
+    starts = np.concatenate(rings)
+    ends = np.concatenate([part for ring in rings for part in (ring[1:], ring[:1])])
+    count = len(starts)
+    others = slice(None, None, 1 + int(count // max(_COMPARED, _COMPARED_SHARE * count)))
+    sample = slice(None, None, 1 + count // _SAMPLED)
+    met = _crossings(starts[sample], ends[sample], starts[others], ends[others])
+    share = met / (len(starts[sample]) * len(starts[others]))
+    return share * count**2 / 2
+
+
+def _crossings(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> int:
+    """How often an edge ``a`` to ``b`` and an edge ``c`` to ``d`` cross inside both."""
+    first, second = np.nonzero(_boxes_meet(a, b, c, d))
+    a, b, c, d = a[first], b[first], c[second], d[second]
+    parts = (_sides(a, b, c) * _sides(a, b, d) < 0) & (_sides(c, d, a) * _sides(c, d, b) < 0)
+    return int(np.count_nonzero(parts))
+
+
+def _boxes_meet(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> BoolArray:
+    """``[k, m]``: whether the boxes of two edges have a point in common."""
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    other_low, other_high = np.minimum(c, d), np.maximum(c, d)
+    meet = np.ones((len(a), len(c)), dtype=bool)
+    for axis in (0, 1):
+        meet &= low[:, None, axis] <= other_high[None, :, axis]
+        meet &= high[:, None, axis] >= other_low[None, :, axis]
+    return meet
+
+
+def _sides(a: FloatArray, b: FloatArray, p: FloatArray) -> FloatArray:
+    """Sign of the side of ``a`` to ``b`` on which ``p`` lies."""
+    way, off = b - a, p - a
+    return np.sign(way[:, 0] * off[:, 1] - way[:, 1] * off[:, 0])

@@ -1,0 +1,177 @@
+"""Texts of a clean drawing to paths: then no viewer's fonts decide how they look.
+
+Each text is rendered by itself in its own units, black and large, and its edge followed;
+the path takes the place and the paints of the text. Letters of several paints in one
+text become several paths, each rendered while the others are hidden.
+"""
+
+from __future__ import annotations
+
+import math
+import xml.etree.ElementTree as ET
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+import shapely
+
+from packwork.geometry import affine
+from packwork.geometry.polygon import Region, oriented_rings
+from packwork.raster.drawing import Fonts
+from packwork.readers.gate.references import elements_by_id
+from packwork.readers.svg.fonts import choose_fonts
+from packwork.readers.svg.lengths import parse_length, parse_numbers
+from packwork.readers.svg.page import Page
+from packwork.readers.svg.painted import PlacedText
+from packwork.readers.svg.render import Part, coverage, inked
+from packwork.readers.svg.stage import PLACED, paints_of, stage_of
+from packwork.readers.svg.walk import placed_texts
+from packwork.readers.unfit import notice
+
+MAX_TEXTS = 60
+"""Texts, or differently painted parts of them, that become paths: each costs two
+pictures. Drawings of more keep their texts. Chosen."""
+
+MAX_LETTERS = 2_000
+"""Letters that become paths, spaces counted. Chosen."""
+
+LETTER_PX = 100
+"""Side of the square of pixels that each letter gets: larger costs time by its square,
+smaller rounds the corners of letters. Chosen."""
+
+MAX_PIXELS = 4_000_000
+"""Pixels of all letters together: about half a second's work. Chosen."""
+
+MAX_SIDE_PX = 8_000
+"""Longer side of the picture of one text. Chosen."""
+
+FIND_PX = 250
+"""Longer side of the picture in which a text is looked for. Chosen."""
+
+_SIMPLIFY_PX = 0.1
+_STEP_PX = 0.02
+_FONT_PX = 16.0
+
+
+def set_in_outlines(root: ET.Element, page: Page | None) -> None:
+    """Replace the texts of a clean drawing by paths, in place; says which fonts it missed.
+
+    Texts inside masks and patterns, and those in ``defs``, stay as they are.
+
+    Raises
+    ------
+    UnfitError
+        If resvg cannot render one of them.
+
+    Examples
+    --------
+    >>> from packwork.readers.svg.page import read_page
+    >>> root = ET.fromstring('<svg viewBox="0 0 9 9"><text y="8" fill="red">a</text></svg>')
+    >>> set_in_outlines(root, read_page(root))
+    >>> root[0].tag, root[0].get("fill"), root[0].get("d")[0]
+    ('path', 'red', 'M')
+    """
+    if root.find(".//text") is None:
+        return
+    texts = placed_texts(root, page)
+    letters = "".join(letter for text in texts for letter in text.element.itertext())
+    count = sum(len(paints_of(text.element)) for text in texts)
+    if count <= MAX_TEXTS and len(letters) <= MAX_LETTERS:
+        _set(texts, letters, root, page)
+    kept = sum(1 for _ in root.iter("text"))
+    if kept:
+        notice(f"keeps {kept} texts as text, which every viewer sets in fonts of its own")
+
+
+def _set(texts: Sequence[PlacedText], letters: str, root: ET.Element, page: Page | None) -> None:
+    choice = choose_fonts(_wishes(texts), letters)
+    for wanted, found in choice.replaced.items():
+        notice(f"the font {wanted!r} is not installed; its letters are set in {found!r}")
+    letter_px = min(float(LETTER_PX), math.sqrt(MAX_PIXELS / max(1, len(letters))))
+    by_id = elements_by_id(root)
+    for text in texts:
+        _replace(text, page, by_id, choice.fonts, letter_px)
+
+
+def _replace(
+    text: PlacedText,
+    page: Page | None,
+    by_id: dict[str, ET.Element],
+    fonts: Fonts,
+    letter_px: float,
+) -> None:
+    """Turn a text into a path, or a group of paths if its letters differ in paint."""
+    element = text.element
+    paths: list[ET.Element] = []
+    for paint in paints_of(element):
+        data = _outlines(stage_of(text, paint, by_id), text, _view(text, page), fonts, letter_px)
+        if data:
+            paths.append(ET.Element("path", {**dict(paint), "fill-rule": "evenodd", "d": data}))
+    kept = {name: value for name, value in element.attrib.items() if name in PLACED}
+    element.clear()
+    element.tag, element.attrib = "g", kept
+    if len(paths) == 1 and not kept.keys() & paths[0].attrib.keys():
+        element.tag = "path"
+        element.attrib |= paths[0].attrib
+    else:
+        element.extend(paths)
+
+
+def _outlines(
+    stage: ET.Element, text: PlacedText, view: Part | None, fonts: Fonts, letter_px: float
+) -> str:
+    """Path data of what the stage shows, in the text's own units; empty if nothing."""
+    from packwork.readers.pictures.contours import contour_region
+
+    page = Page(*text.viewport, affine.identity())
+    part = view and inked(coverage(stage, page, view, FIND_PX, fonts), view)
+    if part is None:
+        return ""
+    letters = len("".join(text.element.itertext()))
+    px = max(math.sqrt(part[2] * part[3] / letters) / letter_px, max(part[2:]) / MAX_SIDE_PX)
+    side = max(1, math.ceil(max(part[2:]) / px))
+    px = max(part[2:]) / side
+    traced = contour_region(coverage(stage, page, part, side, fonts), _SIMPLIFY_PX)
+    placed = shapely.transform(traced, lambda points: points * px + part[:2])
+    return path_data(placed, px * _STEP_PX)
+
+
+def path_data(region: Region, step: float) -> str:
+    """Path data of a region's rings, rounded to about ``step``.
+
+    Examples
+    --------
+    >>> path_data(shapely.box(0, 0, 1, 2.004), 0.01)
+    'M1 0 1 2 0 2 0 0z'
+    """
+    digits = max(0, math.ceil(-math.log10(step)))
+    rings = [np.round(ring, digits) + 0.0 for ring in oriented_rings(region)]
+    numbers = [" ".join(f"{value:.15g}" for value in ring.ravel().tolist()) for ring in rings]
+    return "".join(f"M{ring}z" for ring in numbers)
+
+
+def _view(text: PlacedText, page: Page | None) -> Part | None:
+    """Box, in the text's own units, that holds all that can show; None if nothing can."""
+    if page is None:
+        return _reach(text.element)
+    matrix = text.matrix[:, :2]
+    if abs(np.linalg.det(matrix)) < 1e-12 * np.abs(matrix).max() ** 2:
+        return None
+    corners = np.array([(0, 0), (page.width, 0), (page.width, page.height), (0, page.height)])
+    local = np.linalg.solve(matrix, (corners - text.matrix[:, 2]).T).T
+    (left, top), (width, height) = local.min(axis=0).tolist(), np.ptp(local, axis=0).tolist()
+    return left, top, width, height
+
+
+def _reach(text: ET.Element) -> Part:
+    """As far as the letters could stand from where the text begins, on no page."""
+    numbers = [parse_numbers(e.get(name)) for e in text.iter() for name in ("x", "y", "dx", "dy")]
+    sizes = [parse_length(e.get("font-size"), _FONT_PX) or _FONT_PX for e in text.iter()]
+    width = max(_FONT_PX, *sizes) * (1 + len("".join(text.itertext())))
+    reach = sum(abs(number) for each in numbers for number in each) + width
+    return -reach, -reach, 2 * reach, 2 * reach
+
+
+def _wishes(texts: Sequence[PlacedText]) -> Iterable[str]:
+    """Lists of families that the texts, or whatever is around them, ask for."""
+    elements = [e for text in texts for e in (*text.above, *text.element.iter())]
+    return dict.fromkeys(e.attrib["font-family"] for e in elements if "font-family" in e.attrib)

@@ -1,0 +1,97 @@
+"""What pydantic finds wrong with options, in one line that says what would do."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Mapping, Sequence
+from typing import Any, get_args
+
+from pydantic import BaseModel, ValidationError
+
+from packwork.errors import RecipeError
+
+_PLAIN_WORDS = {
+    "should be": "must be",
+    "greater than or equal to": "at least",
+    "less than or equal to": "at most",
+    "greater than": "more than",
+    "a valid integer, unable to parse string as an integer": "a whole number",
+    "a valid number, unable to parse string as a number": "a number",
+    "a valid integer, got a number with a fractional part": "a whole number",
+    "a valid dictionary or instance of Rule": 'a table such as {items = "star", count = 3}',
+    "a valid dictionary or instance of Pin": 'a table such as {x = "50%", y = "50%"}',
+}
+
+
+def refusal(
+    error: ValidationError, model: type[BaseModel], names: Mapping[str, str] | None = None
+) -> RecipeError:
+    """The first thing wrong, as an error about the option that people know.
+
+    Parameters
+    ----------
+    error
+        What the model raised.
+    model
+        Whose keys a misspelt one is compared with.
+    names
+        What people call an option that goes by another name in the model.
+
+    Examples
+    --------
+    >>> class Bag(BaseModel, extra="forbid"):
+    ...     count: int = 1
+    >>> try:
+    ...     Bag(cuont=3)
+    ... except ValidationError as error:
+    ...     print(refusal(error, Bag))
+    cuont: no such option; did you mean count?
+    """
+    found = error.errors(include_url=False)
+    # A misspelt key is also a missing one: name what was written.
+    first = next((e for e in found if e["type"] == "extra_forbidden"), found[0])
+    key, *within = first["loc"] or ("recipe",)
+    key = (names or {}).get(str(key), str(key))
+    if first["type"] == "extra_forbidden":
+        return RecipeError(key, _unknown(within, key, _keys_at(model, first["loc"][:-1])))
+    where = _where(within) if key == "rules" else ""
+    if first["type"] == "missing":
+        return RecipeError(key, f"{where}must be given")
+    message = re.sub(r"^(Value error, |Input )", "", first["msg"])
+    for said, meant in _PLAIN_WORDS.items():
+        message = message.replace(said, meant)
+    met = "" if first["type"] == "value_error" else f", not {str(first['input'])[:60]!r}"
+    if not isinstance(first["input"], str):
+        met = met and f", not {str(first['input'])[:60]}"
+    return RecipeError(key, f"{where}{message[0].lower()}{message[1:]}{met}")
+
+
+def _unknown(within: Sequence[int | str], key: str, known: list[str]) -> str:
+    met = str(within[-1]) if within else key
+    close = difflib.get_close_matches(met, known, n=1)
+    hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(known)}"
+    if not within:
+        return f"no such option; {hint}"
+    return f"{_where(within[:-1])}there is no {met!r}; {hint}"
+
+
+def _where(within: Sequence[int | str]) -> str:
+    """Words for a place inside the rules: ``rule 2: pin.x:``."""
+    numbers = [f"rule {part + 1}: " for part in within if isinstance(part, int)][:1]
+    keys = ".".join(part for part in within if isinstance(part, str))
+    return "".join(numbers) + (f"{keys}: " if keys else "")
+
+
+def _keys_at(model: type[BaseModel], path: Sequence[int | str]) -> list[str]:
+    """Keys of the table at a place in a model."""
+    for part in path:
+        if isinstance(part, str):
+            model = _model_in(model.model_fields[part].annotation) or model
+    return list(model.model_fields)
+
+
+def _model_in(annotation: Any) -> type[BaseModel] | None:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return annotation
+    return next((found for a in get_args(annotation) if (found := _model_in(a))), None)

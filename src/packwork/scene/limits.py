@@ -1,0 +1,101 @@
+"""How far single items may go: sizes, turns, places, and who is not to lie beside whom."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import grown
+
+
+@dataclass(frozen=True, eq=False)
+class Zone:
+    """Part of the container that some items stay in.
+
+    Parameters
+    ----------
+    outline
+        Canvas units; inside the container.
+    items
+        ``(m,)`` which items.
+    """
+
+    outline: Outline
+    items: IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Limits:
+    """Bounds of n items, one array per parameter, for every stage that moves them.
+
+    Parameters
+    ----------
+    x, y
+        ``(n,)`` canvas units: where an item's centroid has to lie; NaN where that is free.
+    angle
+        ``(n,)`` radians: the turn that it has to have; NaN where that is free.
+    turn_limit
+        ``(n,)`` radians: largest turn from upright; infinite for any, and where the angle
+        is given.
+    smallest, largest
+        ``(n,)`` scales; equal where the size is given.
+    rigid
+        ``(n,)`` whether the item's stretch stays as it is: that of items pinned in size.
+    zones
+        Parts of the container that items stay in; an item is in one at most.
+    kinds
+        ``(n,)`` items of one number are not to lie side by side; None if all may.
+
+    Examples
+    --------
+    >>> limits = Limits.free(2)
+    >>> limits.held.any(), limits.largest.tolist()
+    (np.False_, [inf, inf])
+    """
+
+    x: FloatArray
+    y: FloatArray
+    angle: FloatArray
+    turn_limit: FloatArray
+    smallest: FloatArray
+    largest: FloatArray
+    rigid: BoolArray
+    zones: tuple[Zone, ...] = ()
+    kinds: IntArray | None = None
+
+    @classmethod
+    def free(cls, count: int) -> Limits:
+        """Limits of items that may do anything."""
+        nan, inf = np.full(count, np.nan), np.full(count, np.inf)
+        return cls(nan, nan, nan, inf, np.zeros(count), inf, np.zeros(count, dtype=bool))
+
+    @cached_property
+    def held(self) -> BoolArray:
+        """``(n, 5)`` what stays as it is of x, y, angle, scale and stretch."""
+        given = [~np.isnan(value) for value in (self.x, self.y, self.angle)]
+        return np.column_stack([*given, self.smallest == self.largest, self.rigid])
+
+    @cached_property
+    def is_movable(self) -> BoolArray:
+        """``(n,)`` whether an item may be lifted to any other place of its zone."""
+        return np.logical_not(np.logical_or(self.held[:, 0], self.held[:, 1]))
+
+    @cached_property
+    def groups(self) -> IntArray:
+        """``(n,)`` items of one number may change places; those of -1 may not."""
+        groups = np.zeros(len(self.x), dtype=np.int64)
+        for number, zone in enumerate(self.zones, start=1):
+            groups[zone.items] = number
+        groups[~self.is_movable] = -1
+        return groups
+
+    def widened(self, margin: float) -> Limits:
+        """The same for items that are taken for larger than they are, by a margin all round."""
+        if margin == 0 or not self.zones:
+            return self
+        zones = tuple(replace(z, outline=grown(z.outline, margin)) for z in self.zones)
+        return replace(self, zones=zones)

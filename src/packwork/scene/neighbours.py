@@ -1,0 +1,84 @@
+"""Who lies beside whom."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import shapely
+from scipy.spatial import Delaunay, QhullError
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.geometry.outline import Outline
+
+NEAR = 0.5
+"""Gap between two items that lie side by side at most, in radii of a disc as large as the
+typical item. Larger counts pairs that another item could nearly pass between. Chosen."""
+
+
+def neighbour_pairs(x: FloatArray, y: FloatArray) -> IntArray:
+    """Pairs of points with an edge between them in their Delaunay triangulation.
+
+    Points on one line, or fewer than three, are neighbours one after another; a point
+    that lies on another is its neighbour.
+
+    Parameters
+    ----------
+    x, y
+        ``(n,)``.
+
+    Returns
+    -------
+    IntArray
+        ``(m, 2)``, each pair once, the smaller index first, in order.
+
+    Examples
+    --------
+    >>> neighbour_pairs(np.array([0.0, 9, 0, 9, 1]), np.array([0.0, 0, 9, 9, 2])).tolist()
+    [[0, 1], [0, 2], [0, 4], [1, 3], [1, 4], [2, 3], [2, 4], [3, 4]]
+    >>> neighbour_pairs(np.array([0.0, 2, 1]), np.zeros(3)).tolist()
+    [[0, 2], [1, 2]]
+    """
+    points = np.column_stack([x, y])
+    try:
+        if len(points) < 3:
+            raise QhullError
+        found = Delaunay(points)
+    except QhullError:
+        along = np.lexsort((y, x))
+        edges = np.column_stack([along[:-1], along[1:]])
+    else:
+        corners = found.simplices
+        edges = np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]])
+        # Points that the triangulation left out lie on one of its corners.
+        edges = np.concatenate([edges, found.coplanar[:, [0, 2]]])
+    return np.unique(np.sort(edges.astype(np.int64), axis=1), axis=0).reshape(-1, 2)
+
+
+def side_by_side(outlines: Sequence[Outline], x: FloatArray, y: FloatArray) -> IntArray:
+    """Pairs of items that lie side by side: Delaunay neighbours with a small gap.
+
+    Small is below :data:`NEAR` of the radius of a disc as large as the median item.
+
+    Parameters
+    ----------
+    outlines
+        In place.
+    x, y
+        ``(n,)`` their centres.
+
+    Examples
+    --------
+    >>> def tile(at):
+    ...     return Outline.from_rings([np.array([[at, 0.0], [at + 2, 0], [at + 2, 2], [at, 2]])])
+    >>> places = np.array([0.0, 2.1, 9.0])
+    >>> side_by_side([tile(at) for at in places], places + 1, np.ones(3)).tolist()
+    [[0, 1]]
+    """
+    pairs = neighbour_pairs(x, y)
+    if len(pairs) == 0:
+        return pairs
+    radius = float(np.sqrt(np.median([outline.area for outline in outlines]) / np.pi))
+    regions = np.array([outline.region for outline in outlines])
+    gaps = shapely.distance(regions[pairs[:, 0]], regions[pairs[:, 1]])
+    return np.asarray(pairs[gaps < NEAR * radius])

@@ -1,0 +1,70 @@
+"""Colours to choose from: named palettes, and those that people write down."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from packwork.scene.colour import css_colour
+
+PALETTES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        # Okabe and Ito 2008, "Color universal design".
+        "okabe-ito": (
+            "#e69f00", "#56b4e9", "#009e73", "#f0e442", "#0072b2", "#d55e00", "#cc79a7", "#000000",
+        ),
+        # Tol 2021, "Colour schemes", SRON technical note; grey ones left out.
+        "tol-bright": ("#4477aa", "#ee6677", "#228833", "#ccbb44", "#66ccee", "#aa3377"),
+        "tol-vibrant": ("#ee7733", "#0077bb", "#33bbee", "#ee3377", "#cc3311", "#009988"),
+        "tol-muted": (
+            "#cc6677", "#332288", "#ddcc77", "#117733", "#88ccee", "#882255", "#44aa99",
+            "#999933", "#aa4499",
+        ),
+        "tol-high-contrast": ("#004488", "#ddaa33", "#bb5566"),
+    }
+)  # fmt: skip
+"""Palettes by name; people who see few colours tell theirs apart."""
+
+_COMMA = re.compile(r",(?![^(]*\))")
+"""Between two colours, not between the channels of one."""
+
+
+def palette_colours(value: object) -> tuple[str, ...]:
+    """Colours of a named palette, of ``red,#457b9d`` or of a list, each as ``#rrggbb``.
+
+    Raises
+    ------
+    ValueError
+        If there is no such palette or colour.
+
+    Examples
+    --------
+    >>> palette_colours("tol-high-contrast")
+    ('#004488', '#ddaa33', '#bb5566')
+    >>> palette_colours("tomato, rgb(0, 0, 255)"), palette_colours(["#ff000080"])
+    (('#ff6347', '#0000ff'), ('#ff000080',))
+    """
+    if isinstance(value, str):
+        named = PALETTES.get(value.strip().lower())
+        return named or tuple(_colour(part) for part in _COMMA.split(value))
+    if isinstance(value, list | tuple) and value and all(isinstance(c, str) for c in value):
+        return tuple(_colour(part) for part in value)
+    raise ValueError(f"use colours such as '#e63946,teal' or a palette's name, not {value!r}")
+
+
+def _colour(text: str) -> str:
+    try:
+        red, green, blue, opacity = css_colour(text)
+    except ValueError:
+        raise ValueError(_unknown(text.strip())) from None
+    if opacity == 0:
+        raise ValueError(f"{text.strip()!r} cannot be seen; use a colour such as #e63946")
+    return f"#{red:02x}{green:02x}{blue:02x}" + ("" if opacity == 255 else f"{opacity:02x}")
+
+
+def _unknown(text: str) -> str:
+    close = difflib.get_close_matches(text.lower(), PALETTES, n=1)
+    hint = f"did you mean {close[0]}?" if close else f"palettes are {', '.join(PALETTES)}"
+    return f"{text[:40]!r} is no colour; {hint}"

@@ -1,0 +1,88 @@
+"""Some items are kept in a part of the container, beside what keeps all of them in it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import fields
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray, Image
+from packwork.geometry.outline import Outline
+from packwork.losses.recall import Recall
+from packwork.raster.coverage import Rasteriser
+from packwork.raster.pyramid import region_image
+from packwork.scene.limits import Zone
+from packwork.scene.pose import Poses
+from packwork.solve.ensemble import Ensemble
+
+RECALL_PX = 200
+"""Finest image on which the way back to a zone is looked up, as for the container."""
+
+
+class ZonePull:
+    """What a zone's items feel: a price on their area outside it, and a pull on lost centres.
+
+    Only these items are drawn, into an image of their own: the price has to depend on
+    whose area it is. It is linear in that area, as containment is, and the same in all of
+    the plane, so that the adjoint image is made once.
+
+    Parameters
+    ----------
+    zone
+        Where, and who.
+    outlines
+        One per item of the whole layout, item units, as the level sees them.
+    shape
+        Rows and columns of the level's image.
+    px_per_cu
+        Its scale.
+    """
+
+    def __init__(
+        self, zone: Zone, outlines: Sequence[Outline], shape: tuple[int, int], px_per_cu: float
+    ) -> None:
+        self.items = zone.items
+        self._px_per_cu = px_per_cu
+        self._ensemble = Ensemble([outlines[k] for k in zone.items])
+        self._areas = np.array([outlines[k].area for k in zone.items])
+        self._rasteriser = Rasteriser(shape, np.float32)
+        inside = region_image(zone.outline, self._rasteriser, px_per_cu)
+        self.outside: Image = 1 - inside
+        """Per pixel of the level, the share outside the zone."""
+        self._blank = np.empty_like(inside)
+        self._recall = _recall(zone, shape, px_per_cu)
+        self.room: BoolArray = inside > 0.5
+        """Pixels of the level that belong to the zone."""
+
+    def add(self, by_pose: FloatArray, poses: Poses, price: float) -> None:
+        """Add the derivatives of the zone's items to those of all, ``(n, 5)``.
+
+        Parameters
+        ----------
+        by_pose
+            Per canvas unit, rad, log scale and log stretch; changed.
+        poses
+            Of all items.
+        price
+            Of a squared canvas unit outside the zone.
+        """
+        own = Poses(*(getattr(poses, field.name)[self.items] for field in fields(Poses)))
+        points = self._ensemble.place(own, self._px_per_cu)
+        self._rasteriser.sweep(points, self._ensemble.ring_starts)
+        by_points = self._rasteriser.pullback(self.outside, beyond=1.0)
+        felt = self._ensemble.gather(by_points, own, self._px_per_cu)
+        by_pose[self.items] += price / self._px_per_cu**2 * felt
+        # The next sweep begins with an empty buffer.
+        self._rasteriser.density(self._blank)
+        called = self._recall(own.x, own.y, self._areas * own.scale**2)
+        side_cu = max(self.outside.shape) / self._px_per_cu
+        by_pose[self.items, 0] += price / side_cu * called.x
+        by_pose[self.items, 1] += price / side_cu * called.y
+
+
+def _recall(zone: Zone, shape: tuple[int, int], px_per_cu: float) -> Recall:
+    coarser = max(max(shape) / RECALL_PX, 1.0)
+    rows, columns = (int(np.ceil(side / coarser)) for side in shape)
+    scale = px_per_cu / coarser
+    return Recall(region_image(zone.outline, Rasteriser((rows, columns)), scale), scale)

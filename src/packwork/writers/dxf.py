@@ -1,0 +1,138 @@
+"""Layouts as DXF, for cutters and plotters: true outlines in real units, y up.
+
+Each ring is one closed polyline with the very points that were measured: curves were
+flattened when the items were read, drawings to 2e-5 of their extent. Lines have no width:
+what the tool takes away belongs to the padding.
+"""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray
+from packwork.geometry import affine
+from packwork.geometry.polygon import oriented_rings, polygon_parts
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+from packwork.units import convert
+from packwork.writers.notation import decimals
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing
+
+VERSION = "R2000"
+"""The oldest form with closed light polylines: the one that most tools read."""
+
+LAYERS = {"cut": 1, "engrave": 5, "container": 8}
+"""Names and colour numbers (red, blue, grey). ``cut`` holds the outlines of the items,
+``engrave`` the edges of what is left bare inside them, as the hole of a ring that was
+packed as a disc."""
+
+PRECISION = 1e-9
+"""Last digit of a coordinate, as a share of the canvas's longer side. As in GeoJSON."""
+
+_INSERT_UNITS = {"in": 1, "mm": 4, "cm": 5}
+"""What DXF calls the units it knows; a canvas in others is written in mm."""
+
+_SLIVER = 1e-9
+"""Share of an outline's area below which something bare in it is rounding. Chosen."""
+
+
+def dxf_bytes(layout: Layout) -> bytes:
+    """DXF file of a layout; its limits are the sheet. The same bytes every time.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> sheet = Container("tile", "tile", tile, 4.0, 4.0, "cm")
+    >>> b"LWPOLYLINE" in dxf_bytes(Layout(sheet, (), Poses(none, none, none, none), none))
+    True
+    """
+    lines = [(layer, ring) for layer, rings in _rings(layout) for ring in _to_paper(layout, rings)]
+    points = np.concatenate([ring for _, ring in lines])
+    with _without_dates():
+        drawing = _empty_drawing(layout)
+        space = drawing.modelspace()
+        space.reset_extents(points.min(axis=0).tolist(), points.max(axis=0).tolist())
+        for layer, ring in lines:
+            space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": layer})
+        stream = io.StringIO()
+        drawing.write(stream)
+    return drawing.encode(stream.getvalue())
+
+
+def paper_unit(unit: str) -> str:
+    """The unit in which a canvas is drawn: its own where DXF has it, else mm.
+
+    Examples
+    --------
+    >>> paper_unit("in"), paper_unit("px")
+    ('in', 'mm')
+    """
+    return unit if unit in _INSERT_UNITS else "mm"
+
+
+def _empty_drawing(layout: Layout) -> Drawing:
+    import ezdxf
+
+    container = layout.container
+    unit = paper_unit(container.unit)
+    width, height = (convert(v, container.unit, unit) for v in (container.width, container.height))
+    drawing = ezdxf.new(VERSION, units=_INSERT_UNITS[unit])
+    for name, colour in LAYERS.items():
+        drawing.layers.add(name, color=colour)
+    drawing.modelspace().reset_limits((0.0, 0.0), (width, height))
+    drawing.set_modelspace_vport(height, center=(width / 2, height / 2))
+    return drawing
+
+
+def _rings(layout: Layout) -> Iterator[tuple[str, list[FloatArray]]]:
+    """Rings in place, canvas units, each lot with its layer."""
+    yield "container", layout.container.outline.rings
+    bare = {id(item): item for item in layout.items}
+    details = {key: _bare_rings(item) for key, item in bare.items()}
+    for k, item in enumerate(layout.items):
+        yield "cut", layout.outlines[k].rings
+        matrix = layout.poses.matrix(k)
+        yield "engrave", [affine.apply(matrix, ring) for ring in details[id(item)]]
+
+
+def _bare_rings(item: Item) -> list[FloatArray]:
+    """Edges of what is not drawn inside an item's outline, in its own units."""
+    bare = shapely.difference(item.outline.region, item.ink.region)
+    least = _SLIVER * item.outline.area
+    parts = [part for part in polygon_parts(bare) if part.area > least]
+    return [ring for part in parts for ring in oriented_rings(part)]
+
+
+def _to_paper(layout: Layout, rings: Iterable[FloatArray]) -> Iterator[FloatArray]:
+    """Rings as they are written: real units, y up, rounded."""
+    container = layout.container
+    scale = convert(1.0, container.unit, paper_unit(container.unit))
+    flip = np.array([[scale, 0.0, 0.0], [0.0, -scale, scale * container.height]])
+    digits = decimals(container.side * scale * PRECISION)
+    for ring in rings:
+        yield np.round(affine.apply(flip, ring), digits)
+
+
+@contextmanager
+def _without_dates() -> Iterator[None]:
+    """Let ezdxf write fixed dates and marks of identity inside the block."""
+    import ezdxf
+
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before

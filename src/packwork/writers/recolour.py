@@ -1,0 +1,140 @@
+"""Drawings in another colour, curves and all."""
+
+from __future__ import annotations
+
+import io
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from typing import TypeAlias
+
+import numpy as np
+from defusedxml.ElementTree import fromstring
+from PIL import Image, UnidentifiedImageError
+
+from packwork.scene.colour import ABSENT, css_colour
+from packwork.scene.item import Art, FlatArt, Item, PictureArt, VectorArt
+from packwork.writers.colours import hex_colour
+from packwork.writers.marks import with_fresh_ids
+
+_XLINK = "http://www.w3.org/1999/xlink"
+_HREF = f"{{{_XLINK}}}href"
+ET.register_namespace("xlink", _XLINK)
+
+_COLOURFUL = frozenset(
+    {"image", "linearGradient", "radialGradient", "pattern", "marker", "mask", "filter", "style"}
+)
+"""Elements whose colours do not stand in their fill and stroke alone."""
+
+_UNDRAWN = frozenset({"defs", "symbol", "clipPath"})
+_SHAPES = frozenset(
+    {"path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "tspan"}
+)
+_PAINTS = ("fill", "stroke", "color")
+_FIRST = {"fill": "black", "stroke": "none", "color": "black"}
+_REFERRING = ("currentcolor", "inherit")
+
+_SOLID = 128
+"""Opacity from which a pixel's colour counts; fainter ones are soft edges. Chosen."""
+
+_SAME = 24
+"""How far channels of pixels of one colour may lie apart: what JPEG-born pictures and soft
+edges leave. Larger takes shaded drawings for flat ones. Chosen."""
+
+_Channels: TypeAlias = tuple[int, ...]
+
+
+def has_one_colour(art: Art) -> bool:
+    """Whether all that is drawn has one and the same colour.
+
+    Examples
+    --------
+    >>> place = np.eye(2, 3)
+    >>> has_one_colour(VectorArt('<g fill="red"><path d="M0 0h9v9z"/></g>', place))
+    True
+    >>> has_one_colour(VectorArt('<g fill="red"><path stroke="blue" d="M0 0h9v9"/></g>', place))
+    False
+    """
+    if isinstance(art, FlatArt):
+        return True
+    if isinstance(art, PictureArt):
+        return _is_flat_picture(art)
+    root = _tree(art.markup)
+    if any(element.tag in _COLOURFUL for element in root.iter()):
+        return False
+    named = {element.get("id"): element for element in root.iter()}
+    try:
+        return len(set(_channels(root, _FIRST, named))) == 1
+    except ValueError:  # a paint that is no colour
+        return False
+
+
+def recoloured(item: Item, colour: str) -> Item:
+    """Item in one colour: a drawing of one colour keeps its curves, any other its ink alone.
+
+    Parameters
+    ----------
+    colour
+        ``#rrggbb``, or ``#rrggbbaa`` with opacity.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> ink = Outline.from_rings([[[-1, -1], [2, -1], [-1, 2]]])
+    >>> art = VectorArt('<path d="M0 0h9v9z" stroke="#000"/>', np.eye(2, 3))
+    >>> recoloured(Item("tri", "", ink, ink, art), "#ff0000").art.markup
+    '<g color="#ff0000" fill="#ff0000"><path d="M0 0h9v9z" stroke="#ff0000" /></g>'
+    """
+    if not isinstance(item.art, VectorArt) or not has_one_colour(item.art):
+        return replace(item, art=FlatArt(colour))
+    root = _tree(item.art.markup)
+    channels = css_colour(colour)
+    solid = hex_colour(channels)
+    for element in root.iter():
+        for paint in _PAINTS:
+            if element.get(paint, "none").strip().lower() not in (*ABSENT, *_REFERRING):
+                element.set(paint, solid)
+    # What says nothing of its own inherits from here.
+    root.attrib |= {"color": solid, "fill": solid}
+    if channels[3] < 255:
+        root.set("opacity", f"{channels[3] / 255:.3g}")
+    markup = ET.tostring(root, encoding="unicode")
+    # The same drawing in another colour has other shapes under the same names.
+    return replace(item, art=replace(item.art, markup=with_fresh_ids(markup, f"-{colour[1:]}")))
+
+
+def _tree(markup: str) -> ET.Element:
+    tree: ET.Element = fromstring(f'<g xmlns:xlink="{_XLINK}">{markup}</g>')
+    return tree
+
+
+def _channels(
+    element: ET.Element, inherited: Mapping[str, str], named: Mapping[str | None, ET.Element]
+) -> Iterator[_Channels]:
+    """Colours of all that an element draws; what ``use`` shows inherits from there."""
+    own = {
+        paint: value if (value := element.get(paint, "inherit")) != "inherit" else inherited[paint]
+        for paint in _PAINTS
+    }
+    if element.tag in _SHAPES:
+        for paint in ("fill", "stroke"):
+            value = own["color"] if own[paint].strip().lower() == "currentcolor" else own[paint]
+            if value.strip().lower() not in ABSENT:
+                yield css_colour(value)[:3]
+    if element.tag == "use":
+        target = named.get(element.get(_HREF, "")[1:])
+        if target is not None:
+            yield from _channels(target, own, named)
+    for child in element:
+        if child.tag not in _UNDRAWN:
+            yield from _channels(child, own, named)
+
+
+def _is_flat_picture(art: PictureArt) -> bool:
+    try:
+        with Image.open(io.BytesIO(art.png)) as picture:
+            pixels = np.asarray(picture.convert("RGBA")).reshape(-1, 4)
+    except (OSError, ValueError, UnidentifiedImageError, Image.DecompressionBombError):
+        return False
+    solid = pixels[pixels[:, 3] >= _SOLID, :3]
+    return len(solid) > 0 and bool((np.ptp(solid.astype(np.int64), axis=0) <= _SAME).all())

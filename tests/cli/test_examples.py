@@ -1,0 +1,86 @@
+"""Every example: its command runs, small and short, and its picture is there to compare."""
+
+from __future__ import annotations
+
+import importlib.util
+import re
+import shlex
+import shutil
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+
+import pytest
+from PIL import Image
+from typer.testing import Result
+
+Command = Callable[..., Result]
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+PAGES = sorted(EXAMPLES.glob("*/README.md"))
+QUICK = "-n 6 --epochs 3 --levels 16,32 --finish none --pixels 64 -q"
+MOST_BYTES = 150_000
+
+
+def commands(page: Path) -> list[list[str]]:
+    """Arguments of each ``packwork`` command in the fenced blocks of a page."""
+    text = page.read_text(encoding="utf-8").replace("\\\n", " ")
+    blocks = re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)
+    lines = [line for block in blocks for line in block.splitlines()]
+    return [shlex.split(line, comments=True)[1:] for line in lines if line.startswith("packwork ")]
+
+
+FILLS = [
+    pytest.param(page.parent, arguments, id=f"{page.parent.name}-{number}")
+    for page in PAGES
+    for number, arguments in enumerate(commands(page))
+    if arguments[0] == "fill"
+]
+
+
+def files_named_in(arguments: list[str]) -> list[str]:
+    """What a command writes."""
+    flags = ("-o", "--output", "--diagnose", "--report")
+    return [value for flag, value in pairwise(arguments) if flag in flags]
+
+
+def test_the_gallery_is_found() -> None:
+    assert {"collage", "letter-s", "letter-i", "letter-r", "australia", "usa-axis"} <= {
+        page.parent.name for page in PAGES
+    }
+    assert len(FILLS) >= 6
+
+
+@pytest.mark.parametrize(("example", "arguments"), FILLS)
+def test_the_command_of_an_example_writes_what_it_names(
+    example: Path, arguments: list[str], folder: Path, packwork: Command, monkeypatch
+) -> None:
+    if "[torch]" in (example / "README.md").read_text(encoding="utf-8"):
+        pytest.importorskip("torch")
+    copy = shutil.copytree(example, folder / example.name)
+    monkeypatch.chdir(copy)
+    monkeypatch.syspath_prepend(str(copy))
+    result = packwork("", *arguments, *QUICK.split())
+    assert result.exit_code in {0, 1}, result.output
+    written = files_named_in(arguments)
+    assert written
+    assert [name for name in written if not (copy / name).stat().st_size] == []
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[page.parent.name for page in PAGES])
+def test_pictures_of_an_example_are_small_and_shown(page: Path) -> None:
+    for picture in page.parent.glob("*.png"):
+        assert picture.stat().st_size <= MOST_BYTES
+        with Image.open(picture) as image:
+            assert max(image.size) <= 1_000
+        assert picture.name in page.read_text(encoding="utf-8")
+
+
+def test_drawing_the_gallery_runs_the_same_commands() -> None:
+    spec = importlib.util.spec_from_file_location("draw", EXAMPLES / "draw.py")
+    assert spec is not None
+    assert spec.loader is not None
+    draw = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(draw)
+    for page in PAGES:
+        assert draw.commands(page.parent) == [c for c in commands(page) if c[0] == "fill"]

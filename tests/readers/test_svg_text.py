@@ -1,0 +1,147 @@
+"""Texts in drawings become outlines, whoever has which fonts."""
+
+from __future__ import annotations
+
+import struct
+
+import pytest
+
+from packwork.readers.svg import fonts, lettering
+from packwork.readers.svg.item import item_of_svg
+from packwork.scene.item import VectorArt
+
+SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
+BUNDLED = 'font-family="Inter Display"'
+
+
+@pytest.fixture(autouse=True)
+def bundled_font_only(monkeypatch):
+    monkeypatch.setattr(fonts, "_folders", list)
+    fonts.installed_families.cache_clear()
+    yield
+    fonts.installed_families.cache_clear()
+
+
+def item_of(body: str, page: str = 'viewBox="0 0 100 100"'):
+    data = f"<svg {SPACES} {page}>{body}</svg>".encode()
+    return item_of_svg(data, "sign", "sign.svg", is_compared=True)
+
+
+def markup(item) -> str:
+    assert isinstance(item.art, VectorArt)
+    return item.art.markup
+
+
+def test_text_is_paths_of_its_own_colour(art_iou, caplog):
+    item = item_of(f'<text x="5" y="60" font-size="40" fill="teal" {BUNDLED}>HO</text>')
+    assert "<text" not in markup(item)
+    assert 'fill="teal"' in markup(item)
+    assert len(item.ink.rings) == 3
+    assert art_iou(item) > 0.98
+    assert caplog.text == ""
+
+
+def test_text_is_where_the_renderer_puts_it():
+    plain = item_of(f'<text x="5" y="60" font-size="40" {BUNDLED}>H</text>')
+    moved = item_of(
+        f'<g transform="translate(50 20) scale(.5)" font-size="80"><text x="50%"'
+        f' text-anchor="middle" dy=".3em" {BUNDLED}>H</text></g>'
+    )
+    assert moved.ink.area == pytest.approx(plain.ink.area, rel=0.01)
+
+
+def test_letters_of_several_paints_are_several_paths(art_iou):
+    item = item_of(
+        f'<text y="60" font-size="30" fill="red" {BUNDLED}>H<tspan fill="none" stroke="#00f">I'
+        '</tspan>L<tspan visibility="hidden">X</tspan></text>'
+    )
+    assert markup(item).count("<path") == 3
+    assert 'stroke="#00f"' in markup(item)
+    assert art_iou(item) > 0.98
+
+
+def test_a_missing_font_is_named_once(caplog):
+    body = '<text y="{}" font-size="30" font-family="\'Gill Nowhere\', Nor This">Abc</text>'
+    item = item_of(body.format(40) + body.format(80))
+    assert item.ink.area > 100
+    assert caplog.text.count("sign.svg: the font 'Gill Nowhere' is not installed") == 1
+    assert "'Inter Display'" in caplog.text
+
+
+def test_text_on_a_path(art_iou):
+    item = item_of(
+        '<defs><path id="p" d="M10 60C20 10 80 10 90 60"/></defs>'
+        f'<text font-size="14" {BUNDLED}><textPath xlink:href="#p">along it</textPath></text>'
+    )
+    left, top, right, bottom = item.ink.bounds
+    assert bottom - top > 0.3 * (right - left)
+    assert art_iou(item) > 0.98
+
+
+def test_text_without_a_page(art_iou):
+    item = item_of(f'<text x="-300" y="60" font-size="40" {BUNDLED}>HO</text>', "")
+    assert len(item.ink.rings) == 3
+    assert art_iou(item) > 0.98
+
+
+@pytest.mark.parametrize("place", ["scale(0 1)", "translate(1e6)"])
+def test_text_that_cannot_show_is_dropped(place):
+    item = item_of(f'<text transform="{place}" y="50">A</text><rect width="9" height="9"/>')
+    assert item.ink.area == pytest.approx(81)
+
+
+def test_text_that_is_used_again_stays_text(caplog):
+    item = item_of(
+        f'<defs><text id="t" y="30" font-size="25" {BUNDLED}>H</text></defs><use href="#t"/>'
+    )
+    assert "<text" in markup(item)
+    assert "sign.svg: keeps 1 texts as text" in caplog.text
+
+
+def test_many_texts_stay_text(monkeypatch, caplog):
+    monkeypatch.setattr(lettering, "MAX_TEXTS", 1)
+    item = item_of(f'<text y="30" font-size="25" {BUNDLED}>H</text><text y="70">I</text>')
+    assert markup(item).count("<text") == 2
+    assert "keeps 2 texts as text" in caplog.text
+
+
+def test_families_in_order_of_the_wish():
+    assert fonts.family_names(" 'A  B' ,, \"C\",serif") == ["A B", "C", "serif"]
+    choice = fonts.choose_fonts(["inter display, Arial", "serif"], "a")
+    assert choice.replaced == {}
+    assert choice.fonts.serif == fonts.BUNDLED_FAMILY
+    assert not choice.fonts.with_installed
+    assert fonts.choose_fonts([], "漢").fonts.with_installed
+
+
+def test_fonts_are_found_in_folders(tmp_path, monkeypatch):
+    (tmp_path / "inner").mkdir()
+    with open(fonts._bundled_file(), "rb") as font:  # noqa: PTH123
+        data = font.read()
+    renamed = data.replace("Display".encode("utf-16-be"), "Dingbat".encode("utf-16-be"))
+    (tmp_path / "inner" / "a.OTF").write_bytes(renamed)
+    (tmp_path / "notes.txt").write_text("none")
+    monkeypatch.setattr(fonts, "_folders", lambda: [tmp_path, tmp_path / "nowhere"])
+    fonts.installed_families.cache_clear()
+    assert "inter dingbat" in fonts.installed_families()
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        b"",
+        b"OTTO",
+        b"nonsense" * 9,
+        struct.pack(">4s4sI", b"ttcf", b"\0\1\0\0", 2**32 - 1),
+        struct.pack(">4s4sI", b"ttcf", b"\0\1\0\0", 1) + struct.pack(">I", 2**31),
+        struct.pack(">4sH6x", b"OTTO", 65_535) + b"name" * 9,
+        struct.pack(">4sH6x", b"OTTO", 1) + struct.pack(">4s4xII", b"name", 28, 9),
+        struct.pack(">4sH6x4s4xII", b"OTTO", 1, b"name", 28, 99)
+        + struct.pack(">3H6H", 0, 1, 18, 3, 1, 9, 1, 3, 0)
+        + b"\xd8\x00\xd8",
+    ],
+)
+def test_broken_fonts_are_passed_over(tmp_path, data):
+    file = tmp_path / "a.ttf"
+    file.write_bytes(data)
+    assert fonts.family_of(str(file)) == set()

@@ -1,0 +1,52 @@
+"""The page about Python: its blocks run as they stand, one after another."""
+
+from __future__ import annotations
+
+import re
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import packwork
+from packwork.api import fill
+
+PAGE = Path(__file__).parents[1] / "docs" / "python.md"
+
+
+def blocks(*kinds: str) -> str:
+    """Blocks that are headed ``python``, and whatever else the kinds say, in order."""
+    found = re.findall(r"```(python[^\n]*)\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
+    return "\n".join(block for kind, block in found if kind in kinds)
+
+
+@pytest.fixture
+def names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+    """Where a page's names end up; runs are short and files go to a folder of the test."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(packwork, "fill", partial(fill, epochs=60, levels="32"), raising=False)
+    return {}
+
+
+def test_every_block_is_one_that_a_test_runs() -> None:
+    fences = re.findall(r"^```(.*)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
+    assert set(fences) == {"python", "python torch", ""}
+
+
+def test_the_page_runs(names: dict[str, Any], tmp_path: Path) -> None:
+    exec(blocks("python"), names)  # noqa: S102
+    assert {path.name for path in tmp_path.iterdir()} == {
+        "heart.svg", "heart.png", "heart.geojson",
+    }  # fmt: skip
+    assert names["label"].startswith("circle at (")
+    assert names["higher"].metrics["EA"] > 0
+    assert names["layout"].manifest["ending"]
+    assert 0 < names["watch"].covered < 1
+
+
+def test_the_page_runs_with_pytorch(names: dict[str, Any]) -> None:
+    pytest.importorskip("torch")
+    exec(blocks("python", "python torch"), names)  # noqa: S102
+    assert names["points"].grad.shape == (4, 2)
+    assert names["image"].requires_grad
