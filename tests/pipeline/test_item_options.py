@@ -14,7 +14,7 @@ import packwork as pw
 from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
 from packwork.pipeline.beside import beside, same_kind_beside
-from packwork.pipeline.limiting import kinds
+from packwork.pipeline.limiting import LEAD, kinds
 from packwork.progress import Step
 from packwork.recipe import make_recipe
 from packwork.scene.item import FlatArt, Item
@@ -43,7 +43,7 @@ class Poses:
         self.seen: list[Any] = []
 
     def on_step(self, step: Step) -> None:
-        self.seen.append(step.poses)
+        self.seen.append((step.poses, step.is_finish))
 
 
 PIN = {"x": "50%", "y": "40%", "angle": 20, "size": "30%"}
@@ -57,11 +57,14 @@ def test_a_pinned_item_never_moves(sizes: str, finish: str) -> None:
     met = run({"items": "star", "pin": PIN}, sizes=sizes, finish=finish, count=count, observer=log)
     k = only(met.layout, "star")[0]
     extent = met.layout.items[k].outline.extent
-    for poses in [*log.seen[:60], met.layout.poses]:
+    everywhere = [poses for poses, _ in log.seen]
+    for poses in [*everywhere, met.layout.poses]:
         assert (poses.x[k], poses.y[k]) == (300.0, 240.0)
         assert poses.angle[k] == math.radians(20)
         assert poses.scale[k] * extent == pytest.approx(180.0, rel=1e-12)
-    assert np.ptp([poses.x for poses in log.seen], axis=0).max() > 5
+    assert np.ptp([poses.x for poses in everywhere], axis=0).max() > 5
+    if sizes == "free":
+        assert (finish == "exact") is any(is_finish for _, is_finish in log.seen)
 
 
 @pytest.mark.parametrize("start", ["medial-axis", "scatter", "auto"])
@@ -95,22 +98,24 @@ def test_ranges_of_sizes_are_kept_and_used(finish: str) -> None:
     log = Poses()
     met = run(
         {"items": "star", "scale": [0.5, 0.7]}, {"items": "heart", "scale": [1.2, 1.9]},
-        finish=finish, observer=log,
+        finish=finish, observer=log, epochs=200,
     )  # fmt: skip
-    plain = run(observer=None)
+    plain = run()
     stars, hearts = only(met.layout, "star"), only(met.layout, "heart")
     # The typical size is the same in both runs: that of unruled items.
     from packwork.pipeline.beginning import begin
 
     job = pipeline.read(make_recipe(items=NAMES, count=15, **QUICK))
     nominal = begin(job, job.container, [item.outline for item in job.items]).nominal
-    for poses in [*log.seen, met.layout.poses]:
+    small = [one.index for one in met.unplaced]
+    for poses in [*(poses for poses, is_finish in log.seen if not is_finish), met.layout.poses]:
         ratios = poses.scale / nominal
-        assert ratios[stars].min() >= 0.5 * (1 - 1e-9)
+        assert ratios[np.setdiff1d(stars, small)].min() >= 0.5 * (1 - 1e-9)
         assert ratios[stars].max() <= 0.7 * (1 + 1e-9)
-        assert ratios[hearts].min() >= 1.2 * (1 - 1e-9)
+        assert ratios[np.setdiff1d(hearts, small)].min() >= 1.2 * (1 - 1e-9)
         assert ratios[hearts].max() <= 1.9 * (1 + 1e-9)
-    assert (plain.layout.poses.scale / nominal)[stars].max() > 0.7
+    assert (plain.layout.poses.scale / nominal)[hearts].min() < 1.2
+    assert len(small) <= 1
 
 
 @pytest.mark.parametrize(
@@ -149,7 +154,8 @@ def test_items_end_in_their_region(name: str, finish: str) -> None:
     met = run({"items": "star", "region": given}, finish=finish, epochs=200)
     outlines = [met.layout.outlines[k].region for k in only(met.layout, "star")]
     outside = sum(shapely.difference(outline, region).area for outline in outlines)
-    allowed = 2e-3 if finish == "none" else 0.0
+    # A pixel of the last level is 5 units wide here.
+    allowed = 1e-2 if finish == "none" else 0.0
     assert outside <= allowed * sum(outline.area for outline in outlines)
 
 
@@ -185,8 +191,8 @@ def test_a_hero_is_large_upright_and_alone() -> None:
     left, top, right, bottom = layout.outlines[k].bounds
     assert max(right - left, bottom - top) == pytest.approx(240.0)
     assert (layout.poses.x[k], layout.poses.angle[k]) == (300.0, 0.0)
-    others = np.delete(layout.areas, k)
-    assert layout.areas[k] > 1.5 * others.max()
+    others = [outline.extent for outline in layout.outlines[:k] + layout.outlines[k + 1 :]]
+    assert max(others) < 1.5 * LEAD * 240.0
 
 
 def test_a_hero_without_a_place_finds_one() -> None:
@@ -211,7 +217,7 @@ def test_an_earlier_layout_gives_way_to_pins(tmp_path: Path) -> None:
     assert (after.poses.x[k], after.poses.angle[k]) == (300.0, math.radians(20))
 
 
-@pytest.mark.parametrize("items", [["star", "circle"], ["star", "circle", "heart", "drop"]])
+@pytest.mark.parametrize("items", [NAMES, [*NAMES, "drop", "moon"]])
 def test_apart_leaves_fewer_side_by_side(items: list[str]) -> None:
     options = {"items": items, "count": 24, "epochs": 250}
     mixed, parted = run(**options), run(**options, apart=True)
@@ -267,16 +273,16 @@ def giant(name: str) -> Item:
     [
         ([{"items": "a", "pin": {"x": 2, "y": 50}}], {}, "rule 1: pins a at 2, 50, outside the co"),
         ([{"items": "a", "pin": {"x": 2}}], {}, "rule 1: pins a at x = 2, outside the container"),
-        ([{"items": "a", "pin": {"y": "99%"}}], {}, "rule 1: pins a at y = 99%, outside the cont"),
+        ([{"items": "a", "pin": {"y": "99%"}}], {}, "rule 1: pins a at y = 99, outside the cont"),
         ([{"items": "a", "pin": {"x": 50, "y": 50}, "region": [0, 0, 40, 40]}], {},
          "rule 1: pins a at 50, 50, outside its region 0, 0, 40, 40"),
         ([{"items": "a", "pin": {"x": 20, "y": 20, "angle": 0, "size": 50}}], {},
          "rule 1: pins a so that 36 % of it lies outside the container; make it smaller"),
-        ([{"items": "a", "pin": {"size": 99}}], {}, "rule 1: pins a so that 17 % of it lies out"),
+        ([{"items": "a", "pin": {"size": 99}}], {}, "rule 1: pins a so large that no room is left"),
         ([{"items": "a", "pin": {"size": 60}, "region": [0, 0, 40, 40]}], {},
          "lies outside its region 0, 0, 40, 40"),
         ([{"items": "a", "pin": {"size": 95}}, {"items": "b", "pin": {"size": 40}}], {},
-         "rules: "),
+         "rule 1: pins a so large that no room is left in the container"),
         ([{"items": "a", "region": [0, 0, 3, 3]}], {},
          "rule 1: region: 0, 0, 3, 3 and the container have no part in common"),
         ([{"items": "a", "region": [50, 50, 0, 9]}], {}, "have no part in common"),
@@ -286,7 +292,7 @@ def giant(name: str) -> Item:
         ([{"items": "*", "pin": {"x": 50, "y": 50}}], {}, "rule 1: pins b onto a; move one"),
         ([{"items": "a", "pin": {"x": 50, "y": 50, "size": 30}}], {"hero": "b@50%,50%=20%"},
          "hero: pins b onto a of rule 1"),
-        ([], {"hero": "a@50%,50%=95%"}, "hero: pins a so that"),
+        ([], {"hero": "a@50%,40%=85%"}, "hero: pins a so that 8.8 % of it lies outside the con"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_is_named(

@@ -250,6 +250,17 @@ def test_styles_become_attributes():
     assert '<g fill="red" opacity=".5" style="mix-blend-mode:multiply"/>' in clean
 
 
+def test_hidden_layers_go_unless_something_refers_to_them():
+    clean = admitted(
+        '<g display="none"><image href="x.png"/><path d="M0 0h1v1z"/></g><g style="display:none">'
+        '<path id="used" d="M0 0h2v2z"/></g><use href="#used"/><clipPath id="c" display="none">'
+        '<rect width="1"/></clipPath><g clip-path="url(#c)"/>'
+    )
+    assert "h1v1z" not in clean
+    assert "h2v2z" in clean
+    assert "clipPath" in clean
+
+
 def test_variables_are_filled_in():
     clean = admitted(
         "<style>:root{--ink:#05f;--same:var(--ink)} .a{stroke:var(--same)}</style>"

@@ -84,6 +84,14 @@ def test_text_without_a_page(art_iou):
     assert art_iou(item) > 0.98
 
 
+@pytest.mark.parametrize("hide", ["opacity='0'", "display='none'", "visibility='hidden'"])
+def test_hidden_text_is_nothing(hide, caplog):
+    item = item_of(f'<g {hide}><text y="50">A</text></g><rect width="9" height="9"/>')
+    assert item.ink.area == pytest.approx(81)
+    assert "<text" not in markup(item)
+    assert caplog.text == ""
+
+
 @pytest.mark.parametrize("place", ["scale(0 1)", "translate(1e6)"])
 def test_text_that_cannot_show_is_dropped(place):
     item = item_of(f'<text transform="{place}" y="50">A</text><rect width="9" height="9"/>')

@@ -112,8 +112,10 @@ def _scales(
     room = container.outline.area - float(np.nansum(true * pinned**2))
     if room <= 0:
         largest = int(np.nanargmax(true * pinned**2))
-        raise job.asked[largest].voices["pin.size"].error(
-            f"pins {job.items[largest].name} so large that no room is left in the container"
+        raise (
+            job.asked[largest]
+            .voices["pin.size"]
+            .error(f"pins {job.items[largest].name} so large that no room is left in the container")
         )
     if len(free) == 0:
         return nominal, scales

@@ -20,6 +20,7 @@ from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.settling import settled
 from packwork.progress import Observer, Step, Stop
 from packwork.readers.svg.follow import FLATTENING
+from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.options import OutlineChoice
 from packwork.solve.solver import scale_bounds
@@ -55,12 +56,11 @@ def finished(
     # A hull holds its item, so what is clean for hulls is clean; a fitted outline may not.
     choice: OutlineChoice = "hull" if job.recipe.outline == "hull" else "exact"
     outlines = stand_ins([item.outline for item in job.items], choice)
-    told = None if observer is None else _Closing(observer)
     until = _until(stop, job.seconds_left(1.0))
     smallest, largest = _bounds(job, start, poses)
     limits = start.limits
     groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
-    results = []
+    results, before = [], poses
     done = np.flatnonzero(groups < 0)
     if limits is not None and len(done):
         gap = _gap(job, done, largest[done]) + HAIR * job.container.side
@@ -79,13 +79,22 @@ def finished(
             [outlines[k] for k in items],
             _some(poses, items),
             _options(job, start, items, smallest[items], largest[items]),
-            told,
+            None if observer is None else _Closing(observer, poses, items),
             until,
         )
         poses = _put(poses, items, result.poses)
         results.append((items, result))
         done = np.append(done, items)
+    if limits is not None and job.recipe.sizes == "shared":
+        poses = _one_factor(before, poses, limits)
     return _together(poses, results)
+
+
+def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:
+    """Poses in which all groups have grown alike: as much as the one that grew least."""
+    is_free = ~limits.held[:, 3]
+    common = np.min(poses.scale / before.scale, where=is_free, initial=np.inf)
+    return replace(poses, scale=np.where(is_free, before.scale * common, poses.scale))
 
 
 def _bounds(job: Job, start: Beginning, poses: Poses) -> tuple[FloatArray, FloatArray]:
@@ -201,15 +210,16 @@ def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
 
 
 class _Closing:
-    """Passes steps on as those of a last level."""
+    """Passes steps of some items on as those of a last level of all."""
 
-    def __init__(self, observer: Observer) -> None:
-        self._observer = observer
+    def __init__(self, observer: Observer, poses: Poses, items: IntArray) -> None:
+        self._observer, self._poses, self._items = observer, poses, items
         self.every = observer.every
 
     def on_step(self, step: Step) -> None:
         """Tell the run's observer."""
-        self._observer.on_step(replace(step, is_finish=True))
+        poses = _put(self._poses, self._items, step.poses)
+        self._observer.on_step(replace(step, poses=poses, is_finish=True))
 
 
 def _until(stop: Stop, seconds: float | None) -> Stop:

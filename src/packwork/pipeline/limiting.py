@@ -11,6 +11,7 @@ import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.polygon import Region
+from packwork.pipeline.asking import Voice
 from packwork.pipeline.job import Job
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -21,6 +22,10 @@ from packwork.units import parse_length
 STICKS_OUT = 1e-3
 """Share of a pinned item that may lie outside the container: the flattening of two curves
 that are drawn alike, no more. Chosen."""
+
+LEAD = 0.6
+"""Longer side of other items over the hero's, at most, where sizes are free. Larger ones
+rival it, smaller ones make many. Chosen by eye."""
 
 COVERED = 0.5
 """Share of a pinned item under another pinned one from which they count as pinned onto
@@ -123,7 +128,9 @@ def _check_place(job: Job, k: int, home: Region, words: str, limits: Limits) -> 
     for axis, ends in (("x", [(x, low), (x, high)]), ("y", [(low, y), (high, y)])):
         if axis in one.pin and not shapely.LineString(ends).intersects(home):
             at = x if axis == "x" else y
-            raise one.voices[f"pin.{axis}"].error(f"pins {name} at {axis} = {at:g}, outside {words}")
+            raise one.voices[f"pin.{axis}"].error(
+                f"pins {name} at {axis} = {at:g}, outside {words}"
+            )
 
 
 def _check_room(job: Job, k: int, home: Region, words: str, poses: Poses, limits: Limits) -> None:
@@ -170,7 +177,19 @@ def _scale_ranges(
         ranges[k] = one.values.get("scale", ranges[k])
         if "size" in one.pin:
             ranges[k] = 1.0
-    return nominal * ranges[:, 0], nominal * ranges[:, 1]
+    smallest, largest = nominal * ranges[:, 0], nominal * ranges[:, 1]
+    if recipe.sizes == "free":
+        most = _below_the_hero(job, nominal)
+        smallest, largest = np.minimum(smallest, most), np.minimum(largest, most)
+    return smallest, largest
+
+
+def _below_the_hero(job: Job, nominal: FloatArray) -> FloatArray:
+    """``(n,)`` scales at which items stay well below the hero, if there is one."""
+    extents = np.array([item.outline.extent for item in job.items])
+    heroes = [one.voices.get("pin.size", Voice("")).key == "hero" for one in job.asked]
+    sizes = (nominal * extents)[heroes]
+    return np.where(heroes, np.inf, np.min(LEAD * sizes, initial=np.inf) / extents)
 
 
 def _places(job: Job, axis: str, whole: float) -> FloatArray:

@@ -7,7 +7,7 @@ from xml.sax.saxutils import escape, quoteattr
 
 from packwork.readers.gate.expansion import bound_expansion, check_size
 from packwork.readers.gate.filters import settle_filters
-from packwork.readers.gate.references import drop_dangling, prune_unused
+from packwork.readers.gate.references import drop_dangling, prune_hidden, prune_unused
 from packwork.readers.gate.sanitise import HREF, sanitised
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.unfit import UnfitError
@@ -50,6 +50,7 @@ def admit(data: bytes) -> ET.Element:
     root = sanitised(raw)
     drop_dangling(root)
     settle_filters(root)
+    prune_hidden(root)
     prune_unused(root)
     bound_expansion(root)
     return root

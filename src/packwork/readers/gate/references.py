@@ -104,6 +104,27 @@ def drop_dangling(root: ET.Element) -> None:
     _drop_dangling(root, elements_by_id(root), is_seen=True)
 
 
+def prune_hidden(root: ET.Element) -> None:
+    """Take out what never shows where it stands, in place: hidden layers, lost pictures.
+
+    What something refers to stays.
+
+    Examples
+    --------
+    >>> root = ET.fromstring('<svg><g display="none"><text>a</text></g><image/><g/></svg>')
+    >>> prune_hidden(root)
+    >>> ET.tostring(root).decode()
+    '<svg><g /></svg>'
+    """
+    used = {target for element in root.iter() for _, target in referenced_ids(element)}
+    for parent in list(root.iter()):
+        for child in list(parent):
+            is_hidden = child.get("display") == "none" and child.tag not in NEVER_DRAWN
+            is_lost = child.tag == "image" and HREF not in child.attrib
+            if (is_hidden or is_lost) and not any(e.get("id") in used for e in child.iter()):
+                parent.remove(child)
+
+
 def prune_unused(root: ET.Element) -> None:
     """Take out never-drawn elements that nothing drawn refers to, and ids without use, in place.
 

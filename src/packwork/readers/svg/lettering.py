@@ -18,6 +18,7 @@ from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
 from packwork.raster.drawing import Fonts
 from packwork.readers.gate.references import elements_by_id
+from packwork.readers.gate.vocabulary import NEVER_DRAWN
 from packwork.readers.svg.fonts import choose_fonts
 from packwork.readers.svg.lengths import parse_length, parse_numbers
 from packwork.readers.svg.page import Page
@@ -77,6 +78,9 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
     count = sum(len(paints_of(text.element)) for text in texts)
     if count <= MAX_TEXTS and len(letters) <= MAX_LETTERS:
         _set(texts, letters, root, page)
+    for hidden in _drawn_texts(root, {text.element for text in texts}):
+        hidden.clear()
+        hidden.tag = "g"
     kept = sum(1 for _ in root.iter("text"))
     if kept:
         notice(f"keeps {kept} texts as text, which every viewer sets in fonts of its own")
@@ -169,6 +173,14 @@ def _reach(text: ET.Element) -> Part:
     width = max(_FONT_PX, *sizes) * (1 + len("".join(text.itertext())))
     reach = sum(abs(number) for each in numbers for number in each) + width
     return -reach, -reach, 2 * reach, 2 * reach
+
+
+def _drawn_texts(element: ET.Element, but: set[ET.Element]) -> list[ET.Element]:
+    """Texts that stand where shapes are drawn, and yet nobody met there, nor refers to."""
+    if element.tag == "text":
+        return [] if element in but or "id" in element.attrib else [element]
+    drawn = (child for child in element if child.tag not in NEVER_DRAWN)
+    return [text for child in drawn for text in _drawn_texts(child, but)]
 
 
 def _wishes(texts: Sequence[PlacedText]) -> Iterable[str]:
