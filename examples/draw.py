@@ -1,7 +1,8 @@
 """Draws the gallery anew: ``python examples/draw.py [NAME...]``.
 
-Runs the commands of each example's README in a copy of its folder and keeps their PNGs, in
-256 colours: the one of the last command as ``expected.png``, others under their own names.
+Runs the commands of each example's README in a copy of its folder and keeps their PNGs, at
+most 800 px long and in 256 colours: the one of the last command as ``expected.png``, others
+under their own names.
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from packwork.cli import app
 
 HERE = Path(__file__).resolve().parent
 COLOURS = 256
+LONGEST_PX = 800
 
 
 def commands(folder: Path) -> list[list[str]]:
@@ -55,6 +57,7 @@ def keep(picture: Path, target: Path) -> None:
     with Image.open(picture) as image:
         is_opaque = image.getchannel("A").getextrema()[0] == 255
         plain = image.convert("RGB") if is_opaque else image
+        plain.thumbnail((LONGEST_PX, LONGEST_PX), Image.Resampling.LANCZOS)
         plain.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)
     sys.stdout.write(f"{target.relative_to(HERE)}  {target.stat().st_size / 1e3:.0f} kB\n")
 
