@@ -23,14 +23,15 @@ from packwork.cli import app
 HERE = Path(__file__).resolve().parent
 COLOURS = 256
 LONGEST_PX = 800
+STARTS = ("packwork fill ", "packwork run ")
 
 
 def commands(folder: Path) -> list[list[str]]:
-    """Arguments of each ``packwork fill`` in the fenced blocks of a README."""
+    """Arguments of each ``packwork fill`` or ``run`` in the fenced blocks of a README."""
     text = (folder / "README.md").read_text(encoding="utf-8").replace("\\\n", " ")
     blocks = re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)
     lines = [line for block in blocks for line in block.splitlines()]
-    return [shlex.split(line)[1:] for line in lines if line.startswith("packwork fill ")]
+    return [shlex.split(line)[1:] for line in lines if line.startswith(STARTS)]
 
 
 def pictures(arguments: list[str]) -> list[str]:

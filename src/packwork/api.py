@@ -174,7 +174,8 @@ def fill(
         As on the command line: ``count``, ``font``, ``canvas``, ``seed``, ``sizes``,
         ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``, ``holes``,
         ``outline``, ``strict``, ``start``, ``effort``, ``epochs``, ``levels``,
-        ``losses``.
+        ``losses``, ``hero``, ``palette``, ``apart``; and ``rules`` about single items,
+        tables as in a recipe file: ``[{"items": "star", "count": 3}]``.
 
     Raises
     ------

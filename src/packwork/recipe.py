@@ -104,7 +104,7 @@ class Recipe(BaseModel):
     tol-bright, tol-vibrant, tol-muted, tol-high-contrast."""
 
     apart: bool = False
-    """Keep copies of one item from lying side by side."""
+    """Keep copies of one item from lying side by side, as far as that goes."""
 
     rules: tuple[Rule, ...] = ()
     """What is asked of single items (in Python and recipe files)."""

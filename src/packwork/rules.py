@@ -28,6 +28,9 @@ HERO_SIZE = "30%"
 """Size of a hero that was given none: a third of the canvas is seen first, and leaves room
 for a crowd. Chosen by eye."""
 
+OWN_COLOURS = "own"
+"""Stands for the colours that an item has anyway."""
+
 _HERO = re.compile(r"(?P<name>[^@=]+)(?:@(?P<x>[^,@=]+),(?P<y>[^,@=]+))?(?:=(?P<size>[^@=]+))?")
 
 
@@ -182,7 +185,8 @@ class Rule(BaseModel):
     """Part of the canvas to stay in: a container, or left, top, width and height."""
 
     color: str | tuple[str, ...] | None = None
-    """One colour, or a palette; items of several colours become silhouettes."""
+    """One colour, or a palette: items of several colours become silhouettes; or ``own``,
+    where another rule or the recipe gives colours that these items shall not have."""
 
     name: str | None = None
     """What it is called in the file that is written."""
@@ -246,7 +250,7 @@ class Rule(BaseModel):
     @field_validator("color", mode="before")
     @classmethod
     def _colours_are_known(cls, color: object) -> object:
-        if color is not None:
+        if color not in (None, OWN_COLOURS):
             # Loads the picture library, which the command line's help can do without.
             from packwork.scene.palette import palette_colours
 

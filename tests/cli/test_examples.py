@@ -83,4 +83,4 @@ def test_drawing_the_gallery_runs_the_same_commands() -> None:
     draw = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(draw)
     for page in PAGES:
-        assert draw.commands(page.parent) == [c for c in commands(page) if c[0] == "fill"]
+        assert draw.commands(page.parent) == [c for c in commands(page) if c[0] in {"fill", "run"}]

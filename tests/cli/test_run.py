@@ -7,6 +7,11 @@ from pathlib import Path
 
 import pytest
 
+from packwork.readers.recipe import read_recipe
+from packwork.recipe import make_recipe
+from packwork.scene.palette import PALETTES
+from packwork.writers import recipe_bytes
+
 QUICK = "--levels 32 --epochs 6"
 
 
@@ -45,6 +50,53 @@ def test_paths_in_a_recipe_are_its_own_folders(folder, packwork) -> None:
     assert len(items_of(folder / "out.geojson")) == 2
 
 
+RULES = """
+container = "circle"
+items = ["star", "circle"]
+count = 9
+levels = [32]
+epochs = 6
+hero = "star=30%"
+palette = ["red", "blue"]
+
+[[rules]]
+items = "circle"
+region = "low.svg"
+pin = { angle = 0.0 }
+title = "A & B"
+"""
+
+
+def test_rules_survive_being_saved(folder, packwork, monkeypatch) -> None:
+    (folder / "set").mkdir()
+    drawing = '<svg viewBox="0 0 10 10"><path d="M0 4h10v6H0z"/></svg>'
+    (folder / "set" / "low.svg").write_text(drawing, encoding="utf-8")
+    (folder / "set" / "r.toml").write_text(RULES, encoding="utf-8")
+    first = packwork("run set/r.toml -q -o a.geojson -o a.svg")
+    assert first.exit_code in {0, 1}, first.output
+    assert "<title>A &amp; B</title>" in (folder / "a.svg").read_text(encoding="utf-8")
+    options = read_recipe(folder / "set" / "r.toml")
+    saved = recipe_bytes(make_recipe(**options).plain(), folder / "set")
+    (folder / "set" / "again.toml").write_bytes(saved)
+    monkeypatch.chdir(folder / "set")
+    packwork("run again.toml -q -o b.geojson")
+    assert items_of(folder / "set" / "b.geojson") == items_of(folder / "a.geojson")
+
+
+def test_hero_palette_and_apart_on_the_command_line(folder, packwork) -> None:
+    result = packwork(
+        f"fill square star circle -n 9 --hero star@50%,50%=40% --palette okabe-ito --apart {QUICK}"
+        " -q -o a.geojson --save-recipe r.toml --report r.json"
+    )
+    assert result.exit_code in {0, 1}, result.output
+    stars = [f["properties"] for f in items_of(folder / "a.geojson")
+             if f["properties"]["item"] == "star"]  # fmt: skip
+    assert [(one["x"], one["y"], one["angle"]) for one in stars] == [(300.0, 300.0, 0.0)]
+    assert stars[0]["fill"] in PALETTES["okabe-ito"]
+    assert "apart = true" in (folder / "r.toml").read_text(encoding="utf-8")
+    assert json.loads((folder / "r.json").read_text(encoding="utf-8"))["beside"] >= 0
+
+
 @pytest.mark.parametrize(
     ("text", "problem"),
     [
@@ -53,6 +105,9 @@ def test_paths_in_a_recipe_are_its_own_folders(folder, packwork) -> None:
         ("count = 3", "container: must be given"),
         ('container = "heart"\ncount = 0', "--count: must be at least 1, not 0"),
         ('container = "heart"\nlevels = []', "levels"),
+        ('container = "heart"\nrules = 3', "packwork: rules: must be a list of tables"),
+        ('container = "heart"\n[[rules]]\nitems = "star"\npni = 3', "rules: rule 1: there is no"),
+        ('container = "heart"\n[[rules]]\nitems = "stra"', "rule 1: no item is called 'stra'"),
         ('container = "heart"\nlevels = [0]', "levels"),
     ],
 )

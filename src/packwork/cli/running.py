@@ -150,6 +150,8 @@ def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console,
         style="dim",
         soft_wrap=True,
     )
+    if results["beside"] is not None:
+        console.print(f"{results['beside']} pairs of one kind lie side by side", style="dim")
     console.print(certificate_line(results["promised"], results["certified"]))
     written = ", ".join(str(path) for path in outputs)
     console.print(f"wrote {written}", soft_wrap=True, markup=False)

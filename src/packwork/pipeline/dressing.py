@@ -10,6 +10,7 @@ from packwork.arrays import IntArray
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.beside import beside
 from packwork.pipeline.job import Job
+from packwork.rules import OWN_COLOURS
 from packwork.scene.item import Item
 from packwork.scene.label import Label
 from packwork.scene.layout import Layout
@@ -55,7 +56,8 @@ def _palettes(job: Job) -> list[tuple[str, ...]]:
     found = []
     for item, one in zip(job.items, job.asked, strict=True):
         if "color" in one.values:
-            found.append(palette_colours(one.values["color"]))
+            color = one.values["color"]
+            found.append(() if color == OWN_COLOURS else palette_colours(color))
             continue
         if common and id(item) not in plain:
             plain[id(item)] = has_one_colour(item.art)

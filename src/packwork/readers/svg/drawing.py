@@ -24,6 +24,10 @@ from packwork.readers.svg.walk import painted_shapes
 from packwork.readers.svg.work import Work, work_of
 from packwork.readers.unfit import TooRichError, UnfitError, notice
 
+MAX_SHAPES = 8_000
+"""Shapes that are followed one by one, in about a quarter of a millisecond each; of
+strangers' drawings with more, the picture is traced. Chosen."""
+
 
 @dataclass(frozen=True, eq=False)
 class Drawing:
@@ -50,11 +54,6 @@ class Drawing:
     def work(self) -> Work:
         """What its solid twin is to render."""
         return work_of(solid_twin(self.root), self.shapes, self.page)
-
-
-MAX_SHAPES = 8_000
-"""Shapes that are followed one by one, in about a quarter of a millisecond each; of
-strangers' drawings with more, the picture is traced. Chosen."""
 
 
 def read_drawing(data: bytes, *, is_compared: bool = False) -> Drawing:

@@ -56,7 +56,8 @@ _FONT_PX = 16.0
 def set_in_outlines(root: ET.Element, page: Page | None) -> None:
     """Replace the texts of a clean drawing by paths, in place; says which fonts it missed.
 
-    Texts inside masks and patterns, and those in ``defs``, stay as they are.
+    Texts inside masks and patterns, those in ``defs``, and where there are more than
+    ``MAX_TEXTS`` or ``MAX_LETTERS`` all of them, stay as they are, which is said too.
 
     Raises
     ------
@@ -81,9 +82,8 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
     for hidden in _drawn_texts(root, {text.element for text in texts}):
         hidden.clear()
         hidden.tag = "g"
-    kept = sum(1 for _ in root.iter("text"))
-    if kept:
-        notice(f"keeps {kept} texts as text, which every viewer sets in fonts of its own")
+    if root.find(".//text") is not None:
+        notice("some of its text stays text, which every viewer sets in fonts of its own")
 
 
 def _set(texts: Sequence[PlacedText], letters: str, root: ET.Element, page: Page | None) -> None:
