@@ -28,12 +28,12 @@ from runs import timed_fill
 WORD = "SIGGRAPH"
 SEEDS = tuple(range(8))
 COUNTS = (200, 400)
-FINE = {"levels": "100:9,400:23,1200:68"}
+COARSE = {"levels": "50:9,200:23,600:68"}
 WAYS: dict[str, dict[str, str]] = {
-    "default levels": {"finish": "none"},
-    "default levels, exact finish": {},
-    "twice as fine": {"finish": "none", **FINE},
-    "twice as fine, exact finish": FINE,
+    "levels to 600 px, no finish": {"finish": "none", **COARSE},
+    "levels to 600 px": COARSE,
+    "default, no finish": {"finish": "none"},
+    "default": {},
 }
 """Options by what the table calls them."""
 

@@ -20,6 +20,7 @@ from measuring import machine, markdown_table
 from packwork import pipeline
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import hull_areas
 from packwork.metrics.pixel import pixel_metrics
 from packwork.pipeline.beginning import NOMINAL_COVERAGE
 from packwork.readers.builtin import builtin_container, container_names
@@ -35,7 +36,7 @@ from packwork.start.angles import start_angles
 from packwork.start.first_poses import first_poses
 from packwork.start.options import StartOptions
 from packwork.start.relocate import relocated
-from packwork.start.sizes import hull_areas, nominal_scales, yielding_scales
+from packwork.start.sizes import nominal_scales, yielding_scales
 
 METHODS = ("distance-field", "medial-axis", "auto", "scatter")
 SEEDS = (0, 1, 2)

@@ -11,7 +11,8 @@ from hypothesis import strategies as st
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import signed_area
-from packwork.geometry.simplify import closed, hull, simplified
+from packwork.geometry.simplify import closed, hull, hull_areas, simplified
+from scenes import disc, square, star
 from strategies import star_rings
 
 COMB = np.array(
@@ -81,3 +82,11 @@ def test_hull_is_convex_and_holds_the_outline(ring: FloatArray) -> None:
     sides = np.diff(shape.points, axis=0, append=shape.points[:1])
     following = np.roll(sides, -1, axis=0)
     assert (sides[:, 0] * following[:, 1] - sides[:, 1] * following[:, 0] > -1e-9).all()
+
+
+def test_hull_areas_fill_the_bays() -> None:
+    spiky = star()
+    areas = hull_areas([square(), spiky, disc(), spiky])
+    assert areas[0] == pytest.approx(4)
+    assert areas[2] == pytest.approx(disc().area)
+    assert areas[1] == areas[3] > 1.2 * spiky.area

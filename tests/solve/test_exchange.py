@@ -6,13 +6,15 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+import shapely
 
+from packwork.geometry.outline import Outline
 from packwork.scene.limits import Limits
 from packwork.scene.neighbours import side_by_side
 from packwork.solve.exchange import exchange
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
-from scenes import disc, placed, poses, square, square_container
+from scenes import disc, placed, poses, square, square_container, star
 
 Options = Callable[..., SolveOptions]
 ROW = poses([10.0, 30.0, 50.0, 70.0], [50.0, 50.5, 50.0, 50.5], 0.1, [9.0, 9.0, 8.0, 8.0])
@@ -30,7 +32,9 @@ def beside_its_kind(outlines: list, where: object, kinds: np.ndarray) -> int:
 
 def test_a_row_of_pairs_becomes_a_row_in_turn() -> None:
     outlines = [disc(), disc(), square(), square()]
-    after, moved = exchange(outlines, ROW, limits(), ROW.scale / 2, ROW.scale * 2)
+    after, moved = exchange(
+        square_container().outline, outlines, ROW, limits(), ROW.scale / 2, ROW.scale * 2
+    )
     assert beside_its_kind(outlines, ROW, KINDS) == 2
     assert beside_its_kind(outlines, after, KINDS) == 0
     assert sorted(after.x) == sorted(ROW.x)
@@ -43,20 +47,37 @@ def test_a_row_of_pairs_becomes_a_row_in_turn() -> None:
 
 def test_sizes_that_are_fixed_stay() -> None:
     outlines = [disc(), disc(), square(), square()]
-    after, _ = exchange(outlines, ROW, limits(), ROW.scale, ROW.scale)
+    after, _ = exchange(square_container().outline, outlines, ROW, limits(), ROW.scale, ROW.scale)
     np.testing.assert_array_equal(after.scale, ROW.scale)
     assert beside_its_kind(outlines, after, KINDS) == 0
 
 
 def test_pinned_items_are_not_exchanged() -> None:
     held = limits(x=np.array([10.0, np.nan, np.nan, np.nan]))
-    after, moved = exchange([disc()] * 4, ROW, held, ROW.scale / 2, ROW.scale * 2)
+    after, moved = exchange(
+        square_container().outline, [disc()] * 4, ROW, held, ROW.scale / 2, ROW.scale * 2
+    )
     assert after.x[0] == 10.0
     assert 0 not in moved
 
 
+def test_sketchy_items_are_shared_out_among_parts() -> None:
+    tiles = shapely.union_all([shapely.box(0, 0, 40, 100), shapely.box(60, 0, 100, 100)])
+    outlines = [star(), star(), disc(), disc()]
+    where = poses([10.0, 30.0, 70.0, 90.0], [50.0] * 4, 0.1, [9.0] * 4)
+    region, bounds = Outline.from_region(tiles), (where.scale / 2, where.scale * 2)
+    after, moved = exchange(region, outlines, where, None, *bounds)
+    assert len(moved) == 2
+    assert sorted(after.x[:2] < 50) == [False, True]
+    kept, nobody = exchange(region, outlines, where, None, where.scale, where.scale)
+    assert nobody == []
+    assert kept is where
+
+
 def test_without_kinds_nothing_happens() -> None:
-    after, moved = exchange([disc()] * 4, ROW, Limits.free(4), ROW.scale, ROW.scale)
+    after, moved = exchange(
+        square_container().outline, [disc()] * 4, ROW, Limits.free(4), ROW.scale, ROW.scale
+    )
     assert after is ROW
     assert moved == []
 

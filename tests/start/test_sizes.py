@@ -7,8 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from packwork.start.sizes import hull_areas, nominal_scales, shared_scales, yielding_scales
-from scenes import disc, square, star
+from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
 from strategies import generators
 
 
@@ -51,11 +50,3 @@ def test_straggly_items_begin_smaller_and_the_total_is_met() -> None:
     scales = yielding_scales(areas, hulls, nominal, 100.0, 2.0)
     assert scales[1] < scales[0]
     assert np.sum(areas * scales**2) == pytest.approx(2.0)
-
-
-def test_hull_areas_fill_the_bays() -> None:
-    spiky = star()
-    areas = hull_areas([square(), spiky, disc(), spiky])
-    assert areas[0] == pytest.approx(4)
-    assert areas[2] == pytest.approx(disc().area)
-    assert areas[1] == areas[3] > 1.2 * spiky.area

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+import numpy as np
 import shapely
 from shapely.geometry import Polygon
 
+from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, polygon_parts
 
@@ -98,3 +102,12 @@ def hull(outline: Outline) -> Outline:
     """
     shape = shapely.convex_hull(outline.region)
     return Outline.from_region(shape) if isinstance(shape, Polygon) else outline
+
+
+def hull_areas(outlines: Sequence[Outline]) -> FloatArray:
+    """Area of each outline's convex hull; copies are measured once."""
+    known: dict[int, float] = {}
+    for outline in outlines:
+        if id(outline) not in known:
+            known[id(outline)] = hull(outline).area
+    return np.array([known[id(outline)] for outline in outlines])

@@ -10,6 +10,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
 from packwork.pipeline.limiting import check_poses, held_to, item_limits, pinned_scales
 from packwork.rules import Rotation
@@ -27,7 +28,7 @@ from packwork.solve.solver import scale_bounds
 from packwork.start.angles import nearest_allowed, start_angles
 from packwork.start.first_poses import disc_radii, first_poses
 from packwork.start.relocate import relocated
-from packwork.start.sizes import hull_areas, nominal_scales, shared_scales, yielding_scales
+from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
 from packwork.units import convert
 
 NOMINAL_COVERAGE = 0.82

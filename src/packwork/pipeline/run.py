@@ -22,6 +22,7 @@ from packwork.pipeline.dressing import dressed
 from packwork.pipeline.finishing import finished, unfinished
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.outcome import Run, find_unplaced, manifest
+from packwork.presets import refined_levels
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -76,7 +77,7 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         region = padded(job.container, padding)
         start = begin(job, region, outlines)
     with clock.time("levels"):
-        options = recipe.solve_options(padding, job.seconds_left(LEVELS_SHARE))
+        options = _solve_options(job, padding)
         outcome = solve(
             region, outlines, start.poses, start.nominal, options, observer, stop, start.limits
         )
@@ -108,6 +109,16 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         certified=certified,
         broken=faults,
     )
+
+
+def _solve_options(job: Job, padding: float) -> SolveOptions:
+    """Options of the solve, with levels fine enough for the items unless they were given."""
+    recipe, container = job.recipe, job.container
+    options = recipe.solve_options(padding, job.seconds_left(LEVELS_SHARE))
+    if recipe.levels is not None or recipe.preset != "default":
+        return options
+    levels = refined_levels(options.levels, container.side, container.outline.area, len(job.items))
+    return options.model_copy(update={"levels": levels})
 
 
 def padded(container: Container, padding: float) -> Container:

@@ -1,4 +1,4 @@
-"""Items of one kind that lie side by side change places with others."""
+"""Items that change places: those beside their kind, and those that crowd a part."""
 
 from __future__ import annotations
 
@@ -6,36 +6,82 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+import shapely
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import hull_areas
+from packwork.scene.balance import balanced, parts_of
 from packwork.scene.limits import Limits
 from packwork.scene.mixing import mixed
 from packwork.scene.neighbours import side_by_side
 from packwork.scene.pose import Poses
 
+ALIKE = 1.3
+"""Factor in the size of the hull, as a length, between items that change places among
+parts. Larger finds more partners and upsets the layout more. Chosen."""
+
 
 def exchange(
+    container: Outline,
     outlines: Sequence[Outline],
     poses: Poses,
-    limits: Limits,
+    limits: Limits | None,
     smallest: FloatArray,
     largest: FloatArray,
 ) -> tuple[Poses, list[int]]:
-    """Poses in which few items lie beside one of their kind, and who was moved.
+    """Poses in which items have changed places where that is wanted, and who was moved.
 
-    An item takes the place and, within its bounds, the area of the one that lay there.
+    Among the parts of a container, where sizes may change, until all parts can fill
+    alike; then, where kinds matter, until few items lie beside their kind. An item takes
+    the place and, within its bounds, the size of hull of the one that lay there.
     """
-    if limits.kinds is None:
-        return poses, []
-    areas = np.array([outline.area for outline in outlines])
+    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
+    hulls = hull_areas(outlines)
+    moved: set[int] = set()
+
+    def change(order: IntArray) -> Poses:
+        changed, items = _changed_places(order, hulls, poses, smallest, largest)
+        moved.update(items)
+        return changed
+
+    if shapely.get_num_geometries(container.region) > 1 and (smallest < largest).any():
+        poses = change(_order_among_parts(container, outlines, poses, groups))
+    if limits is not None and limits.kinds is not None:
+        poses = change(_order_apart(outlines, poses, limits.kinds, groups))
+    return poses, sorted(moved)
+
+
+def _order_apart(
+    outlines: Sequence[Outline], poses: Poses, kinds: IntArray, groups: IntArray
+) -> IntArray:
+    """Order in which few items lie beside one of their kind; see ``scene.mixing``."""
     placed = [outline.mapped(poses.matrix(k)) for k, outline in enumerate(outlines)]
-    pairs = side_by_side(placed, poses.x, poses.y)
-    order = mixed(limits.kinds, pairs, limits.groups)
+    return mixed(kinds, side_by_side(placed, poses.x, poses.y), groups)
+
+
+def _order_among_parts(
+    container: Outline, outlines: Sequence[Outline], poses: Poses, groups: IntArray
+) -> IntArray:
+    """Order in which items fill as much of their hulls in one part as in the others.
+
+    Hulls fill all parts alike; a part that has more sketchy items than others stays
+    emptier all the same.
+    """
+    hulls = hull_areas(outlines)
+    solid = np.array([outline.area for outline in outlines]) / hulls
+    sizes = np.log(np.sqrt(hulls) * poses.scale) / np.log(ALIKE)
+    return balanced(solid, parts_of(container, poses.x, poses.y), groups, sizes)
+
+
+def _changed_places(
+    order: IntArray, hulls: FloatArray, poses: Poses, smallest: FloatArray, largest: FloatArray
+) -> tuple[Poses, list[int]]:
+    """Poses with item ``order[p]`` in place p, and who was moved."""
     moved = np.flatnonzero(order != np.arange(len(order)))
     comers = order[moved]
     x, y, scale = poses.x.copy(), poses.y.copy(), poses.scale.copy()
     x[comers], y[comers] = poses.x[moved], poses.y[moved]
-    fitting = poses.scale[moved] * np.sqrt(areas[moved] / areas[comers])
+    fitting = poses.scale[moved] * np.sqrt(hulls[moved] / hulls[comers])
     scale[comers] = np.clip(fitting, smallest[comers], largest[comers])
     return replace(poses, x=x, y=y, scale=scale), [int(k) for k in comers]

@@ -25,8 +25,9 @@ from packwork.solve.schedule import growth, rate_factor, weights_at
 from packwork.solve.shaped import seen_posed
 
 EXCHANGES = (0.15, 0.3, 0.45)
-"""When, as shares of the run, items leave the side of their kind. Later ones leave fewer
-together and less time to settle: a part of the coverage. Tried."""
+"""When, as shares of the run, items leave the side of their kind, or a part of the container
+with too many of their sort. Later ones leave fewer together and less time to settle: a part
+of the coverage. Tried."""
 
 
 class Ending(Enum):
@@ -124,8 +125,7 @@ class _Run:
         self._options, self._observer, self._stop = options, observer, stop
         self._limits = None if limits is None else limits.widened(options.margin)
         self._done = 0
-        is_apart = limits is not None and limits.kinds is not None
-        self._exchanges = list(EXCHANGES) if is_apart else []
+        self._exchanges = list(EXCHANGES)
 
     def level(self, index: int) -> LevelReport:
         """Run one level, and the herder when it is due."""
@@ -143,8 +143,8 @@ class _Run:
                 self.is_stopped = True
                 break
             self._epoch(level)
-            if self._limits and self._exchanges and self.pace.progress() >= self._exchanges[0]:
-                self._part_kinds(seen, self._limits)
+            if self._exchanges and self.pace.progress() >= self._exchanges[0]:
+                self._exchange()
             if rescues is None and self.pace.has_reached(index, 0.5 if is_last else 1.0):
                 rescues = self._herd(level)
             self._tell(level, index)
@@ -169,13 +169,15 @@ class _Run:
         self.motion.replace(moved, [rescue.item for rescue in rescues])
         return rescues
 
-    def _part_kinds(self, seen: Sequence[Outline], limits: Limits) -> None:
-        """Exchange items that lie beside their kind, with outlines as the level sees them."""
+    def _exchange(self) -> None:
+        """Let items change places."""
         self._exchanges.pop(0)
         poses = self.motion.poses
-        bounds = scale_bounds(self._nominal, poses.scale, self._options, limits)
-        moved, items = exchange(seen, poses, limits, *bounds)
-        self.motion.replace(moved, items)
+        bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
+        region = self._container.outline
+        changed, items = exchange(region, self._outlines, poses, self._limits, *bounds)
+        if items:
+            self.motion.replace(changed, items)
 
     def _tell(self, level: Level, index: int) -> None:
         observer = self._observer

@@ -10,6 +10,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import hull_areas
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
@@ -21,7 +22,6 @@ from packwork.start.homes import Homes, around, homes
 from packwork.start.medial_axis import ELBOW_ROOM, medial_axis
 from packwork.start.options import Placing, StartOptions
 from packwork.start.scatter import scatter
-from packwork.start.sizes import hull_areas
 
 RESOLUTION = 200
 """Pixels on the longer side of the image that places are chosen on, for up to 1,600

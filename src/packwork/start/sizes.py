@@ -2,13 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.geometry.outline import Outline
-from packwork.geometry.simplify import hull
 
 YIELDING = 1.0
 """How strongly items that fill their hull badly begin smaller than their nominal size,
@@ -61,15 +57,6 @@ def shared_scales(
     """
     larger = float(np.average(seen / areas, weights=weights))
     return nominal_scales(areas, weights, total_cu2 / larger)
-
-
-def hull_areas(outlines: Sequence[Outline]) -> FloatArray:
-    """Area of each outline's convex hull; copies are measured once."""
-    known: dict[int, float] = {}
-    for outline in outlines:
-        if id(outline) not in known:
-            known[id(outline)] = hull(outline).area
-    return np.array([known[id(outline)] for outline in outlines])
 
 
 def yielding_scales(
