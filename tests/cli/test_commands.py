@@ -10,12 +10,15 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 import numpy as np
 import pytest
 from PIL import Image
 from typer.testing import Result
+
+from packwork import pipeline
 
 Command = Callable[..., Result]
 
@@ -303,6 +306,43 @@ def test_ctrl_c_writes_the_best_so_far(folder: Path) -> None:
     assert "out.geojson" in out
     assert item_count(folder / "out.geojson") == 20
     assert "stopped" in json.loads((folder / "r.json").read_text(encoding="utf-8"))["ending"]
+
+
+@pytest.mark.parametrize("stage", ["start", "levels", "finish", "measure"])
+def test_ctrl_c_in_each_stage_writes_the_best_so_far(
+    stage: str, folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def pressed_on_entry(clock: pipeline.job.Clock, name: str) -> AbstractContextManager[None]:
+        if name == stage:
+            signal.raise_signal(signal.SIGINT)
+        return timed(clock, name)
+
+    timed = pipeline.job.Clock.time
+    monkeypatch.setattr("packwork.pipeline.job.Clock.time", pressed_on_entry)
+    result = packwork(
+        "fill circle star -n 20 --levels 32 --epochs 9 -o out.geojson --report r.json"
+    )
+    assert result.exit_code == 130
+    assert result.stderr.endswith(
+        "packwork: stopped by Ctrl-C; this is the best so far, still rough\n"
+    )
+    assert item_count(folder / "out.geojson") == 20
+    assert set(json.loads((folder / "r.json").read_text(encoding="utf-8"))["seconds"]) > {"levels"}
+
+
+def test_ctrl_c_while_loading_is_one_line() -> None:
+    code = (
+        "import builtins, runpy, sys\n"
+        "load = builtins.__import__\n"
+        "def pressed(name, *rest, **more):\n"
+        "    if name == 'typer': raise KeyboardInterrupt\n"
+        "    return load(name, *rest, **more)\n"
+        "builtins.__import__ = pressed\n"
+        "runpy.run_module('packwork', run_name='__main__')\n"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    assert run.returncode == 130
+    assert run.stderr == "packwork: stopped before there was anything to write\n"
 
 
 def wait_for(file: Path) -> None:
