@@ -12,12 +12,13 @@ def main() -> None:
     """Run the command line; Ctrl-C while it still loads is one line too."""
     try:
         from packwork.cli import app
+
+        app()
     except KeyboardInterrupt:
         sys.stderr.write("packwork: stopped before there was anything to write\n")
         sys.stderr.flush()
         # Libraries that are half loaded would print their own complaints on the way out.
         os._exit(INTERRUPTED)
-    app()
 
 
 if __name__ == "__main__":
