@@ -47,6 +47,8 @@ class Follower:
     ----------
     extent
         Longer side of the drawing's box, in CSS pixels.
+    flattening
+        Largest distance of a curve from its chords, as a share of that.
 
     Examples
     --------
@@ -57,9 +59,9 @@ class Follower:
     8.0
     """
 
-    def __init__(self, extent: float) -> None:
+    def __init__(self, extent: float, flattening: float = FLATTENING) -> None:
         self._extent = extent
-        self._tolerance = FLATTENING * extent
+        self._tolerance = flattening * extent
         self._fills: dict[Painted, Region] = {}
         self._strokes: dict[tuple[Painted, bool], Region] = {}
         self._clips: dict[Clip, Region] = {}
