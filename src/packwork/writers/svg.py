@@ -265,8 +265,8 @@ def _use(own: dict[str, str], place: str, shape: _Shape) -> str:
 
 def _in_full(item: Item, own: dict[str, str], place: str, shape: _Shape, count: int) -> str:
     if isinstance(item.art, VectorArt):
-        fresh = VectorArt(with_fresh_ids(item.art.markup, f"-{count}"), item.art.matrix)
-        item = replace(item, art=fresh)
+        markup = with_fresh_ids(item.art.markup, f"-{count}")
+        item = replace(item, art=replace(item.art, markup=markup))
     return element(item, own, place, shape.path_digits)
 
 

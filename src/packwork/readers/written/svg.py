@@ -1,8 +1,8 @@
 """SVG files that we wrote, back to layouts: the drawings as people will see them.
 
-Nothing is taken on trust but names and promises: every distinct drawing goes through the
-gate and is followed anew, finer than when it was placed, and each copy is put where its
-transform says.
+Every distinct drawing goes through the gate and is followed anew, finer than when it was
+placed, and each copy is put where its transform says. Only of drawings that had to be
+traced the file's own word is taken: tracing them again would give another outline.
 """
 
 from __future__ import annotations
@@ -47,8 +47,8 @@ _NOT_OURS = "as packwork writes it; give an SVG of ours, or the layout saved as 
 def layout_of_svg(data: bytes, name: str) -> Layout:
     """Layout of an SVG's bytes, its outlines those of the drawings in it.
 
-    What only a rendering tells (text, masks) is traced again, good to about 1e-4 of the
-    drawing; embedded pictures are followed as they were when they were read.
+    Of drawings that only a rendering tells (text, masks) the file holds the outline that
+    was placed; embedded pictures are followed as they were when they were read.
 
     Raises
     ------
@@ -109,9 +109,7 @@ class _Drawings:
 
     def wall(self, group: ET.Element) -> Region:
         """Region of the container's paths, shown or not."""
-        paths = [ET.Element("path", {"d": e.get("d", "")}) for e in group if _tag(e) == "path"]
-        for path in paths:
-            path.set("fill-rule", "evenodd")
+        paths = [_path(e.get("d", "")) for e in group if _tag(e) == "path"]
         if not paths:
             raise UnfitError(f"has no path in the group named container, {_NOT_OURS}")
         return self._followed(paths, 1.0)
@@ -137,6 +135,8 @@ class _Drawings:
     def _ink(self, source: ET.Element, own: FloatArray, size: float) -> Region:
         if _tag(source) == "image":
             return _placed(_picture(source), own)
+        if "data-outline" in source.attrib:
+            return _placed(self._followed([_path(source.attrib["data-outline"])], size), own)
         bare = copy.copy(source)
         bare.attrib = {key: v for key, v in source.attrib.items() if key != "transform"}
         size *= float(np.linalg.norm(own[:, :2], 2))
@@ -200,6 +200,10 @@ def _picture(image: ET.Element) -> Region:
     opaque, _ = cut_out(picture.pixels)
     ink = clean_union(outline_of_coverage(opaque), speck=SPECK)
     return shapely.transform(ink, lambda points: points * picture.unit)
+
+
+def _path(data: str) -> ET.Element:
+    return ET.Element(f"{_SPACE}path", {"d": data, "fill-rule": "evenodd"})
 
 
 def _placed(region: Region, matrix: FloatArray) -> Region:
