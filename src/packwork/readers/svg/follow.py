@@ -14,8 +14,8 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, polygon_parts
+from packwork.readers.svg.centre_lines import centre_lines
 from packwork.readers.svg.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
-from packwork.readers.svg.dashing import dashed
 from packwork.readers.svg.extent import is_inside, stretch, whole_box
 from packwork.readers.svg.fills import filled
 from packwork.readers.svg.painted import Clip, Painted
@@ -153,15 +153,11 @@ class Follower:
 
     def _pen_strokes(self, pieces: Sequence[SubPath], pen: Pen, tolerance: float) -> Region:
         """Stroke of all pieces of one shape, in its own units."""
-        painted: list[Region] = []
-        for piece, line in zip(pieces, flattened_all(pieces, tolerance), strict=True):
+        for line in flattened_all(pieces, tolerance):
             if len(line) > 1 and not shapely.LineString(line).is_simple:
                 self._allowance.spend([line])
-            if pen.dashes:
-                parts = dashed(line, piece.is_closed, pen.dashes, pen.dash_offset)
-                painted += [stroke_region(part, False, pen, tolerance) for part in parts]
-            else:
-                painted.append(stroke_region(line, piece.is_closed, pen, tolerance))
+        lines = centre_lines(pieces, pen, tolerance)
+        painted = [stroke_region(line, is_closed, pen, tolerance) for line, is_closed in lines]
         return self.united(painted)
 
     def _stroked(self, shape: Painted, is_bridged: bool) -> Region:
