@@ -14,14 +14,14 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, polygon_parts
-from packwork.readers.svg.centre_lines import centre_lines
+from packwork.readers.svg.centre_lines import FinePoints, piece_strokes
 from packwork.readers.svg.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
 from packwork.readers.svg.extent import is_inside, stretch, whole_box
 from packwork.readers.svg.fills import filled
 from packwork.readers.svg.painted import Clip, Painted
 from packwork.readers.svg.path_data import SubPath
 from packwork.readers.svg.shapes import flattened_all
-from packwork.readers.svg.strokes import Pen, stroke_region
+from packwork.readers.svg.strokes import Pen
 
 FLATTENING = 2e-5
 """Largest distance of a curve from its chords, as a share of the drawing's extent: half
@@ -65,6 +65,7 @@ class Follower:
         self._fills: dict[Painted, Region] = {}
         self._strokes: dict[tuple[Painted, bool], Region] = {}
         self._clips: dict[Clip, Region] = {}
+        self._fine_points = FinePoints()
         self._allowance = Allowance(MAX_CROSSINGS)
         self._union_allowance = Allowance(MAX_UNION_CROSSINGS)
 
@@ -156,9 +157,7 @@ class Follower:
         for line in flattened_all(pieces, tolerance):
             if len(line) > 1 and not shapely.LineString(line).is_simple:
                 self._allowance.spend([line])
-        lines = centre_lines(pieces, pen, tolerance)
-        painted = [stroke_region(line, is_closed, pen, tolerance) for line, is_closed in lines]
-        return self.united(painted)
+        return self.united(piece_strokes(pieces, pen, tolerance, self._fine_points))
 
     def _stroked(self, shape: Painted, is_bridged: bool) -> Region:
         """Stroke in the shape's own units, where the pen is round, then placed."""
