@@ -147,12 +147,25 @@ def test_what_was_enlarged_afterwards_is_measured_as_it_is(tmp_path: Path) -> No
     assert found.outlines[0].area == pytest.approx(4 * expected, rel=1e-4)
 
 
+def test_groups_that_were_moved_are_measured_where_they_are(tmp_path: Path) -> None:
+    layout = layout_of(builtin_item("heart"))
+    write(layout, tmp_path / "a.svg")
+    text = (tmp_path / "a.svg").read_text(encoding="utf-8")
+    moved = text.replace('<g id="items"', '<g id="items" transform="translate(7 -3)"')
+    (tmp_path / "a.svg").write_text(moved, encoding="utf-8")
+    found = read_written(tmp_path / "a.svg")
+    shift = found.outlines[0].centroid - layout.outlines[0].centroid
+    assert shift == pytest.approx([7, -3], abs=1e-4)
+    assert found.container.outline.bounds == pytest.approx(layout.container.outline.bounds)
+
+
 @pytest.mark.parametrize(
     ("file", "old", "new", "problem"),
     [
-        ("a.svg", 'id="items"', 'id="layer1"', "has no group named items, as packwork writes it"),
+        ("a.svg", 'id="items"', 'id="layer1"', "has no group named items at its top, as packwork"),
         ("a.svg", 'id="container"', 'id="frame"', "has no group named container"),
         ("a.svg", 'id="shape-1"', 'id="shape-9"', "has an item that shows nothing"),
+        ("a.svg", "scale(", "scale(0)scale(", "has an item without any size"),
         ("a.svg", "viewBox", "viewbox", "has no canvas"),
         ("a.svg", "</svg>", "", "is not well-formed XML"),
         ("a.svg", 'data-gap="2"', 'data-gap="wide"', "states the gap 'wide', which is no length"),

@@ -69,16 +69,20 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
     items, walls = _named(root, "items"), _named(root, "container")
     drawn = [_drawn(element) for element in items]
     drawings = _Drawings(root, drawn, max(width, height) / scale)
+    # Other programs move a whole group by a transform of its own.
     to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
+    items_to_canvas, wall_to_canvas = (
+        affine.compose(to_canvas, _place(group)) for group in (items, walls)
+    )
     gap, is_kept = items.get("data-gap"), items.get("data-holes") == "keep"
     sheet = Sheet(
         width=width,
         height=height,
         unit=unit,
-        container=_placed(drawings.wall(walls), to_canvas),
+        container=_placed(drawings.wall(walls), wall_to_canvas),
         gap=None if gap is None else sound_gap(gap),
         areas_in_shares=items.get("data-in-shares") == "true",
-        items=[_found(drawings, one, to_canvas, is_kept) for one in drawn],
+        items=[_found(drawings, one, items_to_canvas, is_kept) for one in drawn],
     )
     return assembled(sheet, name)
 
@@ -104,7 +108,7 @@ class _Drawings:
         self._largest: dict[int, float] = {}
         for one in drawn:
             key = id(self._source(one))
-            size = float(np.linalg.norm(_place(one)[:, :2], 2))
+            size = _size(_place(one))
             self._largest[key] = max(size, self._largest.get(key, 0.0))
 
     def wall(self, group: ET.Element) -> Region:
@@ -139,11 +143,12 @@ class _Drawings:
             return _placed(self._followed([_path(source.attrib["data-outline"])], size), own)
         bare = copy.copy(source)
         bare.attrib = {key: v for key, v in source.attrib.items() if key != "transform"}
-        size *= float(np.linalg.norm(own[:, :2], 2))
-        return _placed(self._followed([bare], size), own)
+        return _placed(self._followed([bare], size * _size(own)), own)
 
     def _followed(self, elements: list[ET.Element], size: float) -> Region:
         """What elements paint, in their own units, fine enough for a copy of that size."""
+        if not size > 0:
+            raise UnfitError(f"has an item without any size, {_NOT_OURS}")
         document = ET.Element(f"{_SPACE}svg")
         document.extend(elements)
         drawing = read_drawing(ET.tostring(document), tolerance=FLATTENING * self._side / size)
@@ -163,8 +168,15 @@ def _place(element: ET.Element) -> FloatArray:
     return parse_transform(element.get("transform"))
 
 
+def _size(matrix: FloatArray) -> float:
+    """How many times as long as they are a map makes lengths, at most."""
+    return float(np.linalg.norm(matrix[:, :2], 2))
+
+
 def _drawn(element: ET.Element) -> ET.Element:
     """An item's element, its link and its tooltip taken off."""
+    if _tag(element) == "a" and "transform" in element.attrib:
+        raise UnfitError(f"has a link that moves its item, {_NOT_OURS}")
     is_wrapping = _tag(element) == "a" or (_tag(element) == "g" and not element.attrib)
     inside = [child for child in element if _tag(child) != "title"]
     return inside[0] if is_wrapping and len(inside) == 1 else element
@@ -184,9 +196,9 @@ def _canvas(root: ET.Element) -> tuple[float, float, Unit, float]:
 
 
 def _named(root: ET.Element, name: str) -> ET.Element:
-    group = next((e for e in root.iter() if e.get("id") == name and _tag(e) == "g"), None)
+    group = next((e for e in root if e.get("id") == name and _tag(e) == "g"), None)
     if group is None:
-        raise UnfitError(f"has no group named {name}, {_NOT_OURS}")
+        raise UnfitError(f"has no group named {name} at its top, {_NOT_OURS}")
     return group
 
 
