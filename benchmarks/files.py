@@ -1,17 +1,20 @@
 """SVGs as people have them: ``packwork bench files [FOLDER...] [sample=N] [seed=S]``.
 
 Reads every SVG in each folder (and in the folders inside), or N of them drawn by lot, and
-prints one row for each: how many were computed from their shapes, traced because of what
-they use, traced because their shapes disagreed with the picture or were too many, or
-refused; how the ink agrees with resvg's rendering of the file as the gate let it in, both
-drawn 500 px long; and how long reading took, in time of the processor, so that a busy
-machine does not show. Without folders: the bundled drawings, and a made-up set that uses
-every feature. Fetches and writes nothing.
+prints one row for each: how many show nothing at all, were refused, were computed from
+their shapes, traced because of what they use, or traced because their shapes disagreed with
+the picture or were too many; how the ink agrees with resvg's rendering of the file as the
+gate let it in, both drawn 1,000 px long, as when they are traced; and how long reading took,
+in time of the processor, so that a busy machine does not show. Without folders: the bundled
+drawings, and a made-up set that uses every feature. Then the table of ``outputs.py``:
+twenty icons from those folders, or bundled ones, as they are written. Fetches nothing.
 """
 
 from __future__ import annotations
 
+import contextlib
 import logging
+import math
 import sys
 import time
 from collections import Counter
@@ -22,8 +25,13 @@ from pathlib import Path
 
 import numpy as np
 
+import packwork as pw
 from measuring import machine, markdown_table
+from outputs import ICONS, outputs_table
 from packwork.errors import PackworkError
+from packwork.raster.drawing import drawn_png
+from packwork.readers.gate.door import admit, document
+from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.regions import clean_union
 from packwork.readers.svg.compare import LEAST_AGREEMENT, iou, side_by_side
 from packwork.readers.svg.drawing import read_drawing
@@ -32,14 +40,17 @@ from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.solid import solid_twin
 from packwork.readers.svg.trace import needs_tracing
 from packwork.readers.unfit import naming
+from packwork.scene.item import Item
 from wild import wild_files
 
-SIDE_PX = 500
+SIDE_PX = 1_000
 MIXTURES = 200
 SLOWEST = 5
 
+WAYS = ("empty", "refused", "by shapes", "traced", "disagreed")
+
 HEADER = [
-    "drawings", "files", "by shapes", "traced", "disagreed", "refused",
+    "drawings", "files", *WAYS,
     f"IoU >= {LEAST_AGREEMENT}", "worst IoU", "median IoU", "median ms", "slowest s",
 ]  # fmt: skip
 
@@ -63,7 +74,9 @@ def read(name: str, data: bytes) -> Reading:
         with naming(name):
             how, agreement = judged(data)
     except PackworkError as error:
-        return Reading(name, "refused", time.process_time() - start, problem=str(error))
+        seconds = time.process_time() - start
+        how = "refused" if shows_anything(data) else "empty"
+        return Reading(name, how, seconds, problem=str(error))
     return Reading(name, how, seconds, agreement)
 
 
@@ -77,13 +90,23 @@ def judged(data: bytes) -> tuple[str, float]:
     return "traced" if needs_tracing(drawing.root) else "disagreed", iou(*pictures)
 
 
+def shows_anything(data: bytes) -> bool:
+    """Whether resvg draws anything of a file; not if it, too, refuses."""
+    try:
+        with naming("file"):
+            picture = decode_picture(drawn_png(document(admit(data))), SIDE_PX)
+    except (PackworkError, ValueError):
+        return False
+    return bool(picture.pixels[:, :, 3].any())
+
+
 def row(title: str, readings: list[Reading]) -> list[str]:
     ways = Counter(reading.how for reading in readings)
-    shares = np.array([r.agreement for r in readings if r.how != "refused"] or [np.nan])
+    shares = np.array([r.agreement for r in readings if not r.problem] or [np.nan])
     times = np.array([reading.seconds for reading in readings])
     return [
         title, str(len(readings)),
-        *(str(ways[how]) for how in ("by shapes", "traced", "disagreed", "refused")),
+        *(str(ways[how]) for how in WAYS),
         f"{np.mean(shares >= LEAST_AGREEMENT):.1%}", f"{shares.min():.4f}",
         f"{np.median(shares):.4f}", f"{1e3 * np.median(times):.0f}", f"{times.max():.2f}",
     ]  # fmt: skip
@@ -117,14 +140,27 @@ def groups(folders: list[Path], sample: int | None, seed: int) -> dict[str, list
     }
 
 
+def some_icons(folders: list[Path], seed: int) -> list[Item]:
+    """Icons from all folders alike, by lot; without folders, the bundled ones."""
+    if not folders:
+        return pw.read_items("builtin:icons")[:ICONS]
+    icons = []
+    for folder in folders:
+        for name, data in files_of(folder, math.ceil(ICONS / len(folders)), seed):
+            with contextlib.suppress(PackworkError):
+                icons.append(item_of_svg(data, Path(name).stem, name, is_compared=True))
+    return icons[:ICONS]
+
+
 def main(arguments: list[str]) -> None:
-    """Read, print the table, then what was refused, disagreed or slow."""
+    """Read, print the table, then what was refused, disagreed or slow; then outputs."""
     settings = dict(a.split("=") for a in arguments if a.startswith(("sample=", "seed=")))
     folders = [Path(a) for a in arguments if a.partition("=")[0] not in settings]
     sample = int(settings["sample"]) if "sample" in settings else None
+    seed = int(settings.get("seed", 0))
     logging.getLogger("packwork").setLevel(logging.ERROR)
     print(machine(), flush=True)
-    read_by = groups(folders, sample, int(settings.get("seed", 0)))
+    read_by = groups(folders, sample, seed)
     every = [reading for readings in read_by.values() for reading in readings]
     rows = [row(title, readings) for title, readings in read_by.items() if readings]
     print(markdown_table(HEADER, [*rows, row("all", every)] if every else []))
@@ -133,6 +169,8 @@ def main(arguments: list[str]) -> None:
             print(f"{reading.how}  {reading.agreement:.4f}  {reading.problem or reading.name}")
     for reading in sorted(every, key=lambda r: -r.seconds)[:SLOWEST]:
         print(f"{reading.seconds:.2f} s  {reading.name}")
+    print(flush=True)
+    print(outputs_table(some_icons(folders, seed)))
 
 
 if __name__ == "__main__":

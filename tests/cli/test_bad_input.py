@@ -110,7 +110,11 @@ OPTIONS = [
 OTHERS = [
     ("measure missing.geojson", "there is no such file"),
     ("measure broken.geojson", "is not JSON"),
-    ("measure light.png", "UTF-8"),
+    ("measure light.png", "has no outlines to measure; give a .geojson, .svg or .dxf"),
+    ("measure missing.dxf", "there is no such file"),
+    ("measure cut.svg", "not well-formed"),
+    ("measure entities.svg", "entities"),
+    ("measure shapeless.svg", "has no group named items at its top, as packwork writes it"),
     ("measure missing.geojson --report note.txt/x.json", "a part of its path is a file"),
     ("demo unknown", "no built-in container of that name"),
     ("demo --folder note.txt", "a part of its path is a file"),

@@ -18,7 +18,7 @@ PHRASES = {
         "packwork fill text:HELLO",
         "What is placed", "How it is solved", "What is written", "all built-in icons",
     ],
-    "measure": ["packwork measure bear.geojson", "LAYOUT.geojson", "--diagnose"],
+    "measure": ["packwork measure bear.geojson", "LAYOUT", "--diagnose"],
     "demo": ["packwork demo", "bear", "dragon", "--folder"],
     "bench": ["packwork bench engine", "NAME"],
 }  # fmt: skip

@@ -13,7 +13,10 @@ from packwork.cli.failure import SHORTFALL, clear_errors
 
 def measure(
     layout: Annotated[
-        Path, typer.Argument(metavar="LAYOUT.geojson", help="A layout that was saved.")
+        Path,
+        typer.Argument(
+            metavar="LAYOUT", help="A layout that was saved, as .geojson, .svg or .dxf."
+        ),
     ],
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
@@ -22,9 +25,12 @@ def measure(
 ) -> None:
     """Measure a saved layout: coverage, overlap, what sticks out, evenness, gaps.
 
-    Exit code 1 if it does not keep what its run promised.
+    Exit code 1 if it does not keep what its run promised. Of an SVG or a DXF the outlines
+    are measured that stand in the file, so what goes to a printer or a cutter is checked.
 
     [bold]packwork measure bear.geojson --diagnose bear-check.png[/]
+
+    [bold]packwork measure cut.dxf[/]
     """
     with clear_errors():
         from rich.console import Console
@@ -33,12 +39,12 @@ def measure(
         from packwork.cli.show import certificate_line, metrics_table
         from packwork.metrics.certificate import Promise, broken
         from packwork.metrics.measure import measure as measure_layout
-        from packwork.readers.layout import read_layout
+        from packwork.readers.written.read import read_written
 
         for path in (report, diagnose):
             if path is not None:
                 writers.check_writable(path)
-        found = read_layout(layout)
+        found = read_written(layout)
         measured = measure_layout(found)
         metrics = measured.as_dict()
         promise = Promise.of(found.manifest)

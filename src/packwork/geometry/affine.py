@@ -68,3 +68,15 @@ def apply(matrix: FloatArray, points: FloatArray) -> FloatArray:
     [[4.0, 5.0]]
     """
     return np.asarray(points @ matrix[:, :2].T + matrix[:, 2])
+
+
+def inverse(matrix: FloatArray) -> FloatArray:
+    """Map that undoes another, which must not flatten the plane.
+
+    Examples
+    --------
+    >>> inverse(similarity(4.0, 6.0, 0.0, 2.0)).tolist()
+    [[0.5, 0.0, -2.0], [0.0, 0.5, -3.0]]
+    """
+    back = np.linalg.inv(matrix[:, :2])
+    return np.column_stack([back, -back @ matrix[:, 2]])

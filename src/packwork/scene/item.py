@@ -29,10 +29,13 @@ class VectorArt:
         nothing in it reaches outside the document.
     matrix
         2 x 3 map from the fragment's user units to the item's own units.
+    is_traced
+        Whether only a rendering tells what it covers, not its shapes.
     """
 
     markup: str
     matrix: FloatArray
+    is_traced: bool = False
 
 
 @dataclass(frozen=True, eq=False)

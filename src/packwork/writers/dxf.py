@@ -2,7 +2,8 @@
 
 Each ring is one closed polyline with the very points that were measured: curves were
 flattened when the items were read, drawings to 2e-5 of their extent. Lines have no width:
-what the tool takes away belongs to the padding.
+what the tool takes away belongs to the padding. Which item a ring belongs to, and what
+the run promised, stands in extended data that other programs pass over.
 """
 
 from __future__ import annotations
@@ -10,6 +11,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -21,7 +23,9 @@ from packwork.geometry.polygon import oriented_rings, polygon_parts
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.units import convert
-from packwork.writers.notation import decimals
+from packwork.writers.notation import decimals, sound_text
+from packwork.writers.promise import promised, stated_weights
+from packwork.writers.svg import NAME_LENGTH
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
@@ -37,6 +41,10 @@ packed as a disc."""
 PRECISION = 1e-9
 """Last digit of a coordinate, as a share of the canvas's longer side. As in GeoJSON."""
 
+APPLICATION = "PACKWORK"
+"""Name under which extended data are kept."""
+
+_TEXT = 1_000
 _INSERT_UNITS = {"in": 1, "mm": 4, "cm": 5}
 """What DXF calls the units it knows; a canvas in others is written in mm."""
 
@@ -58,14 +66,16 @@ def dxf_bytes(layout: Layout) -> bytes:
     >>> b"LWPOLYLINE" in dxf_bytes(Layout(sheet, (), Poses(none, none, none, none), none))
     True
     """
-    lines = [(layer, ring) for layer, rings in _rings(layout) for ring in _to_paper(layout, rings)]
+    lines = [(lot, ring) for lot in _lots(layout) for ring in _to_paper(layout, lot.rings)]
     points = np.concatenate([ring for _, ring in lines])
     with _without_dates():
         drawing = _empty_drawing(layout)
         space = drawing.modelspace()
         space.reset_extents(points.min(axis=0).tolist(), points.max(axis=0).tolist())
-        for layer, ring in lines:
-            space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": layer})
+        for lot, ring in lines:
+            line = space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": lot.layer})
+            if lot.said:
+                line.set_xdata(APPLICATION, [(_TEXT, text) for text in lot.said])
         stream = io.StringIO()
         drawing.write(stream)
     return drawing.encode(stream.getvalue())
@@ -91,20 +101,51 @@ def _empty_drawing(layout: Layout) -> Drawing:
     drawing = ezdxf.new(VERSION, units=_INSERT_UNITS[unit])
     for name, colour in LAYERS.items():
         drawing.layers.add(name, color=colour)
+    drawing.appids.add(APPLICATION)
     drawing.modelspace().reset_limits((0.0, 0.0), (width, height))
     drawing.set_modelspace_vport(height, center=(width / 2, height / 2))
     return drawing
 
 
-def _rings(layout: Layout) -> Iterator[tuple[str, list[FloatArray]]]:
-    """Rings in place, canvas units, each lot with its layer."""
-    yield "container", layout.container.outline.rings
+@dataclass(frozen=True, eq=False)
+class _Lot:
+    """Rings that belong together, in place, canvas units.
+
+    Parameters
+    ----------
+    layer
+        Where they are drawn.
+    rings
+        Outer ones and holes.
+    said
+        Texts that go with each: of the container the gap that was promised and whether
+        areas are in shares, of an item its number, name and weight.
+    """
+
+    layer: str
+    rings: list[FloatArray]
+    said: tuple[str, ...] = ()
+
+
+def _lots(layout: Layout) -> Iterator[_Lot]:
+    yield _Lot("container", layout.container.outline.rings, _promise(layout))
     bare = {id(item): item for item in layout.items}
     details = {key: _bare_rings(item) for key, item in bare.items()}
+    weights = stated_weights(layout)
     for k, item in enumerate(layout.items):
-        yield "cut", layout.outlines[k].rings
+        name = " ".join(sound_text(item.label.name or item.name).split())[:NAME_LENGTH]
+        yield _Lot("cut", layout.outlines[k].rings, (str(k + 1), name, weights[k] or "1"))
         matrix = layout.poses.matrix(k)
-        yield "engrave", [affine.apply(matrix, ring) for ring in details[id(item)]]
+        yield _Lot("engrave", [affine.apply(matrix, ring) for ring in details[id(item)]])
+
+
+def _promise(layout: Layout) -> tuple[str, ...]:
+    """Gap, in units of the paper, and whether shares are kept; nothing without a promise."""
+    gap, shares = promised(layout)
+    unit = layout.container.unit
+    if not gap:
+        return ()
+    return f"{convert(float(gap), unit, paper_unit(unit)):.12g}", "1" if shares else "0"
 
 
 def _bare_rings(item: Item) -> list[FloatArray]:

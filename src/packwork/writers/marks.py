@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import base64
+import math
 import re
 from collections.abc import Mapping
 
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.geometry import affine
 from packwork.scene.colour import css_colour
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
 from packwork.writers.colours import hex_colour
@@ -75,7 +80,8 @@ def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
     """
     art = item.art
     if isinstance(art, VectorArt):
-        head = attributes({**own, "transform": place + matrix_text(art.matrix)})
+        told = {"data-outline": _outline(item, art.matrix, digits)} if art.is_traced else {}
+        head = attributes({**own, **told, "transform": place + matrix_text(art.matrix)})
         return f"<g{head}>{art.markup}</g>"
     if isinstance(art, PictureArt):
         head = attributes({**own, "transform": place + matrix_text(art.matrix)})
@@ -100,6 +106,15 @@ def with_fresh_ids(markup: str, suffix: str) -> str:
     longest_first = "|".join(re.escape(i) for i in sorted(ids, key=lambda i: (-len(i), i)))
     uses = re.compile(rf"""(\bid\s*=\s*["']|\#)({longest_first})(?![\w.:-])""")
     return uses.sub(rf"\g<1>\g<2>{suffix}", markup)
+
+
+def _outline(item: Item, matrix: FloatArray, digits: int) -> str:
+    """Outline of a drawing that only a rendering tells, in the units of its markup.
+
+    What is traced again comes out a little otherwise: the file holds what was placed.
+    """
+    finer = max(0, math.ceil(math.log10(np.linalg.norm(matrix[:, :2], 2))))
+    return path_data(item.outline.mapped(affine.inverse(matrix)), digits + finer)
 
 
 def _picture(art: PictureArt) -> str:

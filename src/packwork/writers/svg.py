@@ -3,8 +3,9 @@
 Each distinct shape is defined once and every copy is one short ``use``. The document
 has a group ``container`` and a group ``items``; item ``k`` is ``item-k``, counted from
 1 in the layout's order, its name in ``data-name``; a name of its own makes its id, a link
-puts it into an ``a``. References inside the document are written the older way,
-``xlink:href``, which browsers and old cutters both understand.
+puts it into an ``a``. What the run promised stands in ``data-`` attributes of ``items``,
+so that the file can be measured by itself. References inside the document are written the
+older way, ``xlink:href``, which browsers and old cutters both understand.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from packwork.writers.colours import hex_colour, parse_colour
 from packwork.writers.labels import item_ids, labelled
 from packwork.writers.marks import element, paint, shape_key, with_fresh_ids
 from packwork.writers.notation import attributes, decimals, number, path_data, xml_text
+from packwork.writers.promise import promised, stated_weights
 
 PRECISION = 1e-7
 """Every point drawn lies within this share of the canvas's longer side of its place in
@@ -146,7 +148,7 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
         *([] if options.flatten else _definitions(shapes.values())),
         *_background(options.background),
         *_container(layout, options.show_container, digits),
-        '<g id="items">',
+        f'<g id="items"{attributes(_said(layout))}>',
         *_copies(layout, shapes, digits, flatten=options.flatten),
         "</g>",
         "</svg>",
@@ -232,13 +234,24 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
     return [f"<g{head}>", f'<path d="{path_data(container.outline, digits)}"/>', "</g>"]
 
 
+def _said(layout: Layout) -> dict[str, str]:
+    """What ``packwork measure`` cannot see of the items: what was promised of them."""
+    gap, shares = promised(layout)
+    return {
+        "data-gap": gap,
+        "data-in-shares": "true" if shares else "",
+        "data-holes": "keep" if any(item.outline.has_holes for item in layout.items) else "",
+    }
+
+
 def _copies(layout: Layout, shapes: dict[int, _Shape], digits: int, *, flatten: bool) -> list[str]:
     copies = []
     scales, ids = layout.poses.axis_scales.tolist(), item_ids(layout.items)
+    weights = stated_weights(layout)
     for k, item in enumerate(layout.items):
         shape = shapes[shape_key(item)]
         name = (item.label.name or item.name)[:NAME_LENGTH]
-        own = {"id": ids[k], "data-name": name, **paint(item)}
+        own = {"id": ids[k], "data-name": name, "data-weight": weights[k], **paint(item)}
         place = _place(layout, k, scales[k], shape, digits)
         drawn = _in_full(item, own, place, shape, k + 1) if flatten else _use(own, place, shape)
         copies.append(labelled(drawn, item.label))
@@ -252,8 +265,8 @@ def _use(own: dict[str, str], place: str, shape: _Shape) -> str:
 
 def _in_full(item: Item, own: dict[str, str], place: str, shape: _Shape, count: int) -> str:
     if isinstance(item.art, VectorArt):
-        fresh = VectorArt(with_fresh_ids(item.art.markup, f"-{count}"), item.art.matrix)
-        item = replace(item, art=fresh)
+        markup = with_fresh_ids(item.art.markup, f"-{count}")
+        item = replace(item, art=replace(item.art, markup=markup))
     return element(item, own, place, shape.path_digits)
 
 

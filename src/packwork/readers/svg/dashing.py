@@ -67,6 +67,9 @@ def _between(path: FloatArray, along: FloatArray, begin: float, end: float) -> F
     if begin == end:
         dot = _DOT * float(along[-1])
         begin, end = max(0.0, begin - dot), min(float(along[-1]), end + dot)
-    inner = path[(along > begin) & (along < end)]
-    ends = np.column_stack([np.interp([begin, end], along, path[:, k]) for k in (0, 1)])
-    return np.concatenate([ends[:1], inner, ends[1:]])
+    first, last = np.searchsorted(along, begin, "right"), np.searchsorted(along, end, "left")
+    near = slice(max(0, int(first) - 1), int(last) + 1)
+    ends = np.column_stack(
+        [np.interp([begin, end], along[near], path[near, axis]) for axis in (0, 1)]
+    )
+    return np.concatenate([ends[:1], path[first:last], ends[1:]])

@@ -56,7 +56,9 @@ class Drawing:
         return work_of(solid_twin(self.root), self.shapes, self.page)
 
 
-def read_drawing(data: bytes, *, is_compared: bool = False) -> Drawing:
+def read_drawing(
+    data: bytes, *, is_compared: bool = False, tolerance: float | None = None
+) -> Drawing:
     """Drawing of an SVG file's bytes.
 
     Parameters
@@ -66,6 +68,9 @@ def read_drawing(data: bytes, *, is_compared: bool = False) -> Drawing:
     is_compared
         Whether what was computed from shapes is compared with a rendering, and traced
         from that where it differs, with a notice.
+    tolerance
+        Largest distance of a curve from its chords, in CSS pixels, where that is to be
+        finer than for placing; not of what is compared.
 
     Raises
     ------
@@ -86,7 +91,7 @@ def read_drawing(data: bytes, *, is_compared: bool = False) -> Drawing:
         return _traced(root, page, shapes)
     if is_compared:
         return _compared(root, page, shapes)
-    return Drawing(root, page, painted_ink(shapes), shapes)
+    return Drawing(root, page, painted_ink(shapes, tolerance), shapes)
 
 
 def _compared(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Drawing:

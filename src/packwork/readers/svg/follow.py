@@ -14,14 +14,14 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, polygon_parts
+from packwork.readers.svg.centre_lines import FinePoints, piece_strokes
 from packwork.readers.svg.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
-from packwork.readers.svg.dashing import dashed
 from packwork.readers.svg.extent import is_inside, stretch, whole_box
 from packwork.readers.svg.fills import filled
 from packwork.readers.svg.painted import Clip, Painted
 from packwork.readers.svg.path_data import SubPath
 from packwork.readers.svg.shapes import flattened_all
-from packwork.readers.svg.strokes import Pen, stroke_region
+from packwork.readers.svg.strokes import Pen
 
 FLATTENING = 2e-5
 """Largest distance of a curve from its chords, as a share of the drawing's extent: half
@@ -47,6 +47,8 @@ class Follower:
     ----------
     extent
         Longer side of the drawing's box, in CSS pixels.
+    flattening
+        Largest distance of a curve from its chords, as a share of that.
 
     Examples
     --------
@@ -57,12 +59,13 @@ class Follower:
     8.0
     """
 
-    def __init__(self, extent: float) -> None:
+    def __init__(self, extent: float, flattening: float = FLATTENING) -> None:
         self._extent = extent
-        self._tolerance = FLATTENING * extent
+        self._tolerance = flattening * extent
         self._fills: dict[Painted, Region] = {}
         self._strokes: dict[tuple[Painted, bool], Region] = {}
         self._clips: dict[Clip, Region] = {}
+        self._fine_points = FinePoints()
         self._allowance = Allowance(MAX_CROSSINGS)
         self._union_allowance = Allowance(MAX_UNION_CROSSINGS)
 
@@ -151,16 +154,10 @@ class Follower:
 
     def _pen_strokes(self, pieces: Sequence[SubPath], pen: Pen, tolerance: float) -> Region:
         """Stroke of all pieces of one shape, in its own units."""
-        painted: list[Region] = []
-        for piece, line in zip(pieces, flattened_all(pieces, tolerance), strict=True):
+        for line in flattened_all(pieces, tolerance):
             if len(line) > 1 and not shapely.LineString(line).is_simple:
                 self._allowance.spend([line])
-            if pen.dashes:
-                parts = dashed(line, piece.is_closed, pen.dashes, pen.dash_offset)
-                painted += [stroke_region(part, False, pen, tolerance) for part in parts]
-            else:
-                painted.append(stroke_region(line, piece.is_closed, pen, tolerance))
-        return self.united(painted)
+        return self.united(piece_strokes(pieces, pen, tolerance, self._fine_points))
 
     def _stroked(self, shape: Painted, is_bridged: bool) -> Region:
         """Stroke in the shape's own units, where the pen is round, then placed."""

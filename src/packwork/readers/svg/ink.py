@@ -63,8 +63,16 @@ class Ink(ABC):
         """Whether a page or a viewport cuts off part of what is drawn."""
 
 
-def painted_ink(shapes: Sequence[Painted]) -> Ink:
+def painted_ink(shapes: Sequence[Painted], tolerance: float | None = None) -> Ink:
     """Ink of shapes, curves followed to ``FLATTENING`` of the drawing's extent.
+
+    Parameters
+    ----------
+    shapes
+        In painting order.
+    tolerance
+        Largest distance of a curve from its chords, in CSS pixels, where that is to be
+        finer.
 
     Raises
     ------
@@ -83,8 +91,9 @@ def painted_ink(shapes: Sequence[Painted]) -> Ink:
     extent = 0.0 if box is None else max(box[2] - box[0], box[3] - box[1])
     if extent <= 0:
         return TracedInk(Polygon(), is_cut=False)
-    _check_detail(shapes, FLATTENING * extent)
-    return PaintedInk(shapes, extent)
+    flattening = FLATTENING if tolerance is None else min(FLATTENING, tolerance / extent)
+    _check_detail(shapes, flattening * extent)
+    return PaintedInk(shapes, extent, flattening)
 
 
 @final
@@ -137,12 +146,16 @@ class PaintedInk(Ink):
         In painting order.
     extent
         Longer side of the box round what shows of them.
+    flattening
+        Largest distance of a curve from its chords, as a share of that.
     """
 
-    def __init__(self, shapes: Sequence[Painted], extent: float) -> None:
+    def __init__(
+        self, shapes: Sequence[Painted], extent: float, flattening: float = FLATTENING
+    ) -> None:
         self._shapes = [shape for shape in shapes if shown_box(shape) is not None]
         self._extent = extent
-        self._follower = Follower(extent)
+        self._follower = Follower(extent, flattening)
 
     @cached_property
     def whole(self) -> Region:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 from packwork.geometry.outline import Outline
@@ -11,6 +12,7 @@ from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.glow import without_glow
+from packwork.readers.svg.ink import TracedInk
 from packwork.readers.svg.rounds import with_short_arcs
 from packwork.readers.unfit import naming
 from packwork.scene.item import Item
@@ -75,4 +77,5 @@ def item_of_svg(
             ink = Outline.from_region(clean_union(drawing.ink.whole)).mapped(place)
         root = with_short_arcs(without_glow(drawing))
         art = vector_art(root, drawing.page, is_cut=drawing.ink.is_cut, place=place)
+        art = replace(art, is_traced=isinstance(drawing.ink, TracedInk))
     return Item(name, source, outline, ink, art)

@@ -31,6 +31,9 @@ _ELEMENT_NS, _LAYER_NS, _COVERED_NS, _HAIR_NS, _CROWD_NS = 2e4, 150.0, 6.0, 1e3,
 """For an element, a pixel of a layer, a pixel that a shape covers, a pixel along a line
 thinner than one, and a row of a shape by the square of its edges there. Measured."""
 
+_MOST_ZOOM = 1e9
+"""Page over the part of it that is shown, at most: beyond it no digits are left. Chosen."""
+
 _MOST_SPILL = 25.0
 """Pictures that a layer is as large as, at most, where its content reaches beyond."""
 
@@ -80,8 +83,10 @@ class Work:
         --------
         >>> Work(elements=10, layers=0, depth=1.0).nanoseconds(100, 1.0)
         60000.0
+        >>> Work(elements=10, layers=1, page=1e200).nanoseconds(100, 1e-9)
+        37500000.0
         """
-        zoom = max(1.0, self.page / part)
+        zoom = min(max(1.0, self.page / part), _MOST_ZOOM)
         depth = min(self.elements, self.depth * zoom**2)
         layers = self.layers * min(_MOST_SPILL, self.spill * zoom**2)
         pixels = side * side * (_LAYER_NS * layers + _COVERED_NS * depth)

@@ -1,0 +1,49 @@
+"""Any file that holds a whole layout, by its ending."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from packwork.errors import ReadError
+from packwork.readers.files import read_bytes, stem
+from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.layout import MAX_LAYOUT_BYTES, read_layout
+from packwork.readers.unfit import naming
+from packwork.readers.written.dxf import layout_of_dxf
+from packwork.readers.written.svg import layout_of_svg
+from packwork.scene.layout import Layout
+
+ENDINGS = (".geojson", ".json", ".svg", ".dxf")
+"""What can be measured. A PNG has no outlines, and a PDF is read by no part of ours."""
+
+
+def read_written(path: str | Path) -> Layout:
+    """Layout of a file that we wrote, its outlines those that stand in the file.
+
+    GeoJSON and DXF hold the outlines themselves. In an SVG each drawing is read anew, as
+    people will see it, and followed to ``svg.FLATTENING`` of the canvas.
+
+    Raises
+    ------
+    ReadError
+        If it is missing, of another ending, or not as we write it.
+
+    Examples
+    --------
+    >>> read_written("layout.png")
+    Traceback (most recent call last):
+    packwork.errors.ReadError: layout.png: has no outlines to measure; give a .geojson, ...
+    """
+    ending = Path(path).suffix.lower()
+    if ending == ".svg":
+        data = read_bytes(path, MAX_BYTES)
+        with naming(str(path)):
+            return layout_of_svg(data, stem(path))
+    if ending == ".dxf":
+        # Only names may hold other letters than ASCII, and names are for showing.
+        text = read_bytes(path, MAX_LAYOUT_BYTES).decode("cp1252", errors="replace")
+        with naming(str(path)):
+            return layout_of_dxf(text, stem(path))
+    if ending in ENDINGS:
+        return read_layout(path)
+    raise ReadError(path, "has no outlines to measure; give a .geojson, .svg or .dxf")

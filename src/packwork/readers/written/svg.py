@@ -1,0 +1,227 @@
+"""SVG files that we wrote, back to layouts: the drawings as people will see them.
+
+Every distinct drawing goes through the gate and is followed anew, finer than when it was
+placed, and each copy is put where its transform says. Only of drawings that had to be
+traced the file's own word is taken: tracing them again would give another outline.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import copy
+import xml.etree.ElementTree as ET
+from collections.abc import Sequence
+from typing import final
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray
+from packwork.geometry import affine
+from packwork.geometry.polygon import Region, silhouette
+from packwork.readers.gate.xml_tree import parse_xml
+from packwork.readers.pictures.decode import decode_picture
+from packwork.readers.pictures.silhouette import ART_PX, SPECK, cut_out, outline_of_coverage
+from packwork.readers.regions import clean_union
+from packwork.readers.svg.container import stated_unit
+from packwork.readers.svg.drawing import read_drawing
+from packwork.readers.svg.lengths import parse_length
+from packwork.readers.svg.page import view_box
+from packwork.readers.svg.transforms import parse_transform
+from packwork.readers.unfit import UnfitError
+from packwork.readers.written.assembly import Found, Sheet, assembled, sound_gap, sound_weight
+from packwork.scene.layout import Layout
+from packwork.units import Unit, convert
+
+FLATTENING = 1e-6
+"""Largest distance of a curve from its chords, as a share of the canvas. Chosen: a tenth of
+the finest gap that a finish keeps."""
+
+_SAME = 1e-9
+_SPACE = "{http://www.w3.org/2000/svg}"
+_LINK = "{http://www.w3.org/1999/xlink}href"
+_NOT_OURS = "as packwork writes it; give an SVG of ours, or the layout saved as .geojson"
+
+
+def layout_of_svg(data: bytes, name: str) -> Layout:
+    """Layout of an SVG's bytes, its outlines those of the drawings in it.
+
+    Of drawings that only a rendering tells (text, masks) the file holds the outline that
+    was placed; embedded pictures are followed as they were when they were read.
+
+    Raises
+    ------
+    UnfitError
+        If it is not an SVG of ours.
+
+    Examples
+    --------
+    >>> wall = '<g id="container" display="none"><path d="M0 0h9v9h-9z"/></g>'
+    >>> tile = '<path data-name="tile" transform="translate(2)" d="M0 1h4v4h-4z"/>'
+    >>> text = f'<svg viewBox="0 0 9 9">{wall}<g id="items">{tile}</g></svg>'
+    >>> layout = layout_of_svg(text.encode(), "tiles.svg")
+    >>> layout.outlines[0].bounds, layout.items[0].name
+    ((2.0, 1.0, 6.0, 5.0), 'tile')
+    """
+    root = parse_xml(data)
+    width, height, unit, scale = _canvas(root)
+    items, walls = _named(root, "items"), _named(root, "container")
+    drawn = [_drawn(element) for element in items]
+    drawings = _Drawings(root, drawn, max(width, height) / scale)
+    # Other programs move a whole group by a transform of its own.
+    to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
+    items_to_canvas, wall_to_canvas = (
+        affine.compose(to_canvas, _place(group)) for group in (items, walls)
+    )
+    gap, is_kept = items.get("data-gap"), items.get("data-holes") == "keep"
+    sheet = Sheet(
+        width=width,
+        height=height,
+        unit=unit,
+        container=_placed(drawings.wall(walls), wall_to_canvas),
+        gap=None if gap is None else sound_gap(gap),
+        areas_in_shares=items.get("data-in-shares") == "true",
+        items=[_found(drawings, one, items_to_canvas, is_kept) for one in drawn],
+    )
+    return assembled(sheet, name)
+
+
+@final
+class _Drawings:
+    """Regions of the drawings of one file, each followed once, as its largest copy needs.
+
+    Parameters
+    ----------
+    root
+        The file.
+    drawn
+        The elements of its items.
+    side
+        Longer side of the canvas, in the file's units.
+    """
+
+    def __init__(self, root: ET.Element, drawn: Sequence[ET.Element], side: float) -> None:
+        self._by_id = {e.get("id"): e for e in root.iter() if e.get("id")}
+        self._side = side
+        self._regions: dict[int, Region] = {}
+        self._largest: dict[int, float] = {}
+        for one in drawn:
+            key = id(self._source(one))
+            size = _size(_place(one))
+            self._largest[key] = max(size, self._largest.get(key, 0.0))
+
+    def wall(self, group: ET.Element) -> Region:
+        """Region of the container's paths, shown or not."""
+        paths = [_path(e.get("d", "")) for e in group if _tag(e) == "path"]
+        if not paths:
+            raise UnfitError(f"has no path in the group named container, {_NOT_OURS}")
+        return self._followed(paths, 1.0)
+
+    def item(self, drawn: ET.Element) -> Region:
+        """What shows of one item, in the units in which its place is given."""
+        source = self._source(drawn)
+        key = id(source)
+        if key not in self._regions:
+            # The place of a copy in full is its element's own transform.
+            own = affine.identity() if source is drawn else _place(source)
+            self._regions[key] = self._ink(source, own, self._largest[key])
+        return self._regions[key]
+
+    def _source(self, drawn: ET.Element) -> ET.Element:
+        if _tag(drawn) != "use":
+            return drawn
+        source = self._by_id.get((drawn.get(_LINK) or drawn.get("href") or "").removeprefix("#"))
+        if source is None or _tag(source) == "use":
+            raise UnfitError(f"has an item that shows nothing, {_NOT_OURS}")
+        return source
+
+    def _ink(self, source: ET.Element, own: FloatArray, size: float) -> Region:
+        if _tag(source) == "image":
+            return _placed(_picture(source), own)
+        if "data-outline" in source.attrib:
+            return _placed(self._followed([_path(source.attrib["data-outline"])], size), own)
+        bare = copy.copy(source)
+        bare.attrib = {key: v for key, v in source.attrib.items() if key != "transform"}
+        return _placed(self._followed([bare], size * _size(own)), own)
+
+    def _followed(self, elements: list[ET.Element], size: float) -> Region:
+        """What elements paint, in their own units, fine enough for a copy of that size."""
+        if not size > 0:
+            raise UnfitError(f"has an item without any size, {_NOT_OURS}")
+        document = ET.Element(f"{_SPACE}svg")
+        document.extend(elements)
+        drawing = read_drawing(ET.tostring(document), tolerance=FLATTENING * self._side / size)
+        return clean_union(drawing.ink.body)
+
+
+def _found(
+    drawings: _Drawings, drawn: ET.Element, to_canvas: FloatArray, keeps_holes: bool
+) -> Found:
+    ink = drawings.item(drawn)
+    placed = _placed(ink, affine.compose(to_canvas, _place(drawn)))
+    name, weight = drawn.get("data-name", "item"), drawn.get("data-weight", "1")
+    return Found(name, placed if keeps_holes else silhouette(placed), sound_weight(weight))
+
+
+def _place(element: ET.Element) -> FloatArray:
+    return parse_transform(element.get("transform"))
+
+
+def _size(matrix: FloatArray) -> float:
+    """How many times as long as they are a map makes lengths, at most."""
+    return float(np.linalg.norm(matrix[:, :2], 2))
+
+
+def _drawn(element: ET.Element) -> ET.Element:
+    """An item's element, its link and its tooltip taken off."""
+    if _tag(element) == "a" and "transform" in element.attrib:
+        raise UnfitError(f"has a link that moves its item, {_NOT_OURS}")
+    is_wrapping = _tag(element) == "a" or (_tag(element) == "g" and not element.attrib)
+    inside = [child for child in element if _tag(child) != "title"]
+    return inside[0] if is_wrapping and len(inside) == 1 else element
+
+
+def _canvas(root: ET.Element) -> tuple[float, float, Unit, float]:
+    """Width and height in canvas units, the unit, and canvas units to a unit of the file."""
+    view = view_box(root)
+    if _tag(root) != "svg" or view is None or view[:2] != (0.0, 0.0):
+        raise UnfitError(f"has no canvas, {_NOT_OURS}")
+    unit = stated_unit(root) or "px"
+    width_px = parse_length(root.get("width"), 0.0)
+    scale = 1.0 if not width_px else convert(width_px, "px", unit) / view[2]
+    # A canvas in its own unit is as long in numbers; what differs by rounding is the same.
+    scale = 1.0 if abs(scale - 1.0) < _SAME else scale
+    return scale * view[2], scale * view[3], unit, scale
+
+
+def _named(root: ET.Element, name: str) -> ET.Element:
+    group = next((e for e in root if e.get("id") == name and _tag(e) == "g"), None)
+    if group is None:
+        raise UnfitError(f"has no group named {name} at its top, {_NOT_OURS}")
+    return group
+
+
+def _picture(image: ET.Element) -> Region:
+    """What an embedded picture shows, in the units of its element."""
+    _, _, encoded = (image.get(_LINK) or image.get("href") or "").partition("base64,")
+    try:
+        picture = decode_picture(base64.b64decode(encoded, validate=True), ART_PX)
+    except (binascii.Error, ValueError):
+        raise UnfitError(f"has an item whose picture is none, {_NOT_OURS}") from None
+    opaque, _ = cut_out(picture.pixels)
+    ink = clean_union(outline_of_coverage(opaque), speck=SPECK)
+    return shapely.transform(ink, lambda points: points * picture.unit)
+
+
+def _path(data: str) -> ET.Element:
+    return ET.Element(f"{_SPACE}path", {"d": data, "fill-rule": "evenodd"})
+
+
+def _placed(region: Region, matrix: FloatArray) -> Region:
+    return shapely.transform(region, lambda points: affine.apply(matrix, points))
+
+
+def _tag(element: ET.Element) -> str:
+    """Name of an element without its namespace."""
+    return str(element.tag).rpartition("}")[2]
