@@ -138,13 +138,23 @@ def _options(
         largest=tuple(largest.tolist()),
         turning=turning,
         turn_limit=limit if turning else None,
-        trials=_trials(recipe, len(items)),
+        trials=trials_for(recipe, len(items)),
         seed=recipe.seed,
     )
 
 
-def _trials(recipe: Recipe, count: int) -> int:
-    """How many turns and exchanges are tried; none if copies have to stay apart."""
+def trials_for(recipe: Recipe, count: int) -> int:
+    """How many turns and exchanges of ``count`` items are tried.
+
+    None if copies have to stay apart: a trial does not know from whom.
+
+    Examples
+    --------
+    >>> from packwork.recipe import make_recipe
+    >>> recipe = make_recipe(container="heart", items=["star"], effort="normal")
+    >>> trials_for(recipe, 20), trials_for(recipe, 1_000)
+    (80, 400)
+    """
     if recipe.keeps_apart:
         return 0
     return min(TRIALS[recipe.effort] * count, MOST_TRIALS[recipe.effort])
