@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import product
 from typing import Any
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
@@ -34,7 +35,7 @@ from packwork.solve.solver import solve
 
 MODES = ("free", "shared", "shared-1..4")
 EFFORTS = ("normal", "best")
-DEFAULT_SEEDS = {"normal": 3, "best": 1}
+DEFAULT_SEEDS = {"normal": 2, "best": 1}
 
 HEADER = [
     "container", "LC levels", "LC", "overlap", "outside", "least gap", "shares off by", "clean",
@@ -99,6 +100,16 @@ class Asked:
         """Those of the choices that are named; all if none is."""
         return [choice for choice in choices if choice in self.words] or list(choices)
 
+    def kits(self) -> list[Kit]:
+        """Sets that are named, or that hold a container that is; all if there is none."""
+
+        def is_named(kit: Kit) -> bool:
+            return any(container.name in self.words for container in kit.containers())
+
+        chosen = self.wants([kit.name for kit in KITS])
+        kits = [kit for kit in KITS if kit.name in chosen]
+        return list(filter(is_named, kits)) or kits
+
     def seeds(self, effort: str) -> range:
         """How many seeds, from 0."""
         given = [word.split("=")[1] for word in self.words if word.startswith("seeds=")]
@@ -160,22 +171,18 @@ def row(name: str, runs: Sequence[Result]) -> list[str]:
 
 
 def tables(asked: Asked) -> Iterator[str]:
-    """One table for each set, mode and effort, as soon as it is done."""
-    for kit in (kit for kit in KITS if kit.name in asked.wants([kit.name for kit in KITS])):
+    """One table for each effort, set and mode, as soon as it is done."""
+    kits = asked.kits()
+    for effort, kit, mode in product(asked.wants(EFFORTS), kits, asked.wants(MODES)):
         containers = {container.name: container for container in kit.containers()}
-        for mode in asked.wants(MODES):
-            for effort in asked.wants(EFFORTS):
-                rows, of_all = [], []
-                for name in asked.wants(list(containers)):
-                    runs = [
-                        measured(kit, containers[name], mode, effort, s)
-                        for s in asked.seeds(effort)
-                    ]
-                    rows.append(row(name, runs))
-                    of_all.append(runs)
-                rows.append(mean_row(of_all))
-                title = f"## {kit.name}, {mode}, `--effort {effort}`"
-                yield f"{title}\n\n{markdown_table(HEADER, rows)}\n"
+        rows, of_all = [], []
+        for name in asked.wants(list(containers)):
+            runs = [measured(kit, containers[name], mode, effort, s) for s in asked.seeds(effort)]
+            rows.append(row(name, runs))
+            of_all.append(runs)
+        rows.append(mean_row(of_all))
+        title = f"## {kit.name}, {mode}, `--effort {effort}`"
+        yield f"{title}\n\n{markdown_table(HEADER, rows)}\n"
 
 
 def mean_row(of_all: Sequence[Sequence[Result]]) -> list[str]:
@@ -199,16 +206,16 @@ def main(words: list[str]) -> None:
     asked = Asked(tuple(words))
     print(machine(), flush=True)
     pipeline.warm_up()
-    made = []
+    told, made = " ".join(["quality", *words]), []
     for table in tables(asked):
         print(table, flush=True)
         made.append(table)
-    if not words or "write" in words:
-        told = " ".join(["quality", *words])
-        write_page(
-            "benchmarks-quality.md", PAGE, words=told, seeds=said_seeds(asked),
-            tables="\n".join(made),
-        )  # fmt: skip
+        if not words or "write" in words:
+            # After each table: what a stopped run has measured is not lost.
+            write_page(
+                "benchmarks-quality.md", PAGE, words=told, seeds=said_seeds(asked),
+                tables="\n".join(made),
+            )  # fmt: skip
 
 
 if __name__ == "__main__":

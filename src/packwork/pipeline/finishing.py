@@ -27,11 +27,11 @@ from packwork.solve.options import OutlineChoice
 from packwork.solve.solver import scale_bounds
 from packwork.solve.stand_ins import stand_ins
 
-TRIALS = {"draft": 0, "normal": 4, "best": 40}
+TRIALS = {"draft": 0, "normal": 5, "best": 40}
 """Turns and exchanges tried for each item, by effort: 4 ms each. More fill better, ever less
 so. Measured in docs/benchmarks-quality."""
 
-MOST_TRIALS = {"draft": 0, "normal": 400, "best": 20_000}
+MOST_TRIALS = {"draft": 0, "normal": 500, "best": 20_000}
 """Such trials at most: what a person waits for does not grow with the items. Chosen."""
 
 TRIALS_SHARE = 0.6
@@ -153,7 +153,7 @@ def trials_for(recipe: Recipe, count: int) -> int:
     >>> from packwork.recipe import make_recipe
     >>> recipe = make_recipe(container="heart", items=["star"], effort="normal")
     >>> trials_for(recipe, 20), trials_for(recipe, 1_000)
-    (80, 400)
+    (100, 500)
     """
     if recipe.keeps_apart:
         return 0
