@@ -42,7 +42,7 @@ class FinishOptions(BaseModel):
     """Linear programmes of each item in one compaction. More fills a little better."""
 
     trials: Annotated[int, Field(ge=0, le=1_000_000)] = 0
-    """Exchanges of items that are tried after the compaction, for each hundred items."""
+    """Turns and exchanges of items that are tried after the first compaction."""
 
     seed: Annotated[int, Field(ge=0)] = 0
     """Of the trials."""

@@ -20,14 +20,22 @@ from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.settling import settled
 from packwork.progress import Observer, Step, Stop
 from packwork.readers.svg.follow import FLATTENING
+from packwork.recipe import Recipe
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.options import OutlineChoice
 from packwork.solve.solver import scale_bounds
 from packwork.solve.stand_ins import stand_ins
 
-TRIALS = {"draft": 0, "normal": 0, "best": 2_000}
-"""Exchanges tried by effort, for each hundred items. Measured in docs/benchmarks."""
+TRIALS = {"draft": 0, "normal": 5, "best": 40}
+"""Turns and exchanges tried for each item, by effort: 4 ms each. More fill better, ever less
+so. Measured in docs/benchmarks-quality."""
+
+MOST_TRIALS = {"draft": 0, "normal": 500, "best": 20_000}
+"""Such trials at most: what a person waits for does not grow with the items. Chosen."""
+
+TRIALS_SHARE = 0.6
+"""Share of the time left, where one was given, after which no more is tried. Chosen."""
 
 PRESSING = frozenset(
     {
@@ -57,6 +65,7 @@ def finished(
     choice: OutlineChoice = "hull" if job.recipe.outline == "hull" else "exact"
     outlines = stand_ins([item.outline for item in job.items], choice)
     until = _until(stop, job.seconds_left(1.0))
+    is_enough = _until(stop, job.seconds_left(TRIALS_SHARE))
     smallest, largest = _bounds(job, start, poses)
     limits = start.limits
     groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
@@ -81,6 +90,7 @@ def finished(
             _options(job, start, items, smallest[items], largest[items]),
             None if observer is None else _Closing(observer, poses, items),
             until,
+            is_enough,
         )
         poses = _put(poses, items, result.poses)
         results.append((items, result))
@@ -128,10 +138,26 @@ def _options(
         largest=tuple(largest.tolist()),
         turning=turning,
         turn_limit=limit if turning else None,
-        # A trial does not know who is to stay apart from whom.
-        trials=0 if recipe.keeps_apart else TRIALS[recipe.effort],
+        trials=trials_for(recipe, len(items)),
         seed=recipe.seed,
     )
+
+
+def trials_for(recipe: Recipe, count: int) -> int:
+    """How many turns and exchanges of ``count`` items are tried.
+
+    None if copies have to stay apart: a trial does not know from whom.
+
+    Examples
+    --------
+    >>> from packwork.recipe import make_recipe
+    >>> recipe = make_recipe(container="heart", items=["star"], effort="normal")
+    >>> trials_for(recipe, 20), trials_for(recipe, 1_000)
+    (100, 500)
+    """
+    if recipe.keeps_apart:
+        return 0
+    return min(TRIALS[recipe.effort] * count, MOST_TRIALS[recipe.effort])
 
 
 def _without(whole: Outline, walls: Sequence[Outline]) -> Outline:
