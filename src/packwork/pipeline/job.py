@@ -59,6 +59,8 @@ class Job:
         What has been used so far.
     earlier
         The layout to start from, if any.
+    fillers
+        What may be put into the voids that are left, one of each sort.
     """
 
     recipe: Recipe
@@ -70,6 +72,7 @@ class Job:
     skipped: tuple[PackworkError, ...]
     clock: Clock
     earlier: Layout | None = None
+    fillers: tuple[Item, ...] = ()
 
     @property
     def is_limited(self) -> bool:
@@ -100,10 +103,33 @@ def read(
         chosen = cast(recipe, items)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
+        fillers, more = _fillers(recipe, items)
+        skipped += more
         recipe.start_options()
         for loss in recipe.losses:
             if loss not in POSE_LOSSES:
                 find_loss(loss)
     return Job(
-        recipe, region, chosen.items, chosen.asked, chosen.weights, regions, skipped, clock, earlier
+        recipe,
+        region,
+        chosen.items,
+        chosen.asked,
+        chosen.weights,
+        regions,
+        skipped,
+        clock,
+        earlier,
+        fillers,
     )
+
+
+def _fillers(
+    recipe: Recipe, items: Sequence[Item]
+) -> tuple[tuple[Item, ...], tuple[PackworkError, ...]]:
+    """What voids are filled with, and files that were left out."""
+    if not recipe.fills_gaps:
+        return (), ()
+    if not recipe.filler:
+        return tuple(items), ()
+    found = read_items(recipe.filler, holes=recipe.holes, strict=recipe.strict)
+    return found.items, found.skipped
