@@ -104,7 +104,7 @@ def search(
     arrangement
         Changed in place.
     wish
-        What to wish for at given growths; asked again after each sweep.
+        What to wish for at given growths; asked again after each trial.
     trials
         How many.
     room
@@ -134,15 +134,19 @@ def search(
             heat = HEAT * room.spacing**2 * (1 - trial / trials)
             target -= heat * rng.exponential()
         candidates = _at_angles(places, moved, wishes, rng)
-        if _put_best(arrangement, wishes, moved, candidates, room) and _grow(
+        least = arrangement.places[:, 3].min()
+        gains = _put_best(arrangement, wishes, moved, candidates, room) and _grow(
             arrangement, wishes, items, room, target
-        ):
+        )
+        # Where the smallest counts, what all the others gain does not make up for it.
+        if gains and (wishes.power > 0 or arrangement.places[items, 3].min() >= least):
             kept += 1
         else:
             arrangement.put(items, before)
         if (trial + 1) % arrangement.count == 0:
             _sweep(arrangement, wishes, room, trial)
-            wishes = wish(arrangement.places[:, 3])
+        # How far an item may grow depends on how large the smallest is now.
+        wishes = wish(arrangement.places[:, 3])
     return kept
 
 
