@@ -18,6 +18,7 @@ from pydantic import (
 
 from packwork.errors import RecipeError
 from packwork.presets import PRESETS
+from packwork.readers.words.options import WordOptions
 from packwork.refusals import refusal
 from packwork.rules import MAX_COUNT, Rotation, Rule, as_text, hero_rule, rotation_text
 from packwork.solve.options import (
@@ -58,13 +59,19 @@ class Recipe(BaseModel):
     """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, or a built-in name such as heart."""
 
     font: str | None = None
-    """Font file (TTF, OTF, TTC) for a container text:WORD. Default: a bundled bold sans."""
+    """Font file (TTF, OTF, TTC) for a container text:WORD; for words also an installed
+    family, and when given several times the next ones set what the first cannot. Default: a
+    bundled bold sans, and for words then any installed one that has the letters."""
 
     items: tuple[str, ...] = ("builtin:icons",)
     """What to place: SVGs, pictures, folders of them, or built-in names."""
 
+    words: WordOptions | None = None
+    """Words to place: what they are and how they are set (``packwork words``)."""
+
     count: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
-    """How many items in all; the given ones are repeated in turn. Default: one of each."""
+    """How many items in all; the given ones are repeated in turn. Default: one of each.
+    Of words: how many at most, those of the largest weights; default 100."""
 
     canvas: str | float | None = None
     """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as
@@ -86,7 +93,8 @@ class Recipe(BaseModel):
     as high for its width, at the same area. 1 keeps all proportions."""
 
     rotate: str = "free"
-    """free, none, 30 (within 30 degrees of upright) or 0,90 (only these angles)."""
+    """free, none, 30 (within 30 degrees of upright) or 0,90 (only these angles); also
+    horizontal, vertical (read upwards), mixed (one in four vertical)."""
 
     padding: str | float = "0"
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,

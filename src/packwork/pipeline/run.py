@@ -21,7 +21,7 @@ from packwork.pipeline.beside import same_kind_beside
 from packwork.pipeline.dressing import dressed
 from packwork.pipeline.finishing import finished, unfinished
 from packwork.pipeline.job import Job, read
-from packwork.pipeline.outcome import Run, find_unplaced, manifest
+from packwork.pipeline.outcome import Run, find_unplaced, manifest, undrawn
 from packwork.presets import refined_levels
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
@@ -90,7 +90,7 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
     with clock.time("measure"):
         metrics = measure(layout)
         left = () if exact is None else unfinished(job, exact)
-        unplaced = left or find_unplaced(layout, start.limits)
+        unplaced = (*(left or find_unplaced(layout, start.limits)), *undrawn(job))
         shares = recipe.sizes == "shared" and start.limits is None
         promise = Promise(padding, shares) if exact is not None else None
         faults = () if promise is None else broken(promise, layout, metrics.exact)
