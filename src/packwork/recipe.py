@@ -50,6 +50,10 @@ MAX_SECONDS = 86_400.0
 """Longest time for one run. Chosen."""
 
 
+DEFAULT_SMALLEST = "0.5%"
+"""Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
+
+
 class Recipe(BaseModel):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
@@ -136,6 +140,20 @@ class Recipe(BaseModel):
     finish: Literal["exact", "none"] = "exact"
     """exact: after the levels, items are moved, turned and sized in exact geometry until
     nothing overlaps and nothing sticks out; none: what the levels gave, not certified."""
+
+    target_coverage: Annotated[float, Field(gt=0, lt=1)] | None = None
+    """Share of the container to cover, as 0.94: smaller copies are put into the voids, round by
+    round, until it is reached or nothing more fits."""
+
+    max_items: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
+    """Most items in all once smaller copies have been put into the voids. Default: 1000."""
+
+    smallest: str | float | None = None
+    """Longer side of the smallest copy put into a void, a length as for the padding.
+    Default: 0.5%."""
+
+    filler: tuple[str, ...] = ()
+    """Items to put into the voids, in place of smaller copies of the items."""
 
     effort: Effort = "normal"
     """How many iterations: draft, normal or best."""
@@ -229,6 +247,13 @@ class Recipe(BaseModel):
         _length("padding", value, "px", 1.0)
         return value
 
+    @field_validator("smallest")
+    @classmethod
+    def _smallest_is_a_size(cls, value: str | float | None) -> str | float | None:
+        if value is not None and _length("smallest", value, "px", 1.0) <= 0:
+            raise RecipeError("smallest", f"must be more than nothing, not {value}")
+        return value
+
     @field_validator("losses")
     @classmethod
     def _weights_are_finite(
@@ -255,6 +280,18 @@ class Recipe(BaseModel):
                     f"rule {number}: scale bounds free sizes, not {self.sizes} ones; "
                     'leave it out, pin the size, or use sizes = "free"',
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _voids_can_be_filled(self) -> Recipe:
+        if self.fills_gaps and self.finish == "none":
+            raise RecipeError("finish", "none leaves overlaps; voids are filled after an exact one")
+        if self.fills_gaps and self.sizes != "free" and not self.filler:
+            raise RecipeError(
+                "filler",
+                f"must be given where sizes are {self.sizes}: "
+                "smaller copies of the items would not be of their size",
+            )
         return self
 
     def plain(self) -> dict[str, Any]:
@@ -290,6 +327,21 @@ class Recipe(BaseModel):
     def padding_cu(self, container: Container) -> float:
         """Gap asked for, in units of the container's canvas."""
         return _length("padding", self.padding, container.unit, container.side)
+
+    @property
+    def fills_gaps(self) -> bool:
+        """Whether smaller copies go into the voids that are left."""
+        return bool(
+            self.target_coverage is not None
+            or self.max_items is not None
+            or self.smallest is not None
+            or self.filler
+        )
+
+    def smallest_cu(self, container: Container) -> float:
+        """Longer side of the smallest copy put into a void, canvas units."""
+        asked = DEFAULT_SMALLEST if self.smallest is None else self.smallest
+        return _length("smallest", asked, container.unit, container.side)
 
     def may_press(self, padding_cu: float) -> bool:
         """Whether items may be pressed together for even gaps.

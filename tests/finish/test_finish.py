@@ -185,6 +185,26 @@ def test_trials_only_gain() -> None:
     assert covered[1] > covered[0]
 
 
+def test_trials_let_a_common_size_grow() -> None:
+    outlines, start = crowd(np.random.default_rng(7), 9, 100.0)
+    without, including = (
+        finish(square_container(), outlines, start, FinishOptions(sizes="shared", trials=trials))
+        for trials in (0, 200)
+    )
+    assert including.poses.scale[0] > without.poses.scale[0]
+    assert np.ptp(including.poses.scale / start.scale) < 1e-12
+    assert_clean(square_container(), outlines, including)
+
+
+def test_trials_end_when_it_is_enough() -> None:
+    outlines, start = crowd(np.random.default_rng(7), 9, 100.0)
+    options = FinishOptions(trials=1_000)
+    ended = finish(square_container(), outlines, start, options, is_enough=lambda: True)
+    without = finish(square_container(), outlines, start, FinishOptions(trials=0))
+    assert (ended.poses.x == without.poses.x).all()
+    assert ended.rounds == without.rounds > 0
+
+
 def test_a_stopped_finish_is_clean_all_the_same() -> None:
     outlines, start = crowd(np.random.default_rng(8), 9, 100.0)
     for sizes in ("free", "shared"):

@@ -13,6 +13,7 @@ import shapely
 import packwork as pw
 from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
+from packwork.finish.finish import SIZE_TOLERANCE
 from packwork.pipeline.beside import beside, same_kind_beside
 from packwork.pipeline.limiting import LEAD, kinds
 from packwork.progress import Step
@@ -108,12 +109,14 @@ def test_ranges_of_sizes_are_kept_and_used(finish: str) -> None:
     job = pipeline.read(make_recipe(items=NAMES, count=15, **QUICK))
     nominal = begin(job, job.container, [item.outline for item in job.items]).nominal
     small = [one.index for one in met.unplaced]
+    # The last steps of a finish end a little off their bounds.
+    off = 1e-9 if finish == "none" else SIZE_TOLERANCE
     for poses in [*(poses for poses, is_finish in log.seen if not is_finish), met.layout.poses]:
         ratios = poses.scale / nominal
-        assert ratios[np.setdiff1d(stars, small)].min() >= 0.5 * (1 - 1e-9)
-        assert ratios[stars].max() <= 0.7 * (1 + 1e-9)
-        assert ratios[np.setdiff1d(hearts, small)].min() >= 1.2 * (1 - 1e-9)
-        assert ratios[hearts].max() <= 1.9 * (1 + 1e-9)
+        assert ratios[np.setdiff1d(stars, small)].min() >= 0.5 * (1 - off)
+        assert ratios[stars].max() <= 0.7 * (1 + off)
+        assert ratios[np.setdiff1d(hearts, small)].min() >= 1.2 * (1 - off)
+        assert ratios[hearts].max() <= 1.9 * (1 + off)
     assert (plain.layout.poses.scale / nominal)[hearts].min() < 1.2
     assert len(small) <= 1
 

@@ -13,7 +13,9 @@ from packwork.cli.failure import clear_errors
 
 
 def bench(
-    name: Annotated[str, typer.Argument(metavar="NAME", help="engine, outlines or starts.")],
+    name: Annotated[
+        str, typer.Argument(metavar="NAME", help="engine, quality, outlines, starts ...")
+    ],
     arguments: Annotated[
         list[str] | None, typer.Argument(metavar="[ARGUMENT...]", help="Handed on as they are.")
     ] = None,

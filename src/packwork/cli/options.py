@@ -11,6 +11,7 @@ import typer
 from packwork.recipe import Recipe
 
 PLACING = "What is placed"
+GAPS = "What fills the voids"
 SOLVING = "How it is solved"
 WRITING = "What is written"
 
@@ -50,6 +51,10 @@ OutlineChoice = Annotated[Literal["exact", "fitted", "hull"], flag("outline", pa
 Strict = Annotated[bool, flag("strict", "--strict", panel=PLACING)]
 Seed = Annotated[int, flag("seed", panel=SOLVING)]
 Finish = Annotated[Literal["exact", "none"], flag("finish", panel=SOLVING)]
+TargetCoverage = Annotated[float | None, flag("target_coverage", panel=GAPS)]
+MaxItems = Annotated[int | None, flag("max_items", panel=GAPS)]
+Smallest = Annotated[str | None, flag("smallest", panel=GAPS)]
+Filler = Annotated[list[str] | None, flag("filler", panel=GAPS)]
 Effort = Annotated[Literal["draft", "normal", "best"], flag("effort", panel=SOLVING)]
 Epochs = Annotated[int | None, flag("epochs", panel=SOLVING)]
 Time = Annotated[float | None, flag("time", panel=SOLVING)]

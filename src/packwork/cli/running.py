@@ -16,7 +16,14 @@ from rich.console import Console
 
 from packwork import pipeline, writers
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
-from packwork.cli.show import Bar, certificate_line, metrics_table, notice_if_slow, seconds_line
+from packwork.cli.show import (
+    Bar,
+    certificate_line,
+    filling_line,
+    metrics_table,
+    notice_if_slow,
+    seconds_line,
+)
 from packwork.errors import WriteError
 from packwork.recipe import Recipe
 
@@ -100,7 +107,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     if interrupt.pressed:
         typer.echo("packwork: stopped by Ctrl-C; this is the best so far, still rough", err=True)
         return INTERRUPTED
-    return 0 if run.certified else SHORTFALL
+    return 0 if run.is_as_asked else SHORTFALL
 
 
 def _write(run: pipeline.Run, recipe: Recipe, outputs: Outputs) -> dict[str, Any]:
@@ -159,6 +166,8 @@ def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console,
     )
     if results["beside"] is not None:
         console.print(f"{results['beside']} pairs of one kind lie side by side", style="dim")
+    if results["filling"] is not None:
+        console.print(filling_line(results["filling"]), style="dim")
     console.print(certificate_line(results["promised"], results["certified"]))
     written = ", ".join(str(path) for path in outputs)
     console.print(f"wrote {written}", soft_wrap=True, markup=False)

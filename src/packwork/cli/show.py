@@ -122,3 +122,21 @@ def _percent(share: float | None) -> str:
     if share is None:
         return ""
     return f"{100 * share:.2f} %" if share >= 1e-3 or share == 0 else f"{100 * share:.4f} %"
+
+
+def filling_line(filling: Mapping[str, Any]) -> str:
+    """What was put into voids, and why no more.
+
+    Examples
+    --------
+    >>> filling_line({"added": 40, "covered": 0.94, "target": 0.94, "ending": "94 % are covered"})
+    '40 smaller items fill voids; 94.00 % covered: 94 % are covered'
+    >>> filling_line({"added": 2, "covered": 0.9, "target": 0.94, "ending": "no void is left"})
+    '2 smaller items fill voids; 90.00 % covered, not 94 %: no void is left'
+    """
+    covered, target = filling["covered"], filling["target"]
+    short = f", not {100 * target:g} %" if target is not None and covered < target else ""
+    return (
+        f"{filling['added']} smaller items fill voids; "
+        f"{100 * covered:.2f} % covered{short}: {filling['ending']}"
+    )

@@ -41,8 +41,11 @@ class FinishOptions(BaseModel):
     rounds: Annotated[int, Field(ge=1, le=10_000)] = 24
     """Linear programmes of each item in one compaction. More fills a little better."""
 
+    refining: bool = False
+    """The layout is clean already: small steps, so that nothing is lost, and no trials."""
+
     trials: Annotated[int, Field(ge=0, le=1_000_000)] = 0
-    """Exchanges of items that are tried after the compaction, for each hundred items."""
+    """Turns and exchanges of items that are tried after the first compaction."""
 
     seed: Annotated[int, Field(ge=0)] = 0
     """Of the trials."""

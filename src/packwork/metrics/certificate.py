@@ -72,8 +72,10 @@ def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, 
         found.append(f"items stick out by {exact.outside_area:.3g} {unit}² in all")
     if not found and exact.min_gap < least:
         found.append(f"the smallest gap is {exact.min_gap:.3g} instead of {least:.3g} or more")
-    if promise.areas_in_shares and len(layout.items):
-        per_weight = layout.areas / layout.weights
+    # What fills voids has no weight: its size says nothing.
+    weighed = layout.weights > 0
+    if promise.areas_in_shares and weighed.any():
+        per_weight = layout.areas[weighed] / layout.weights[weighed]
         off = float(np.ptp(per_weight) / per_weight.mean())
         if off > SHARE_TOLERANCE:
             found.append(f"areas are off the shares asked for by {100 * off:.2g} %")

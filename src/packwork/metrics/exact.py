@@ -55,6 +55,11 @@ class ExactMetrics:
     outside_area: float
     min_gap: float
 
+    @property
+    def is_clean(self) -> bool:
+        """Whether nothing overlaps and nothing is outside."""
+        return self.overlap_area == 0 and self.outside_area == 0
+
 
 def exact_metrics(outlines: Sequence[Outline], container: Outline) -> ExactMetrics:
     """Exact measures of outlines in place, silhouettes or ink alike.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -20,14 +20,23 @@ from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.settling import settled
 from packwork.progress import Observer, Step, Stop
 from packwork.readers.svg.follow import FLATTENING
+from packwork.recipe import Recipe
+from packwork.scene.item import Item
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.options import OutlineChoice
 from packwork.solve.solver import scale_bounds
 from packwork.solve.stand_ins import stand_ins
 
-TRIALS = {"draft": 0, "normal": 0, "best": 2_000}
-"""Exchanges tried by effort, for each hundred items. Measured in docs/benchmarks."""
+TRIALS = {"draft": 0, "normal": 5, "best": 40}
+"""Turns and exchanges tried for each item, by effort: 4 ms each. More fill better, ever less
+so. Measured in docs/benchmarks-quality."""
+
+MOST_TRIALS = {"draft": 0, "normal": 500, "best": 20_000}
+"""Such trials at most: what a person waits for does not grow with the items. Chosen."""
+
+TRIALS_SHARE = 0.6
+"""Share of the time left, where one was given, after which no more is tried. Chosen."""
 
 PRESSING = frozenset(
     {
@@ -53,17 +62,16 @@ def finished(
     first, in their zone; all others take what is left. Where a time was given, the rounds
     end with it; what they have then is clean too.
     """
-    # A hull holds its item, so what is clean for hulls is clean; a fitted outline may not.
-    choice: OutlineChoice = "hull" if job.recipe.outline == "hull" else "exact"
-    outlines = stand_ins([item.outline for item in job.items], choice)
-    until = _until(stop, job.seconds_left(1.0))
-    smallest, largest = _bounds(job, start, poses)
+    outlines = solid_outlines(job.recipe, job.items)
+    until = until_over(stop, job.seconds_left(1.0))
+    is_enough = until_over(stop, job.seconds_left(TRIALS_SHARE))
+    smallest, largest = scale_ranges(job, start, poses)
     limits = start.limits
     groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
     results, before = [], poses
     done = np.flatnonzero(groups < 0)
     if limits is not None and len(done):
-        gap = _gap(job, done, largest[done]) + HAIR * job.container.side
+        gap = gap_with_bulge(job, done, largest[done]) + HAIR * job.container.side
         kept = replace(limits, smallest=smallest, largest=largest)
         poses = settled(job.container, outlines, poses, kept, done, gap)
     for group in [*range(1, groups.max(initial=0) + 1), 0]:
@@ -73,21 +81,29 @@ def finished(
         whole = job.container.outline if group == 0 or limits is None else (
             limits.zones[group - 1].outline
         )  # fmt: skip
-        room = _without(whole, [outlines[k].mapped(poses.matrix(int(k))) for k in done])
+        room = without(whole, [outlines[k].mapped(poses.matrix(int(k))) for k in done])
         result = finish(
             replace(job.container, outline=room),
             [outlines[k] for k in items],
-            _some(poses, items),
+            poses.some(items),
             _options(job, start, items, smallest[items], largest[items]),
-            None if observer is None else _Closing(observer, poses, items),
+            None if observer is None else Closing(observer, poses, items),
             until,
+            is_enough,
         )
-        poses = _put(poses, items, result.poses)
+        poses = poses.with_some(items, result.poses)
         results.append((items, result))
         done = np.append(done, items)
     if limits is not None and job.recipe.sizes == "shared":
         poses = _one_factor(before, poses, limits)
     return _together(poses, results)
+
+
+def solid_outlines(recipe: Recipe, items: Sequence[Item]) -> list[Outline]:
+    """What items are taken for in exact geometry."""
+    # A hull holds its item, so what is clean for hulls is clean; a fitted outline may not.
+    choice: OutlineChoice = "hull" if recipe.outline == "hull" else "exact"
+    return stand_ins([item.outline for item in items], choice)
 
 
 def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:
@@ -97,7 +113,7 @@ def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:
     return replace(poses, scale=np.where(is_free, before.scale * common, poses.scale))
 
 
-def _bounds(job: Job, start: Beginning, poses: Poses) -> tuple[FloatArray, FloatArray]:
+def scale_ranges(job: Job, start: Beginning, poses: Poses) -> tuple[FloatArray, FloatArray]:
     """Smallest and largest scale of each item, ``(n,)`` each."""
     options = job.recipe.solve_options()
     smallest, largest = scale_bounds(start.nominal, poses.scale, options, start.limits)
@@ -122,19 +138,35 @@ def _options(
         narrowest = float(start.limits.turn_limit[items].min())
         limit = narrowest if np.isfinite(narrowest) else None
     return FinishOptions(
-        gap_cu=_gap(job, items, largest),
+        gap_cu=gap_with_bulge(job, items, largest),
         sizes=recipe.sizes,
         smallest=tuple(smallest.tolist()),
         largest=tuple(largest.tolist()),
         turning=turning,
         turn_limit=limit if turning else None,
-        # A trial does not know who is to stay apart from whom.
-        trials=0 if recipe.keeps_apart else TRIALS[recipe.effort],
+        trials=trials_for(recipe, len(items)),
         seed=recipe.seed,
     )
 
 
-def _without(whole: Outline, walls: Sequence[Outline]) -> Outline:
+def trials_for(recipe: Recipe, count: int) -> int:
+    """How many turns and exchanges of ``count`` items are tried.
+
+    None if copies have to stay apart: a trial does not know from whom.
+
+    Examples
+    --------
+    >>> from packwork.recipe import make_recipe
+    >>> recipe = make_recipe(container="heart", items=["star"], effort="normal")
+    >>> trials_for(recipe, 20), trials_for(recipe, 1_000)
+    (100, 500)
+    """
+    if recipe.keeps_apart:
+        return 0
+    return min(TRIALS[recipe.effort] * count, MOST_TRIALS[recipe.effort])
+
+
+def without(whole: Outline, walls: Sequence[Outline]) -> Outline:
     """A region less the items that stand in it."""
     if not walls:
         return whole
@@ -143,20 +175,6 @@ def _without(whole: Outline, walls: Sequence[Outline]) -> Outline:
         return Outline.from_region(shapely.difference(whole.region, solid))
     except ShapeError:
         return whole
-
-
-def _some(poses: Poses, items: IntArray) -> Poses:
-    return Poses(*(getattr(poses, column.name)[items] for column in fields(Poses)))
-
-
-def _put(poses: Poses, items: IntArray, some: Poses) -> Poses:
-    """Poses with those of some items replaced."""
-    columns = {}
-    for column in fields(Poses):
-        values = getattr(poses, column.name).copy()
-        values[items] = getattr(some, column.name)
-        columns[column.name] = values
-    return Poses(**columns)
 
 
 def _together(poses: Poses, results: Sequence[tuple[IntArray, Finished]]) -> Finished:
@@ -181,10 +199,17 @@ def _together(poses: Poses, results: Sequence[tuple[IntArray, Finished]]) -> Fin
     )
 
 
-def _gap(job: Job, items: IntArray, largest: FloatArray) -> float:
+def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
     """Gap between outlines that leaves the one asked for between curves.
 
     Those may come nearer than the polygons that stand for them.
+
+    Parameters
+    ----------
+    items
+        Who is to keep it.
+    largest
+        ``(m,)`` how large they may become.
     """
     extents = np.array([job.items[k].outline.extent for k in items])
     bulge = 2 * FLATTENING * float(np.max(extents * largest))
@@ -209,7 +234,7 @@ def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
     return tuple(Unplaced(job.items[k].name, k, found[k]) for k in sorted(found))
 
 
-class _Closing:
+class Closing:
     """Passes steps of some items on as those of a last level of all."""
 
     def __init__(self, observer: Observer, poses: Poses, items: IntArray) -> None:
@@ -218,11 +243,11 @@ class _Closing:
 
     def on_step(self, step: Step) -> None:
         """Tell the run's observer."""
-        poses = _put(self._poses, self._items, step.poses)
+        poses = self._poses.with_some(self._items, step.poses)
         self._observer.on_step(replace(step, poses=poses, is_finish=True))
 
 
-def _until(stop: Stop, seconds: float | None) -> Stop:
+def until_over(stop: Stop, seconds: float | None) -> Stop:
     """Stop when asked to, or when the time is over."""
     if seconds is None:
         return stop

@@ -61,6 +61,8 @@ class Job:
         What has been used so far.
     earlier
         The layout to start from, if any.
+    fillers
+        What may be put into the voids that are left, one of each sort.
     words
         The words among the items, if any.
     """
@@ -74,6 +76,7 @@ class Job:
     skipped: tuple[PackworkError, ...]
     clock: Clock
     earlier: Layout | None = None
+    fillers: tuple[Item, ...] = ()
     words: WordsRead | None = None
 
     @property
@@ -109,11 +112,34 @@ def read(
         chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
+        fillers, more = _fillers(recipe, items if words is None else words.items)
+        skipped += more
         recipe.start_options()
         for loss in recipe.losses:
             if loss not in POSE_LOSSES:
                 find_loss(loss)
     return Job(
-        recipe, region, chosen.items, chosen.asked, chosen.weights, regions, skipped, clock,
-        earlier, words,
-    )  # fmt: skip
+        recipe,
+        region,
+        chosen.items,
+        chosen.asked,
+        chosen.weights,
+        regions,
+        skipped,
+        clock,
+        earlier,
+        fillers,
+        words,
+    )
+
+
+def _fillers(
+    recipe: Recipe, items: Sequence[Item]
+) -> tuple[tuple[Item, ...], tuple[PackworkError, ...]]:
+    """What voids are filled with, and files that were left out."""
+    if not recipe.fills_gaps:
+        return (), ()
+    if not recipe.filler:
+        return tuple(items), ()
+    found = read_items(recipe.filler, holes=recipe.holes, strict=recipe.strict)
+    return found.items, found.skipped

@@ -39,6 +39,32 @@ class Unplaced:
     reason: str
 
 
+@dataclass(frozen=True)
+class Filling:
+    """How the voids between items were filled.
+
+    Parameters
+    ----------
+    added
+        Items that were put into voids.
+    ending
+        Why no more were.
+    covered, target
+        Shares of the container that are covered, and that were to be; None if as much as
+        goes.
+    """
+
+    added: int
+    ending: str
+    covered: float
+    target: float | None
+
+    @property
+    def is_short(self) -> bool:
+        """Whether less is covered than was asked for."""
+        return self.target is not None and self.covered < self.target
+
+
 @dataclass(frozen=True, eq=False)
 class Run:
     """What a run gave.
@@ -64,6 +90,8 @@ class Run:
         gaps and shares are as asked.
     broken
         What of that does not hold although it was promised, a sentence each.
+    filling
+        How the voids were filled, if that was asked for.
     """
 
     layout: Layout
@@ -75,6 +103,12 @@ class Run:
     beside: int | None = None
     certified: bool = False
     broken: tuple[str, ...] = ()
+    filling: Filling | None = None
+
+    @property
+    def is_as_asked(self) -> bool:
+        """Whether all that was asked is met."""
+        return self.certified and not (self.filling and self.filling.is_short)
 
     @property
     def is_rough(self) -> bool:
@@ -103,6 +137,7 @@ class Run:
             "certified": self.certified,
             "promised": self.layout.manifest["promised"] is not None,
             "broken": list(self.broken),
+            "filling": None if self.filling is None else asdict(self.filling),
             "ending": self.ending.value,
             "seed": self.layout.manifest["seed"],
         }

@@ -8,7 +8,7 @@ from dataclasses import asdict, replace
 import numpy as np
 
 from packwork.errors import RecipeError
-from packwork.finish.finish import finish
+from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
@@ -16,12 +16,13 @@ from packwork.geometry.simplify import grown
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.measure import measure
 from packwork.metrics.pixel import pixel_metrics
-from packwork.pipeline.beginning import begin
+from packwork.pipeline.beginning import Beginning, begin
 from packwork.pipeline.beside import same_kind_beside
 from packwork.pipeline.dressing import dressed
 from packwork.pipeline.finishing import finished, unfinished
+from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
-from packwork.pipeline.outcome import Run, find_unplaced, manifest, undrawn
+from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn
 from packwork.presets import refined_levels
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
@@ -30,7 +31,7 @@ from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
-from packwork.solve.solver import solve
+from packwork.solve.solver import Outcome, solve
 from packwork.solve.stand_ins import stand_ins
 
 LEVELS_SHARE = 0.6
@@ -81,23 +82,47 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         outcome = solve(
             region, outlines, start.poses, start.nominal, options, observer, stop, start.limits
         )
-    poses, exact = outcome.poses, None
+    poses, exact, filling = outcome.poses, None, None
     if recipe.finish == "exact":
         with clock.time("finish"):
             exact = finished(job, start, poses, observer, stop)
             poses = exact.poses
+    if exact is not None and recipe.fills_gaps:
+        with clock.time("gaps"):
+            filled = fill_gaps(job, start, exact, observer, stop)
+        job, start, exact, filling = filled.job, filled.start, filled.exact, filled.filling
+        poses = exact.poses
+    return _judged(job, start, outcome, exact, poses, filling)
+
+
+def _judged(
+    job: Job,
+    start: Beginning,
+    outcome: Outcome,
+    exact: Finished | None,
+    poses: Poses,
+    filling: Filling | None,
+) -> Run:
+    """The result, measured and compared with what was promised."""
+    recipe, clock = job.recipe, job.clock
     layout = Layout(job.container, job.items, poses, job.weights)
     with clock.time("measure"):
         metrics = measure(layout)
-        left = () if exact is None else unfinished(job, exact)
-        unplaced = (*(left or find_unplaced(layout, start.limits)), *undrawn(job))
+        unplaced = () if exact is None else unfinished(job, exact)
+        if not unplaced and (exact is None or not metrics.exact.is_clean):
+            unplaced = find_unplaced(layout, start.limits)
+        unplaced += undrawn(job)
         shares = recipe.sizes == "shared" and start.limits is None
-        promise = Promise(padding, shares) if exact is not None else None
+        promise = Promise(recipe.padding_cu(job.container), shares) if exact is not None else None
         faults = () if promise is None else broken(promise, layout, metrics.exact)
         beside = None if start.limits is None else same_kind_beside(layout, start.limits.kinds)
     certified = promise is not None and not faults and not unplaced
     said = manifest(job, start.method, outcome, metrics, unplaced, beside)
-    said |= {"certified": certified, "promised": None if promise is None else asdict(promise)}
+    said |= {
+        "certified": certified,
+        "promised": None if promise is None else asdict(promise),
+        "filling": None if filling is None else asdict(filling),
+    }
     return Run(
         layout=replace(dressed(job, layout), manifest=said),
         metrics=metrics,
@@ -108,6 +133,7 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         beside=beside,
         certified=certified,
         broken=faults,
+        filling=filling,
     )
 
 

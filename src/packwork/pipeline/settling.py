@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -64,7 +64,7 @@ def settled(
     """
     own = [outlines[k] for k in items]
     extents = np.array([outline.extent for outline in own])
-    some = Poses(*(getattr(poses, field.name)[items] for field in fields(Poses)))
+    some = poses.some(items)
     held, smallest = limits.held[items], limits.smallest[items]
     for _ in range(MOST_ROUNDS):
         found = find_offenders(container, own, some, gap)
@@ -78,10 +78,7 @@ def settled(
         scale = some.scale.copy()
         scale[shrinking] = np.maximum(scale[shrinking] * CUT, smallest[shrinking])
         some = replace(some, x=some.x + step[:, 0], y=some.y + step[:, 1], scale=scale)
-    columns = {field.name: getattr(poses, field.name).copy() for field in fields(Poses)}
-    for name, values in columns.items():
-        values[items] = getattr(some, name)
-    return Poses(**columns)
+    return poses.with_some(items, some)
 
 
 def _away(

@@ -192,8 +192,10 @@ def _stretch(properties: Mapping[str, Any], where: str) -> float:
 
 
 def _weight(feature: Mapping[str, Any], where: str) -> float:
-    properties = _properties(feature, where)
-    return _positive(properties, "weight", where) if "weight" in properties else 1.0
+    weight = _number({"weight": 1.0, **_properties(feature, where)}, "weight", where)
+    if weight < 0:
+        raise UnfitError(f"{where}.weight: must not be negative, is {weight:g}")
+    return weight
 
 
 def _outline(feature: Mapping[str, Any], where: str) -> Outline:

@@ -99,3 +99,24 @@ class Limits:
             return self
         zones = tuple(replace(z, outline=grown(z.outline, margin)) for z in self.zones)
         return replace(self, zones=zones)
+
+    def joined_by(self, count: int) -> Limits:
+        """The same with as many more items, which may do anything and are of no kind.
+
+        Examples
+        --------
+        >>> len(Limits.free(2).joined_by(3).x)
+        5
+        """
+        more = Limits.free(count)
+        return replace(
+            self,
+            x=np.append(self.x, more.x),
+            y=np.append(self.y, more.y),
+            angle=np.append(self.angle, more.angle),
+            turn_limit=np.append(self.turn_limit, more.turn_limit),
+            smallest=np.append(self.smallest, more.smallest),
+            largest=np.append(self.largest, more.largest),
+            rigid=np.append(self.rigid, more.rigid),
+            kinds=None,
+        )

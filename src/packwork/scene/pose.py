@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ShapeError
 from packwork.geometry import affine
 
@@ -85,3 +85,40 @@ class Poses:
             float(self.x[k]), float(self.y[k]), float(self.angle[k]), float(self.scale[k])
         )
         return affine.compose(place, affine.stretched(float(self.stretch[k])))
+
+    def some(self, items: IntArray) -> Poses:
+        """Poses of some items.
+
+        Examples
+        --------
+        >>> x = np.array([5.0, 6.0, 7.0])
+        >>> Poses(x, x, x, x).some(np.array([2, 0])).x.tolist()
+        [7.0, 5.0]
+        """
+        return Poses(*(getattr(self, column.name)[items] for column in fields(Poses)))
+
+    def with_some(self, items: IntArray, poses: Poses) -> Poses:
+        """All poses, those of some items replaced.
+
+        Examples
+        --------
+        >>> x, one = np.array([5.0, 6.0, 7.0]), np.ones(1)
+        >>> Poses(x, x, x, x).with_some(np.array([1]), Poses(one, one, one, one)).x.tolist()
+        [5.0, 1.0, 7.0]
+        """
+        columns = {column.name: getattr(self, column.name).copy() for column in fields(Poses)}
+        for name, values in columns.items():
+            values[items] = getattr(poses, name)
+        return Poses(**columns)
+
+    def followed_by(self, poses: Poses) -> Poses:
+        """These poses, then others.
+
+        Examples
+        --------
+        >>> one = Poses(*(np.ones(1),) * 4)
+        >>> len(one.followed_by(one))
+        2
+        """
+        both = ((getattr(self, c.name), getattr(poses, c.name)) for c in fields(Poses))
+        return Poses(*(np.append(mine, theirs) for mine, theirs in both))

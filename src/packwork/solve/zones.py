@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import fields
 
 import numpy as np
 
@@ -67,7 +66,7 @@ class ZonePull:
         price
             Of a squared canvas unit outside the zone.
         """
-        own = Poses(*(getattr(poses, field.name)[self.items] for field in fields(Poses)))
+        own = poses.some(self.items)
         points = self._ensemble.place(own, self._px_per_cu)
         self._rasteriser.sweep(points, self._ensemble.ring_starts)
         by_points = self._rasteriser.pullback(self.outside, beyond=1.0)

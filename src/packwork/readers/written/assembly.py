@@ -108,7 +108,7 @@ def sound_weight(text: str) -> float:
     Raises
     ------
     UnfitError
-        If it is not a positive number.
+        If it is no number, or a negative one.
 
     Examples
     --------
@@ -119,8 +119,8 @@ def sound_weight(text: str) -> float:
         weight = float(text)
     except ValueError:
         weight = math.nan
-    if not (math.isfinite(weight) and weight > 0):
-        raise UnfitError(f"states the weight {text[:20]!r}, which is no positive number")
+    if not (math.isfinite(weight) and weight >= 0):
+        raise UnfitError(f"states the weight {text[:20]!r}, which is no number from 0")
     return weight
 
 

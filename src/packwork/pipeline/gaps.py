@@ -1,0 +1,228 @@
+"""Smaller copies put into the voids of a finished layout, round by round."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.finish.admission import admitted
+from packwork.finish.finish import Finished, finish
+from packwork.finish.options import FinishOptions
+from packwork.geometry.outline import Outline
+from packwork.pipeline.asking import Asked
+from packwork.pipeline.beginning import Beginning
+from packwork.pipeline.finishing import (
+    Closing,
+    gap_with_bulge,
+    scale_ranges,
+    solid_outlines,
+    until_over,
+    without,
+)
+from packwork.pipeline.job import Job
+from packwork.pipeline.limiting import kinds
+from packwork.pipeline.outcome import Filling
+from packwork.progress import Observer, Stop
+from packwork.start.angles import nearest_allowed
+from packwork.start.voids import SECTORS, copies_for_voids
+
+ROUNDS = {"draft": 4, "normal": 8, "best": 16}
+"""Linear programmes of each item after each round of newcomers, by effort. Measured in
+docs/benchmarks-quality."""
+
+MORE, AT_LEAST = 0.4, 30
+"""Copies tried in a round, as a share of those that lie there, and at least. Fewer in a round
+fill a little better and take longer. Tried."""
+
+WORTHWHILE = 2e-4
+"""Share of the container that a round has to gain for another to follow. Smaller adds specks
+one by one. Chosen."""
+
+MOST_ITEMS = 1_000
+"""Items in all unless ``max_items`` says otherwise: what a person waits for. Chosen."""
+
+STYLE = frozenset({"color", "link", "title"})
+"""What of the rules about an item holds for the smaller copies of it too."""
+
+
+@dataclass(frozen=True, eq=False)
+class GapFilling:
+    """A layout whose voids were filled.
+
+    Parameters
+    ----------
+    job, start
+        Those of the run, with the items that were added.
+    exact
+        All poses.
+    filling
+        What came of it.
+    """
+
+    job: Job
+    start: Beginning
+    exact: Finished
+    filling: Filling
+
+
+def fill_gaps(
+    job: Job, start: Beginning, exact: Finished, observer: Observer | None, stop: Stop
+) -> GapFilling:
+    """Put smaller copies into voids until the coverage asked for is reached or nothing fits.
+
+    Each round finds the voids in an image, puts copies where they fit, and lets all items
+    that may yield grow and make room in exact geometry. Where sizes are data or rules
+    hold items, only the newcomers move.
+    """
+    run = _Run(job, start, exact, observer, until_over(stop, job.seconds_left(1.0)))
+    ending = None if exact.clean else "the layout was not clean"
+    while ending is None:
+        ending = run.round()
+    return run.result(ending)
+
+
+class _Run:
+    """State of one gap filling between its rounds."""
+
+    def __init__(
+        self, job: Job, start: Beginning, exact: Finished, observer: Observer | None, stop: Stop
+    ) -> None:
+        self._job, self._start, self._exact = job, start, exact
+        self._observer, self._stop = observer, stop
+        self._sorts = job.fillers
+        self._shapes = solid_outlines(job.recipe, self._sorts)
+        self._rng = np.random.default_rng(job.recipe.seed)
+        self._first = len(job.items)
+        self.poses, self.added = exact.poses, list[int]()
+        self._originals = solid_outlines(job.recipe, job.items)
+        self._yields = job.recipe.sizes == "free" and start.limits is None
+        self._ranges = scale_ranges(job, start, exact.poses)
+        own = np.array([outline.area for outline in self._shapes])
+        extents = np.array([outline.extent for outline in self._shapes])
+        self._smallest = job.recipe.smallest_cu(job.container) / extents
+        # No newcomer outgrows what is a fair share for the items of before.
+        self._largest = np.sqrt(job.container.outline.area / self._first / own)
+        self._gap = gap_with_bulge(job, np.arange(self._first), self._ranges[1])
+
+    def round(self) -> str | None:
+        """One round of newcomers; why the last one was the last, or None."""
+        recipe, before = self._job.recipe, self.coverage()
+        if recipe.target_coverage is not None and before >= recipe.target_coverage:
+            return f"{100 * recipe.target_coverage:g} % are covered"
+        room = (recipe.max_items or MOST_ITEMS) - len(self.poses)
+        if room <= 0:
+            return f"{len(self.poses)} items are the most that were asked for"
+        if self._stop():
+            return "the run was stopped"
+        count = min(max(AT_LEAST, round(MORE * len(self.poses))), room)
+        if self._let_in(count) == 0 or self._grow() - before < WORTHWHILE:
+            smallest = recipe.smallest_cu(self._job.container)
+            return f"no void holds an item of {smallest:.3g} {self._job.container.unit}"
+        return None
+
+    def coverage(self) -> float:
+        """Share of the container that the items cover; none overlap."""
+        own = np.array([outline.area for outline in self._all_outlines()])
+        return float((own * self.poses.scale**2).sum()) / self._job.container.outline.area
+
+    def result(self, ending: str) -> GapFilling:
+        """The job with all its items, and where they are."""
+        job, start = self._job, self._start
+        asked = dict(zip((item.name for item in job.items), job.asked, strict=True))
+        new = [self._sorts[k] for k in self.added]
+        grown = replace(
+            job,
+            items=(*job.items, *new),
+            asked=(*job.asked, *(_styled(asked.get(item.name)) for item in new)),
+            weights=np.append(job.weights, np.zeros(len(new))),
+        )
+        limits = None
+        if start.limits is not None:
+            limits = start.limits.joined_by(len(new))
+            if start.limits.kinds is not None:
+                limits = replace(limits, kinds=kinds(grown.items))
+        nominal = np.append(start.nominal, self.poses.scale[self._first :])
+        return GapFilling(
+            grown,
+            replace(start, nominal=nominal, limits=limits),
+            replace(self._exact, poses=self.poses),
+            Filling(len(new), ending, self.coverage(), job.recipe.target_coverage),
+        )
+
+    def _let_in(self, count: int) -> int:
+        """Put copies into voids; how many found a place."""
+        container, rotation = self._job.container, self._job.recipe.rotation
+        outlines = self._all_outlines()
+        placed = [outline.mapped(self.poses.matrix(k)) for k, outline in enumerate(outlines)]
+        turns = 2 * np.pi * np.arange(SECTORS) / SECTORS
+        nearest = nearest_allowed(turns, rotation.limit, rotation.choices)
+        comers = copies_for_voids(
+            container,
+            placed,
+            self._shapes,
+            np.abs(np.angle(np.exp(1j * (nearest - turns)))) <= np.pi / SECTORS,
+            most=count,
+            smallest=self._smallest,
+            largest=self._largest,
+            gap=self._gap,
+            rng=self._rng,
+        )
+        angle = nearest_allowed(comers.poses.angle, rotation.limit, rotation.choices)
+        poses = self.poses.followed_by(replace(comers.poses, angle=angle))
+        shapes = [*outlines, *(self._shapes[k] for k in comers.sort)]
+        stay, poses = admitted(container, shapes, poses, len(comers.sort), self._gap)
+        here = np.array([*self.added, *comers.sort], dtype=np.int64)[
+            stay[self._first :] - self._first
+        ]
+        large = poses.scale[self._first :] >= self._smallest[here]
+        kept = np.append(np.arange(self._first), self._first + np.flatnonzero(large))
+        arrived = int(large.sum()) - len(self.added)
+        self.poses, self.added = poses.some(kept), [int(k) for k in here[large]]
+        return arrived
+
+    def _grow(self) -> float:
+        """Let all that may yield grow and make room; the coverage then."""
+        recipe, container = self._job.recipe, self._job.container
+        outlines, (smallest, largest) = self._all_outlines(), self._all_ranges()
+        movers = np.arange(0 if self._yields else self._first, len(outlines))
+        walls = [outlines[k].mapped(self.poses.matrix(k)) for k in range(movers[0])]
+        result = finish(
+            replace(container, outline=without(container.outline, walls)),
+            [outlines[k] for k in movers],
+            self.poses.some(movers),
+            FinishOptions(
+                gap_cu=self._gap,
+                smallest=tuple(np.minimum(smallest, self.poses.scale)[movers].tolist()),
+                largest=tuple(np.maximum(largest, self.poses.scale)[movers].tolist()),
+                turning=not recipe.rotation.is_still,
+                turn_limit=None if recipe.rotation.is_still else recipe.rotation.limit,
+                rounds=ROUNDS[recipe.effort],
+                refining=True,
+            ),
+            self._closing(movers),
+            self._stop,
+        )
+        if result.clean:
+            self.poses = self.poses.with_some(movers, result.poses)
+        return self.coverage()
+
+    def _closing(self, movers: IntArray) -> Closing | None:
+        return None if self._observer is None else Closing(self._observer, self.poses, movers)
+
+    def _all_outlines(self) -> list[Outline]:
+        return [*self._originals, *(self._shapes[k] for k in self.added)]
+
+    def _all_ranges(self) -> tuple[FloatArray, FloatArray]:
+        smallest, largest = self._ranges
+        return (
+            np.append(smallest, self._smallest[self.added]),
+            np.append(largest, self._largest[self.added]),
+        )
+
+
+def _styled(asked: Asked | None) -> Asked:
+    """What rules say of how an item looks and where it leads."""
+    said = {} if asked is None else asked.values
+    return Asked(values={key: value for key, value in said.items() if key in STYLE})
