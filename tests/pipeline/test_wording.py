@@ -11,6 +11,7 @@ from PIL import Image
 
 import packwork as pw
 from packwork.pipeline import fill, words_recipe
+from packwork.pipeline.casting import BOX_OVER_INK
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
 from packwork.scene.contrast import contrast
@@ -53,12 +54,12 @@ def test_a_word_that_no_font_can_draw_is_reported_after_the_others() -> None:
     assert (report["items"], report["placed"], report["certified"]) == (5, 4, False)
 
 
-def test_icons_among_words_are_as_large_as_a_middling_word() -> None:
+def test_icons_among_words_are_as_large_as_a_middling_words_box() -> None:
     layout = pw.words("circle", WEIGHTS, add=["star", "moon"], **QUICK)
     assert [item.name for item in layout.items] == [*WEIGHTS, "star", "moon"]
     areas = layout.areas
     assert areas[4] == pytest.approx(areas[5])
-    assert areas[4] == pytest.approx(np.median(areas[:4]))
+    assert areas[4] == pytest.approx(BOX_OVER_INK * np.median(areas[:4]))
 
 
 def test_colours_by_weight_run_from_the_first_to_the_last() -> None:

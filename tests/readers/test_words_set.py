@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 import pytest
+from fontTools.fontBuilder import FontBuilder
+from fontTools.pens.ttGlyphPen import TTGlyphPen
+from fontTools.ttLib.tables.TupleVariation import TupleVariation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -113,3 +118,39 @@ def test_curves_are_exact_in_the_fonts_units() -> None:
     assert {letter for letter, _ in drawn} <= set("MLQCZ")
     values = [value for _, numbers in drawn for value in numbers]
     assert all(value == round(value) for value in values)
+
+
+def test_a_variable_font_is_drawn_at_the_weight_asked_for() -> None:
+    data = variable_font()
+    widths = []
+    for weight in (100, 500, 900, 2_000):
+        face = Typeface(data, "x", weight=weight)
+        points = [
+            v for _, numbers in face.drawing(face.shaped("a")[0].number) for v in numbers[::2]
+        ]
+        widths.append(max(points))
+    assert widths == [100, 200, 300, 300]
+
+
+def variable_font() -> bytes:
+    """A font of one square, 100 units wide at weight 100 and 300 at 900."""
+    builder = FontBuilder(1000, isTTF=True)
+    builder.setupGlyphOrder([".notdef", "a"])
+    builder.setupCharacterMap({ord("a"): "a"})
+    pen = TTGlyphPen(None)
+    pen.moveTo((0, 0))
+    for point in ((0, 500), (100, 500), (100, 0)):
+        pen.lineTo(point)
+    pen.closePath()
+    builder.setupGlyf({".notdef": TTGlyphPen(None).glyph(), "a": pen.glyph()})
+    builder.setupHorizontalMetrics({".notdef": (400, 0), "a": (400, 0)})
+    builder.setupHorizontalHeader(ascent=800, descent=-200)
+    builder.setupNameTable({"familyName": "Squares", "styleName": "Regular"})
+    builder.setupFvar([("wght", 100, 100, 900, "Weight")], [])
+    deltas = [(0, 0), (0, 0), (200, 0), (200, 0), (0, 0), (0, 0), (0, 0), (0, 0)]
+    builder.setupGvar({"a": [TupleVariation({"wght": (0.0, 1.0, 1.0)}, deltas)], ".notdef": []})
+    builder.setupOS2()
+    builder.setupPost()
+    file = io.BytesIO()
+    builder.save(file)
+    return file.getvalue()

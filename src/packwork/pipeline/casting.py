@@ -19,6 +19,10 @@ from packwork.scene.item import Item
 WIDEST_WEIGHTS = 1e6
 """Largest weight over the smallest: beyond it the small ones could not be seen. Chosen."""
 
+BOX_OVER_INK = 2.5
+"""Area of a word's box over that of its letters. Larger makes what is mixed in stand out
+more. Chosen by eye."""
+
 
 @dataclass(frozen=True, eq=False)
 class Cast:
@@ -68,7 +72,7 @@ def cast(recipe: Recipe, items: Sequence[Item]) -> Cast:
 
 
 def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item] | None) -> Cast:
-    """Words and what is mixed in with them, each once; that is as large as a middling word.
+    """Words and what is mixed in with them, each once; that is as large as a middling word's box.
 
     Raises
     ------
@@ -76,7 +80,7 @@ def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item] | None) -
         As for :func:`cast`.
     """
     others = tuple(added or ())
-    middling = float(np.median(words.areas))
+    middling = BOX_OVER_INK * float(np.median(words.areas))
     areas = dict.fromkeys((item.name for item in others), middling)
     pairs = zip(words.items, words.areas.tolist(), strict=True)
     areas |= {item.name: area for item, area in pairs}
