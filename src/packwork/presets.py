@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -61,39 +60,3 @@ PAPER = Preset(
 )
 
 PRESETS: Mapping[str, Preset] = MappingProxyType({"default": DEFAULT, "paper": PAPER})
-
-LEAST_PITCH_PX = 25.0
-"""Pixels of the finest level that the default gives an item to each side. Fewer leave overlaps
-that the finish pays for with coverage; more cost time and gain nothing. Tried."""
-
-MOST_REFINED = 2.0
-"""How much finer than usual the levels may get for that: twice takes four times the pixels.
-More gains little. Tried."""
-
-
-def refined_levels(
-    levels: tuple[int, ...], side: float, room: float, count: int
-) -> tuple[int, ...]:
-    """Levels fine enough for small items.
-
-    Parameters
-    ----------
-    levels
-        Resolutions, coarse to fine.
-    side
-        Longer side of the canvas, canvas units.
-    room
-        Area of the container, canvas units squared.
-    count
-        How many items share it.
-
-    Examples
-    --------
-    >>> refined_levels((50, 200, 600), 600.0, 600.0**2 / 2, 100)
-    (50, 200, 600)
-    >>> refined_levels((50, 200, 600), 600.0, 600.0**2 / 2, 1_000)
-    (93, 373, 1118)
-    """
-    pitch_px = math.sqrt(room / count) * levels[-1] / side
-    factor = min(max(LEAST_PITCH_PX / pitch_px, 1.0), MOST_REFINED)
-    return tuple(round(level * factor) for level in levels)

@@ -17,21 +17,20 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
+from packwork.levels import parse_levels
 from packwork.presets import PRESETS
 from packwork.readers.words.options import WordOptions
-from packwork.refusals import refusal
+from packwork.refusals import length_asked, refusal
 from packwork.rules import MAX_COUNT, Rotation, Rule, as_text, hero_rule, rotation_text
 from packwork.solve.options import (
-    MAX_RESOLUTION,
     MAX_STRETCH,
-    MIN_RESOLUTION,
     ImageLossFunction,
     OutlineChoice,
     SizeMode,
     SolveOptions,
 )
 from packwork.start.options import StartOptions
-from packwork.units import CanvasSize, canvas_size, parse_length
+from packwork.units import CanvasSize, canvas_size
 
 if TYPE_CHECKING:
     from packwork.scene.container import Container
@@ -49,7 +48,6 @@ more room between them. Tried."""
 MAX_SECONDS = 86_400.0
 """Longest time for one run. Chosen."""
 
-
 DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
 
@@ -63,9 +61,8 @@ class Recipe(BaseModel):
     """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, or a built-in name such as heart."""
 
     font: str | None = None
-    """Font file (TTF, OTF, TTC) for a container text:WORD; for words also an installed
-    family, and when given several times the next ones set what the first cannot. Default: a
-    bundled bold sans, and for words then any installed one that has the letters."""
+    """Font file (TTF, OTF, TTC) for a container text:WORD, or for words; for these also an
+    installed family, and several in turn. Default: a bundled bold sans."""
 
     items: tuple[str, ...] = ("builtin:icons",)
     """What to place: SVGs, pictures, folders of them, or built-in names."""
@@ -152,7 +149,7 @@ class Recipe(BaseModel):
     """Longer side of the smallest copy put into a void, a length as for the padding.
     Default: 0.5%."""
 
-    filler: tuple[str, ...] = ()
+    filler: tuple[str, ...] | None = None
     """Items to put into the voids, in place of smaller copies of the items."""
 
     effort: Effort = "normal"
@@ -179,18 +176,13 @@ class Recipe(BaseModel):
 
     @field_validator("font", mode="before")
     @classmethod
-    def _font_may_be_a_path(cls, font: Any) -> Any:
-        return str(font) if isinstance(font, Path) else font
-
-    @field_validator("font")
-    @classmethod
-    def _font_sets_words(cls, font: str | None, info: ValidationInfo) -> str | None:
+    def _font_sets_words(cls, font: Any, info: ValidationInfo) -> Any:
         container = str(info.data.get("container", ""))
         if font is not None and not container.startswith("text:"):
             raise RecipeError(
                 "font", f"sets a container of words, as in text:HELLO, not {container!r}"
             )
-        return font
+        return str(font) if isinstance(font, Path) else font
 
     @field_validator("levels", mode="before")
     @classmethod
@@ -243,14 +235,14 @@ class Recipe(BaseModel):
 
     @field_validator("padding")
     @classmethod
-    def _padding_is_a_length(cls, value: str | float) -> str | float:
-        _length("padding", value, "px", 1.0)
+    def _padding_is_alength_asked(cls, value: str | float) -> str | float:
+        length_asked("padding", value, "px", 1.0)
         return value
 
     @field_validator("smallest")
     @classmethod
     def _smallest_is_a_size(cls, value: str | float | None) -> str | float | None:
-        if value is not None and _length("smallest", value, "px", 1.0) <= 0:
+        if value is not None and length_asked("smallest", value, "px", 1.0) <= 0:
             raise RecipeError("smallest", f"must be more than nothing, not {value}")
         return value
 
@@ -286,7 +278,7 @@ class Recipe(BaseModel):
     def _voids_can_be_filled(self) -> Recipe:
         if self.fills_gaps and self.finish == "none":
             raise RecipeError("finish", "none leaves overlaps; voids are filled after an exact one")
-        if self.fills_gaps and self.sizes != "free" and not self.filler:
+        if self.fills_gaps and self.sizes != "free" and not (self.filler or self.words):
             raise RecipeError(
                 "filler",
                 f"must be given where sizes are {self.sizes}: "
@@ -326,22 +318,18 @@ class Recipe(BaseModel):
 
     def padding_cu(self, container: Container) -> float:
         """Gap asked for, in units of the container's canvas."""
-        return _length("padding", self.padding, container.unit, container.side)
+        return length_asked("padding", self.padding, container.unit, container.side)
 
     @property
     def fills_gaps(self) -> bool:
         """Whether smaller copies go into the voids that are left."""
-        return bool(
-            self.target_coverage is not None
-            or self.max_items is not None
-            or self.smallest is not None
-            or self.filler
-        )
+        asked = (self.target_coverage, self.max_items, self.smallest, self.filler)
+        return any(option is not None for option in asked)
 
     def smallest_cu(self, container: Container) -> float:
         """Longer side of the smallest copy put into a void, canvas units."""
         asked = DEFAULT_SMALLEST if self.smallest is None else self.smallest
-        return _length("smallest", asked, container.unit, container.side)
+        return length_asked("smallest", asked, container.unit, container.side)
 
     def may_press(self, padding_cu: float) -> bool:
         """Whether items may be pressed together for even gaps.
@@ -391,39 +379,6 @@ class Recipe(BaseModel):
         return SolveOptions(**{**dict(preset), **changes})
 
 
-def _length(key: str, value: str | float, unit: str, whole: float) -> float:
-    """Length in a unit; a ``RecipeError`` about ``key`` if it is none."""
-    try:
-        return parse_length(str(value), unit, whole)
-    except ValueError as error:
-        raise RecipeError(key, str(error)) from None
-
-
-def parse_levels(text: str) -> tuple[tuple[int, ...], tuple[float, ...]]:
-    """Resolutions and their shares of the epochs from ``50:9,200:23,600:68``.
-
-    Examples
-    --------
-    >>> parse_levels("50,600")
-    ((50, 600), (1.0, 1.0))
-    """
-    levels, shares = [], []
-    for part in text.split(","):
-        resolution, _, share = part.partition(":")
-        try:
-            levels.append(int(resolution))
-            shares.append(float(share or 1))
-        except ValueError:
-            raise _bad_levels(text) from None
-    if not all(MIN_RESOLUTION <= level <= MAX_RESOLUTION for level in levels):
-        raise RecipeError(
-            "levels", f"a level has {MIN_RESOLUTION} to {MAX_RESOLUTION} px, not {text!r}"
-        )
-    if not all(math.isfinite(share) and share > 0 for share in shares):
-        raise _bad_levels(text)
-    return tuple(levels), tuple(shares)
-
-
 def make_recipe(**options: Any) -> Recipe:
     """Recipe from plain values.
 
@@ -443,9 +398,3 @@ def make_recipe(**options: Any) -> Recipe:
         return Recipe.model_validate(options)
     except ValidationError as error:
         raise refusal(error, Recipe) from error
-
-
-def _bad_levels(text: str) -> RecipeError:
-    return RecipeError(
-        "levels", f"use resolutions like 50,200,600 or 50:9,200:23,600:68, not {text!r}"
-    )

@@ -131,6 +131,17 @@ def test_bad_options_are_one_clear_line(options, problem: str) -> None:
     assert problem in str(caught.value)
 
 
+def test_voids_are_filled_with_smaller_copies_of_the_words() -> None:
+    run = fill(words_recipe("circle", WEIGHTS, max_items=8, smallest="2%", **QUICK))
+    names = [item.name for item in run.layout.items]
+    assert names[:4] == list(WEIGHTS)
+    assert len(names) > 4
+    assert set(names[4:]) <= set(WEIGHTS)
+    scales = run.layout.poses.scale[:4]
+    assert scales / scales[-1] == pytest.approx(list(WEIGHTS.values()), rel=1e-6)
+    assert run.certified
+
+
 def test_names_of_turns() -> None:
     layout = pw.words("circle", WEIGHTS, rotate="vertical", **QUICK)
     assert layout.poses.angle == pytest.approx(-np.pi / 2)

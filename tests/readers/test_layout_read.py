@@ -150,7 +150,7 @@ def test_the_unit_of_the_canvas_comes_back(saved):
         (edited(("features", 1, "properties", "angle"), None), r"\.angle: must be a number"),
         (edited(("features", 1, "properties", "scale"), 0), r"\.scale: must be positive"),
         (edited(("features", 1, "properties", "scale"), True), r"\.scale: must be a number"),
-        (edited(("features", 1, "properties", "weight"), -1), r"\.weight: must be positive"),
+        (edited(("features", 1, "properties", "weight"), -1), r"\.weight: must not be negative"),
         (edited(("features", 1, "properties", "stretch"), 0), r"\.stretch: must be 0\.0001 to"),
         (edited(("features", 1, "properties", "stretch"), 2e4), r"\.stretch: must be .* 20000$"),
         (edited(("features", 1, "properties", "stretch"), "x"), r"\.stretch: must be a number"),

@@ -102,7 +102,7 @@ def fill(
             target_coverage=target_coverage,
             max_items=max_items,
             smallest=smallest,
-            filler=filler or [],
+            filler=filler,
             strict=strict,
             seed=seed,
             finish=finish,

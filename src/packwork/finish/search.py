@@ -63,6 +63,9 @@ SWEEP_ROUNDS = 4
 """Linear programmes over all items after as many trials as there are items: what trials
 free here lets others grow there. Tried."""
 
+ROUNDING = 1e-9
+"""Logarithm of size by which steps may end off their bounds. Derived."""
+
 CUT, CHECKS = 0.06, 25
 """Further such loss at a time while they are in conflict, and how often. Chosen."""
 
@@ -134,12 +137,14 @@ def search(
             heat = HEAT * room.spacing**2 * (1 - trial / trials)
             target -= heat * rng.exponential()
         candidates = _at_angles(places, moved, wishes, rng)
-        least = arrangement.places[:, 3].min()
+        least, short = arrangement.places[:, 3].min(), _shortfall(arrangement, wishes, items)
         gains = _put_best(arrangement, wishes, moved, candidates, room) and _grow(
             arrangement, wishes, items, room, target
         )
-        # Where the smallest counts, what all the others gain does not make up for it.
-        if gains and (wishes.power > 0 or arrangement.places[items, 3].min() >= least):
+        # Where the smallest counts, what all the others gain does not make up for it; nor
+        # for an item below the size that it should have at least.
+        gains &= wishes.power > 0 or arrangement.places[items, 3].min() >= least
+        if gains and _shortfall(arrangement, wishes, items) <= short:
             kept += 1
         else:
             arrangement.put(items, before)
@@ -148,6 +153,12 @@ def search(
         # How far an item may grow depends on how large the smallest is now.
         wishes = wish(arrangement.places[:, 3])
     return kept
+
+
+def _shortfall(arrangement: Arrangement, wishes: Wishes, items: IntArray) -> float:
+    """How far some items are below their smallest sizes, as logarithms, in all."""
+    growth = arrangement.places[items, 3]
+    return float(np.maximum(wishes.smallest[items] - growth - ROUNDING, 0.0).sum())
 
 
 def _sweep(arrangement: Arrangement, wishes: Wishes, room: Room, turn: int) -> None:

@@ -144,24 +144,20 @@ def _options(
         largest=tuple(largest.tolist()),
         turning=turning,
         turn_limit=limit if turning else None,
-        trials=trials_for(recipe, len(items)),
+        trials=trials_for(job, len(items)),
         seed=recipe.seed,
     )
 
 
-def trials_for(recipe: Recipe, count: int) -> int:
+def trials_for(job: Job, count: int) -> int:
     """How many turns and exchanges of ``count`` items are tried.
 
-    None if copies have to stay apart: a trial does not know from whom.
-
-    Examples
-    --------
-    >>> from packwork.recipe import make_recipe
-    >>> recipe = make_recipe(container="heart", items=["star"], effort="normal")
-    >>> trials_for(recipe, 20), trials_for(recipe, 1_000)
-    (100, 500)
+    None where a trial would not know what was wanted: from whom copies stay apart, which
+    of two is to be larger, or what a loss of one's own keeps free.
     """
-    if recipe.keeps_apart:
+    recipe = job.recipe
+    is_ranked = recipe.sizes == "free" and np.ptp(job.weights) > 0
+    if recipe.keeps_apart or is_ranked or any(loss not in PRESSING for loss in recipe.losses):
         return 0
     return min(TRIALS[recipe.effort] * count, MOST_TRIALS[recipe.effort])
 

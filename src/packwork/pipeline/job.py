@@ -112,7 +112,7 @@ def read(
         chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
-        fillers, more = _fillers(recipe, items if words is None else words.items)
+        fillers, more = _fillers(recipe, items or () if words is None else words.items)
         skipped += more
         recipe.start_options()
         for loss in recipe.losses:

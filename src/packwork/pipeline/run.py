@@ -13,6 +13,7 @@ from packwork.finish.options import FinishOptions
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
+from packwork.levels import refined_levels
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.measure import measure
 from packwork.metrics.pixel import pixel_metrics
@@ -23,7 +24,6 @@ from packwork.pipeline.finishing import finished, unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn
-from packwork.presets import refined_levels
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container

@@ -255,7 +255,7 @@ def fitted(
     >>> bar = Outline.from_rings([np.array([[-4.0, -1], [4, -1], [4, 1], [-4, 1]])])
     >>> upright = np.where(np.abs(np.sin(2 * np.pi * np.arange(SECTORS) / SECTORS)) > 0.9, 9.0, 2.0)
     >>> scales, turn = fitted(upright[None], [bar], np.ones(SECTORS, dtype=bool))
-    >>> bool(1 < scales[0, 0] < 2.2), int(turn[0, 0]) % (SECTORS // 2) == SECTORS // 4
+    >>> bool(0.8 < scales[0, 0] < 2.2), int(turn[0, 0]) % (SECTORS // 2) == SECTORS // 4
     (True, True)
     """
     allowed, sector = np.flatnonzero(turns), np.arange(SECTORS)
