@@ -137,6 +137,9 @@ def test_voids_are_filled_with_smaller_copies_of_the_words() -> None:
     assert names[:4] == list(WEIGHTS)
     assert len(names) > 4
     assert set(names[4:]) <= set(WEIGHTS)
+    own = dict(zip(names[:4], run.layout.poses.scale, strict=False))
+    copies = zip(names[4:], run.layout.poses.scale[4:], strict=True)
+    assert all(scale < own[name] for name, scale in copies)
     scales = run.layout.poses.scale[:4]
     assert scales / scales[-1] == pytest.approx(list(WEIGHTS.values()), rel=1e-6)
     assert run.certified
