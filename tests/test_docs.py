@@ -17,6 +17,7 @@ from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
 from packwork.metrics.pixel import PixelMetrics
+from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 
 ROOT = Path(__file__).parents[1]
@@ -71,18 +72,29 @@ def test_every_recipe_field_says_what_it_means(name: str) -> None:
 
 def test_fill_offers_every_recipe_field_under_its_own_name() -> None:
     offered = {parameter.name for parameter in COMMANDS["fill"].params}
-    fields = set(Recipe.model_fields) - {"losses", "rules"}  # rules: in recipe files only
+    elsewhere = {"losses", "rules", "words"}  # rules in files only, words as a command
+    fields = set(Recipe.model_fields) - elsewhere
     assert offered == fields | WRITING_OPTIONS
 
 
 @pytest.mark.parametrize(
-    "name", sorted(set(Recipe.model_fields) - {"container", "items", "losses", "rules"})
+    "name", sorted(set(Recipe.model_fields) - {"container", "items", "losses", "rules", "words"})
 )
 def test_help_and_default_of_an_option_are_the_recipes(name: str) -> None:
     (option,) = (p for p in COMMANDS["fill"].params if p.name == name)
     field = Recipe.model_fields[name]
     assert option.help == field.description
     assert option.default == field.default
+
+
+@pytest.mark.parametrize("name", sorted(set(WordOptions.model_fields) - {"source", "fonts"}))
+def test_words_offer_every_option_of_theirs_with_its_help_and_default(name: str) -> None:
+    (option,) = (p for p in COMMANDS["words"].params if p.name == name)
+    field = WordOptions.model_fields[name]
+    if name not in Recipe.model_fields and name not in WRITING_OPTIONS:
+        assert option.help == field.description
+        assert option.default == field.default
+    assert f"`--{name.replace('_', '-')}" in DOCS
 
 
 def test_one_option_means_one_thing_in_all_commands() -> None:

@@ -12,7 +12,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from packwork.api import Layout, fill, read_container, read_items
+    from packwork.api import Layout, fill, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.losses.term import ImageLoss, Term
@@ -41,6 +41,7 @@ __all__ = [
     "read_items",
     "render",
     "render_pullback",
+    "words",
 ]
 
 _HOMES = {
@@ -62,6 +63,7 @@ _HOMES = {
     "read_items": "packwork.api:read_items",
     "render": "packwork.raster.coverage:coverage",
     "render_pullback": "packwork.raster.coverage:coverage_pullback",
+    "words": "packwork.api:words",
 }
 
 

@@ -16,7 +16,7 @@ from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
 from packwork.readers.layout import read_layout
-from packwork.recipe import make_recipe
+from packwork.recipe import Recipe, make_recipe
 from packwork.scene import layout as scene
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -200,13 +200,63 @@ def fill(
     chosen: list[Item] | None = None
     if any(isinstance(entry, Item) for entry in given):
         chosen = _as_items(given, recipe.holes, recipe.strict)
-    bar = bar_for(progress, observer)
-    with shown(bar):
-        run = pipeline.fill(recipe, chosen, whole, bar or observer, stop)
-    layout = _public(run.layout)
-    # What was just measured is not measured again when it is asked for.
-    layout.__dict__["metrics"] = run.metrics.as_dict()
-    return layout
+    return _run(recipe, chosen, whole, observer, stop, progress)
+
+
+def words(
+    container: str | Path | Container,
+    source: str | Path | Mapping[str, float] | Any,
+    *,
+    add: str | Path | Sequence[str | Path] = (),
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    **options: Any,
+) -> Layout:
+    """Fill a container with words.
+
+    Parameters
+    ----------
+    container
+        As for :func:`fill`.
+    source
+        A text or the file that holds it, a table ``word,weight`` (.csv, .tsv, .json), or
+        weights by word: a dict, a ``Counter``, a pandas Series.
+    add
+        Items that are placed among the words: files, folders or built-in names.
+    observer, stop, progress
+        As for :func:`fill`.
+    options
+        As on the command line: ``count``, ``min_count``, ``language``, ``stopwords``,
+        ``phrases``, ``plurals``, ``case``, ``fonts``, ``font_weight``, ``weight_is``,
+        ``color_by``, ``contrast``, ``background`` (to be given to ``save`` too), and those
+        of :func:`fill` but ``count`` and ``weights``.
+
+    Raises
+    ------
+    ReadError
+        If a file or a font cannot be used, or no word is left.
+    RecipeError
+        If an option has no meaning.
+
+    Examples
+    --------
+    >>> layout = words("heart", {"bear": 3, "fox": 2, "owl": 1}, effort="draft", levels="50")
+    >>> [item.name for item in layout.items]
+    ['bear', 'fox', 'owl']
+    >>> heights = layout.poses.scale / layout.poses.scale[-1]
+    >>> heights.round(6).tolist()
+    [3.0, 2.0, 1.0]
+    """
+    whole = container if isinstance(container, Container) else None
+    mixed_in = [add] if isinstance(add, str | Path) else add
+    recipe = pipeline.words_recipe(
+        whole.source if whole else str(container),
+        source,
+        add=[str(item) for item in mixed_in],
+        **options,
+    )
+    return _run(recipe, None, whole, observer, stop, progress)
 
 
 def read_items(
@@ -270,6 +320,23 @@ def read_container(
     600.0
     """
     return _read_container(str(source), canvas, font)
+
+
+def _run(
+    recipe: Recipe,
+    items: list[Item] | None,
+    container: Container | None,
+    observer: Observer | None,
+    stop: Stop,
+    progress: bool | None,
+) -> Layout:
+    bar = bar_for(progress, observer)
+    with shown(bar):
+        run = pipeline.fill(recipe, items, container, bar or observer, stop)
+    layout = _public(run.layout)
+    # What was just measured is not measured again when it is asked for.
+    layout.__dict__["metrics"] = run.metrics.as_dict()
+    return layout
 
 
 def _as_items(

@@ -19,6 +19,7 @@ from pydantic import (
 from packwork.errors import RecipeError
 from packwork.levels import parse_levels
 from packwork.presets import PRESETS
+from packwork.readers.words.options import WordOptions
 from packwork.refusals import length_asked, refusal
 from packwork.rules import MAX_COUNT, Rotation, Rule, as_text, hero_rule, rotation_text
 from packwork.solve.options import (
@@ -60,13 +61,18 @@ class Recipe(BaseModel):
     """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, or a built-in name such as heart."""
 
     font: str | None = None
-    """Font file (TTF, OTF, TTC) for a container text:WORD. Default: a bundled bold sans."""
+    """Font file (TTF, OTF, TTC) for a container text:WORD, or for words; for these also an
+    installed family, and several in turn. Default: a bundled bold sans."""
 
     items: tuple[str, ...] = ("builtin:icons",)
     """What to place: SVGs, pictures, folders of them, or built-in names."""
 
+    words: WordOptions | None = None
+    """Words to place: what they are and how they are set (``packwork words``)."""
+
     count: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
-    """How many items in all; the given ones are repeated in turn. Default: one of each."""
+    """How many items in all; the given ones are repeated in turn. Default: one of each.
+    Of words: how many at most, those of the largest weights; default 100."""
 
     canvas: str | float | None = None
     """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as
@@ -88,7 +94,8 @@ class Recipe(BaseModel):
     as high for its width, at the same area. 1 keeps all proportions."""
 
     rotate: str = "free"
-    """free, none, 30 (within 30 degrees of upright) or 0,90 (only these angles)."""
+    """free, none, 30 (within 30 degrees of upright) or 0,90 (only these angles); also
+    horizontal, vertical (read upwards), mixed (one in four vertical)."""
 
     padding: str | float = "0"
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,
@@ -169,18 +176,13 @@ class Recipe(BaseModel):
 
     @field_validator("font", mode="before")
     @classmethod
-    def _font_may_be_a_path(cls, font: Any) -> Any:
-        return str(font) if isinstance(font, Path) else font
-
-    @field_validator("font")
-    @classmethod
-    def _font_sets_words(cls, font: str | None, info: ValidationInfo) -> str | None:
+    def _font_sets_words(cls, font: Any, info: ValidationInfo) -> Any:
         container = str(info.data.get("container", ""))
         if font is not None and not container.startswith("text:"):
             raise RecipeError(
                 "font", f"sets a container of words, as in text:HELLO, not {container!r}"
             )
-        return font
+        return str(font) if isinstance(font, Path) else font
 
     @field_validator("levels", mode="before")
     @classmethod
@@ -276,7 +278,7 @@ class Recipe(BaseModel):
     def _voids_can_be_filled(self) -> Recipe:
         if self.fills_gaps and self.finish == "none":
             raise RecipeError("finish", "none leaves overlaps; voids are filled after an exact one")
-        if self.fills_gaps and self.sizes != "free" and not self.filler:
+        if self.fills_gaps and self.sizes != "free" and not (self.filler or self.words):
             raise RecipeError(
                 "filler",
                 f"must be given where sizes are {self.sizes}: "

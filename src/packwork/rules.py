@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Annotated, Any, TypeAlias
 
 from pydantic import (
@@ -30,6 +32,11 @@ for a crowd. Chosen by eye."""
 
 OWN_COLOURS = "own"
 """Stands for the colours that an item has anyway."""
+
+TURNED: Mapping[str, tuple[float, ...]] = MappingProxyType(
+    {"vertical": (-90.0,), "mixed": (0.0, 0.0, 0.0, -90.0)}
+)
+"""Ways to turn that have a name: the angles that items get, in equal shares, degrees."""
 
 _HERO = re.compile(r"(?P<name>[^@=]+)(?:@(?P<x>[^,@=]+),(?P<y>[^,@=]+))?(?:=(?P<size>[^@=]+))?")
 
@@ -82,8 +89,10 @@ class Rotation(BaseModel):
         plain = text.strip().lower()
         if plain == "free":
             return cls()
-        if plain == "none":
+        if plain in {"none", "horizontal"}:
             return cls(limit=0.0)
+        if plain in TURNED:
+            return cls(choices=tuple(math.radians(v) for v in TURNED[plain]))
         numbers = [_degrees(part, text) for part in plain.split(",") if part.strip()]
         if "," in plain and numbers:
             return cls(choices=tuple(math.radians(v) for v in numbers))

@@ -18,6 +18,7 @@ PHRASES = {
         "packwork fill text:HELLO",
         "What is placed", "How it is solved", "What is written", "all built-in icons",
     ],
+    "words": ["packwork words heart speech.txt", "SOURCE", "How words are set", "--weight-is"],
     "measure": ["packwork measure bear.geojson", "LAYOUT", "--diagnose"],
     "demo": ["packwork demo", "bear", "dragon", "--folder"],
     "bench": ["packwork bench engine", "NAME"],

@@ -15,6 +15,7 @@ from packwork.cli.fill import fill
 from packwork.cli.measure import measure
 from packwork.cli.run import run
 from packwork.cli.usage import OneLineGroup
+from packwork.cli.words import words
 
 app = typer.Typer(
     name="packwork",
@@ -58,6 +59,7 @@ def _main(
 
 
 app.command()(fill)
+app.command()(words)
 app.command()(run)
 app.command()(measure)
 app.command()(demo)

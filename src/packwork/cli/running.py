@@ -30,6 +30,9 @@ from packwork.recipe import Recipe
 MOST_NAMED = 5
 """Items without a place that are named on the terminal; a report names all. Chosen."""
 
+LONGEST_NAME = 255
+"""Characters of a file's name, on most systems."""
+
 COMPILING = "Compiling the kernels: on the first run only, up to 20 s ..."
 
 
@@ -67,7 +70,11 @@ class Outputs:
         for side in sides:
             writers.check_writable(side)
         writers.check_outputs([*self.files, *sides])
-        read = {Path(name).resolve() for name in (recipe.container, *recipe.items)}
+        named = [recipe.container, *recipe.items]
+        if recipe.words is not None and isinstance(recipe.words.source, str):
+            # A text itself is no file; nor could so long a name be one.
+            named.append(recipe.words.source[:LONGEST_NAME])
+        read = {Path(name).resolve() for name in named if "\0" not in name}
         for path in (*self.files, *sides):
             if path.resolve() in read:
                 raise WriteError(path, "is read by this run too; write to another file")

@@ -4,6 +4,7 @@ from packwork.pipeline.casting import item_weights
 from packwork.pipeline.job import Clock, Job, read
 from packwork.pipeline.outcome import Run, Unplaced, find_unplaced
 from packwork.pipeline.run import fill, padded, run, warm_up
+from packwork.pipeline.wording import words_recipe
 
 __all__ = [
     "Clock",
@@ -17,4 +18,5 @@ __all__ = [
     "read",
     "run",
     "warm_up",
+    "words_recipe",
 ]

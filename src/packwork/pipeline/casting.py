@@ -11,12 +11,17 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.asking import Asked, Voice, named, voices
 from packwork.readers.weights import read_weights
+from packwork.readers.words.items import WordsRead
 from packwork.recipe import Recipe
 from packwork.rules import MAX_COUNT, Rule
 from packwork.scene.item import Item
 
 WIDEST_WEIGHTS = 1e6
 """Largest weight over the smallest: beyond it the small ones could not be seen. Chosen."""
+
+BOX_OVER_INK = 2.5
+"""Area of a word's box over that of its letters. Larger makes what is mixed in stand out
+more. Chosen by eye."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,6 +69,22 @@ def cast(recipe: Recipe, items: Sequence[Item]) -> Cast:
                 asked[k] = asked[k].heard(rule, voice)
     chosen = tuple(items[k] for k in which)
     return Cast(chosen, tuple(asked), _weights(chosen, asked, recipe))
+
+
+def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item] | None) -> Cast:
+    """Words and what is mixed in with them, each once; that is as large as a middling word's box.
+
+    Raises
+    ------
+    RecipeError
+        As for :func:`cast`.
+    """
+    others = tuple(added or ())
+    middling = BOX_OVER_INK * float(np.median(words.areas))
+    areas = dict.fromkeys((item.name for item in others), middling)
+    pairs = zip(words.items, words.areas.tolist(), strict=True)
+    areas |= {item.name: area for item, area in pairs}
+    return cast(recipe.model_copy(update={"weights": areas}), (*words.items, *others))
 
 
 def turns(counts: Sequence[int | None], total: int | None) -> IntArray:

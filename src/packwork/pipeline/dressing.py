@@ -10,6 +10,7 @@ from packwork.arrays import IntArray
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.beside import beside
 from packwork.pipeline.job import Job
+from packwork.pipeline.word_colours import word_colours
 from packwork.rules import OWN_COLOURS
 from packwork.scene.item import Item
 from packwork.scene.label import Label
@@ -25,10 +26,11 @@ def dressed(job: Job, layout: Layout) -> Layout:
     Colours of a palette are given out in the order of the items, as many of each; then
     neighbours of one colour exchange theirs with others.
     """
-    palettes = _palettes(job)
-    if not any(palettes) and not any(_label(one) for one in job.asked):
+    coloured = word_colours(job, layout)
+    palettes: list[tuple[str, ...]] = [] if coloured else _palettes(job)
+    if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
         return layout
-    colours = _colours(palettes, layout)
+    colours = _colours(palettes, layout) if coloured is None else coloured
     known: dict[tuple[int, str | None, Label | None], Item] = {}
     items = []
     for item, one, colour in zip(layout.items, job.asked, colours, strict=True):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -25,6 +26,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.limiting import kinds
 from packwork.pipeline.outcome import Filling
 from packwork.progress import Observer, Stop
+from packwork.scene.item import Item
 from packwork.start.angles import nearest_allowed
 from packwork.start.fitting import SECTORS
 from packwork.start.voids import copies_for_voids
@@ -43,6 +45,10 @@ one by one. Chosen."""
 
 MOST_ITEMS = 1_000
 """Items in all unless ``max_items`` says otherwise: what a person waits for. Chosen."""
+
+REPEATED = 0.75
+"""Height of a repeated word over that of the word itself, at most: so no weight is told
+wrong. Larger fills more. Chosen."""
 
 STYLE = frozenset({"color", "link", "title"})
 """What of the rules about an item holds for the smaller copies of it too."""
@@ -105,6 +111,10 @@ class _Run:
         self._smallest = job.recipe.smallest_cu(job.container) / extents
         # No newcomer outgrows what is a fair share for the items of before.
         self._largest = np.sqrt(job.container.outline.area / self._first / own)
+        if job.words is not None and not job.recipe.filler:
+            self._largest = np.minimum(
+                self._largest, REPEATED * _scales_of(self._sorts, exact, job)
+            )
         self._gap = gap_with_bulge(job, np.arange(self._first), self._ranges[1])
 
     def round(self) -> str | None:
@@ -221,6 +231,12 @@ class _Run:
             np.append(smallest, self._smallest[self.added]),
             np.append(largest, self._largest[self.added]),
         )
+
+
+def _scales_of(sorts: Sequence[Item], exact: Finished, job: Job) -> FloatArray:
+    """``(n,)`` scale that each sort's own item has in the layout."""
+    known = dict(zip((item.name for item in job.items), exact.poses.scale, strict=True))
+    return np.array([known[item.name] for item in sorts])
 
 
 def _styled(asked: Asked | None) -> Asked:

@@ -11,11 +11,13 @@ from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
 from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
-from packwork.pipeline.casting import cast
+from packwork.pipeline.casting import cast, cast_words
 from packwork.pipeline.regions import Region, read_regions
+from packwork.pipeline.word_colours import check_colours
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layout import read_layout
+from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
@@ -61,6 +63,8 @@ class Job:
         The layout to start from, if any.
     fillers
         What may be put into the voids that are left, one of each sort.
+    words
+        The words among the items, if any.
     """
 
     recipe: Recipe
@@ -73,6 +77,7 @@ class Job:
     clock: Clock
     earlier: Layout | None = None
     fillers: tuple[Item, ...] = ()
+    words: WordsRead | None = None
 
     @property
     def is_limited(self) -> bool:
@@ -97,13 +102,17 @@ def read(
             region = read_container(recipe.container, recipe.canvas_size, recipe.font)
         else:
             region = on_canvas(container, recipe.canvas_size)
-        if items is None:
+        words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)
+        check_colours(recipe, () if words is None else words.words)
+        # Items are mixed in with words only if they were named.
+        named = "items" in recipe.model_fields_set and recipe.items
+        if items is None and (words is None or named):
             found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
             items, skipped = found.items, found.skipped
-        chosen = cast(recipe, items)
+        chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
-        fillers, more = _fillers(recipe, items)
+        fillers, more = _fillers(recipe, items or () if words is None else words.items)
         skipped += more
         recipe.start_options()
         for loss in recipe.losses:
@@ -120,6 +129,7 @@ def read(
         clock,
         earlier,
         fillers,
+        words,
     )
 
 

@@ -116,6 +116,11 @@ class Run:
         exact = self.metrics.exact
         return exact.overlap + exact.exceeding > ROUGH_SHARE
 
+    @property
+    def asked_for(self) -> int:
+        """Items that were to be placed; words that no font could draw are among them."""
+        return max([len(self.layout.items), *(one.index + 1 for one in self.unplaced)])
+
     def report(self, write_seconds: float = 0.0) -> dict[str, Any]:
         """Plain values for ``--report``."""
         seconds = {"finish": 0.0, **self.seconds, "write": write_seconds}
@@ -124,8 +129,8 @@ class Run:
             "canvas": self.layout.container.canvas,
             "metrics": self.metrics.as_dict(),
             "seconds": seconds,
-            "items": len(self.layout.items),
-            "placed": len(self.layout.items) - len(self.unplaced),
+            "items": self.asked_for,
+            "placed": self.asked_for - len(self.unplaced),
             "unplaced": [asdict(u) for u in self.unplaced],
             "beside": self.beside,
             "skipped": [str(error) for error in self.skipped],
@@ -136,6 +141,15 @@ class Run:
             "ending": self.ending.value,
             "seed": self.layout.manifest["seed"],
         }
+
+
+def undrawn(job: Job) -> tuple[Unplaced, ...]:
+    """Words that no font could draw, numbered after the items."""
+    reasons = {} if job.words is None else job.words.undrawn
+    return tuple(
+        Unplaced(word, index, reason)
+        for index, (word, reason) in enumerate(reasons.items(), start=len(job.items))
+    )
 
 
 def find_unplaced(layout: Layout, limits: Limits | None = None) -> tuple[Unplaced, ...]:

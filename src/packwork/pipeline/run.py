@@ -23,7 +23,7 @@ from packwork.pipeline.dressing import dressed
 from packwork.pipeline.finishing import finished, unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
-from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest
+from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -111,6 +111,7 @@ def _judged(
         unplaced = () if exact is None else unfinished(job, exact)
         if not unplaced and (exact is None or not metrics.exact.is_clean):
             unplaced = find_unplaced(layout, start.limits)
+        unplaced += undrawn(job)
         shares = recipe.sizes == "shared" and start.limits is None
         promise = Promise(recipe.padding_cu(job.container), shares) if exact is not None else None
         faults = () if promise is None else broken(promise, layout, metrics.exact)

@@ -46,11 +46,21 @@ def read_recipe(path: str | Path) -> dict[str, Any]:
         options["items"] = [
             _found(entry, folder) if isinstance(entry, str) else entry for entry in options["items"]
         ]
+    if isinstance(options.get("words"), dict):
+        _find_words(options["words"], folder)
     rules = options.get("rules")
     for rule in rules if isinstance(rules, list) else ():
         if isinstance(rule, dict) and isinstance(rule.get("region"), str):
             rule["region"] = _found(rule["region"], folder)
     return options
+
+
+def _find_words(words: dict[str, Any], folder: Path) -> None:
+    for key in ("source", "stopwords", "color_by"):
+        if isinstance(words.get(key), str):
+            words[key] = _found(words[key], folder)
+    if isinstance(words.get("fonts"), list):
+        words["fonts"] = [_found(f, folder) if isinstance(f, str) else f for f in words["fonts"]]
 
 
 def _found(name: str, folder: Path) -> str:

@@ -23,6 +23,18 @@ PALETTES: Mapping[str, tuple[str, ...]] = MappingProxyType(
             "#999933", "#aa4499",
         ),
         "tol-high-contrast": ("#004488", "#ddaa33", "#bb5566"),
+        # Ours: deep colours of unlike hue, for words on paper.
+        "ink": ("#22304f", "#b5432a", "#1f6f78", "#7b3b5e", "#96690a"),
+        # Nunez, Anderton and Renslow 2018, and van der Walt and Smith 2015: even steps of
+        # lightness, from dark to light.
+        "cividis": (
+            "#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369",
+            "#e1cc55", "#fee838",
+        ),
+        "viridis": (
+            "#440154", "#482878", "#3e4989", "#31688e", "#26828e", "#1f9e89", "#35b779", "#6ece58",
+            "#b5de2b", "#fde725",
+        ),
     }
 )  # fmt: skip
 """Palettes by name; people who see few colours tell theirs apart."""

@@ -25,6 +25,8 @@ def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
             kept[key] = _seen_from(folder, kept[key])
     if "items" in kept:
         kept["items"] = [_seen_from(folder, name) for name in kept["items"]]
+    if "words" in kept:
+        kept["words"] = _words_seen_from(folder, kept["words"])
     rules = [
         {**rule, "region": _seen_from(folder, rule["region"])}
         if isinstance(rule.get("region"), str)
@@ -34,10 +36,21 @@ def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
     return tomli_w.dumps({**kept, "rules": rules} if rules else kept).encode()
 
 
+def _words_seen_from(folder: Path, words: Mapping[str, Any]) -> dict[str, Any]:
+    seen = {key: value for key, value in words.items() if value is not None}
+    for key in ("source", "stopwords", "color_by"):
+        if isinstance(seen.get(key), str):
+            seen[key] = _seen_from(folder, seen[key])
+    return {**seen, "fonts": [_seen_from(folder, font) for font in seen.get("fonts", ())]}
+
+
 def _seen_from(folder: Path, name: str) -> str:
     """A file's path relative to ``folder`` where that is possible, else absolute."""
     path = Path(name)
-    if not path.exists():
+    try:
+        if not path.exists():
+            return name
+    except (OSError, ValueError):  # a text that can be no name
         return name
     try:
         return path.resolve().relative_to(folder.resolve()).as_posix()

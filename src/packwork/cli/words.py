@@ -1,0 +1,161 @@
+"""``packwork words``: a word cloud."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import typer
+
+from packwork.cli import options as shared
+from packwork.cli.failure import clear_errors
+from packwork.readers.words.options import WordOptions
+
+DEFAULT_OUTPUT = Path("words.svg")
+TYPE = "How words are set"
+
+
+def _flag(field: str, *names: str, panel: str = shared.PLACING) -> Any:
+    described = WordOptions.model_fields[field].description or ""
+    return typer.Option(
+        *(names or (f"--{field.replace('_', '-')}",)), help=described, rich_help_panel=panel
+    )
+
+
+def words(
+    container: Annotated[
+        str,
+        typer.Argument(
+            metavar="CONTAINER",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, or a built-in name such "
+            "as heart.",
+        ),
+    ],
+    source: Annotated[
+        str,
+        typer.Argument(
+            metavar="SOURCE",
+            help="A text, a table of word,weight (.csv, .tsv, .json), or - for standard input.",
+        ),
+    ],
+    output: shared.Output = None,
+    count: shared.Count = None,
+    min_count: Annotated[int, _flag("min_count")] = 1,
+    language: Annotated[str, _flag("language")] = "auto",
+    stopwords: Annotated[str | None, _flag("stopwords")] = None,
+    phrases: Annotated[int, _flag("phrases")] = 1,
+    plurals: Annotated[Literal["merge", "keep"], _flag("plurals")] = "merge",
+    case: Annotated[Literal["common", "lower", "upper"], _flag("case", panel=TYPE)] = "common",
+    font: Annotated[list[str] | None, shared.flag("font", panel=TYPE)] = None,
+    font_weight: Annotated[int, _flag("font_weight", panel=TYPE)] = 700,
+    weight_is: Annotated[
+        Literal["height", "area", "ink"], _flag("weight_is", panel=TYPE)
+    ] = "height",
+    color_by: Annotated[str | None, _flag("color_by", panel=TYPE)] = None,
+    palette: shared.Palette = None,
+    contrast: Annotated[float, _flag("contrast", panel=TYPE)] = 3.0,
+    add: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--add",
+            help="Items that are placed among the words, each as large as a middling one: "
+            "files, folders or built-in names. May be given several times.",
+            rich_help_panel=shared.PLACING,
+        ),
+    ] = None,
+    canvas: shared.Canvas = None,
+    sizes: shared.Sizes = "shared",
+    size_ratio: shared.SizeRatio = 2.0,
+    rotate: shared.Rotate = "horizontal",
+    padding: shared.Padding = "0.3%",
+    target_coverage: shared.TargetCoverage = None,
+    max_items: shared.MaxItems = None,
+    smallest: shared.Smallest = None,
+    filler: shared.Filler = None,
+    hero: shared.Hero = None,
+    holes: shared.Holes = "fill",
+    outline: shared.OutlineChoice = "exact",
+    seed: shared.Seed = 0,
+    finish: shared.Finish = "exact",
+    effort: shared.Effort = "normal",
+    epochs: shared.Epochs = None,
+    time: shared.Time = None,
+    levels: shared.Levels = None,
+    start: shared.Start = "distance-field",
+    loss: shared.Loss = None,
+    pixels: shared.Pixels = 1_600,
+    background: shared.Background = None,
+    show_container: shared.ShowContainer = False,
+    flatten: shared.Flatten = False,
+    report: shared.Report = None,
+    diagnose: shared.Diagnose = None,
+    save_recipe: shared.SaveRecipe = None,
+    quiet: shared.Quiet = False,
+) -> None:
+    """Fill a container with words.
+
+    [bold]packwork words heart speech.txt[/]  its hundred most frequent words
+
+    [bold]packwork words bird.png table.csv --rotate 20 -o bird.svg -o bird.png[/]
+
+    [bold]cat *.md | packwork words circle - -n 200 --rotate mixed[/]
+
+    [bold]packwork words cat ar.txt --font "Noto Naskh Arabic"[/]  any script
+    """
+    with clear_errors():
+        from packwork.cli.running import Outputs, run_and_write
+        from packwork.pipeline.wording import words_recipe
+        from packwork.writers import write_options
+
+        recipe = words_recipe(
+            container,
+            source,
+            add=add or (),
+            count=count,
+            min_count=min_count,
+            language=language,
+            stopwords=stopwords,
+            phrases=phrases,
+            plurals=plurals,
+            case=case,
+            fonts=font,
+            font_weight=font_weight,
+            weight_is=weight_is,
+            color_by=color_by,
+            palette=palette,
+            contrast=contrast,
+            background=background,
+            canvas=canvas,
+            sizes=sizes,
+            size_ratio=size_ratio,
+            rotate=rotate,
+            padding=padding,
+            target_coverage=target_coverage,
+            max_items=max_items,
+            smallest=smallest,
+            filler=filler,
+            hero=hero,
+            holes=holes,
+            outline=outline,
+            seed=seed,
+            finish=finish,
+            effort=effort,
+            epochs=epochs,
+            time=time,
+            levels=levels,
+            start=start,
+            losses=shared.loss_weights(loss),
+        )
+        outputs = Outputs(
+            files=output or [DEFAULT_OUTPUT],
+            options=write_options(
+                pixels=pixels,
+                background=background,
+                show_container=show_container,
+                flatten=flatten,
+            ),
+            report=report,
+            diagnose=diagnose,
+            recipe=save_recipe,
+        )
+        raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -1,0 +1,91 @@
+"""Options of ``words`` to the recipe of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from pydantic import ValidationError
+
+from packwork.errors import RecipeError
+from packwork.readers.words.options import WordOptions
+from packwork.recipe import Recipe, make_recipe
+from packwork.refusals import refusal
+from packwork.scene.contrast import readable
+from packwork.scene.palette import palette_colours
+
+PALETTE = "ink"
+"""Colours of words that are given none."""
+
+RAMP = "viridis"
+"""Colours from small to large, where none are given."""
+
+PAPER = "white"
+"""What words are read on where no background is given."""
+
+DEFAULTS: Mapping[str, Any] = {"sizes": "shared", "rotate": "horizontal", "padding": "0.3%"}
+"""What is another choice than that of other items. Proportions of weights are kept, and
+words stand far enough apart to be read one by one; less fills more. Chosen by eye."""
+
+
+def words_recipe(
+    container: str, source: object, *, add: Sequence[str] = (), **options: Any
+) -> Recipe:
+    """Recipe that sets words, from the options of ``words`` and of all runs alike.
+
+    Parameters
+    ----------
+    source
+        As :class:`WordOptions` has it; anything with ``items()`` is a table of weights.
+    add
+        Items that are mixed in.
+
+    Raises
+    ------
+    RecipeError
+        Naming the option, what was met and what would do.
+
+    Examples
+    --------
+    >>> recipe = words_recipe("heart", {"bear": 2, "fox": 1}, count=1, palette="yellow")
+    >>> recipe.words.count, recipe.palette, recipe.sizes
+    (1, ('#a09f00',), 'shared')
+    """
+    own = {key: options.pop(key) for key in list(options) if key in WordOptions.model_fields}
+    asked = _word_options({"source": _plain_source(source), **own})
+    chosen = {**DEFAULTS, **{key: value for key, value in options.items() if value is not None}}
+    chosen["palette"] = _palette(chosen.get("palette"), asked)
+    return make_recipe(container=container, items=list(add), words=asked, **chosen)
+
+
+def _word_options(values: Mapping[str, Any]) -> WordOptions:
+    given = {key: value for key, value in values.items() if value is not None}
+    try:
+        return WordOptions.model_validate(given)
+    except ValidationError as error:
+        raise refusal(error, WordOptions) from error
+
+
+def _plain_source(source: object) -> object:
+    """Tables of other libraries, such as a pandas Series, as a dict."""
+    pairs = getattr(source, "items", None)
+    if pairs is None or isinstance(source, Mapping):
+        return source
+    try:
+        return dict(pairs())
+    except (TypeError, ValueError):
+        raise RecipeError(
+            "source", "use a text, a file, or weights by word such as {'bear': 2}"
+        ) from None
+
+
+def _palette(palette: object, asked: WordOptions) -> tuple[str, ...]:
+    """Colours that can be read on the background."""
+    default = PALETTE if asked.color_by is None else RAMP
+    try:
+        colours = palette_colours(default if palette is None else palette)
+    except ValueError as error:
+        raise RecipeError("palette", str(error)) from None
+    paper = asked.paper or PAPER
+    # A ramp of the same colour again and again would tell nothing: the ends stay unlike.
+    return tuple(dict.fromkeys(readable(colour, paper, asked.contrast) for colour in colours))

@@ -1,0 +1,1 @@
+"""Words as fonts shape them: letters that join, marks that stack, any direction."""

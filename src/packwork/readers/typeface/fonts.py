@@ -1,0 +1,151 @@
+"""Font files and installed families to a list of typefaces, each asked in turn."""
+
+from __future__ import annotations
+
+import difflib
+import unicodedata
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from packwork.errors import ReadError
+from packwork.readers.files import exists, read_bytes
+from packwork.readers.svg.fonts import installed_families
+from packwork.readers.typeface.face import MAX_FONT_BYTES, Typeface, bundled_typeface
+from packwork.readers.typeface.lettering import Lettering, lettering
+from packwork.readers.unfit import UnfitError, naming
+
+MOST_FACES = 64
+"""Faces of one collection that are looked at. Chosen."""
+
+_ENDINGS = frozenset({".ttf", ".otf", ".ttc", ".otc"})
+_PREFERRED = ("noto sans", "noto", "dejavu sans")
+"""Families that are asked first among those installed: drawn for many scripts alike."""
+
+
+@dataclass(eq=False)
+class Fonts:
+    """Typefaces in the order in which they are asked for a word.
+
+    Parameters
+    ----------
+    faces
+        Those that were given.
+    weight
+        Of installed families and variable fonts.
+    is_open
+        Whether installed fonts are asked where these lack a letter.
+    """
+
+    faces: list[Typeface]
+    weight: int = 700
+    is_open: bool = False
+    _installed: list[Typeface] = field(default_factory=list)
+
+    def lettering(self, lines: Sequence[str]) -> Lettering:
+        """Lines as the first font draws them that has all their characters.
+
+        Raises
+        ------
+        UnfitError
+            If there is none, naming the characters that no font has.
+
+        Examples
+        --------
+        >>> Fonts([bundled_typeface()]).lettering(["ox"]).region.is_valid
+        True
+        """
+        for face in self._asked(lines):
+            found = lettering(lines, face)
+            if found is not None:
+                return found
+        raise UnfitError(self._lacking("".join(lines)))
+
+    def _asked(self, lines: Sequence[str]) -> Iterator[Typeface]:
+        yield from self.faces
+        if self.is_open:
+            characters = "".join(c for c in "".join(lines) if not _is_unseen(c))
+            yield from (face for face in self._installed if face.has(characters))
+            face = _installed_face(characters, self.weight)
+            if face is not None:
+                self._installed.append(face)
+                yield face
+
+    def _lacking(self, text: str) -> str:
+        missing = [
+            c for c in dict.fromkeys(text)
+            if not _is_unseen(c) and not any(face.has(c) for face in self.faces)
+        ]  # fmt: skip
+        what = " ".join(missing[:6]) or "all of its characters at once"
+        whom = "of the fonts given" if not self.is_open else "installed"
+        return f"no font {whom} has {what}; give one with --font"
+
+
+def open_fonts(names: Sequence[str], weight: int = 700) -> Fonts:
+    """Fonts by file or by installed family; the bundled one, then any, if none is named.
+
+    Raises
+    ------
+    ReadError
+        If a file is no font, or no family of the name is installed: similar ones are named.
+
+    Examples
+    --------
+    >>> open_fonts([]).faces[0].name, open_fonts(["Inter Display"]).is_open
+    ('Inter Display', False)
+    """
+    if not names:
+        return Fonts([bundled_typeface()], weight, is_open=True)
+    return Fonts([_named(name, weight) for name in names], weight)
+
+
+def _named(name: str, weight: int) -> Typeface:
+    if exists(name) or Path(name[-20:]).suffix.lower() in _ENDINGS:
+        with naming(name):
+            return Typeface(read_bytes(name, MAX_FONT_BYTES), name, 0, weight)
+    files = installed_families().get(name.strip().lower())
+    if not files:
+        known = sorted(installed_families())
+        close = difflib.get_close_matches(name.lower(), known, n=3, cutoff=0.4)
+        hint = f"similar are {', '.join(close)}" if close else "give a font file"
+        raise ReadError(name[:60], f"is no font file and no installed family; {hint}")
+    found = _nearest([face for file in files for face in _faces(file, weight)], weight)
+    if found is None:
+        raise ReadError(name, "is installed, but cannot be read; give a font file")
+    return found
+
+
+def _installed_face(characters: str, weight: int) -> Typeface | None:
+    """Face of an installed family that has all characters; none if there is none."""
+    families = installed_families()
+    for family in sorted(families, key=_rank):
+        faces = [f for file in families[family] for f in _faces(file, weight) if f.has(characters)]
+        found = _nearest(faces, weight)
+        if found is not None:
+            return found
+    return None
+
+
+def _rank(family: str) -> tuple[int, str]:
+    rank = next((k for k, name in enumerate(_PREFERRED) if family.startswith(name)), 9)
+    return rank, family
+
+
+def _nearest(faces: Sequence[Typeface], weight: int) -> Typeface | None:
+    """The upright face of the common width whose weight is nearest."""
+    return min(faces, key=lambda f: (*f.oddity, abs(f.weight - weight), f.name), default=None)
+
+
+def _faces(file: str, weight: int) -> list[Typeface]:
+    """All faces of a file; none if it cannot be read."""
+    try:
+        data = read_bytes(file, MAX_FONT_BYTES)
+        count = int.from_bytes(data[8:12], "big") if data[:4] == b"ttcf" else 1
+        return [Typeface(data, file, k, weight) for k in range(min(count, MOST_FACES))]
+    except (ReadError, UnfitError):
+        return []
+
+
+def _is_unseen(character: str) -> bool:
+    """Whether no glyph of its own is needed: joiners, variants, spaces."""
+    return unicodedata.category(character) in {"Cf", "Zs"} or 0xFE00 <= ord(character) <= 0xFE0F

@@ -1,0 +1,1 @@
+"""Texts and tables to words with weights, and words to items."""

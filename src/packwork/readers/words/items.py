@@ -1,0 +1,160 @@
+"""Words with weights to items: outlines in the proportions asked for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from shapely import affinity
+
+from packwork.arrays import FloatArray
+from packwork.errors import ReadError, RecipeError
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.readers.regions import Holes, centred, clean_union
+from packwork.readers.typeface.fonts import Fonts, open_fonts
+from packwork.readers.typeface.lettering import Lettering
+from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.words.options import WeightIs, WordOptions
+from packwork.readers.words.source import read_words
+from packwork.readers.words.word import Word
+from packwork.scene.item import Item, VectorArt
+from packwork.scene.label import Label
+
+EM_PX = 100.0
+"""Height of an em in an item's own units. Any number would do."""
+
+LONGEST = 100
+"""Characters of one word; no more could be read. Chosen."""
+
+MOST_SHOWN = 40
+"""Characters of a word that messages show. Chosen."""
+
+INK = "#2d3748"
+"""Colour of words that are given no other."""
+
+WIDEST_HEIGHTS = 1_000.0
+"""Largest height of letters over the smallest; the smallest could not be seen. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class WordsRead:
+    """Words as items.
+
+    Parameters
+    ----------
+    items
+        One per word, the largest weights first; one em is ``EM_PX``.
+    areas
+        ``(n,)`` share of area of each, such that heights are as asked for.
+    words
+        The same words, with their weights and columns.
+    undrawn
+        Words that could not be set, each with the reason.
+    """
+
+    items: tuple[Item, ...]
+    areas: FloatArray
+    words: tuple[Word, ...]
+    undrawn: Mapping[str, str]
+
+
+def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
+    """Items of the words that a source holds.
+
+    Raises
+    ------
+    ReadError
+        If the source or a font cannot be read, or no word can be set.
+    RecipeError
+        If weights are too far apart.
+
+    Examples
+    --------
+    >>> read = read_word_items(WordOptions(source={"bear": 2, "中" * 200: 1}))
+    >>> [item.name for item in read.items], list(read.undrawn.values())
+    (['bear'], ['has 200 characters; the most is 100'])
+    """
+    fonts = open_fonts(options.fonts, options.font_weight)
+    items: list[Item] = []
+    words: list[Word] = []
+    undrawn: dict[str, str] = {}
+    for word in read_words(options):
+        try:
+            items.append(word_item(word, fonts, holes))
+            words.append(word)
+        except UnfitError as error:
+            undrawn[word.text[:MOST_SHOWN]] = str(error)
+    if not items:
+        first = next(iter(undrawn))
+        raise ReadError(first, f"cannot be set, nor any other word: {undrawn[first]}")
+    weights = np.array([word.weight for word in words])
+    return WordsRead(
+        tuple(items), area_shares(items, weights, options.weight_is), tuple(words), undrawn
+    )
+
+
+def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
+    """One word as an item: named after it, with a tooltip that tells its weight.
+
+    Raises
+    ------
+    UnfitError
+        If no font can draw it, or it is too long.
+
+    Examples
+    --------
+    >>> item = word_item(Word("ox", 2.0), open_fonts([]))
+    >>> item.label.title, len(item.outline.rings), len(item.ink.rings)
+    ('ox: 2', 2, 3)
+    """
+    if len(word.text) > LONGEST:
+        raise UnfitError(f"has {len(word.text):,} characters; the most is {LONGEST}")
+    lines = [" ".join(line.split()) for line in word.text.split("|")]
+    drawn = fonts.lettering([line for line in lines if line])
+    name = " ".join(line for line in lines if line)
+    label = Label(name=name, title=f"{name}: {word.weight:.6g}")
+    with naming(name):
+        outline, ink, place = _placed(drawn, holes)
+    return Item(name, word.text, outline, ink, _art(drawn, place), label)
+
+
+def area_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs) -> FloatArray:
+    """``(n,)`` areas, in shares, of words whose heights, or areas, are as the weights say.
+
+    Raises
+    ------
+    RecipeError
+        If the largest letters would be ``WIDEST_HEIGHTS`` as high as the smallest.
+
+    Examples
+    --------
+    >>> ox = word_item(Word("ox", 2.0), open_fonts([]))
+    >>> shares = [area_shares([ox, ox], np.array([2.0, 1.0]), k) for k in ("height", "area")]
+    >>> [round(float(share[0] / share[1])) for share in shares]
+    [4, 2]
+    """
+    own = np.array([item.outline.area for item in items])
+    heights = weights if weight_is == "height" else np.sqrt(weights)
+    if weight_is == "ink":
+        heights = heights / np.sqrt(own)
+    widest = float(heights.max() / heights.min())
+    if widest > WIDEST_HEIGHTS:
+        raise RecipeError(
+            "weight_is",
+            f"the largest letters would be {widest:.3g} times as high as the smallest, at most "
+            f"{WIDEST_HEIGHTS:g} can be shown; use area, or fewer words",
+        )
+    # Relative ones, so that no area runs over.
+    return np.asarray(own * (heights / heights.max()) ** 2)
+
+
+def _placed(drawn: Lettering, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
+    region = affinity.scale(drawn.region, EM_PX, EM_PX, origin=(0, 0))
+    return centred(clean_union(region), holes)
+
+
+def _art(drawn: Lettering, place: FloatArray) -> VectorArt:
+    scale = affine.similarity(0.0, 0.0, 0.0, EM_PX / drawn.units)
+    return VectorArt(f'<path fill="{INK}" d="{drawn.path}"/>', affine.compose(place, scale))

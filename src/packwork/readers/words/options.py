@@ -1,0 +1,142 @@
+"""What words of a cloud are, how they are set and how large they are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator
+
+from packwork.errors import RecipeError
+
+WeightIs: TypeAlias = Literal["height", "area", "ink"]
+
+MOST_WORDS = 5_000
+"""Words in one cloud; more could not be read on any sheet. Chosen."""
+
+
+class WordOptions(BaseModel):
+    """Where words come from and how they are set."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    source: str | dict[str, float]
+    """Text, a table of word,weight (.csv, .tsv, .json), or - for standard input; in Python
+    also the text itself, or a dict of weights."""
+
+    count: Annotated[int, Field(ge=1, le=MOST_WORDS)] = 100
+    """How many words at most: those of the largest weights."""
+
+    min_count: Annotated[int, Field(ge=1)] = 1
+    """How often a word must stand in the text."""
+
+    language: str = "auto"
+    """Whose function words are left out: auto (the language of the text), codes such as en
+    or en,de, or none."""
+
+    stopwords: str | tuple[str, ...] | None = None
+    """File of further words to leave out (in Python also a list of them)."""
+
+    phrases: Annotated[int, Field(ge=1, le=4)] = 1
+    """2 also counts pairs of words that often stand together, 3 triples too."""
+
+    plurals: Literal["merge", "keep"] = "merge"
+    """merge: English plurals count as their singular, if that stands in the text too."""
+
+    case: Literal["common", "lower", "upper"] = "common"
+    """How words are written: as they mostly stand in the text, lower or upper."""
+
+    fonts: tuple[str, ...] = ()
+    """Font file or installed family; the next ones set what the first cannot. Default: a
+    bundled black sans, then whatever is installed and has the letters."""
+
+    font_weight: Annotated[int, Field(ge=1, le=1_000)] = 700
+    """Weight of a family or a variable font: 400 is regular, 700 bold."""
+
+    weight_is: WeightIs = "height"
+    """What is in the proportion of the weights: height (of the letters), area (of the
+    letters: their height by the root) or ink (of the whole word: long ones are lower)."""
+
+    color_by: str | None = None
+    """weight (the palette from small to large), a column of the table, or a picture under
+    the words. Default: neighbours unlike."""
+
+    background: str | None = None
+    """Colour behind the words: theirs are made to be read on it. Default: white."""
+
+    contrast: Annotated[float, Field(ge=1, le=21)] = 3.0
+    """Least contrast of words and background, as WCAG counts it; 1 leaves colours alone."""
+
+    @property
+    def paper(self) -> str | None:
+        """Colour that words are read on; None if it is not known."""
+        seen = self.background not in (None, "none", "transparent")
+        return self.background if seen else None
+
+    @field_validator("source", mode="before")
+    @classmethod
+    def _source_holds_weights(cls, source: Any) -> Any:
+        if isinstance(source, Path):
+            return str(source)
+        if not isinstance(source, Mapping):
+            return source
+        for word, weight in source.items():
+            check_weight(str(word), weight)
+        return {str(word): float(weight) for word, weight in source.items()}
+
+    @field_validator("fonts", mode="before")
+    @classmethod
+    def _one_font_is_enough(cls, fonts: Any) -> Any:
+        if fonts is None:
+            return ()
+        several = [fonts] if isinstance(fonts, str | Path) else fonts
+        return [str(font) for font in several]
+
+    @field_validator("stopwords", mode="before")
+    @classmethod
+    def _stop_words_are_a_file_or_a_list(cls, words: Any) -> Any:
+        if isinstance(words, Path):
+            return str(words)
+        return sorted(words) if isinstance(words, set | frozenset) else words
+
+    @field_validator("background")
+    @classmethod
+    def _background_is_a_colour(cls, text: str | None) -> str | None:
+        if text is not None:
+            # Loads the picture library, which the command line's help can do without.
+            from packwork.scene.colour import css_colour
+
+            try:
+                css_colour(text)
+            except ValueError:
+                raise RecipeError(
+                    "background", f"{text[:40]!r} is no colour; use one such as ivory or #102030"
+                ) from None
+        return text
+
+
+def check_weight(word: str, weight: object) -> None:
+    """Refuse what is no positive number.
+
+    Raises
+    ------
+    RecipeError
+        Naming the word.
+
+    Examples
+    --------
+    >>> check_weight("bear", -1)
+    Traceback (most recent call last):
+    packwork.errors.RecipeError: source: the weight of 'bear' must be a positive number, not -1
+    """
+    try:
+        value = float(weight)  # type: ignore[arg-type]
+    except (TypeError, ValueError):
+        value = math.nan
+    if not (math.isfinite(value) and value > 0):
+        raise RecipeError(
+            "source",
+            f"the weight of {word[:40]!r} must be a positive number, not {str(weight)[:20]}",
+        )

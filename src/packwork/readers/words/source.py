@@ -1,0 +1,190 @@
+"""Whatever names words, to words with weights, the largest first."""
+
+from __future__ import annotations
+
+import logging
+import sys
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from pathlib import Path
+
+from packwork.errors import ReadError
+from packwork.readers.files import exists, read_bytes
+from packwork.readers.words.counting import (
+    count_forms,
+    folded,
+    phrases,
+    without_parts,
+    without_plurals,
+)
+from packwork.readers.words.options import WordOptions
+from packwork.readers.words.stop_words import (
+    ENGLISH,
+    guess_language,
+    own_stop_words,
+    stop_words,
+)
+from packwork.readers.words.table import ENDINGS, rows_of_csv, rows_of_json
+from packwork.readers.words.tokens import sentences
+from packwork.readers.words.word import Word, sound
+
+MAX_BYTES = 50_000_000
+"""Size of a text or a table: some fifty long novels. Chosen."""
+
+STANDARD_INPUT = "-"
+"""Stands for what is piped into the program."""
+
+_TEXT_ENDINGS = frozenset({".txt", ".md", ".rst", ".text", ".json", *ENDINGS})
+
+_LOG = logging.getLogger("packwork")
+
+
+def read_words(options: WordOptions) -> list[Word]:
+    """Words of a text, a table, standard input or a dict: the largest weights first.
+
+    Of tables nothing is left out but what ``stopwords`` names. Words that weigh the same
+    come in the order of the text.
+
+    Raises
+    ------
+    ReadError
+        If the source cannot be read, or no word is left.
+    RecipeError
+        If there is no list of stop words for the language.
+
+    Examples
+    --------
+    >>> text = "The bear and the bees: a bear likes honey, and bees make honey for the bear."
+    >>> [(word.text, word.weight) for word in read_words(WordOptions(source=text, count=3))]
+    [('bear', 3.0), ('bees', 2.0), ('honey', 2.0)]
+    """
+    words = _words(options)
+    cased = [_cased(word, options.case) for word in words]
+    ranked = sorted(_merged(cased), key=lambda word: -word.weight)
+    if not ranked:
+        raise ReadError(_name(options), "holds no words that could be set")
+    if isinstance(options.source, dict) or _is_table(options.source):
+        left = len(ranked) - options.count
+        if left > 0:
+            _LOG.warning(
+                "%s: the %d largest of %d words are kept; -n takes more",
+                _name(options), options.count, len(ranked),
+            )  # fmt: skip
+    return ranked[: options.count]
+
+
+def _words(options: WordOptions) -> list[Word]:
+    source = options.source
+    stops = own_stop_words(options.stopwords)
+    if isinstance(source, dict):
+        rows = [Word(word, weight) for word, weight in source.items()]
+    elif _is_table(source):
+        rows = _rows(source)
+    else:
+        return _counted(_text(source), options, stops)
+    return [word for word in rows if word.text.casefold() not in stops]
+
+
+def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]:
+    """Words of a text, weighed by how often they stand there."""
+    found = list(sentences(text))
+    counts, written = folded(count_forms(found))
+    if not counts:
+        raise ReadError(_name(options), "holds no words; give a text, or a table of word,weight")
+    language = options.language
+    if language == "auto":
+        language = guess_language(counts) or "none"
+    stops = own | (stop_words(language) if language != "none" else frozenset())
+    if options.phrases > 1:
+        several, forms = folded(phrases(found, options.phrases, stops))
+        counts, written = without_parts(counts, several), written | forms
+    kept = Counter(
+        {word: n for word, n in counts.items() if word not in stops and _says_something(word)}
+    )
+    if options.plurals == "merge" and ENGLISH in language.split(","):
+        kept = without_plurals(kept)
+    words = [Word(written[word], float(n)) for word, n in kept.items() if n >= options.min_count]
+    if not words:
+        raise ReadError(
+            _name(options),
+            f"holds {len(counts)} words, but none that is no stop word and stands there "
+            f"{options.min_count} times; use --language none or a smaller --min-count",
+        )
+    return words
+
+
+def _says_something(word: str) -> bool:
+    """Whether it is more than one letter; one syllable of Korean is a word."""
+    return len(word) > 1 or "\uac00" <= word <= "\ud7a3"
+
+
+def _rows(source: str) -> list[Word]:
+    text, ending = _decoded(read_bytes(source, MAX_BYTES), source), Path(source).suffix.lower()
+    words = (
+        rows_of_json(text, source)
+        if ending == ".json"
+        else rows_of_csv(text, source, ENDINGS[ending])
+    )
+    if not words:
+        raise ReadError(source, "holds no words; give lines such as bear,2")
+    return words
+
+
+def _text(source: str) -> str:
+    if source == STANDARD_INPUT:
+        data = sys.stdin.buffer.read(MAX_BYTES + 1)
+        if len(data) > MAX_BYTES:
+            raise ReadError("standard input", f"is larger than {MAX_BYTES / 1e6:g} MB")
+        return _decoded(data, "standard input")
+    if not source.strip():
+        raise ReadError("source", "is empty; give a text, or a table of word,weight")
+    if exists(source):
+        return _decoded(read_bytes(source, MAX_BYTES), source)
+    if len(source.split()) < 2 or Path(source[-20:]).suffix.lower() in _TEXT_ENDINGS:
+        raise ReadError(
+            source[:80],
+            "there is no such file; give a text, a table of word,weight, or - for stdin",
+        )
+    return source
+
+
+def _decoded(data: bytes, name: str) -> str:
+    for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):
+        if data.startswith(mark):
+            return data.decode(encoding, errors="replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise ReadError(name, "is not text in UTF-8; save it with that encoding") from None
+
+
+def _is_table(source: str) -> bool:
+    ending = Path(source[-20:]).suffix.lower()
+    return ending in {".json", *ENDINGS} and len(source) < 1_000 and "\n" not in source
+
+
+def _merged(words: Iterable[Word]) -> list[Word]:
+    """Words that read the same become one, their weights added; unseen ones are dropped."""
+    found: dict[str, Word] = {}
+    for word in words:
+        text = sound(word.text)
+        if not text.replace("|", "").strip():
+            continue
+        before = found.get(text)
+        total = word.weight + (before.weight if before else 0.0)
+        found[text] = replace(before or word, text=text, weight=total)
+    return list(found.values())
+
+
+def _cased(word: Word, case: str) -> Word:
+    if case == "common":
+        return word
+    return replace(word, text=word.text.lower() if case == "lower" else word.text.upper())
+
+
+def _name(options: WordOptions) -> str:
+    source: str | Mapping[str, float] = options.source
+    if not isinstance(source, str):
+        return "weights"
+    return "standard input" if source == STANDARD_INPUT else source[:60]

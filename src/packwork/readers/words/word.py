@@ -1,0 +1,39 @@
+"""One word of a cloud, before it is set."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True)
+class Word:
+    """One word or phrase and its weight.
+
+    Parameters
+    ----------
+    text
+        As it is to be written; ``|`` begins a new line.
+    weight
+        Positive.
+    columns
+        What else a table says of it, by column.
+    """
+
+    text: str
+    weight: float
+    columns: Mapping[str, str] = field(default_factory=dict)
+
+
+def sound(text: str) -> str:
+    r"""Text without control characters, lone surrogates and idle spaces, composed.
+
+    Examples
+    --------
+    >>> sound("  a\x00b\n\ud800 c ")
+    'ab c'
+    """
+    spaced = "".join(" " if c.isspace() else c for c in text)
+    kept = (c for c in spaced if unicodedata.category(c) not in {"Cc", "Cs", "Cn"})
+    return " ".join(unicodedata.normalize("NFC", "".join(kept)).split())

@@ -1,0 +1,104 @@
+"""Colours that can be read on a background: lightness changes, hue stays."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.scene.colour import css_colour
+
+# Ottosson 2020, "A perceptual color space for image processing" (Oklab).
+_TO_CONES = np.array(
+    [
+        [0.4122214708, 0.5363325363, 0.0514459929],
+        [0.2119034982, 0.6806995451, 0.1073969566],
+        [0.0883024619, 0.2817188376, 0.6299787005],
+    ]
+)
+_TO_LAB = np.array(
+    [
+        [0.2104542553, 0.7936177850, -0.0040720468],
+        [1.9779984951, -2.4285922050, 0.4505937099],
+        [0.0259040371, 0.7827717662, -0.8086757660],
+    ]
+)
+_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+_STEPS = 40
+
+
+def contrast(first: str, second: str) -> float:
+    """WCAG 2 contrast of two colours, opacity aside: 1 for the same, 21 for black on white.
+
+    Examples
+    --------
+    >>> round(contrast("black", "white"), 1), contrast("red", "red")
+    (21.0, 1.0)
+    """
+    bright, dark = sorted((_luminance(_linear(c)) for c in (first, second)), reverse=True)
+    return (bright + 0.05) / (dark + 0.05)
+
+
+def readable(colour: str, background: str, least: float) -> str:
+    """Colour of that contrast on a background: itself if it has it, else darker or lighter.
+
+    Hue stays, in Oklab; colourfulness as far as screens can show it. Where neither black
+    nor white would do, the better of the two.
+
+    Examples
+    --------
+    >>> readable("#004488", "white", 3.0), readable("#ffff00", "white", 3.0)
+    ('#004488', '#a09f00')
+    """
+    if contrast(colour, background) >= least:
+        return colour
+    lab = _TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour))
+    end = max((0.0, 1.0), key=lambda light: contrast(_hex(_at(lab, light)), background))
+    near, far = float(lab[0]), end
+    for _ in range(_STEPS):
+        middle = (near + far) / 2
+        enough = contrast(_hex(_at(lab, middle)), background) >= least
+        near, far = (near, middle) if enough else (middle, far)
+    return _hex(_at(lab, far))
+
+
+def between(colours: tuple[str, ...], share: float) -> str:
+    """Colour at a share of the way through several, evenly spaced, mixed in Oklab.
+
+    Examples
+    --------
+    >>> between(("#000000", "#ffffff"), 0.0), between(("#ff0000", "#ff0000"), 0.3)
+    ('#000000', '#ff0000')
+    """
+    labs = np.array([_TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour)) for colour in colours])
+    place = np.clip(share, 0.0, 1.0) * (len(colours) - 1)
+    at = np.arange(len(colours))
+    return _hex(_rgb(np.array([np.interp(place, at, labs[:, k]) for k in range(3)])))
+
+
+def _linear(colour: str) -> FloatArray:
+    """Red, green and blue as light."""
+    channels = np.array(css_colour(colour)[:3]) / 255
+    return np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+
+
+def _luminance(linear: FloatArray) -> float:
+    return float(_LUMINANCE @ linear)
+
+
+def _rgb(lab: FloatArray) -> FloatArray:
+    return np.asarray(np.linalg.solve(_TO_CONES, np.linalg.solve(_TO_LAB, lab) ** 3))
+
+
+def _at(lab: FloatArray, light: float) -> FloatArray:
+    """Light of a colour of another lightness; less colourful where screens cannot show it."""
+    for chroma in np.linspace(1.0, 0.0, 21):
+        linear = _rgb(np.array([light, *(chroma * lab[1:])]))
+        if (linear >= -1e-3).all() and (linear <= 1 + 1e-3).all():
+            break
+    return np.clip(linear, 0.0, 1.0)
+
+
+def _hex(linear: FloatArray) -> str:
+    held = np.clip(linear, 0.0, 1.0)
+    shown = np.where(held <= 0.0031308, 12.92 * held, 1.055 * held ** (1 / 2.4) - 0.055)
+    return "#{:02x}{:02x}{:02x}".format(*(round(float(255 * c)) for c in shown))

@@ -1,0 +1,183 @@
+"""Texts and tables to words with weights: what counts, what is refused."""
+
+from __future__ import annotations
+
+import io
+import json
+from collections import Counter
+from pathlib import Path
+from types import SimpleNamespace
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from packwork.errors import PackworkError, ReadError, RecipeError
+from packwork.readers.words.options import WordOptions
+from packwork.readers.words.source import read_words
+from packwork.readers.words.stop_words import guess_language, stop_words
+from packwork.readers.words.tokens import sentences
+from packwork.readers.words.unspaced import segments
+
+
+def counted(text: str, **options) -> dict[str, float]:
+    read = read_words(WordOptions(source=text, **options))
+    return {word.text: word.weight for word in read}
+
+
+def tokens(text: str) -> list[str]:
+    return [word for sentence in sentences(text) for word in sentence]
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("l’été d'Anna's naïve café", ["l'été", "d'Anna", "naïve", "café"]),
+        ("cafe\u0301", ["café"]),
+        ("МЫ любим мёд", ["МЫ", "любим", "мёд"]),
+        ("نحن نحب العسل", ["نحن", "نحب", "العسل"]),
+        ("می\u200cخواهم", ["می\u200cخواهم"]),
+        ("हिन्दी में", ["हिन्दी", "में"]),
+        ("soft\u00adhyphen well-known", ["softhyphen", "well", "known"]),
+        ("B2B 2024 ½ 3rd", ["B2B", "3rd"]),
+        ("'tis 'quoted'", ["tis", "quoted"]),
+        ("see https://a.org/x?y=1 and a.b@c.org", ["see", "and"]),
+        ("tab\tand\x00null\ud800lone", ["tab", "and", "null", "lone"]),
+    ],
+)
+def test_words_of_any_script_are_found(text: str, expected: list[str]) -> None:
+    assert tokens(text) == expected
+
+
+def test_texts_without_spaces_are_cut() -> None:
+    assert "世界" in segments("我们的世界需要更多的爱")
+    assert "文化" in segments("日本の文化が好きです")
+    assert "อาหาร" in segments("ประเทศไทยมีอาหารที่อร่อยมาก")
+
+
+@pytest.mark.parametrize(
+    ("text", "language"),
+    [
+        ("the bear and the bee are in the wood with all of their honey", "en"),
+        ("der Bär und die Biene sind mit dem Honig in dem Wald", "de"),
+        ("el oso y la abeja están en el bosque con la miel", "es"),
+        ("медведь и пчела жили в лесу, и у них было очень много мёда, потому что", "ru"),
+        ("भालू और मधुमक्खी के जंगल में है और यह शहद है", "hi"),
+    ],
+)
+def test_the_language_is_guessed_and_its_function_words_left_out(text: str, language: str) -> None:
+    counts = Counter(word.casefold() for word in tokens(text))
+    assert guess_language(counts) == language
+    assert not set(counted(text)) & stop_words(language)
+
+
+def test_forms_of_one_word_count_together_and_look_as_they_mostly_do() -> None:
+    text = "NASA bears. Bear BEAR bear, NASA nasa nasal bears"
+    assert counted(text, language="en") == {"bear": 5.0, "NASA": 3.0, "nasal": 1.0}
+    assert counted(text, language="en", case="upper", count=1) == {"BEAR": 5.0}
+    assert counted(text, language="en", plurals="keep")["bears"] == 2.0
+
+
+def test_phrases_are_counted_and_taken_off_their_words() -> None:
+    text = "The White Rabbit ran. A white rabbit! My White Rabbit? One rabbit."
+    found = counted(text, phrases=2)
+    assert found["White Rabbit"] == 3.0
+    assert found["rabbit"] == 1.0
+    assert "white" not in found
+
+
+def test_own_stop_words_and_least_counts(tmp_path: Path) -> None:
+    file = tmp_path / "stop.txt"
+    file.write_text("Honey\nfox, owl", encoding="utf-8")
+    text = "bear bear honey honey fox fox fly"
+    assert counted(text, stopwords=str(file), min_count=2) == {"bear": 2.0}
+    assert counted(text, stopwords=["honey"], min_count=2) == {"bear": 2.0, "fox": 2.0}
+
+
+def test_standard_input_is_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    stdin = SimpleNamespace(buffer=io.BytesIO("\ufeffbear bear fox".encode()))
+    monkeypatch.setattr("sys.stdin", stdin)
+    assert counted("-") == {"bear": 2.0, "fox": 1.0}
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.csv", "bear,2\nfox,1\n"),
+        ("a.csv", "weight,kind,word\n2,animal,bear\n1,animal,fox\n"),
+        ("a.tsv", "Word\tCount\nbear\t2\nfox\t1"),
+        ("a.json", json.dumps({"bear": 2, "fox": 1})),
+        ("a.json", json.dumps([{"text": "bear", "value": 2}, {"text": "fox", "value": 1}])),
+    ],
+)
+def test_tables_are_read(tmp_path: Path, name: str, text: str) -> None:
+    file = tmp_path / name
+    file.write_text(text, encoding="utf-8")
+    assert counted(str(file)) == {"bear": 2.0, "fox": 1.0}
+
+
+def test_a_table_says_that_it_was_cut_and_adds_up_what_reads_the_same(caplog, tmp_path) -> None:
+    file = tmp_path / "a.csv"
+    file.write_text("".join(f"w{k % 60_000},{1 + k}\n" for k in range(100_000)), encoding="utf-8")
+    found = counted(str(file), count=2)
+    assert found == {"w39999": 140_000.0, "w39998": 139_998.0}
+    assert "the 2 largest of 60000 words are kept" in caplog.text
+
+
+@pytest.mark.parametrize(
+    ("text", "problem"),
+    [
+        ("", "holds no words"),
+        ("bear", "line 1: needs a word and a weight"),
+        ("bear,0", "line 1: a weight must be a positive number, not '0'"),
+        ("bear,1\nfox,-2", "line 2: a weight must be a positive number"),
+        ("bear,nan", "positive number"),
+        ("word,weight\nbear,many", "line 2"),
+        ('"bear,1', "is not CSV"),
+    ],
+)
+def test_bad_tables_are_one_clear_line(tmp_path: Path, text: str, problem: str) -> None:
+    file = tmp_path / "a.csv"
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ReadError, match=r"a\.csv: ") as caught:
+        counted(str(file))
+    assert problem in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("source", "problem"),
+    [
+        ("missing.txt", "there is no such file"),
+        ("my missing notes.txt", "there is no such file"),
+        (" ", "source: is empty"),
+        ("... --- ...", "holds no words"),
+        ("the and of the to", "none that is no stop word"),
+        ({}, "holds no words"),
+        ({"\ud800\x00": 1}, "holds no words"),
+    ],
+)
+def test_sources_without_words_are_one_clear_line(source, problem: str) -> None:
+    with pytest.raises(ReadError) as caught:
+        read_words(WordOptions(source=source))
+    assert problem in str(caught.value)
+
+
+@pytest.mark.parametrize("weight", [0, -1, float("nan"), float("inf"), "many", None])
+def test_weights_of_a_dict_must_be_positive(weight) -> None:
+    with pytest.raises(RecipeError, match="the weight of 'bear' must be a positive number"):
+        WordOptions(source={"bear": weight})
+
+
+def test_an_unknown_language_says_which_there_are() -> None:
+    with pytest.raises(RecipeError, match="no list for 'klingon'"):
+        counted("a bear in the wood", language="klingon")
+
+
+@given(st.text(max_size=200))
+def test_any_text_gives_words_or_a_refusal(text: str) -> None:
+    try:
+        words = read_words(WordOptions(source=text + " a b"))
+    except PackworkError:
+        return
+    assert all(word.weight > 0 and word.text.isprintable() for word in words)
