@@ -5,6 +5,7 @@ import pytest
 from hypothesis import given, settings
 
 from packwork.arrays import FloatArray
+from packwork.finish._kernels import LEAST_GROWTH, MOST_GROWTH
 from packwork.finish.arrangement import Arrangement
 from packwork.finish.blocks import blocks
 from packwork.finish.compaction import compact, worth
@@ -188,3 +189,17 @@ def test_a_lining_of_a_coast_keeps_its_land() -> None:
         safe = lining(coast, tolerance)
         assert coast.covers(safe)
         assert coast.area - safe.area < 3 * tolerance * coast.length
+
+
+def test_specks_neither_vanish_nor_jump() -> None:
+    """Items far smaller than the trust region: programmes are no guide there."""
+    tiny = np.array([[0.0, 0.0, 0.0, -9.0], [3e-4, 0.0, 0.0, -9.0]])
+    two = Arrangement([square(1.0), square(1.0)], square(5.0), tiny)
+    turns = np.full(2, -np.inf), np.full(2, np.inf)
+    wishes = FixedSize(np.full(2, 4.0), turns).wishes(two.places[:, 3], 1.0)
+    for _ in range(3):
+        before = two.places[:, 3].copy()
+        compact(two, wishes, np.arange(2), 0.8, 1e-5, 1e-6)
+        grown = two.places[:, 3] - before
+        assert grown.max() <= MOST_GROWTH
+        assert two.places[:, 3].min() >= LEAST_GROWTH

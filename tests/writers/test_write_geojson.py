@@ -95,6 +95,18 @@ def test_holes_and_parts(make_layout: Callable[..., Layout], ring_item: Item) ->
         assert all(ring[0] == ring[-1] for ring in (outer, *holes))
 
 
+def test_rings_that_all_but_touch_stay_apart(
+    make_layout: Callable[..., Layout], ring_item: Item
+) -> None:
+    """Rounding would make them meet along an edge, and readers refuse the outline."""
+    hair = 1e-9
+    holed = shapely.difference(shapely.box(-9, -9, 9, 9), shapely.box(-9 + hair, -3, 3, 3))
+    item = replace(ring_item, outline=Outline.from_region(holed))
+    geometry = parsed(make_layout([item]))["features"][1]["geometry"]
+    assert shape(geometry).is_valid
+    assert shape(geometry).area == pytest.approx(holed.area)
+
+
 def test_no_items(make_layout: Callable[..., Layout]) -> None:
     assert len(parsed(make_layout([]))["features"]) == 1
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from types import FrameType
 
 import typer
@@ -20,13 +21,21 @@ INTERRUPTED = 130
 
 
 @contextmanager
-def clear_errors() -> Iterator[None]:
-    """Turn the package's errors into one line on standard error and exit code 2."""
+def clear_errors(recipe: Path | None = None) -> Iterator[None]:
+    """Turn the package's errors into one line on standard error and exit code 2.
+
+    Parameters
+    ----------
+    recipe
+        The file that options come from; None if they were typed.
+    """
     try:
         yield
     except PackworkError as error:
         line = " ".join(str(error).split())
-        if isinstance(error, RecipeError) and error.key not in {"container", "items", "rules"}:
+        if isinstance(error, RecipeError) and recipe is not None:
+            line = f"{recipe}: {line}"
+        elif isinstance(error, RecipeError) and error.key not in {"container", "items", "rules"}:
             line = "--" + error.key.replace("_", "-") + line.removeprefix(error.key)
         typer.echo(f"packwork: {line}", err=True)
         raise typer.Exit(BAD_INPUT) from None

@@ -32,7 +32,7 @@ def run(
 
     [bold]packwork run bear.toml -o bear.svg[/]  repeats the run, from any folder
     """
-    with clear_errors():
+    with clear_errors(recipe):
         from packwork.cli.running import Outputs, run_and_write
         from packwork.readers.recipe import read_recipe
         from packwork.writers import write_options

@@ -17,13 +17,13 @@ from rich.console import Console
 from packwork import pipeline, writers
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.show import (
-    Bar,
     certificate_line,
     filling_line,
     metrics_table,
     notice_if_slow,
     seconds_line,
 )
+from packwork.display.bar import TerminalBar
 from packwork.errors import WriteError
 from packwork.recipe import Recipe
 
@@ -96,7 +96,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     job = pipeline.read(recipe)
     with notice_if_slow(console, COMPILING):
         pipeline.warm_up()
-    bar = Bar(console)
+    bar = TerminalBar(console)
     interrupt = Interrupt()
     with interrupt.listening():
         with bar.showing():

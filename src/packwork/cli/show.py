@@ -1,4 +1,4 @@
-"""What a person sees: a progress bar, notices, closing tables."""
+"""What a person sees: notices, closing tables."""
 
 from __future__ import annotations
 
@@ -8,52 +8,10 @@ from contextlib import contextmanager
 from typing import Any
 
 from rich.console import Console
-from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 from rich.table import Table
-
-from packwork.progress import Step
-
-EPOCHS_BETWEEN = 20
-"""Epochs between two moves of the bar: each costs about one epoch. Chosen."""
 
 SLOW_SECONDS = 1.5
 """Patience before a notice explains a wait. Chosen."""
-
-
-class Bar:
-    """Progress of a run on the terminal: level, epoch, coverage, overlap."""
-
-    every = EPOCHS_BETWEEN
-
-    def __init__(self, console: Console) -> None:
-        self._progress = Progress(
-            TextColumn("{task.description}"),
-            BarColumn(),
-            TextColumn("{task.percentage:.0f} %"),
-            TextColumn("{task.fields[shares]}"),
-            TimeElapsedColumn(),
-            console=console,
-            transient=True,
-            disable=not console.is_terminal,
-        )
-        self._task = self._progress.add_task("starting", total=1.0, shares="")
-
-    def on_step(self, step: Step) -> None:
-        """Move the bar."""
-        self._progress.update(
-            self._task,
-            completed=step.progress,
-            description="exact finish"
-            if step.is_finish
-            else f"level {step.level + 1}/{step.levels} ({step.resolution} px)",
-            shares=f"covered {100 * step.coverage:.1f} %  overlap {100 * step.overlap:.2f} %",
-        )
-
-    @contextmanager
-    def showing(self) -> Iterator[None]:
-        """Draw the bar while the block runs."""
-        with self._progress:
-            yield
 
 
 @contextmanager

@@ -8,9 +8,12 @@ import time
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from html import escape
-from typing import Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol
 
 from packwork.progress import Observer, Step
+
+if TYPE_CHECKING:
+    from rich.console import Console
 
 EPOCHS_BETWEEN = 20
 """Epochs between two moves of the bar: each costs about one epoch. Chosen."""
@@ -124,15 +127,21 @@ class NotebookBar:
 
 
 class TerminalBar:
-    """A line on standard error that is gone when the run is over; none if that is a file."""
+    """A line on a terminal that is gone when the run is over; none if that is a file.
+
+    Parameters
+    ----------
+    console
+        Where; standard error if None.
+    """
 
     every = EPOCHS_BETWEEN
 
-    def __init__(self) -> None:
+    def __init__(self, console: Console | None = None) -> None:
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-        console = Console(stderr=True)
+        console = console or Console(stderr=True)
         self._progress = Progress(
             TextColumn("{task.description}"),
             BarColumn(),
@@ -162,6 +171,8 @@ def shown(bar: Bar | None) -> AbstractContextManager[None]:
 
 
 def _level(step: Step) -> str:
+    if step.is_finish:
+        return f"exact finish of {len(step.poses)} items"
     return f"level {step.level + 1}/{step.levels} ({step.resolution} px)"
 
 

@@ -48,6 +48,17 @@ checks. Tried."""
 CUTS = 7
 """Doublings before an item stays where it was: the last cut is half a trust region."""
 
+LAST_CUT = 1.0
+"""Logarithm of size that such a cut takes at most: of items far smaller than the trust region
+all would be taken. Larger makes specks of them, smaller leaves conflicts. Chosen."""
+
+MOST_GROWTH = 1.0
+"""Logarithm of size by which one step grows an item at most. Programmes are linear: where an
+item is far smaller than the trust region, larger steps end anywhere. Chosen."""
+
+LEAST_GROWTH = -10.0
+"""Logarithm of size below which no item falls: a 20,000th. Chosen."""
+
 CHECKS = 16
 """Checks of one step before it is halved for all. Smaller halves steps that one more cut
 would have saved. Tried."""
@@ -142,6 +153,7 @@ def freedoms(board, wishes, items, trust):
         high[4 * k + 2] = min((wishes.foremost[i] - turn) / most, 1.0)
         worth = wishes.weights[i] * np.exp(wishes.power * growth) * most
         down, up = (wishes.smallest[i] - growth) / most, (wishes.largest[i] - growth) / most
+        step = min(MOST_GROWTH / most, 1.0)
         if down > 0.0:
             worth *= RETURN_WEIGHT
             down = 0.0
@@ -149,7 +161,7 @@ def freedoms(board, wishes, items, trust):
             worth *= -RETURN_WEIGHT
             down, up = up, 0.0
         gain[4 * k + 3] = worth
-        low[4 * k + 3], high[4 * k + 3] = max(down, -1.0), min(up, 1.0)
+        low[4 * k + 3], high[4 * k + 3] = max(down, -step), min(up, step)
         for c in (2, 3):
             low[4 * k + c], high[4 * k + c] = min(low[4 * k + c], 0.0), max(high[4 * k + c], 0.0)
     return gain, low, high
@@ -187,6 +199,7 @@ def _settle_share(board, items, before, step, share, pairs, gap, unit):
                 place[0, c] = before[k, c] + (share * step[k, c] if hits <= CUTS else 0.0)
             if 0 < hits <= CUTS:
                 place[0, 3] -= unit[k] * 2.0 ** (hits - 1)
+                place[0, 3] = max(place[0, 3], min(before[k, 3], LEAST_GROWTH))
             contact.put(board, items[k : k + 1], place)
         if _strike(board, pairs, gap, changed, struck, room) == 0:
             return True
@@ -209,7 +222,9 @@ def settle(board, items, step, pairs, gap, trust):
     for k in range(n):
         for c in range(4):
             before[k, c] = board.places[items[k], c]
-        unit[k] = FIRST_CUT * trust / contact.arm(board, items[k])
+        unit[k] = min(
+            FIRST_CUT * trust / contact.arm(board, items[k]), LAST_CUT / 2.0 ** (CUTS - 1)
+        )
     for halving in range(HALVINGS):
         if _settle_share(board, items, before, step, 0.5**halving, pairs, gap, unit):
             return halving

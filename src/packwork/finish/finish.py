@@ -10,7 +10,7 @@ from functools import partial
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.finish._kernels import Wishes
+from packwork.finish._kernels import MOST_GROWTH, Wishes
 from packwork.finish.blocks import blocks
 from packwork.finish.compaction import compact
 from packwork.finish.detail import Detail
@@ -233,7 +233,7 @@ class _Run:
 
     def _round(self, trust: float) -> None:
         arrangement = self.arrangement
-        spread = trust / float(np.median(arrangement.radii))
+        spread = min(trust / float(np.median(arrangement.radii)), MOST_GROWTH)
         wishes = self._sizing.wishes(arrangement.places[:, 3], spread)
         self._blocks(wishes, trust)
 

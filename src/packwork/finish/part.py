@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import BoolArray, IntArray
+from packwork.finish._kernels import LEAST_GROWTH
 from packwork.finish.arrangement import Arrangement
 from packwork.finish.relocate import relocate
 
@@ -19,9 +20,6 @@ layouts come to an end. Chosen."""
 HOPELESS = 0.3
 """Logarithm of size an item may lose before the smaller one of a pair in conflict is moved
 to a void instead. Smaller moves items that had a place, larger makes dwarfs. Tried."""
-
-LEAST_GROWTH = -10.0
-"""Logarithm of size below which no item falls: a 20,000th. Chosen."""
 
 MOST_CHECKS = 400
 """Checks at most; what is in conflict after them is reported."""

@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.finish._kernels import Wishes
+from packwork.finish._kernels import LEAST_GROWTH, Wishes
 from packwork.finish.options import FinishOptions
 
 LAGGARD = 0.05
@@ -29,9 +29,6 @@ MOST_URGENT = 4.0
 
 MOST_EXPONENT = 300.0
 """Largest exponent that worths may have: float64 ends at 709. Derived."""
-
-LEAST_GROWTH = -10.0
-"""Logarithm of growth that no item falls below. Chosen."""
 
 OVERSHOOT = 1e-4
 """Logarithm of size by which items may exceed a fixed size, so that they reach it. Far

@@ -28,6 +28,14 @@ _REACH_GROWTH = 4.0
 """Growth of that distance while nothing is found; as above. Tried."""
 
 
+_FEW_PAIRS = 8
+"""Pairs that are measured rather than thinned out. Larger: more slow measuring; smaller: more
+rounds of asking. Chosen."""
+
+_MOST_HALVINGS = 24
+"""Times that pairs are thinned out at most: many may have one and the same distance. Chosen."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class ExactMetrics:
     """Shares of the container's area, areas and the smallest gap.
@@ -200,20 +208,39 @@ def _smallest_gap(regions: _Regions, whole: Region) -> float:
     extent = max(right - left, bottom - top)
     reach = _FIRST_REACH * extent
     while True:
-        near = _distances_within(reach, tree, regions, edge)
-        if near.size:
-            return float(near.min())
+        first, second = _pairs_within(reach, tree, regions, edge)
+        if first.size:
+            return _least_distance(first, second, reach)
         # An item inside is nearer to the edge than the extent, so this ends.
         reach *= _REACH_GROWTH
 
 
-def _distances_within(
+def _pairs_within(
     reach: float, tree: shapely.STRtree, regions: _Regions, edge: Region
-) -> npt.NDArray[np.float64]:
-    """Distances of all pairs, and of items from the edge, that are within ``reach``."""
+) -> tuple[_Regions, _Regions]:
+    """All pairs of regions, and of the edge with regions, that are within ``reach``."""
     i, j = tree.query(regions, predicate="dwithin", distance=reach)
-    first, second = i[i < j], j[i < j]
     near_edge = regions[shapely.dwithin(edge, regions, reach)]
-    return np.concatenate(
-        [shapely.distance(regions[first], regions[second]), shapely.distance(edge, near_edge)]
+    edges = np.full(len(near_edge), edge, dtype=object)
+    return (
+        np.concatenate([regions[i[i < j]], edges]),
+        np.concatenate([regions[j[i < j]], near_edge]),
     )
+
+
+def _least_distance(first: _Regions, second: _Regions, reach: float) -> float:
+    """Smallest distance of pairs that are all within ``reach``.
+
+    Halves the reach until few pairs are left: only those are measured.
+    """
+    least = 0.0
+    for _ in range(_MOST_HALVINGS):
+        if len(first) <= _FEW_PAIRS:
+            break
+        middle = (least + reach) / 2
+        near = shapely.dwithin(first, second, middle)
+        if near.any():
+            first, second, reach = first[near], second[near], middle
+        else:
+            least = middle
+    return float(shapely.distance(first, second).min())

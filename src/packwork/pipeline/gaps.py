@@ -28,7 +28,8 @@ from packwork.pipeline.outcome import Filling
 from packwork.progress import Observer, Stop
 from packwork.scene.item import Item
 from packwork.start.angles import nearest_allowed
-from packwork.start.voids import SECTORS, copies_for_voids
+from packwork.start.fitting import SECTORS
+from packwork.start.voids import copies_for_voids
 
 ROUNDS = {"draft": 4, "normal": 8, "best": 16}
 """Linear programmes of each item after each round of newcomers, by effort. Measured in

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
-from scipy.spatial import Delaunay, QhullError
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.outline import Outline
@@ -39,6 +38,9 @@ def neighbour_pairs(x: FloatArray, y: FloatArray) -> IntArray:
     >>> neighbour_pairs(np.array([0.0, 2, 1]), np.zeros(3)).tolist()
     [[0, 2], [1, 2]]
     """
+    # Takes a tenth of a second to load, and most runs do without.
+    from scipy.spatial import Delaunay, QhullError
+
     points = np.column_stack([x, y])
     try:
         if len(points) < 3:

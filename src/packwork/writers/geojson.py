@@ -10,6 +10,7 @@ import json
 import math
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict
+from itertools import chain
 from pathlib import PurePath
 from typing import Any
 
@@ -31,9 +32,10 @@ from the file is what was measured before. Larger: shorter files that say less. 
 def geojson_text(layout: Layout) -> str:
     """GeoJSON FeatureCollection: the container, then one feature per item.
 
-    Coordinates are rounded to ``PRECISION``; ``x``, ``y``, ``angle`` (degrees clockwise,
-    -180 to 180), ``scale`` and ``stretch`` are written in full. Numbers that JSON has no word for
-    (NaN, infinity) become null in the manifest.
+    Coordinates are rounded to ``PRECISION``, but for outlines that would then cross
+    themselves; ``x``, ``y``, ``angle`` (degrees clockwise, -180 to 180), ``scale`` and
+    ``stretch`` are written in full. Numbers that JSON has no word for (NaN, infinity) become
+    null in the manifest.
 
     Examples
     --------
@@ -54,7 +56,7 @@ def geojson_text(layout: Layout) -> str:
         "canvas": container.canvas,
         "manifest": plain(layout.manifest),
     }
-    features = [_container_feature(layout, digits), *_item_features(layout, digits)]
+    features = chain([_container_feature(layout, digits)], _item_features(layout, digits))
     # One feature a line: a file that people can page through and compare.
     lines = ",\n".join(_json(feature) for feature in features)
     return f'{_json(collection)[:-1]},"features":[\n{lines}\n]}}\n'
@@ -129,15 +131,17 @@ def _feature(properties: dict[str, Any], outline: Outline, digits: int) -> dict[
 
 
 def _geometry(region: Region, digits: int) -> dict[str, Any]:
-    polygons = [_rings(p, digits) for p in polygon_parts(region)]
+    rounded = shapely.transform(region, lambda points: np.round(points, digits))
+    # Rings that all but touch may cross once they are rounded: then all digits are needed.
+    kept = rounded if rounded.is_valid else region
+    polygons = [_rings(p) for p in polygon_parts(kept)]
     if len(polygons) == 1:
         return {"type": "Polygon", "coordinates": polygons[0]}
     return {"type": "MultiPolygon", "coordinates": polygons}
 
 
-def _rings(polygon: Region, digits: int) -> list[Any]:
+def _rings(polygon: Region) -> list[Any]:
     oriented = shapely.geometry.polygon.orient(polygon, 1.0)
     return [
-        np.round(shapely.get_coordinates(ring), digits).tolist()
-        for ring in (oriented.exterior, *oriented.interiors)
+        shapely.get_coordinates(ring).tolist() for ring in (oriented.exterior, *oriented.interiors)
     ]
