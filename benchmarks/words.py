@@ -1,0 +1,181 @@
+"""Word clouds beside the ``wordcloud`` package: ``packwork bench words [CONTAINER...] [100|400]``.
+
+Same words, weights, font and container in one run; ours with ``padding 0`` and one word in four
+vertical, the peer with its defaults. Without arguments all rows are run and the tables are written
+to docs/benchmarks-words.md. The peer comes with ``pip install '.[bench]'``.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+import numpy as np
+from scipy import ndimage
+
+from measuring import markdown_table, write_page
+from packwork import pipeline
+from packwork.geometry.outline import joined
+from packwork.raster.membership import centre_count
+from packwork.readers.container import read_container
+from packwork.readers.words.options import WordOptions
+from packwork.readers.words.source import read_words
+from packwork.scene.container import Container
+
+ROOT = Path(__file__).parents[1]
+FONT = ROOT / "src" / "packwork" / "bundled" / "fonts" / "InterDisplay-Black.otf"
+CONTAINERS = ("bird", "bear", "dragon", "cat", "heart")
+COUNTS = (100, 400)
+SIDE_PX = 1_200
+ZIPF = 0.35
+
+HEADER = [
+    "container", "words", "program", "placed", "ink", "sizes off by", "largest gap", "L-nU",
+    "overlap", "outside", "seconds",
+]  # fmt: skip
+
+PAGE = """# Word clouds
+
+Made by `packwork bench words` on {date}.
+{machine}.
+
+Weights are 1 / rank^0.35, heights of letters. "ink" is the share of the container's pixels that is
+drawn on, at 1,200 px; "sizes off by" the median distance of a word's height from its share, in
+percent of it; the largest gap is the radius of the largest empty disc and L-nU the mean squared
+distance from empty pixels to the nearest ink, both on a canvas of 600 px. Overlap and outside are
+exact areas of ours, shares of the container; the peer writes pixels. Seconds are the processor's,
+reading and measuring taken in, on a machine that others use too.
+
+{table}
+"""
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """One result."""
+
+    program: str
+    placed: int
+    ink: np.ndarray
+    heights: dict[str, float]
+    seconds: float
+    overlap: str = "-"
+    outside: str = "-"
+
+
+def vocabulary(count: int) -> dict[str, float]:
+    """Lower-case words of the gallery, with Zipf-like weights."""
+    examples = ROOT / "examples"
+    sources = [*sorted(examples.glob("words-*/words.csv")), examples / "words-bird" / "raven.txt"]
+    texts = [
+        word.text.lower()
+        for source in sources
+        for word in read_words(WordOptions(source=str(source), count=5_000))
+    ]
+    plain = [text for text in dict.fromkeys(texts) if text.isascii() and text.isalpha()]
+    assert len(plain) >= count, len(plain)
+    mixed = np.random.default_rng(0).permutation(sorted(plain))[:count]
+    return {str(word): (rank + 1.0) ** -ZIPF for rank, word in enumerate(mixed)}
+
+
+def ours(container: Container, weights: dict[str, float]) -> Cloud:
+    began = time.process_time()
+    recipe = pipeline.words_recipe(
+        container.name, weights, count=len(weights), padding="0", rotate="mixed"
+    )
+    run = pipeline.fill(recipe, container=container)
+    seconds = time.process_time() - began
+    layout, exact = run.layout, run.metrics.exact
+    names = [item.name for item in layout.items]
+    return Cloud(
+        "packwork",
+        len(layout.items) - len(run.unplaced),
+        pixels(layout.inks, container),
+        dict(zip(names, layout.poses.scale.tolist(), strict=True)),
+        seconds,
+        f"{exact.overlap:.0e}",
+        f"{exact.exceeding:.0e}",
+    )
+
+
+def peer(container: Container, weights: dict[str, float]) -> Cloud:
+    import wordcloud
+
+    inside = pixels([container.outline], container)
+    began = time.process_time()
+    cloud = wordcloud.WordCloud(
+        font_path=str(FONT),
+        mask=np.where(inside, 0, 255).astype(np.uint8),
+        max_words=len(weights),
+        random_state=0,
+        mode="RGB",
+        background_color="white",
+        color_func=lambda *_, **__: "black",
+    ).generate_from_frequencies(weights)
+    shown = np.asarray(cloud.to_array())[..., 0] < 128
+    seconds = time.process_time() - began
+    heights = {word: float(size) for (word, _), size, *_ in cloud.layout_}
+    return Cloud("wordcloud", len(heights), shown, heights, seconds)
+
+
+def pixels(outlines: Sequence[Any], container: Container) -> np.ndarray:
+    scale = SIDE_PX / container.side
+    shape = (round(container.height * scale), round(container.width * scale))
+    points, starts = joined(outlines)
+    return np.asarray(centre_count(points * scale, starts, shape)) > 0
+
+
+def row(container: Container, weights: dict[str, float], cloud: Cloud) -> list[str]:
+    inside = pixels([container.outline], container)
+    shown = cloud.ink & inside
+    distance = ndimage.distance_transform_edt(~shown) * (600 / SIDE_PX)
+    room = np.minimum(distance, ndimage.distance_transform_edt(inside) * (600 / SIDE_PX))
+    ratios = np.array([height / weights[word] for word, height in cloud.heights.items()])
+    # Against the largest word's, as a reader compares.
+    first = next(iter(weights))
+    off = ratios / (cloud.heights.get(first, np.nan) / weights[first]) - 1
+    return [
+        container.name,
+        str(len(weights)),
+        cloud.program,
+        str(cloud.placed),
+        f"{shown.sum() / inside.sum():.3f}",
+        f"{100 * float(np.median(np.abs(off))):.2g} %",
+        f"{float(room.max()):.1f}",
+        f"{float(np.mean(distance[inside & ~shown] ** 2)):.1f}",
+        cloud.overlap,
+        cloud.outside,
+        f"{cloud.seconds:.1f}",
+    ]
+
+
+def rows(names: Sequence[str], counts: Sequence[int]) -> Iterator[list[str]]:
+    for count in counts:
+        weights = vocabulary(count)
+        for name in names:
+            container = read_container(name)
+            for program in (ours, peer):
+                found = row(container, weights, program(container, weights))
+                print(" | ".join(found), file=sys.stderr, flush=True)
+                yield found
+
+
+def main(words: Sequence[str]) -> None:
+    names = [name for name in CONTAINERS if name in words] or list(CONTAINERS)
+    counts = [count for count in COUNTS if str(count) in words] or list(COUNTS)
+    pipeline.warm_up()
+    table = markdown_table(HEADER, list(rows(names, counts)))
+    print(table)
+    if not words:
+        write_page("benchmarks-words.md", PAGE, table=table)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])

@@ -1,0 +1,241 @@
+"""Programs written for the other package: same calls, same kinds of answers."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from random import Random
+
+import numpy as np
+import pytest
+from defusedxml import ElementTree
+from PIL import Image
+
+from packwork.readers.words.items import EM_PX
+from packwork.wordcloud import (
+    STOPWORDS,
+    ImageColorGenerator,
+    WordCloud,
+    colormap_color_func,
+    get_single_color_func,
+    random_color_func,
+)
+from packwork.wordcloud import cloud as cloud_module
+
+TEXT = """The bear and the honey bear. Bears like honey, bees make honey in the wood; a bee
+stings a bear. White rabbits run, a white rabbit sleeps, the white rabbit eats clover."""
+WEIGHTS = {"honey": 8.0, "bear": 4.0, "bee": 2.0, "wood": 1.0}
+
+
+@pytest.fixture(scope="module")
+def cloud() -> WordCloud:
+    return WordCloud(width=160, height=100, random_state=1).generate_from_frequencies(WEIGHTS)
+
+
+@pytest.fixture
+def fresh_warnings() -> Iterator[None]:
+    before = set(cloud_module._warned)
+    cloud_module._warned.clear()
+    yield
+    cloud_module._warned.update(before)
+
+
+def test_frequencies_are_relative_to_the_first_and_all_words_are_there(cloud: WordCloud) -> None:
+    assert cloud.words_ == {"honey": 1.0, "bear": 0.5, "bee": 0.25, "wood": 0.125}
+    assert [entry[0] for entry in cloud.layout_] == list(cloud.words_.items())
+    for _, size, place, orientation, colour in cloud.layout_:
+        assert isinstance(size, int)
+        assert all(isinstance(coordinate, int) for coordinate in place)
+        assert orientation in (None, Image.Transpose.ROTATE_90)
+        assert colour.startswith("rgb(")
+
+
+@pytest.mark.parametrize(
+    ("scaling", "heights"), [(1.0, [8, 4, 2, 1]), (0.5, [1, 0.75, 0.5625, 0.421875]), (0, [1] * 4)]
+)
+def test_sizes_are_what_relative_scaling_says(scaling: float, heights: list[float]) -> None:
+    found = WordCloud(
+        width=160, height=100, relative_scaling=scaling, min_font_size=1, random_state=0
+    ).fit_words(WEIGHTS)
+    scales = found.layout.poses.scale
+    assert scales / scales[0] == pytest.approx(np.array(heights) / heights[0], rel=1e-6)
+
+
+def test_pictures_have_the_canvas_size_and_the_background(cloud: WordCloud, tmp_path: Path) -> None:
+    image = cloud.to_image()
+    assert (image.size, image.mode) == ((160, 100), "RGB")
+    assert np.array(cloud).shape == (100, 160, 3)
+    assert np.array_equal(np.array(cloud), cloud.to_array())
+    assert (np.array(cloud)[0, 0] == 0).all()
+    for name in ("c.png", "c.jpg", "c.svg"):
+        assert cloud.to_file(tmp_path / name) is cloud
+        assert (tmp_path / name).stat().st_size
+    ElementTree.fromstring(cloud.to_svg())
+
+
+def test_a_clear_background_and_a_scale(cloud: WordCloud) -> None:
+    clear = WordCloud(
+        width=60, height=40, mode="RGBA", background_color=None, scale=1.5, random_state=0
+    ).fit_words({"ox": 1})
+    assert clear.to_array().shape == (60, 90, 4)
+    assert clear.to_array()[0, 0, 3] == 0
+
+
+def test_recolouring_changes_colours_and_nothing_else(cloud: WordCloud) -> None:
+    before = cloud.to_array()
+    after = cloud.recolor(random_state=7).to_array()
+    assert np.array_equal(before.sum(axis=-1) != 0, after.sum(axis=-1) != 0)
+    assert not np.array_equal(before, after)
+    assert np.array_equal(after, cloud.recolor(random_state=7).to_array())
+    cloud.recolor(color_func=lambda *_, **__: (255, 0, 0))
+    assert set(np.unique(cloud.to_array()[..., 1:])) == {0}
+
+
+def test_the_same_seed_gives_the_same_cloud() -> None:
+    first, second = (
+        WordCloud(width=100, height=60, random_state=3).fit_words(WEIGHTS) for _ in range(2)
+    )
+    assert first.layout_ == second.layout_
+    assert np.array_equal(np.array(first), np.array(second))
+
+
+def test_an_empty_mask_is_no_mask_and_a_full_one_leaves_no_room() -> None:
+    mask = np.zeros((60, 100), dtype=np.int64)
+    plain = WordCloud(width=100, height=60, random_state=3).fit_words(WEIGHTS)
+    masked = WordCloud(mask=mask, random_state=3).fit_words(WEIGHTS)
+    assert np.array_equal(np.array(plain), np.array(masked))
+    with pytest.raises(ValueError, match="Couldn't find space to draw"):
+        WordCloud(mask=np.full((60, 100), 255)).fit_words(WEIGHTS)
+    with pytest.raises(ValueError, match="invalid shape"):
+        WordCloud(mask=np.zeros((9, 9, 2, 2))).fit_words(WEIGHTS)
+
+
+@pytest.mark.parametrize("channels", [None, 3, 4])
+def test_nothing_is_drawn_where_a_mask_is_white(channels: int | None) -> None:
+    mask = np.zeros((117, 228), dtype=np.uint8)
+    mask[40:80, 120:200] = 255
+    shaped = mask if channels is None else np.repeat(mask[..., None], channels, axis=2)
+    array = WordCloud(mask=shaped, random_state=0).fit_words(WEIGHTS).to_array()
+    assert array.shape == (117, 228, 3)
+    assert (array[mask != 0] == 0).all()
+    assert array.sum() > 10_000
+
+
+def test_a_contour_is_drawn() -> None:
+    mask = np.full((100, 100), 255, dtype=np.uint8)
+    mask[20:80, 20:80] = 0
+    options = {"mask": mask, "contour_width": 3, "contour_color": "#ff0000", "random_state": 0}
+    array = WordCloud(**options, color_func=lambda **_: "blue").fit_words({"ox": 1}).to_array()
+    assert array[20, 50, 0] > 200
+    assert array[5, 50].sum() == 0
+
+
+def test_words_too_small_are_left_out_and_counted(caplog: pytest.LogCaptureFixture) -> None:
+    weights = {f"word{k}": 1.0 + k for k in range(60)}
+    cloud = WordCloud(width=60, height=40, random_state=0).fit_words(weights)
+    assert 0 < len(cloud.layout_) < 60
+    assert cloud.layout.poses.scale.min() * EM_PX >= 4
+    assert f"{60 - len(cloud.layout_)} of 60 words are left out" in caplog.text
+
+
+def test_a_largest_font_size_holds() -> None:
+    cloud = WordCloud(width=160, height=100, max_font_size=12, random_state=0).fit_words(WEIGHTS)
+    assert max(size for _, size, *_ in cloud.layout_) == 12
+
+
+def test_words_repeat_until_there_are_enough() -> None:
+    cloud = WordCloud(
+        width=160, height=100, repeat=True, max_words=20, stopwords=[], random_state=0
+    ).generate("Some short text")
+    assert len(cloud.layout_) == 20
+    assert len(cloud.words_) == 3
+    assert {entry[0][0] for entry in cloud.layout_} == {"Some", "short", "text"}
+
+
+def test_texts_become_words_and_pairs() -> None:
+    words = WordCloud(collocation_threshold=5).process_text(TEXT)
+    assert words["honey"] == 3
+    assert words["white rabbit"] == 3
+    assert "white" not in words
+    assert "the" not in words
+    assert "bees" not in words
+    alone = WordCloud(collocations=False, normalize_plurals=False).process_text(TEXT)
+    assert (alone["white"], alone["rabbits"], alone["bees"]) == (3, 1, 1)
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ({}, {"Bear", "ox", "a1"}),
+        ({"include_numbers": True}, {"Bear", "ox", "a1", "42"}),
+        ({"min_word_length": 3}, {"Bear"}),
+        ({"stopwords": {"BEAR"}}, {"ox", "a1"}),
+        ({"regexp": r"\w+r"}, {"Bear"}),
+    ],
+)
+def test_options_of_texts(options: dict, expected: set[str]) -> None:
+    found = WordCloud(collocations=False, **options).process_text("Bear's ox 42 a1")
+    assert set(found) == expected
+
+
+@pytest.mark.parametrize("method", ["to_image", "to_array", "to_svg", "recolor"])
+def test_nothing_can_be_drawn_before_it_is_made(method: str) -> None:
+    with pytest.raises(ValueError, match="call generate"):
+        getattr(WordCloud(), method)()
+
+
+def test_bad_arguments() -> None:
+    with pytest.raises(ValueError, match="at least 1 word"):
+        WordCloud().fit_words({})
+    with pytest.raises(ValueError, match="between 0 and 1"):
+        WordCloud(relative_scaling=2)
+    with pytest.raises(ValueError, match="Couldn't find space"):
+        WordCloud(width=1, height=1).fit_words({"ox": 1})
+    with pytest.raises(NotImplementedError):
+        WordCloud().to_html()
+
+
+def test_words_of_frequency_nought_are_left_out() -> None:
+    cloud = WordCloud(width=60, height=40, random_state=0).fit_words({"ox": 1, "bee": 0})
+    assert len(cloud.layout_) == 1
+
+
+def test_arguments_without_effect_are_told_once(fresh_warnings: None) -> None:
+    with pytest.warns(UserWarning, match="font_step has no effect") as caught:
+        WordCloud(font_step=2)
+    assert len(caught) == 1
+    WordCloud(font_step=2)
+
+
+def test_stop_words_are_a_set_that_may_grow() -> None:
+    mine = set(STOPWORDS)
+    mine.add("bear")
+    assert "bear" not in WordCloud(stopwords=mine, collocations=False).process_text(TEXT)
+    assert "bear" not in STOPWORDS
+
+
+def test_colours_come_from_a_picture(cloud: WordCloud) -> None:
+    picture = np.zeros((100, 160, 3), dtype=np.uint8)
+    picture[..., 2] = 200
+    cloud.recolor(color_func=ImageColorGenerator(picture))
+    assert {entry[4] for entry in cloud.layout_} == {"rgb(0, 0, 200)"}
+    small = ImageColorGenerator(picture[:1, :1], default_color=(1, 2, 3))
+    assert small("ox", 9, None, (50, 50), None) == "rgb(1, 2, 3)"
+    with pytest.raises(ValueError, match="smaller than the canvas"):
+        ImageColorGenerator(picture[:1, :1])("ox", 9, None, (50, 50), None)
+    for shape in ((4,), (4, 4, 2)):
+        with pytest.raises(ValueError, match=r"ImageColorGenerator|channels"):
+            ImageColorGenerator(np.zeros(shape))
+
+
+def test_colour_functions_are_of_one_kind() -> None:
+    asked = {"word": "ox", "font_size": 9, "position": (0, 0), "orientation": None}
+    for function in (
+        random_color_func,
+        get_single_color_func("red"),
+        colormap_color_func("cividis"),
+    ):
+        first, second = (function(**asked, random_state=Random(4), font_path=None) for _ in "ab")
+        assert first == second
+    with pytest.raises(ValueError, match="nosuchmap"):
+        colormap_color_func("nosuchmap")
