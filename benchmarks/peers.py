@@ -60,8 +60,8 @@ several parts is taken as its hull, for both. spyrrow (the heuristic sparrow, fo
 Python package) packs them into a strip of height {strip} as short as it can, with one
 thread and for a time by the clock; sizes are given, the length of the strip is what it seeks.
 Packwork fills the shorter of the rectangles that the peer needed, in the same time, with turns of
-any angle (`sizes = "shared"`, `effort = "best"`, `time`): the rectangle is given, the common size is
-what it seeks. So each does what it was made for, and density, the items' area over the
+any angle (`sizes = "shared"`, `effort = "best"`, `time`): the rectangle is given, the common
+size is what it seeks. So each does what it was made for, and density, the items' area over the
 rectangle's, says the same of both. All is measured by polygons: overlap and what sticks out as
 shares of the rectangle, the least gap in canvas units of 600. Medians of the seeds, least and
 most in brackets; overlap and outside are the worst, the gap is the least of all. The last column
