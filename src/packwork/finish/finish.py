@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.finish._kernels import MOST_GROWTH, Wishes
 from packwork.finish.blocks import blocks
 from packwork.finish.compaction import compact
@@ -50,17 +50,32 @@ SEARCH_SPREAD = 0.03
 """Logarithm of size within which trials weigh the smaller items more, where sizes are
 common. Tried."""
 
+EASY_POINTS = 70.0
+"""Points of the mean outline up to which all trials are made; of richer ones fewer, as each
+takes longer. Larger spends more on words than they gain. Tried."""
+
 COMMON_ROUNDS = 3
 """Times as many rounds where sizes are common: growth must get round from loose to tight
 places. Tried."""
 
-LEVELLING_TRUST, LEVELLING_ROUNDS = 0.0006, 8
-"""Smallest trust region, as above, and number of the last rounds where sizes are shared, in
-which all come down to the smallest. More rounds end nearer to it. Tried."""
+LEVELLING_TRUST = (0.0006, 0.01)
+"""Smallest and largest trust region, as above, of the last rounds where sizes are shared,
+in which all come down to the smallest. A larger one asks for more at a time than a full
+layout grants, and nothing moves. Tried."""
+
+LEVELLING_ROUNDS = 60
+"""Such rounds at most; they end when they gain nothing. Chosen."""
 
 LEVELLING_ROOM = 1.5
 """Trust region of such a round over what the largest item has to come down. Larger lets
 items move about for nothing, smaller leaves them too large. Chosen."""
+
+BOTTLENECKS, SUSPECTS = 12, 4
+"""Where sizes are shared: how many items that hold all others back are moved to voids, and
+how many of the smallest are tried for that each time. More take longer. Tried."""
+
+RELIEF = 0.01
+"""Logarithm by which all must grow for such a move to be kept. Chosen."""
 
 RESCUES = 3
 """Times that items which stay behind are moved to voids. Chosen."""
@@ -202,6 +217,29 @@ class _Run:
             relocate(self.arrangement, laggards, self.gap)
             part(self.arrangement, self.gap)
             self._compact(range(count // 2, count))
+        if isinstance(self._sizing, SharedSize):
+            self._relieve(range(count // 2, count))
+
+    def _relieve(self, rounds: range) -> None:
+        """Move who holds all others back to a void, as long as that lets all grow."""
+        for _ in range(BOTTLENECKS):
+            if self._stop() or not any(self._helps(k, rounds) for k in self._suspects()):
+                return
+
+    def _suspects(self) -> IntArray:
+        return np.argsort(self.arrangement.places[:, 3], kind="stable")[:SUSPECTS]
+
+    def _helps(self, item: int, rounds: range) -> bool:
+        """Whether all can grow once an item has moved to the largest void; else undone."""
+        arrangement, everyone = self.arrangement, np.arange(self.arrangement.count)
+        before = arrangement.places.copy()
+        relocate(arrangement, np.array([item]), self.gap)
+        part(arrangement, self.gap)
+        self._compact(rounds)
+        if arrangement.places[:, 3].min() >= before[:, 3].min() + RELIEF:
+            return True
+        arrangement.put(everyone, before)
+        return False
 
     def refine(self) -> None:
         """Grow from a clean layout, on fine outlines and in small steps."""
@@ -213,7 +251,11 @@ class _Run:
         room = Room(self._spacing, self.gap, self.hair)
         rng = np.random.default_rng(self._options.seed)
         wish = partial(self._sizing.wishes, spread=SEARCH_SPREAD)
-        search(self.arrangement, wish, self._options.trials, room, rng, self._is_enough)
+        trials = round(self._options.trials * min(1.0, EASY_POINTS / self._points_each()))
+        search(self.arrangement, wish, trials, room, rng, self._is_enough)
+
+    def _points_each(self) -> float:
+        return float(self.arrangement.board.starts[-2]) / self.arrangement.count
 
     def fine(self) -> None:
         """Grow into what the coarse outlines left."""
@@ -259,10 +301,17 @@ class _Run:
         if not isinstance(self._sizing, SharedSize):
             return
         for back in BACK:
-            for _ in range(LEVELLING_ROUNDS):
-                self._level_round(self._sizing, back)
+            self._come_down(self._sizing, back)
             if self._put_at_one_size():
                 return
+
+    def _come_down(self, sizing: SharedSize, back: float) -> None:
+        """Rounds in which the larger ones shrink, as long as they do."""
+        for _ in range(LEVELLING_ROUNDS):
+            spread = np.ptp(self.arrangement.places[:, 3])
+            self._level_round(sizing, back)
+            if np.ptp(self.arrangement.places[:, 3]) >= spread:
+                break
 
     def _level_round(self, sizing: SharedSize, back: float) -> None:
         """All come down towards the smallest."""
@@ -270,8 +319,8 @@ class _Run:
         wishes = sizing.levelling(growth, back)
         # As small a trust region as lets the largest item come down at once.
         farthest = float((np.abs(growth - wishes.largest) * self.arrangement.radii).max())
-        least, most = LEVELLING_TRUST * self._spacing, FIRST_TRUST * self._spacing
-        self._blocks(wishes, float(np.clip(LEVELLING_ROOM * farthest, least, most)))
+        trust = np.clip(LEVELLING_ROOM * farthest / self._spacing, *LEVELLING_TRUST)
+        self._blocks(wishes, float(trust) * self._spacing)
 
     def _put_at_one_size(self) -> bool:
         """Make all as small as the smallest; False, and undone, if that makes a conflict."""
