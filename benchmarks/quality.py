@@ -2,7 +2,8 @@
 
 Two sets, three size modes, two efforts. Words restrict the rows (``frozen``, ``others``,
 ``free``, ``shared``, ``shared-1..4``, ``normal``, ``best``, a container's name), ``seeds=2``
-takes that many seeds. Without words all rows are run, and the tables are written to
+takes that many seeds; ``gaps`` and ``many`` are the tables of filled voids and of many items,
+and nothing else. Without words all rows are run, and the tables are written to
 docs/benchmarks-quality.md; ``write`` does so for some rows.
 """
 
@@ -21,6 +22,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 
 import frozen
+import many
 import others
 from measuring import machine, markdown_table, ranged, write_page
 from packwork import pipeline
@@ -171,7 +173,16 @@ def row(name: str, runs: Sequence[Result]) -> list[str]:
 
 
 def tables(asked: Asked) -> Iterator[str]:
-    """One table for each effort, set and mode, as soon as it is done."""
+    """All tables that are asked for, as soon as they are done."""
+    named = [name for name in many.TABLES if name in asked.words]
+    if not named:
+        yield from run_tables(asked)
+    for name in named or ([] if asked.words else many.TABLES):
+        yield many.TABLES[name]()
+
+
+def run_tables(asked: Asked) -> Iterator[str]:
+    """One table for each effort, set and mode."""
     kits = asked.kits()
     for effort, kit, mode in product(asked.wants(EFFORTS), kits, asked.wants(MODES)):
         containers = {container.name: container for container in kit.containers()}

@@ -79,6 +79,24 @@ def test_touching_is_no_overlap_and_no_gap(touching: list[Outline]) -> None:
     assert (found.overlap_area, found.outside_area, found.min_gap) == (0, 0, 0)
 
 
+@pytest.mark.parametrize("least", [1e-6, 3e-4])
+def test_the_one_narrow_gap_among_many_is_found(rng: np.random.Generator, least: float) -> None:
+    """Of 100 tiles about as far from each other, all within the first reach."""
+    gaps = 4e-4 * (1 + rng.random(100) / 10)
+    gaps[57] = least
+    tiles = [
+        box(col, row, col + 1 - gaps[10 * row + col], row + 1 - 5e-4)
+        for row in range(10)
+        for col in range(10)
+    ]
+    assert exact_metrics(tiles, box(-1, -1, 11, 11)).min_gap == pytest.approx(least, rel=1e-9)
+
+
+def test_equal_gaps_are_measured_too() -> None:
+    tiles = [box(col, row, col + 0.5, row + 0.5) for row in range(8) for col in range(8)]
+    assert exact_metrics(tiles, box(-1, -1, 9, 9)).min_gap == 0.5
+
+
 def test_no_items() -> None:
     found = exact_metrics([], box(0, 0, 10, 10))
     assert (found.coverage, found.overlap_area, found.outside_area) == (0, 0, 0)

@@ -166,10 +166,10 @@ def nested_masks(levels: int) -> str:
     ],
 )
 def test_bombs_are_refused_at_once(body, problem):
-    data, begin = svg(body), time.perf_counter()
+    data, begin = svg(body), time.process_time()
     with pytest.raises(UnfitError, match=problem):
         admit(data)
-    assert time.perf_counter() - begin < HANG_S
+    assert time.process_time() - begin < HANG_S
 
 
 DASHED = '<path d="M0 0H1000" stroke="red" stroke-dasharray="{}"/>'
@@ -192,12 +192,12 @@ DASHED = '<path d="M0 0H1000" stroke="red" stroke-dasharray="{}"/>'
     ],
 )
 def test_dashes_beyond_count_are_drawn_solid(body):
-    data, begin = svg(body), time.perf_counter()
+    data, begin = svg(body), time.process_time()
     root = admit(data)
     assert {e.get("stroke-dasharray") for e in root.iter("path")} <= {None, "none"}
     assert {e.get("stroke-dasharray") for e in root.iter("text")} <= {None, "none"}
     render(root)
-    assert time.perf_counter() - begin < HANG_S
+    assert time.process_time() - begin < HANG_S
 
 
 def test_dashes_that_people_draw_stay():
@@ -350,7 +350,7 @@ def test_switch_shows_its_first_plain_child():
     ],
 )
 def test_long_runs_take_no_time(body):
-    data, begin = svg(body), time.perf_counter()
+    data, begin = svg(body), time.process_time()
     with contextlib.suppress(ReadError):
         item_of_svg(data, "a", "a.svg")
-    assert time.perf_counter() - begin < HANG_S
+    assert time.process_time() - begin < HANG_S

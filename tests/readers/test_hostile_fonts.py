@@ -100,9 +100,9 @@ def test_spliced_bytes(font, share, length):
 
 @pytest.fixture
 def soon() -> Iterator[None]:
-    began = time.perf_counter()
+    began = time.process_time()
     yield
-    assert time.perf_counter() - began < SECONDS_AT_MOST
+    assert time.process_time() - began < SECONDS_AT_MOST
 
 
 def changed(data: bytes, change: Callable[[TTFont], None]) -> bytes:

@@ -134,9 +134,9 @@ def test_icons_stands_for_all():
 
 def test_reading_icons_is_quick():
     read_items("icons")
-    begin = time.perf_counter()
+    begin = time.process_time()
     items = read_items("icons").items
-    assert time.perf_counter() - begin < 0.1 * len(items)
+    assert time.process_time() - begin < 0.1 * len(items)
     assert all(isinstance(item.art, VectorArt) for item in items)
 
 

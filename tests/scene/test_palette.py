@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import combinations
 from typing import Any
 
+import numpy as np
 import pytest
 
 from packwork.scene.colour import css_colour
@@ -23,7 +24,17 @@ def lightness(colour: str) -> float:
     return 0.2126 * red + 0.7152 * green + 0.0722 * blue
 
 
-@pytest.mark.parametrize("name", PALETTES)
+SCALES = {"viridis", "cividis"}
+
+
+@pytest.mark.parametrize("name", sorted(SCALES))
+def test_scales_get_lighter_by_even_steps(name: str) -> None:
+    steps = np.diff([lightness(colour) for colour in PALETTES[name]])
+    assert steps.min() > 8
+    assert steps.max() < 3 * steps.min()
+
+
+@pytest.mark.parametrize("name", sorted(PALETTES.keys() - SCALES))
 def test_neighbours_in_a_named_palette_differ(name: str) -> None:
     for a, b in combinations(PALETTES[name], 2):
         away = sum((p - q) ** 2 for p, q in zip(css_colour(a), css_colour(b), strict=True)) ** 0.5
