@@ -49,7 +49,7 @@ def words_recipe(
     --------
     >>> recipe = words_recipe("heart", {"bear": 2, "fox": 1}, count=1, palette="yellow")
     >>> recipe.words.count, recipe.palette, recipe.sizes
-    (1, ('#a09f00',), 'shared')
+    (1, ('#999a1b',), 'shared')
     """
     own = {key: options.pop(key) for key in list(options) if key in WordOptions.model_fields}
     asked = _word_options({"source": _plain_source(source), **own})

@@ -47,7 +47,7 @@ def readable(colour: str, background: str, least: float) -> str:
     Examples
     --------
     >>> readable("#004488", "white", 3.0), readable("#ffff00", "white", 3.0)
-    ('#004488', '#a09f00')
+    ('#004488', '#999a1b')
     """
     if contrast(colour, background) >= least:
         return colour
