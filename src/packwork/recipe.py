@@ -146,7 +146,7 @@ class Recipe(BaseModel):
     """Most items in all once smaller copies have been put into the voids. Default: 1000."""
 
     smallest: str | float | None = None
-    """Longer side of the smallest copy put into a void, a length as for the padding.
+    """Put smaller copies into the voids, down to this longer side, a length as for the padding.
     Default: 0.5%."""
 
     filler: tuple[str, ...] | None = None

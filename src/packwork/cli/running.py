@@ -33,7 +33,7 @@ MOST_NAMED = 5
 LONGEST_NAME = 255
 """Characters of a file's name, on most systems."""
 
-COMPILING = "Compiling the kernels: on the first run only, up to 20 s ..."
+COMPILING = "Compiling the kernels: once after each installation, up to 20 s ..."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,6 +56,16 @@ class Outputs:
     diagnose: Path | None = None
     recipe: Path | None = None
 
+    @property
+    def sides(self) -> list[Path]:
+        """What is written beside the layouts."""
+        return [side for side in (self.report, self.diagnose, self.recipe) if side is not None]
+
+    @property
+    def every(self) -> list[Path]:
+        """All files."""
+        return [*self.files, *self.sides]
+
     def check(self, recipe: Recipe) -> None:
         """Refuse paths that cannot be written, that collide, or that the run reads.
 
@@ -64,18 +74,17 @@ class Outputs:
         WriteError
             Before anything has been run or written.
         """
-        sides = [side for side in (self.report, self.diagnose, self.recipe) if side is not None]
         for path in self.files:
             writers.check_output(path)
-        for side in sides:
+        for side in self.sides:
             writers.check_writable(side)
-        writers.check_outputs([*self.files, *sides])
+        writers.check_outputs(self.every)
         named = [recipe.container, *recipe.items]
         if recipe.words is not None and isinstance(recipe.words.source, str):
             # A text itself is no file; nor could so long a name be one.
             named.append(recipe.words.source[:LONGEST_NAME])
         read = {Path(name).resolve() for name in named if "\0" not in name}
-        for path in (*self.files, *sides):
+        for path in self.every:
             if path.resolve() in read:
                 raise WriteError(path, "is read by this run too; write to another file")
 
@@ -103,7 +112,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             run = pipeline.run(job, None if quiet else bar, interrupt)
         results = _write(run, recipe, outputs)
     _warn(run)
-    _show(results, outputs.files, console, run.layout.container.unit)
+    _show(results, outputs.every, console, run.layout.container.unit)
     if interrupt.pressed:
         typer.echo("packwork: stopped by Ctrl-C; this is the best so far, still rough", err=True)
         return INTERRUPTED

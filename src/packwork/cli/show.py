@@ -10,7 +10,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-SLOW_SECONDS = 1.5
+SLOW_SECONDS = 3.0
 """Patience before a notice explains a wait. Chosen."""
 
 

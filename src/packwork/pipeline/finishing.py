@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -28,6 +29,8 @@ from packwork.solve.options import OutlineChoice
 from packwork.solve.solver import scale_bounds
 from packwork.solve.stand_ins import stand_ins
 
+_LOG = logging.getLogger(__name__)
+
 TRIALS = {"draft": 0, "normal": 5, "best": 40}
 """Turns and exchanges tried for each item, by effort: 4 ms each. More fill better, ever less
 so. Measured in docs/benchmarks-quality."""
@@ -37,6 +40,10 @@ MOST_TRIALS = {"draft": 0, "normal": 500, "best": 20_000}
 
 TRIALS_SHARE = 0.6
 """Share of the time left, where one was given, after which no more is tried. Chosen."""
+
+DWARF = 1.5
+"""How many times smaller than free sizes go an item may be and still count as placed. Larger
+leaves specks unsaid. Chosen by eye."""
 
 PRESSING = frozenset(
     {
@@ -96,7 +103,26 @@ def finished(
         done = np.append(done, items)
     if limits is not None and job.recipe.sizes == "shared":
         poses = _one_factor(before, poses, limits)
-    return _together(poses, results)
+    return _without_dwarfs_that_may_be(job, smallest, _together(poses, results))
+
+
+def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished) -> Finished:
+    """The result without items a little smaller than free sizes go, unless a rule sizes them.
+
+    That range is what looks well, not what somebody asked for; a notice tells of them.
+    """
+    real = []
+    for k in result.undersized:
+        short = float(smallest[k] / result.poses.scale[k])
+        if short > DWARF or "scale" in job.asked[k].values or "size" in job.asked[k].pin:
+            real.append(k)
+            continue
+        share = 100 * (1 - 1 / short)
+        _LOG.warning(
+            "%s (item %d) is %.1f %% smaller than --size-ratio allows",
+            job.items[k].name, k + 1, share,
+        )  # fmt: skip
+    return replace(result, undersized=tuple(real))
 
 
 def solid_outlines(recipe: Recipe, items: Sequence[Item]) -> list[Outline]:
@@ -226,7 +252,7 @@ def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
             reason = f"is {offender.gap_cu:.3g} {unit} from {whom}, nearer than asked"
         found.setdefault(offender.item, reason)
     for k in result.undersized:
-        found.setdefault(k, "found no room at the smallest size that it may have")
+        found.setdefault(k, "is smaller than it may be: there was no room at its smallest size")
     return tuple(Unplaced(job.items[k].name, k, found[k]) for k in sorted(found))
 
 
