@@ -225,3 +225,12 @@ def test_any_edit(saved, place, value):
 def test_missing_layout():
     with pytest.raises(ReadError, match="no such file"):
         read_layout("nowhere.geojson")
+
+
+@pytest.mark.parametrize("ending", [".svg", ".DXF", ".png", ".pdf"])
+def test_drawings_of_layouts_are_not_loaded(ending, tmp_path):
+    file = tmp_path / f"a{ending}"
+    file.write_bytes(b"\x89PNG")
+    with pytest.raises(ReadError, match=r"load one saved as \.geojson") as caught:
+        read_layout(file)
+    assert "\n" not in str(caught.value)

@@ -178,3 +178,43 @@ def test_shading_within_the_shapes_stays(caplog):
     assert isinstance(art, VectorArt)
     assert "feComposite" in art.markup
     assert caplog.text == ""
+
+
+PAPER = '<rect width="100" height="100" fill="#fff"/>'
+DISC = '<circle cx="50" cy="50" r="20" fill="teal"/>'
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        PAPER + DISC,
+        '<rect width="100%" height="100%" style="fill:rgb(252,250,245)"/>' + DISC,
+        f'<g id="layer">{PAPER}{DISC}</g>',
+        '<g fill="white"><path d="M-5-5H105V105H-5z"/></g>' + DISC,
+    ],
+    ids=["rectangle", "ivory", "layer", "path"],
+)
+def test_a_white_page_behind_the_drawing_is_left_out(body, caplog, art_iou):
+    item = item_of(body)
+    assert item.ink.area == pytest.approx(np.pi * 20**2, rel=1e-3)
+    assert "its white page was left out" in caplog.text
+    assert art_iou(item) > 0.98
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        PAPER,
+        PAPER.replace("#fff", "#fd7") + DISC,
+        PAPER.replace("<rect", '<rect stroke="red"') + DISC,
+        PAPER.replace("<rect", '<rect rx="20"') + DISC,
+        PAPER.replace("<rect", '<rect opacity=".5"') + DISC,
+        f'<g opacity=".5">{PAPER}{DISC}</g>',
+        DISC + PAPER,
+        f'{PAPER.replace("<rect", """<rect id="a" """)}{DISC}<use href="#a" x="90" fill="red"/>',
+    ],
+    ids=["alone", "coloured", "lined", "round", "faint", "in a faint group", "in front", "used"],
+)
+def test_tiles_stay(body, caplog):
+    assert item_of(body).ink.area > 9000
+    assert "white page" not in caplog.text

@@ -5,9 +5,11 @@ from __future__ import annotations
 import struct
 
 import pytest
+import shapely
 
 from packwork.readers.svg import fonts, lettering
 from packwork.readers.svg.item import item_of_svg
+from packwork.readers.typeface.face import bundled_typeface
 from packwork.scene.item import VectorArt
 
 SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
@@ -48,6 +50,16 @@ def test_text_is_where_the_renderer_puts_it():
         f' text-anchor="middle" dy=".3em" {BUNDLED}>H</text></g>'
     )
     assert moved.ink.area == pytest.approx(plain.ink.area, rel=0.01)
+
+
+def test_letters_keep_the_curves_of_their_font():
+    face = bundled_typeface()
+    curves = face.drawing(face.shaped("O")[0].number)
+    data = "".join(letter + " ".join(map(str, numbers)) for letter, numbers in curves)
+    drawn = item_of(f'<path transform="translate(0 90) scale({80 / face.units})" d="{data}"/>')
+    text = item_of(f'<text y="90" font-size="80" {BUNDLED}>O</text>')
+    distance = shapely.hausdorff_distance(text.ink.region, drawn.ink.region, densify=0.05)
+    assert distance < 0.001 * drawn.ink.extent
 
 
 def test_letters_of_several_paints_are_several_paths(art_iou):

@@ -44,6 +44,21 @@ def picture_item() -> Item:
     return item_of_picture(file.getvalue(), "blob", "blob.png")
 
 
+def photographed() -> Image.Image:
+    """A soft-edged thing before a plain sheet."""
+    image = Image.new("RGB", (960, 800), "#f4f1e8")
+    ImageDraw.Draw(image).rounded_rectangle((130, 90, 830, 690), 150, fill="#1d78c7")
+    return image.resize((240, 200), Image.Resampling.LANCZOS)
+
+
+def framed() -> Image.Image:
+    """A disc on an opaque tile of one colour, with nothing round it."""
+    image = Image.new("RGBA", (120, 90), (0, 0, 0, 0))
+    ImageDraw.Draw(image).rectangle((20, 10, 99, 69), fill="ivory")
+    ImageDraw.Draw(image).ellipse((40, 20, 80, 60), fill="tomato")
+    return image
+
+
 def layout_of(*items: Item, size: str = "200x150mm", **manifest: object) -> Layout:
     """Items in two rows, each turned and scaled otherwise."""
     n = len(items)
@@ -91,6 +106,18 @@ def test_outlines_come_back(
         convert(layout.container.width, unit, found.container.unit), rel=1e-9
     )
     assert_alike(found, layout, share)
+
+
+@pytest.mark.parametrize(("picture", "kind"), [(photographed, "JPEG"), (framed, "PNG")])
+def test_pictures_are_followed_as_they_were_placed(
+    picture: Callable[[], Image.Image], kind: str, tmp_path: Path
+) -> None:
+    file = io.BytesIO()
+    picture().save(file, kind)
+    item = item_of_picture(file.getvalue(), "thing", "thing.file")
+    layout = layout_of(item, item)
+    write(layout, tmp_path / "a.svg")
+    assert_alike(read_written(tmp_path / "a.svg"), layout, 1e-6)
 
 
 @pytest.mark.parametrize("file", ["a.svg", "a.dxf"])

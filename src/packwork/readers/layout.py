@@ -14,7 +14,7 @@ from shapely.errors import GEOSException
 from shapely.geometry import MultiPolygon, Polygon
 
 from packwork.arrays import FloatArray, as_points
-from packwork.errors import RecipeError
+from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
@@ -36,6 +36,9 @@ WIDEST_STRETCH = 1e4
 """Width over height, or height over width, of an item against its own shape at most.
 Larger: numbers whose inverse drowns in rounding. Chosen."""
 
+_DRAWN = (".svg", ".dxf", ".png", ".pdf")
+"""Endings of what is written of layouts besides: shapes in place, no items and poses."""
+
 _POSE = ("x", "y", "angle", "scale")
 _LABEL = ("name", "link", "title")
 
@@ -49,7 +52,8 @@ def read_layout(path: str | Path) -> Layout:
     Raises
     ------
     ReadError
-        Saying where, if the file was edited into something that is no layout.
+        Saying where, if the file was edited into something that is no layout; saying what
+        to load instead, if it is a drawing of one.
 
     Examples
     --------
@@ -62,6 +66,12 @@ def read_layout(path: str | Path) -> Layout:
     ...     read_layout(file).container.width
     4.0
     """
+    if Path(path).suffix.lower() in _DRAWN:
+        raise ReadError(
+            path,
+            "shows a layout but does not hold it; load one saved as .geojson "
+            "(packwork measure reads SVG and DXF too)",
+        )
     text = read_text(path, MAX_LAYOUT_BYTES)
     with naming(str(path)):
         collection = _parsed(text)

@@ -16,7 +16,6 @@ from packwork.readers.files import read_bytes, stem
 from packwork.readers.pictures.contours import contour_region
 from packwork.readers.pictures.decode import (
     MAX_PICTURE_BYTES,
-    Picture,
     Pixels,
     decode_picture,
 )
@@ -82,13 +81,39 @@ def item_of_picture(data: bytes, name: str, source: str, holes: Holes = "fill") 
     """
     with naming(source):
         picture = decode_picture(data, ART_PX)
-        opaque, pixels = cut_out(picture.pixels)
-        ink = clean_union(outline_of_coverage(opaque), speck=SPECK)
-        to_units = affine.similarity(0.0, 0.0, 0.0, picture.unit)
-        scaled = shapely.transform(ink, lambda points: points * picture.unit)
+        pixels, (left, top) = _cropped(cut_out(picture.pixels))
+        # Of the very pixels that are written: whoever reads them again finds this outline.
+        ink = outline_of_cut_out(pixels)
+        unit = picture.unit
+        to_units = affine.similarity(left * unit, top * unit, 0.0, unit)
+        scaled = shapely.transform(ink, lambda points: affine.apply(to_units, points))
         outline, centred_ink, place = centred(scaled, holes)
-        art = _art(Picture(pixels, picture.unit), affine.compose(place, to_units))
+        art = _art(pixels, affine.compose(place, to_units))
     return Item(name, source, outline, centred_ink, art)
+
+
+def outline_of_cut_out(pixels: Pixels) -> Region:
+    """Region, in pixels, that a picture shows whose opacity says what is its object.
+
+    Parameters
+    ----------
+    pixels
+        As :func:`cut_out` gave them, or what is left of them once clear borders are off.
+
+    Raises
+    ------
+    UnfitError
+        If that is no more than a few pixels, or noise.
+
+    Examples
+    --------
+    >>> outline_of_cut_out(np.full((4, 6, 4), 200, np.uint8)).area
+    24.0
+    """
+    alpha = pixels[:, :, 3].astype(np.float64)
+    is_even = np.ptp(alpha) <= BACKGROUND_TOLERANCE
+    opaque = np.ones_like(alpha) if is_even else alpha / alpha.max()
+    return clean_union(outline_of_coverage(opaque), speck=SPECK)
 
 
 def outline_of_coverage(coverage: FloatArray) -> Region:
@@ -112,8 +137,8 @@ def outline_of_coverage(coverage: FloatArray) -> Region:
     return traced
 
 
-def cut_out(pixels: Pixels) -> tuple[FloatArray, Pixels]:
-    """Opacity 0..1 of the object, and the picture with all else made transparent.
+def cut_out(pixels: Pixels) -> Pixels:
+    """Picture with all but its object made transparent.
 
     Raises
     ------
@@ -123,21 +148,21 @@ def cut_out(pixels: Pixels) -> tuple[FloatArray, Pixels]:
     Examples
     --------
     >>> paper = np.full((9, 9, 4), 255, np.uint8); paper[3:6, 3:6, :3] = 0
-    >>> int(cut_out(paper)[0].sum())
+    >>> int(np.count_nonzero(cut_out(paper)[:, :, 3]))
     9
     """
-    alpha = pixels[:, :, 3] / 255.0
+    alpha = pixels[:, :, 3]
     if alpha.max() == 0:
         raise UnfitError("is fully transparent; give a picture that shows something")
-    if np.ptp(alpha) > BACKGROUND_TOLERANCE / 255:
-        return alpha / alpha.max(), pixels
+    if np.ptp(alpha) > BACKGROUND_TOLERANCE:
+        return pixels
     colour = _plain_background(pixels)
     if colour is None:
-        return np.ones_like(alpha), pixels
+        return pixels
     opaque = _foreground(np.abs(pixels[:, :, :3] - colour).max(axis=2))
     if opaque.max() == 0:
         raise UnfitError("is all of one colour; give a picture that shows something")
-    return opaque, _without_background(pixels, colour, opaque)
+    return _without_background(pixels, colour, opaque)
 
 
 def _plain_background(pixels: Pixels) -> FloatArray | None:
@@ -180,13 +205,15 @@ def _without_background(pixels: Pixels, colour: FloatArray, opaque: FloatArray) 
     return result
 
 
-def _art(picture: Picture, matrix: FloatArray) -> PictureArt:
-    """PNG of the part that is not clear, and its place."""
-    visible = picture.pixels[:, :, 3] > 0
+def _cropped(pixels: Pixels) -> tuple[Pixels, tuple[int, int]]:
+    """Part of a picture that is not clear, and its left and top."""
+    visible = pixels[:, :, 3] > 0
     rows, columns = np.flatnonzero(visible.any(axis=1)), np.flatnonzero(visible.any(axis=0))
     top, left = int(rows[0]), int(columns[0])
-    crop = picture.pixels[top : rows[-1] + 1, left : columns[-1] + 1]
+    return pixels[top : rows[-1] + 1, left : columns[-1] + 1], (left, top)
+
+
+def _art(pixels: Pixels, matrix: FloatArray) -> PictureArt:
     file = BytesIO()
-    Image.fromarray(crop).save(file, "PNG")
-    shifted = affine.compose(matrix, affine.similarity(left, top, 0.0, 1.0))
-    return PictureArt(file.getvalue(), crop.shape[1], crop.shape[0], shifted)
+    Image.fromarray(pixels).save(file, "PNG")
+    return PictureArt(file.getvalue(), pixels.shape[1], pixels.shape[0], matrix)

@@ -18,6 +18,7 @@ from packwork.readers.svg.lettering import set_in_outlines
 from packwork.readers.svg.page import Page, read_page
 from packwork.readers.svg.painted import Painted
 from packwork.readers.svg.patterns import check_tiles
+from packwork.readers.svg.sheet import drop_sheet
 from packwork.readers.svg.solid import solid_twin
 from packwork.readers.svg.trace import inked_part, needs_tracing, traced_ink
 from packwork.readers.svg.walk import painted_shapes
@@ -57,7 +58,11 @@ class Drawing:
 
 
 def read_drawing(
-    data: bytes, *, is_compared: bool = False, tolerance: float | None = None
+    data: bytes,
+    *,
+    is_compared: bool = False,
+    is_on_paper: bool = False,
+    tolerance: float | None = None,
 ) -> Drawing:
     """Drawing of an SVG file's bytes.
 
@@ -68,6 +73,8 @@ def read_drawing(
     is_compared
         Whether what was computed from shapes is compared with a rendering, and traced
         from that where it differs, with a notice.
+    is_on_paper
+        Whether a white page behind all else is no part of it, as of items.
     tolerance
         Largest distance of a curve from its chords, in CSS pixels, where that is to be
         finer than for placing; not of what is compared.
@@ -87,6 +94,8 @@ def read_drawing(
     page = read_page(root)
     set_in_outlines(root, page)
     shapes = painted_shapes(root, page)
+    if is_on_paper:
+        shapes = drop_sheet(root, page, shapes)
     if needs_tracing(root):
         return _traced(root, page, shapes)
     if is_compared:

@@ -22,7 +22,8 @@ def read_svg(path: str | Path, holes: Holes = "fill") -> Item:
     """Item of an SVG file, its units CSS pixels (96 to the inch).
 
     Curves and round strokes are flattened to ``follow.FLATTENING`` of the drawing's
-    extent. Text, clips, masks and pictures are rendered and traced.
+    extent. Text, clips, masks and pictures are rendered and traced. A white page behind
+    all else is left out, which is said.
 
     Raises
     ------
@@ -71,7 +72,7 @@ def item_of_svg(
     (1, 2)
     """
     with naming(source):
-        drawing = read_drawing(data, is_compared=is_compared)
+        drawing = read_drawing(data, is_compared=is_compared, is_on_paper=True)
         outline, ink, place = centred(clean_union(drawing.ink.body), holes)
         if drawing.ink.body is not drawing.ink.whole:
             ink = Outline.from_region(clean_union(drawing.ink.whole)).mapped(place)

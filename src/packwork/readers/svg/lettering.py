@@ -35,9 +35,10 @@ pictures. Drawings of more keep their texts. Chosen."""
 MAX_LETTERS = 2_000
 """Letters that become paths, spaces counted. Chosen."""
 
-LETTER_PX = 100
+LETTER_PX = 400
 """Side of the square of pixels that each letter gets: larger costs time by its square,
-smaller rounds the corners of letters. Chosen."""
+smaller shows, on a letter drawn large, the renderer's rounding of coverages as a wobble.
+Tried: an O lies within 0.04 % of the font's size of its curves, with 100 px 0.16 %."""
 
 MAX_PIXELS = 4_000_000
 """Pixels of all letters together: about half a second's work. Chosen."""
@@ -48,7 +49,9 @@ MAX_SIDE_PX = 8_000
 FIND_PX = 250
 """Longer side of the picture in which a text is looked for. Chosen."""
 
-_SIMPLIFY_PX = 0.1
+_SIMPLIFY_PX = 0.2
+"""Larger flattens curves, smaller keeps the wobble and thrice the points. Tried."""
+
 _STEP_PX = 0.02
 _FONT_PX = 16.0
 

@@ -30,6 +30,8 @@ class Painted:
         How it is filled and stroked.
     window
         What the page and viewports show of it, in CSS pixels; None if all.
+    element
+        Where it comes from in the tree.
     clips
         Clip paths, each of which cuts it.
     """
@@ -38,6 +40,7 @@ class Painted:
     matrix: FloatArray
     painting: Painting
     window: Region | None
+    element: ET.Element
     clips: tuple[Clip, ...] = ()
 
     @cached_property

@@ -148,7 +148,7 @@ class _Walk:
         pieces = self._pieces(element, frame.viewport)
         if pieces:
             self.painted.append(
-                Painted(pieces, frame.matrix, frame.painting, frame.window, frame.clips)
+                Painted(pieces, frame.matrix, frame.painting, frame.window, element, frame.clips)
             )
 
     def _pieces(self, element: ET.Element, viewport: Viewport) -> list[SubPath]:
@@ -197,7 +197,9 @@ class _Walk:
             return []
         pieces = self._pieces(element, inner.viewport)
         painting = Painting(fill_rule=inner.painting.clip_rule)
-        return [Painted(pieces, inner.matrix, painting, None, inner.clips)] if pieces else []
+        if not pieces:
+            return []
+        return [Painted(pieces, inner.matrix, painting, None, element, inner.clips)]
 
     def _inherited_painting(self, element: ET.Element) -> Painting:
         """What an element inherits where it stands, not from who refers to it."""

@@ -22,7 +22,7 @@ from packwork.geometry import affine
 from packwork.geometry.polygon import Region, silhouette
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.pictures.decode import decode_picture
-from packwork.readers.pictures.silhouette import ART_PX, SPECK, cut_out, outline_of_coverage
+from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
 from packwork.readers.regions import clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
@@ -209,8 +209,7 @@ def _picture(image: ET.Element) -> Region:
         picture = decode_picture(base64.b64decode(encoded, validate=True), ART_PX)
     except (binascii.Error, ValueError):
         raise UnfitError(f"has an item whose picture is none, {_NOT_OURS}") from None
-    opaque, _ = cut_out(picture.pixels)
-    ink = clean_union(outline_of_coverage(opaque), speck=SPECK)
+    ink = outline_of_cut_out(picture.pixels)
     return shapely.transform(ink, lambda points: points * picture.unit)
 
 
