@@ -64,9 +64,9 @@ any angle (`sizes = "shared"`, `effort = "best"`, `time`): the rectangle is give
 size is what it seeks. So each does what it was made for, and density, the items' area over the
 rectangle's, says the same of both. All is measured by polygons: overlap and what sticks out as
 shares of the rectangle, the least gap in canvas units of 600. Medians of the seeds, least and
-most in brackets; overlap and outside are the worst, the gap is the least of all. The last column
-is of the processor, on a machine that others use too: less of it was to be had than the clock
-says.
+most in brackets; overlap and outside are the worst, the gap is the least of all. Both are given
+the time of the heading; what they took by the clock is in the table, and last what they had of
+the processor, on a machine that others use too.
 
 {tables}
 """
