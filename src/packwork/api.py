@@ -60,7 +60,8 @@ class Layout(scene.Layout):
     def load(cls, path: str | Path) -> Layout:
         """Layout from a file that was saved as ``.geojson``.
 
-        The items come back as flat shapes: pictures and drawings stay in their files.
+        The items come back as flat shapes in their mean colour: pictures and drawings stay in
+        their files.
 
         Raises
         ------

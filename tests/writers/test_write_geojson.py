@@ -14,7 +14,8 @@ from shapely.geometry import shape
 
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import signed_area
-from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
+from packwork.scene.colour import css_colour
+from packwork.scene.item import Art, FlatArt, Item, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.writers.geojson import PRECISION, geojson_text, plain
 from packwork.writers.swatch import NEUTRAL, representative_colour
@@ -145,21 +146,56 @@ def test_plain_leaves_json_as_it_is() -> None:
     assert plain(value) == value
 
 
+def coloured(art: Art) -> str:
+    ink = Outline.from_region(shapely.box(0, 0, 10, 10))
+    return representative_colour(Item("a", "a", ink, ink, art))
+
+
 class TestColour:
     def test_of_ink(self) -> None:
-        assert representative_colour(FlatArt("rgb(1, 2, 3)")) == "#010203"
-        assert representative_colour(FlatArt("none")) == NEUTRAL
-        assert representative_colour(FlatArt("currentColor")) == NEUTRAL
+        assert coloured(FlatArt("rgb(1, 2, 3)")) == "#010203"
+        assert coloured(FlatArt("none")) == NEUTRAL
+        assert coloured(FlatArt("currentColor")) == NEUTRAL
 
-    def test_of_a_drawing(self, star_item: Item) -> None:
-        markup = '<g fill="none" style="fill:#123"/><p fill="red"/><p style="fill : red;x:y"/>'
-        assert representative_colour(VectorArt(markup, np.eye(2, 3))) == "#ff0000"
-        assert representative_colour(star_item.art) == "#d62728"
-        assert representative_colour(VectorArt("<path/>", np.eye(2, 3))) == NEUTRAL
+    @pytest.mark.parametrize(
+        ("markup", "colour"),
+        [
+            ('<path d="M0 0h10v10" fill="#0a64c8"/>', "#0a64c8"),
+            ('<path d="M0 0h10v10" stroke="none"/>', "#000000"),
+            ('<g fill="red"><path d="M0 0h10v10H0z"/><path d="M2 2h6v6z" fill="#fff"/></g>', None),
+            ('<path d="M0 0h10v10" fill="white"/>', "#ffffff"),
+            (
+                '<g fill="none" style="fill:#123"/><text fill="red">a<tspan fill="red"/></text>',
+                "#ff0000",
+            ),
+            ("<path/>", NEUTRAL),
+            ("<broken", NEUTRAL),
+        ],
+    )
+    def test_of_a_drawing(self, markup: str, colour: str | None) -> None:
+        found = coloured(VectorArt(markup, np.eye(2, 3)))
+        if colour is not None:
+            assert found == colour
+        else:  # soft edges are paler
+            assert found[:2] == "#f"
+            assert int(found[3:5], 16) < 40
+
+    def test_of_a_gradient(self, star_item: Item) -> None:
+        found = css_colour(representative_colour(star_item))[:3]
+        assert found[0] >= 0xD6
+        assert 0x27 < found[1] < 0xBF
+
+    def test_of_a_gradient_that_begins_in_white(self) -> None:
+        stops = '<stop offset="0" stop-color="#fff"/><stop offset="1" stop-color="#05f"/>'
+        markup = f'<radialGradient id="r">{stops}</radialGradient>'
+        markup += '<circle cx="5" cy="5" r="5" fill="url(#r)"/>'
+        found = coloured(VectorArt(markup, np.eye(2, 3)))
+        assert int(found[1:3], 16) < 0xA0
+        assert found.endswith("ff")
 
     def test_of_a_picture(self, photo_item: Item) -> None:
-        assert representative_colour(photo_item.art) == "#433549"
+        assert representative_colour(photo_item) == "#433549"
 
     @pytest.mark.parametrize("png", [b"", b"\x89PNG\r\n\x1a\n1234", b"GIF89a"])
     def test_of_a_broken_picture(self, png: bytes) -> None:
-        assert representative_colour(PictureArt(png, 1, 1, np.eye(2, 3))) == NEUTRAL
+        assert coloured(PictureArt(png, 1, 1, np.eye(2, 3))) == NEUTRAL
