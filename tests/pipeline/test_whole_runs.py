@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given, settings
+from hypothesis import given
 
 from packwork import pipeline
 from packwork.errors import PackworkError
@@ -20,8 +20,6 @@ from packwork.scene.layout import Layout
 from packwork.writers import write
 from scenarios import Scenario, any_scenario
 from scenes import disc, flat_item, poses, square_container, star
-
-EXAMPLES = max(settings.default.max_examples // 4, 1)
 
 
 def run_of(scenario: Scenario) -> pipeline.Run:
@@ -100,7 +98,6 @@ def check_file(run: pipeline.Run, path: Path) -> None:
     assert met(again) == []
 
 
-@settings(max_examples=EXAMPLES)
 @given(scenario=any_scenario())
 def test_runs_keep_their_word(tmp_path_factory: pytest.TempPathFactory, scenario: Scenario) -> None:
     check(scenario, tmp_path_factory.mktemp("runs"))
