@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from skimage.morphology import skeletonize
 
 from packwork.arrays import BoolArray
 
@@ -25,4 +24,7 @@ def medial_axis(mask: BoolArray) -> BoolArray:
     >>> medial_axis(np.ones((3, 6), dtype=bool)).any(axis=1).tolist()
     [True, True, False]
     """
+    # Takes longer to load than most runs take to start, and few look for a middle line.
+    from skimage.morphology import skeletonize
+
     return np.asarray(skeletonize(np.pad(mask, 1)), dtype=np.bool_)[1:-1, 1:-1]

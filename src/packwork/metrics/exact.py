@@ -10,8 +10,6 @@ from typing import Any, TypeAlias
 import numpy as np
 import numpy.typing as npt
 import shapely
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from packwork.arrays import IntArray
 from packwork.errors import ShapeError
@@ -161,6 +159,10 @@ def _merged(regions: _Regions, pairs: IntArray) -> _Regions:
     """
     if pairs.size == 0:
         return regions
+    # Takes a while to load, and only layouts with overlaps need it.
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
     links = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(regions), len(regions)))
     count, group = connected_components(links, directed=False)
     order = np.argsort(group, kind="stable")

@@ -31,7 +31,7 @@ from packwork.solve.stand_ins import stand_ins
 
 _LOG = logging.getLogger(__name__)
 
-TRIALS = {"draft": 0, "normal": 5, "best": 40}
+TRIALS = {"draft": 0, "normal": 4, "best": 40}
 """Turns and exchanges tried for each item, by effort: 4 ms each. More fill better, ever less
 so. Measured in docs/benchmarks-quality."""
 
