@@ -103,9 +103,8 @@ class ImageColorGenerator:
 
     Examples
     --------
-    >>> ImageColorGenerator(np.zeros((4, 4)))("ox", 2, None, (0, 0), None)
-    Traceback (most recent call last):
-    NotImplementedError: Gray-scale images TODO
+    >>> ImageColorGenerator(np.full((4, 4), 9))("ox", 2, None, (0, 0), None)
+    'rgb(9, 9, 9)'
     """
 
     def __init__(
@@ -117,7 +116,7 @@ class ImageColorGenerator:
             )
         if image.ndim == 3 and image.shape[2] not in {3, 4}:
             raise ValueError(f"A color image needs to have 3 or 4 channels, got {image.shape[2]}")
-        self.image = image
+        self.image = np.stack([image] * 3, axis=2) if image.ndim == 2 else image
         self.default_color = default_color
 
     def __call__(
@@ -130,8 +129,6 @@ class ImageColorGenerator:
         **_: Any,
     ) -> str:
         """Mean colour under the word's box."""
-        if self.image.ndim == 2:
-            raise NotImplementedError("Gray-scale images TODO")
         width, height = font_size * len(word), font_size
         if font_path is not None:
             font = ImageFont.TransposedFont(
