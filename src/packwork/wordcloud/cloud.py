@@ -135,6 +135,8 @@ class WordCloud:
             If there is no word, or no room for one.
         """
         ranked = sorted(frequencies.items(), key=lambda pair: -pair[1])[: self.max_words]
+        self.layout_ = []
+        self.__dict__.pop("_layout", None)
         if not ranked:
             raise ValueError("We need at least 1 word to plot a word cloud, got 0.")
         most = float(ranked[0][1]) or 1.0
@@ -257,14 +259,12 @@ class WordCloud:
         return replace(self._layout, items=tuple(named))
 
     def _repeated(self, shares: list[tuple[str, float]]) -> list[tuple[str, float]]:
-        """Words, again and again and each time rarer, until there are ``max_words``."""
+        """Words, again and again and each time rarer, in whole rounds to ``max_words`` or more."""
         if not self.repeat:
             return shares
         rounds = -(-self.max_words // len(shares))
         least = shares[-1][1]
-        return [(word, share * least**turn) for turn in range(rounds) for word, share in shares][
-            : self.max_words
-        ]
+        return [(word, share * least**turn) for turn in range(rounds) for word, share in shares]
 
     def _setting(self, largest: float | None) -> Setting:
         return Setting(
@@ -315,7 +315,7 @@ class WordCloud:
             )  # fmt: skip
 
     def _check_generated(self) -> None:
-        if not hasattr(self, "layout_"):
+        if not hasattr(self, "_layout"):
             raise ValueError("WordCloud has not been calculated, call generate first.")
 
     def _css_background(self) -> str | None:
