@@ -88,6 +88,7 @@ class Layout(scene.Layout):
         background: str | None = None,
         show_container: bool = False,
         flatten: bool = False,
+        text: Literal["outlines", "live"] = "outlines",
     ) -> None:
         """Write the layout; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format.
 
@@ -103,6 +104,9 @@ class Layout(scene.Layout):
             Draw the container's line.
         flatten
             In SVG, repeat each drawing in place, for tools that choke on ``use``.
+        text
+            ``live``: words in SVG are text, to be selected and found, in parts of their
+            fonts that the file carries; ``outlines``: they are curves.
 
         Raises
         ------
@@ -123,6 +127,7 @@ class Layout(scene.Layout):
             background=background,
             show_container=show_container,
             flatten=flatten,
+            text=text,
         )
         writers.write(self, path, options)
 

@@ -152,6 +152,11 @@ def test_words_repeat_until_there_are_enough() -> None:
     assert {entry[0][0] for entry in cloud.layout_} == {"Some", "short", "text"}
 
 
+def test_svg_holds_outlines_or_text(cloud: WordCloud) -> None:
+    assert "<text" not in cloud.to_svg()
+    assert ">honey</text>" in cloud.to_svg(embed_font=True)
+
+
 def test_repeated_words_come_in_whole_rounds() -> None:
     options = {"width": 160, "height": 100, "stopwords": [], "random_state": 0}
     cloud = WordCloud(repeat=True, max_words=10, **options).generate("Some short text")

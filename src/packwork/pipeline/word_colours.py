@@ -24,6 +24,7 @@ from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout
 from packwork.scene.palette import palette_colours
+from packwork.writers.recolour import has_one_colour
 
 if TYPE_CHECKING:
     from packwork.pipeline.job import Job
@@ -50,7 +51,8 @@ def word_colours(job: Job, layout: Layout) -> list[str | None] | None:
     if job.words is None or recipe.words is None or recipe.words.color_by is None:
         return None
     named = dict(zip((i.name for i in job.words.items), job.words.words, strict=True))
-    words = [named.get(item.name) for item in layout.items]
+    # Emoji in colours of their own keep them.
+    words = [named.get(item.name) if has_one_colour(item.art) else None for item in layout.items]
     by = recipe.words.color_by
     if by == WEIGHT:
         return _by_weight(words, _palette(recipe))

@@ -8,6 +8,7 @@ from typing import TypeAlias
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.scene.label import Label
+from packwork.scene.live_text import LiveText
 
 
 @dataclass(frozen=True)
@@ -80,6 +81,8 @@ class Item:
         How it is drawn.
     label
         What this one is called in a file, where it links to, its tooltip.
+    text
+        What it says, if it is a word; its art then draws these letters and nothing else.
     """
 
     name: str
@@ -88,3 +91,4 @@ class Item:
     ink: Outline
     art: Art
     label: Label = field(default_factory=Label)
+    text: LiveText | None = None

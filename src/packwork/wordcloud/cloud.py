@@ -27,7 +27,7 @@ from packwork.wordcloud.setting import Placed, Setting, container_of_mask, place
 from packwork.wordcloud.words import STOPWORDS, frequencies, tokens, with_bigrams
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.recolour import recoloured
-from packwork.writers.svg import SvgOptions, svg_text
+from packwork.writers.svg import SvgOptions, TextChoice, svg_text
 
 _LOG = logging.getLogger("packwork")
 
@@ -235,11 +235,14 @@ class WordCloud:
         optimize_embedded_font: bool = True,
         embed_image: bool = False,
     ) -> str:
-        """SVG of the cloud; its words are outlines, so that no font need be there."""
+        """SVG of the cloud; its words are outlines, or text in fonts that it carries."""
         self._check_generated()
         if embed_image:
             _warn_once("embed_image has no effect: the outlines are what the picture shows")
-        return svg_text(self.layout, SvgOptions(background=self._css_background()))
+        if not optimize_embedded_font:
+            _warn_once("optimize_embedded_font has no effect: only letters in use are embedded")
+        text: TextChoice = "live" if embed_font else "outlines"
+        return svg_text(self.layout, SvgOptions(background=self._css_background(), text=text))
 
     def to_html(self) -> str:
         """Not there, as in the other package; ``to_svg`` is."""

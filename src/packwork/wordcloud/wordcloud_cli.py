@@ -62,7 +62,7 @@ def make_parser() -> argparse.ArgumentParser:
         prog="python -m packwork.wordcloud",
         description="A word cloud, with the options of wordcloud_cli.",
     )
-    file = {"metavar": "FILE"}
+    file: dict[str, Any] = {"metavar": "FILE"}
     parser.add_argument("--text", default=STANDARD, help="text; default: standard input", **file)
     parser.add_argument("--regexp", type=_pattern, help="what counts as a word")
     parser.add_argument("--stopwords", help="words to leave out, one a line", **file)

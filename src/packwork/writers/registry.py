@@ -17,7 +17,7 @@ from packwork.writers.frame import check_side
 from packwork.writers.geojson import geojson_text
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
-from packwork.writers.svg import SvgOptions, svg_text
+from packwork.writers.svg import SvgOptions, TextChoice, svg_text
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -176,6 +176,7 @@ def write_options(
     background: str | None = None,
     show_container: bool = False,
     flatten: bool = False,
+    text: TextChoice = "outlines",
 ) -> WriteOptions:
     """Options of every format from the few that people give.
 
@@ -189,6 +190,8 @@ def write_options(
         Draw the container's line.
     flatten
         In SVG, repeat each drawing in place.
+    text
+        Words in SVG: ``outlines``, or ``live`` text.
 
     Raises
     ------
@@ -203,7 +206,9 @@ def write_options(
     colour = None if background in {None, "none", "transparent"} else background
     png = PngOptions(show_container=show_container)
     return WriteOptions(
-        svg=SvgOptions(background=colour, show_container=show_container, flatten=flatten),
+        svg=SvgOptions(
+            background=colour, show_container=show_container, flatten=flatten, text=text
+        ),
         png=png if background is None else replace(png, background=colour),
         png_side_px=pixels,
     )
