@@ -59,6 +59,14 @@ class WordOptions(BaseModel):
     """What is in the proportion of the weights: height (of the letters), area (of the
     letters: their height by the root) or ink (of the whole word: long ones are lower)."""
 
+    smallest: str | float | None = None
+    """Font size of the smallest word, a length as for the padding: words that would come out
+    smaller are left out, the lightest first, and named."""
+
+    largest: str | float | None = None
+    """Font size of the largest word at most, a length as for the padding, such as 48pt or 10%;
+    all others stay in proportion."""
+
     color_by: str | None = None
     """weight (the palette from small to large), a column of the table, or a picture under
     the words. Default: neighbours unlike."""
