@@ -62,7 +62,10 @@ def test_standard_input_is_read(packwork: Command) -> None:
         ("circle bears.txt --font bears.txt", "bears.txt: is not a font"),
         ("circle bears.txt --font NoSuchFamily", "is no font file and no installed family"),
         ("circle bears.txt --language klingon", "--language: there is no list for 'klingon'"),
-        ("circle bears.txt --min-count 50", "none that is no stop word and stands there 50 times"),
+        (
+            "circle bears.txt --min-count 50",
+            "has no word 50 times; the most frequent, 'bear', is there 3 times",
+        ),
         ("circle bears.txt --stopwords missing.txt", "missing.txt: there is no such file"),
         ("circle bears.txt --color-by kind", "--color-by: there is no column 'kind'"),
         ("circle bears.txt --color-by missing.png", "missing.png: there is no such file"),

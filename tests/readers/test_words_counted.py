@@ -152,7 +152,7 @@ def test_bad_tables_are_one_clear_line(tmp_path: Path, text: str, problem: str) 
         ("my missing notes.txt", "there is no such file"),
         (" ", "source: is empty"),
         ("... --- ...", "holds no words"),
-        ("the and of the to", "none that is no stop word"),
+        ("the and of the to", "holds 4 different words, and all are stop words"),
         ({}, "holds no words"),
         ({"\ud800\x00": 1}, "holds no words"),
     ],

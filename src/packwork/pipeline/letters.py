@@ -130,7 +130,7 @@ def _first(words: WordsRead, count: int, reasons: Mapping[str, str]) -> WordsRea
         items=words.items[:count],
         areas=words.areas[:count],
         words=words.words[:count],
-        undrawn={**words.undrawn, **reasons},
+        undrawn={**reasons, **words.undrawn},  # the heaviest first
     )
 
 

@@ -3,15 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator
+from pydantic import BaseModel, ConfigDict, Field, field_serializer, field_validator
 
 from packwork.errors import RecipeError
+from packwork.readers.words.word import Word
 
 WeightIs: TypeAlias = Literal["height", "area", "ink"]
+
+ColourOf: TypeAlias = Callable[[Word], str | None]
+"""Any CSS colour of a word, by its ``text``, ``weight`` and ``columns``; None leaves the
+palette's first."""
 
 MOST_WORDS = 5_000
 """Words in one cloud; more could not be read on any sheet. Chosen."""
@@ -67,9 +72,9 @@ class WordOptions(BaseModel):
     """Font size of the largest word at most, a length as for the padding, such as 48pt or 10%;
     all others stay in proportion."""
 
-    color_by: str | None = None
+    color_by: str | ColourOf | None = None
     """weight (the palette from small to large), a column of the table, or a picture under
-    the words. Default: neighbours unlike."""
+    the words; in Python also a function of a word. Default: neighbours unlike."""
 
     background: str | None = None
     """Colour behind the words: theirs are made to be read on it. Default: white."""
@@ -82,6 +87,10 @@ class WordOptions(BaseModel):
         """Colour that words are read on; None if it is not known."""
         seen = self.background not in (None, "none", "transparent")
         return self.background if seen else None
+
+    @field_serializer("color_by")
+    def _functions_go_by_their_names(self, by: str | ColourOf | None) -> str | None:
+        return getattr(by, "__qualname__", repr(by)) if callable(by) else by
 
     @field_validator("source", mode="before")
     @classmethod

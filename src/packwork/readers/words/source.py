@@ -106,12 +106,23 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]
         kept = without_plurals(kept)
     words = [Word(written[word], float(n)) for word, n in kept.items() if n >= options.min_count]
     if not words:
-        raise ReadError(
-            _name(options),
-            f"holds {len(counts)} words, but none that is no stop word and stands there "
-            f"{options.min_count} times; use --language none or a smaller --min-count",
-        )
+        raise ReadError(_name(options), _why_none(counts, kept, options))
     return words
+
+
+def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) -> str:
+    """What became of all words of a text."""
+    if not kept:
+        named = ", ".join(word for word, _ in counts.most_common(3))
+        return (
+            f"holds {len(counts)} different words, and all are stop words or single letters "
+            f"({named} ...); use --language none, or give another text"
+        )
+    word, most = kept.most_common(1)[0]
+    return (
+        f"has no word {options.min_count} times; the most frequent, {word[:40]!r}, is there "
+        f"{most} times; use a smaller --min-count"
+    )
 
 
 def _says_something(word: str) -> bool:
