@@ -26,7 +26,7 @@ from packwork.pipeline.finishing import unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
-from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn
+from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn, words_found
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -149,12 +149,14 @@ def _judged(
         promise = Promise(recipe.padding_cu(job.container), shares) if exact is not None else None
         faults = () if promise is None else broken(promise, layout, metrics.exact)
         beside = None if start.limits is None else same_kind_beside(layout, start.limits.kinds)
+    words = words_found(job)
     certified = promise is not None and not faults and not unplaced
     said = manifest(job, start.method, outcome, metrics, unplaced, beside)
     said |= {
         "certified": certified,
         "promised": None if promise is None else asdict(promise),
         "filling": None if filling is None else asdict(filling),
+        "words": None if words is None else asdict(words),
     }
     return Run(
         layout=replace(dressed(job, layout), manifest=said),
@@ -167,6 +169,7 @@ def _judged(
         certified=certified,
         broken=faults,
         filling=filling,
+        words=words,
     )
 
 

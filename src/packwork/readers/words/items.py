@@ -19,7 +19,7 @@ from packwork.readers.typeface.lettering import Lettering
 from packwork.readers.typeface.pictures import Picture
 from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.options import WeightIs, WordOptions
-from packwork.readers.words.source import read_words
+from packwork.readers.words.source import ranked_words
 from packwork.readers.words.word import Word
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.label import Label
@@ -55,12 +55,15 @@ class WordsRead:
         The same words, with their weights and columns.
     undrawn
         Words that could not be set, each with the reason.
+    found
+        How many different words there were; the largest are kept.
     """
 
     items: tuple[Item, ...]
     areas: FloatArray
     words: tuple[Word, ...]
     undrawn: Mapping[str, str]
+    found: int
 
 
 def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
@@ -83,7 +86,8 @@ def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
     items: list[Item] = []
     words: list[Word] = []
     undrawn: dict[str, str] = {}
-    for word in read_words(options):
+    ranked = ranked_words(options)
+    for word in ranked[: options.count]:
         try:
             items.append(word_item(word, fonts, holes))
             words.append(word)
@@ -94,7 +98,11 @@ def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
         raise ReadError(first, f"cannot be set, nor any other word: {undrawn[first]}")
     weights = np.array([word.weight for word in words])
     return WordsRead(
-        tuple(items), area_shares(items, weights, options.weight_is), tuple(words), undrawn
+        tuple(items),
+        area_shares(items, weights, options.weight_is),
+        tuple(words),
+        undrawn,
+        len(ranked),
     )
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping
@@ -37,8 +36,6 @@ STANDARD_INPUT = "-"
 
 _TEXT_ENDINGS = frozenset({".txt", ".md", ".rst", ".text", ".json", *ENDINGS})
 
-_LOG = logging.getLogger("packwork")
-
 
 def read_words(options: WordOptions) -> list[Word]:
     """Words of a text, a table, standard input or a dict: the largest weights first.
@@ -59,19 +56,27 @@ def read_words(options: WordOptions) -> list[Word]:
     >>> [(word.text, word.weight) for word in read_words(WordOptions(source=text, count=3))]
     [('bear', 3.0), ('bees', 2.0), ('honey', 2.0)]
     """
-    words = _words(options)
-    cased = [_cased(word, options.case) for word in words]
+    return ranked_words(options)[: options.count]
+
+
+def ranked_words(options: WordOptions) -> list[Word]:
+    """All words that could be set, more than ``count`` if there are, as :func:`read_words`.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        As there.
+
+    Examples
+    --------
+    >>> len(ranked_words(WordOptions(source={"bear": 2, "fox": 1}, count=1)))
+    2
+    """
+    cased = [_cased(word, options.case) for word in _words(options)]
     ranked = sorted(_merged(cased), key=lambda word: -word.weight)
     if not ranked:
         raise ReadError(_name(options), "holds no words that could be set")
-    if isinstance(options.source, dict) or _is_table(options.source):
-        left = len(ranked) - options.count
-        if left > 0:
-            _LOG.warning(
-                "%s: the %d largest of %d words are kept; -n takes more",
-                _name(options), options.count, len(ranked),
-            )  # fmt: skip
-    return ranked[: options.count]
+    return ranked
 
 
 def _words(options: WordOptions) -> list[Word]:
