@@ -180,3 +180,20 @@ def test_names_of_turns() -> None:
     assert layout.poses.angle == pytest.approx(-np.pi / 2)
     layout = pw.words("circle", WEIGHTS, rotate="mixed", **QUICK)
     assert set(layout.poses.angle.round(6)) <= {0.0, round(-np.pi / 2, 6)}
+
+
+@pytest.mark.parametrize(("outline", "may"), [("hull", False), ("exact", True)])
+def test_words_stand_between_the_letters_of_others_unless_hulls_are_asked_for(
+    outline: str, may: bool
+) -> None:
+    weights = {"lily": 6.0} | {f"o{k}": 1.0 for k in range(24)}
+    layout = pw.words("square", weights, outline=outline, padding=0, seed=3, **QUICK)
+    hulls = [placed.region.convex_hull for placed in layout.outlines]
+    meeting = [(i, j) for i in range(len(hulls)) for j in range(i) if hulls[i].intersects(hulls[j])]
+    assert bool(meeting) == may
+
+
+@pytest.mark.parametrize("holes", ["fill", "keep"])
+def test_counters_are_free_for_words_only_if_holes_are_kept(holes: str) -> None:
+    layout = pw.words("circle", {"OO": 9.0, "i": 1.0}, holes=holes, **QUICK)
+    assert layout.items[0].outline.has_holes == (holes == "keep")

@@ -152,6 +152,12 @@ def test_words_repeat_until_there_are_enough() -> None:
     assert {entry[0][0] for entry in cloud.layout_} == {"Some", "short", "text"}
 
 
+def test_functions_that_take_arrays_get_bytes(cloud: WordCloud) -> None:
+    """What shows pictures takes floats to be shares of one."""
+    assert np.asarray(cloud).dtype == np.uint8
+    assert np.asarray(cloud, dtype=np.float64).max() > 1
+
+
 def test_svg_holds_outlines_or_text(cloud: WordCloud) -> None:
     assert "<text" not in cloud.to_svg()
     assert ">honey</text>" in cloud.to_svg(embed_font=True)

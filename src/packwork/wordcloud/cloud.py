@@ -227,7 +227,8 @@ class WordCloud:
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
         """Pixels, for functions that take arrays."""
-        return self.to_array(copy=copy).astype(dtype, copy=False)
+        pixels = self.to_array(copy=copy)
+        return pixels if dtype is None else pixels.astype(dtype, copy=False)
 
     def to_svg(
         self,
