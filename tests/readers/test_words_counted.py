@@ -182,3 +182,24 @@ def test_any_text_gives_words_or_a_refusal(text: str) -> None:
     except PackworkError:
         return
     assert all(word.weight > 0 and word.text.isprintable() for word in words)
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ({}, {"bear", "ox"}),
+        ({"min_word_length": 3}, {"bear"}),
+        ({"min_word_length": 1}, {"bear", "ox", "x"}),
+        ({"include_numbers": True}, {"bear", "ox", "42"}),
+        ({"regexp": r"[#@]\w+"}, {"#bear", "@ox"}),
+        ({"regexp": r"(b)(e)ar"}, {"bear"}),
+    ],
+)
+def test_what_counts_as_a_word_can_be_chosen(options: dict, expected: set[str]) -> None:
+    text = "the #bear and the @ox, x and 42"
+    assert set(counted(text, language="en", **options)) == expected
+
+
+def test_a_pattern_that_is_none_is_refused() -> None:
+    with pytest.raises(RecipeError, match="regexp: is no regular expression"):
+        counted("a bear", regexp="(")

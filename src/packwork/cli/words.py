@@ -43,6 +43,9 @@ def words(
     min_count: Annotated[int, _flag("min_count")] = 1,
     language: Annotated[str, _flag("language")] = "auto",
     stopwords: Annotated[str | None, _flag("stopwords")] = None,
+    min_word_length: Annotated[int, _flag("min_word_length")] = 2,
+    include_numbers: Annotated[bool, _flag("include_numbers", "--include-numbers")] = False,
+    regexp: Annotated[str | None, _flag("regexp")] = None,
     phrases: Annotated[int, _flag("phrases")] = 1,
     plurals: Annotated[Literal["merge", "keep"], _flag("plurals")] = "merge",
     case: Annotated[Literal["common", "lower", "upper"], _flag("case", panel=TYPE)] = "common",
@@ -117,6 +120,9 @@ def words(
             min_count=min_count,
             language=language,
             stopwords=stopwords,
+            min_word_length=min_word_length,
+            include_numbers=include_numbers,
+            regexp=regexp,
             phrases=phrases,
             plurals=plurals,
             case=case,
@@ -149,17 +155,12 @@ def words(
             start=start,
             losses=shared.loss_weights(loss),
         )
+        drawn = write_options(
+            pixels=pixels, background=background, show_container=show_container,
+            flatten=flatten, text=text,
+        )  # fmt: skip
         outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT],
-            options=write_options(
-                pixels=pixels,
-                background=background,
-                show_container=show_container,
-                flatten=flatten,
-                text=text,
-            ),
-            report=report,
-            diagnose=diagnose,
+            files=output or [DEFAULT_OUTPUT], options=drawn, report=report, diagnose=diagnose,
             recipe=save_recipe,
-        )
+        )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

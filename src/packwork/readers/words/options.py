@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
@@ -43,6 +44,15 @@ class WordOptions(BaseModel):
 
     stopwords: str | tuple[str, ...] | None = None
     """File of further words to leave out (in Python also a list of them)."""
+
+    min_word_length: Annotated[int, Field(ge=1)] = 2
+    """Letters that a word of a text has at least; one syllable of Korean is a word anyway."""
+
+    include_numbers: bool = False
+    """Numbers that stand alone count as words too."""
+
+    regexp: str | None = None
+    """What counts as a word of a text, as a regular expression of Python such as [#@]\\w+."""
 
     phrases: Annotated[int, Field(ge=1, le=4)] = 1
     """2 also counts pairs of words that often stand together, 3 triples too."""
@@ -117,6 +127,15 @@ class WordOptions(BaseModel):
         if isinstance(words, Path):
             return str(words)
         return sorted(words) if isinstance(words, set | frozenset) else words
+
+    @field_validator("regexp")
+    @classmethod
+    def _regexp_compiles(cls, pattern: str | None) -> str | None:
+        try:
+            re.compile(pattern or "")
+        except (re.error, RecursionError, OverflowError) as error:
+            raise RecipeError("regexp", f"is no regular expression: {error}") from None
+        return pattern
 
     @field_validator("background")
     @classmethod

@@ -25,7 +25,7 @@ from packwork.readers.words.stop_words import (
     stop_words,
 )
 from packwork.readers.words.table import ENDINGS, rows_of_csv, rows_of_json
-from packwork.readers.words.tokens import sentences
+from packwork.readers.words.tokens import matches, sentences
 from packwork.readers.words.word import Word, sound
 
 MAX_BYTES = 50_000_000
@@ -93,7 +93,11 @@ def _words(options: WordOptions) -> list[Word]:
 
 def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]:
     """Words of a text, weighed by how often they stand there."""
-    found = list(sentences(text))
+    found = list(
+        sentences(text, include_numbers=options.include_numbers)
+        if options.regexp is None
+        else matches(text, options.regexp)
+    )
     counts, written = folded(count_forms(found))
     if not counts:
         raise ReadError(_name(options), "holds no words; give a text, or a table of word,weight")
@@ -105,7 +109,7 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]
         several, forms = folded(phrases(found, options.phrases, stops))
         counts, written = without_parts(counts, several), written | forms
     kept = Counter(
-        {word: n for word, n in counts.items() if word not in stops and _says_something(word)}
+        {word: n for word, n in counts.items() if word not in stops and _is_long(word, options)}
     )
     if options.plurals == "merge" and ENGLISH in language.split(","):
         kept = without_plurals(kept)
@@ -120,8 +124,8 @@ def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) ->
     if not kept:
         named = ", ".join(word for word, _ in counts.most_common(3))
         return (
-            f"holds {len(counts)} different words, and all are stop words or single letters "
-            f"({named} ...); use --language none, or give another text"
+            f"holds {len(counts)} different words, and all are stop words or too short "
+            f"({named} ...); use --language none, a smaller --min-word-length, or another text"
         )
     word, most = kept.most_common(1)[0]
     return (
@@ -130,9 +134,9 @@ def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) ->
     )
 
 
-def _says_something(word: str) -> bool:
-    """Whether it is more than one letter; one syllable of Korean is a word."""
-    return len(word) > 1 or "\uac00" <= word <= "\ud7a3"
+def _is_long(word: str, options: WordOptions) -> bool:
+    """Whether it has letters enough; one syllable of Korean is a word."""
+    return len(word) >= options.min_word_length or "\uac00" <= word <= "\ud7a3"
 
 
 def _rows(source: str) -> list[Word]:
