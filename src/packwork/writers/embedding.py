@@ -9,6 +9,7 @@ from __future__ import annotations
 import base64
 import io
 import struct
+import unicodedata
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -91,7 +92,7 @@ def may_be_embedded(fs_type: int) -> bool:
 
 def _embedded(family: str, font: FontFile, runs: Sequence[_Said]) -> Embedded:
     try:
-        part = _part(font, "".join(run.text for run, _ in runs))
+        part = _part(font, _characters(run.text for run, _ in runs))
     except _FAILURES as error:
         raise WriteError(
             font.name, f"its tables cannot be cut down ({type(error).__name__})"
@@ -101,6 +102,12 @@ def _embedded(family: str, font: FontFile, runs: Sequence[_Said]) -> Embedded:
     data = base64.b64encode(_packed(part)).decode("ascii")
     source = f'url(data:font/woff;base64,{data})format("woff")'
     return Embedded(family, f'@font-face{{font-family:"{family}";src:{source}}}')
+
+
+def _characters(texts: Iterable[str]) -> str:
+    """All that shaping may ask a font for: it takes letters apart, and puts them together."""
+    text = "".join(texts)
+    return "".join(unicodedata.normalize(form, text) for form in ("NFC", "NFD", "NFKD"))
 
 
 def _part(font: FontFile, characters: str) -> bytes:
