@@ -234,9 +234,10 @@ def words(
         As for :func:`fill`.
     options
         As on the command line: ``count``, ``min_count``, ``language``, ``stopwords``,
-        ``phrases``, ``plurals``, ``case``, ``fonts``, ``font_weight``, ``weight_is``,
-        ``color_by``, ``contrast``, ``background`` (to be given to ``save`` too), and those
-        of :func:`fill` but ``count`` and ``weights``.
+        ``phrases``, ``plurals``, ``case``, ``min_word_length``, ``include_numbers``,
+        ``regexp``, ``fonts``, ``font_weight``, ``weight_is``, ``smallest``, ``largest``,
+        ``color_by`` (also a function of a word), ``contrast``, ``background`` (to be given to
+        ``save`` too), and those of :func:`fill` but ``count`` and ``weights``.
 
     Raises
     ------

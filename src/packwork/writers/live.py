@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
+from typing import TypeAlias
 
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.live_text import FontFile, LiveText, TextRun
@@ -13,6 +14,8 @@ from packwork.writers.notation import attributes, matrix_text, xml_text
 from packwork.writers.recolour import one_colour
 
 _LOG = logging.getLogger("packwork")
+
+Channels: TypeAlias = tuple[int, int, int, int]
 
 _SETTING = "font-kerning:normal;white-space:pre"
 """As HarfBuzz sets words. Not ``geometricPrecision``: with it Chromium places small letters
@@ -39,6 +42,7 @@ class LiveWords:
     def __init__(self, items: Sequence[Item]) -> None:
         texts = {id(item.text): item.text for item in items if item.text is not None}
         self._fonts, refused = embedded_fonts(texts.values())
+        self._colours: dict[int, Channels | None] = {}
         for name, reason in refused.items():
             _LOG.warning("%s: its words are outlines, not text: %s", name, reason)
 
@@ -47,7 +51,7 @@ class LiveWords:
         return (
             item.text is not None
             and isinstance(item.art, VectorArt)
-            and one_colour(item.art) is not None
+            and self._colour(item.art) is not None
             and all(run.font in self._fonts for run in item.text.runs)
         )
 
@@ -73,7 +77,7 @@ class LiveWords:
         art, text = item.art, item.text
         assert isinstance(art, VectorArt)  # noqa: S101 - has() says so
         assert text is not None  # noqa: S101 - has() says so
-        channels = one_colour(art) or (0, 0, 0, 255)
+        channels = self._colour(art) or (0, 0, 0, 255)
         head = {
             **own,
             "transform": place + matrix_text(art.matrix),
@@ -82,6 +86,12 @@ class LiveWords:
             "data-outline": text.path,
         }
         return f"<g{attributes(head)}>{text_element(text, self._fonts)}</g>"
+
+    def _colour(self, art: VectorArt) -> Channels | None:
+        """Its one colour, read once; arts live as long as the items."""
+        if id(art) not in self._colours:
+            self._colours[id(art)] = one_colour(art)
+        return self._colours[id(art)]
 
 
 def text_element(text: LiveText, fonts: Mapping[FontFile, Embedded]) -> str:
