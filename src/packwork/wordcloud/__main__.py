@@ -2,7 +2,7 @@
 
 import sys
 
-from packwork.wordcloud.wordcloud_cli import main, parse_args
+from packwork.wordcloud.wordcloud_cli import run
 
 if __name__ == "__main__":
-    main(*parse_args(sys.argv[1:]))
+    run(sys.argv[1:])

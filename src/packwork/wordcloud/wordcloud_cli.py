@@ -149,6 +149,27 @@ def main(args: dict[str, Any], text: str, imagefile: IO[bytes]) -> None:
         image.save(imagefile, format="png", optimize=True)
 
 
+def run(arguments: Sequence[str]) -> None:
+    """Do what a command line asks; what cannot be is one line on standard error.
+
+    Raises
+    ------
+    SystemExit
+        If something cannot be.
+
+    Examples
+    --------
+    >>> run(["--color", "red", "--colormask", "a.png"])
+    Traceback (most recent call last):
+    SystemExit: packwork.wordcloud: specify either a color mask or a color function
+    """
+    try:
+        asked = parse_args(arguments)
+    except ValueError as error:
+        raise SystemExit(f"packwork.wordcloud: {error}") from None
+    main(*asked)
+
+
 def _pattern(text: str) -> str:
     try:
         re.compile(text)
