@@ -18,11 +18,10 @@ from packwork.levels import refined_levels
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.measure import measure
 from packwork.metrics.pixel import pixel_metrics
-from packwork.pipeline.again import finished_well
 from packwork.pipeline.beginning import Beginning, begin
 from packwork.pipeline.beside import same_kind_beside
 from packwork.pipeline.dressing import dressed
-from packwork.pipeline.finishing import unfinished
+from packwork.pipeline.finishing import finished, unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
@@ -123,7 +122,7 @@ def _placed(job: Job, observer: Observer | None, stop: Stop) -> _Placed:
     if recipe.finish != "exact":
         return _Placed(start, outcome, None)
     with clock.time("finish"):
-        exact = finished_well(job, start, outcome.poses, observer, stop)
+        exact = finished(job, start, outcome.poses, observer, stop)
         exact = held_down(job, start, exact, observer, stop)
     return _Placed(start, outcome, exact)
 

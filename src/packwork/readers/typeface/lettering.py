@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 
 import numpy as np
-import shapely
 from shapely import affinity
 
 from packwork.arrays import FloatArray
 from packwork.geometry.bezier import flatten_cubic
-from packwork.geometry.polygon import Region, region
+from packwork.geometry.polygon import Region, region, united
 from packwork.readers.svg.follow import FLATTENING
 from packwork.readers.typeface.face import (
     UNKNOWN_LANGUAGE,
@@ -28,6 +29,9 @@ from packwork.scene.live_text import TextRun
 
 LINE_STEP = 1.0
 """Distance of the base lines of a word of several lines, in ems. Chosen."""
+
+MOST_KNOWN = 4096
+"""Glyphs whose regions are remembered: those of a long Chinese text. Chosen."""
 
 _MARGIN = 0.5
 """Share of the allowed flattening that glyphs use up; the rest is rounding."""
@@ -115,9 +119,9 @@ def lettering_of(
     corners = [points_of(s) for contour in contours for s in contour if s[0] != "Z"]
     if not corners and not pictures:
         raise UnfitError("has no outlines to draw it with")
-    covered = [region(_rings(contour, _tolerance(corners)), "nonzero") for contour in contours]
-    covered += [picture.region for picture in pictures]
-    whole = shapely.union_all([part for part in covered if not part.is_empty])
+    tolerance = _tolerance(corners)
+    covered = [region for run in runs for region in run.regions(tolerance)]
+    whole = united([*covered, *(picture.region for picture in pictures)])
     return Lettering(
         affinity.scale(whole, 1 / units, 1 / units, origin=(0, 0)),
         "".join(path_data(contour) for contour in contours),
@@ -174,6 +178,17 @@ class _Run:
         drawn = ((self.setting.face.drawing(glyph.number), glyph) for glyph in self.glyphs)
         return [self._moved(segments, glyph) for segments, glyph in drawn if segments]
 
+    def regions(self, tolerance: float) -> list[Region]:
+        """What the glyphs cover, their curves followed to ``tolerance``."""
+        face, size = self.setting.face, self.scale
+        return [
+            affinity.affine_transform(
+                _glyph_region(face, glyph.number, tolerance / size),
+                (size, 0, 0, size, *self._place(glyph)),
+            )
+            for glyph in self.glyphs
+        ]
+
     def pictures(self) -> list[Picture]:
         face = self.setting.face
         found = []
@@ -220,7 +235,14 @@ def _tolerance(corners: Sequence[FloatArray]) -> float:
     if not corners:
         return 1.0
     extent = float(np.ptp(np.concatenate(corners), axis=0).max())
-    return _MARGIN * FLATTENING * extent
+    # Words of about one length share their glyphs.
+    return _MARGIN * FLATTENING * 2.0 ** math.floor(math.log2(max(extent, 1e-9)))
+
+
+@lru_cache(maxsize=MOST_KNOWN)
+def _glyph_region(face: Typeface, number: int, tolerance: float) -> Region:
+    """What a glyph covers about its origin, its curves followed to ``tolerance``."""
+    return region(_rings(face.drawing(number), tolerance), "nonzero")
 
 
 def _rings(segments: Sequence[Segment], tolerance: float) -> list[FloatArray]:
