@@ -42,6 +42,8 @@ class Layout(scene.Layout):
         ``(n,)`` share of area asked for each item; all ones if none were given.
     manifest
         What the run did: version, recipe, seed, seconds and metrics per level.
+    track
+        How the items came here, if that was recorded: :meth:`save_film` shows it.
 
     Examples
     --------
@@ -154,6 +156,7 @@ def fill(
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
+    record: bool = False,
     **options: Any,
 ) -> Layout:
     """Fill a container with items.
@@ -171,6 +174,8 @@ def fill(
         Asked before every epoch; True ends the run with what it has.
     progress
         True shows a bar, False none; None shows one in a notebook only.
+    record
+        Keep the way of the items, for :meth:`Layout.save_film`.
     options
         As on the command line: ``count``, ``font``, ``canvas``, ``seed``, ``sizes``,
         ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``, ``holes``,
@@ -201,7 +206,7 @@ def fill(
     chosen: list[Item] | None = None
     if any(isinstance(entry, Item) for entry in given):
         chosen = _as_items(given, recipe.holes, recipe.strict)
-    return _run(recipe, chosen, whole, observer, stop, progress)
+    return _run(recipe, chosen, whole, observer, stop, progress, record)
 
 
 def words(
@@ -212,6 +217,7 @@ def words(
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
+    record: bool = False,
     **options: Any,
 ) -> Layout:
     """Fill a container with words.
@@ -225,7 +231,7 @@ def words(
         weights by word: a dict, a ``Counter``, a pandas Series.
     add
         Items that are placed among the words: files, folders or built-in names.
-    observer, stop, progress
+    observer, stop, progress, record
         As for :func:`fill`.
     options
         As on the command line: ``count``, ``min_count``, ``language``, ``stopwords``,
@@ -257,7 +263,7 @@ def words(
         add=[str(item) for item in mixed_in],
         **options,
     )
-    return _run(recipe, None, whole, observer, stop, progress)
+    return _run(recipe, None, whole, observer, stop, progress, record)
 
 
 def read_items(
@@ -330,10 +336,11 @@ def _run(
     observer: Observer | None,
     stop: Stop,
     progress: bool | None,
+    record: bool,
 ) -> Layout:
     bar = bar_for(progress, observer)
     with shown(bar):
-        run = pipeline.fill(recipe, items, container, bar or observer, stop)
+        run = pipeline.fill(recipe, items, container, bar or observer, stop, record)
     layout = _public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = run.metrics.as_dict()
@@ -352,4 +359,6 @@ def _as_items(
 
 
 def _public(layout: scene.Layout) -> Layout:
-    return Layout(layout.container, layout.items, layout.poses, layout.weights, layout.manifest)
+    return Layout(
+        layout.container, layout.items, layout.poses, layout.weights, layout.manifest, layout.track
+    )

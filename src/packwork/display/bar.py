@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from html import escape
 from typing import TYPE_CHECKING, Any, Protocol
 
-from packwork.progress import Observer, Step
+from packwork.progress import Audience, Observer, Step
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -40,7 +40,7 @@ def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None
     wanted
         None: in a notebook only.
     observer
-        If given, says how often both are told.
+        One of one's own, told too.
 
     Examples
     --------
@@ -68,16 +68,15 @@ def in_notebook() -> bool:
 
 
 class Together:
-    """A bar and an observer of one's own, told at the same steps."""
+    """A bar and an observer of one's own, each told as often as it wants to be."""
 
     def __init__(self, bar: Bar, observer: Observer) -> None:
-        self._bar, self._observer = bar, observer
-        self.every = observer.every
+        self._bar, self._both = bar, Audience([bar, observer])
+        self.every = self._both.every
 
     def on_step(self, step: Step) -> None:
         """Tell both."""
-        self._bar.on_step(step)
-        self._observer.on_step(step)
+        self._both.on_step(step)
 
     def showing(self) -> AbstractContextManager[None]:
         """Show the bar."""

@@ -25,7 +25,8 @@ from packwork.pipeline.finishing import unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn
-from packwork.progress import Observer, Stop, never
+from packwork.pipeline.recording import Recorder
+from packwork.progress import Observer, Stop, never, together
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
@@ -46,6 +47,7 @@ def fill(
     container: Container | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
+    record: bool = False,
 ) -> Run:
     """Fill a container with items.
 
@@ -59,6 +61,8 @@ def fill(
         Told of progress.
     stop
         Asked before every epoch; True ends the run with what it has.
+    record
+        Keep the way of the items, in the layout's ``track``.
 
     Raises
     ------
@@ -67,23 +71,29 @@ def fill(
     RecipeError
         If an option has no meaning for these files.
     """
-    return run(read(recipe, items, container), observer, stop)
+    return run(read(recipe, items, container), observer, stop, record)
 
 
-def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
+def run(
+    job: Job, observer: Observer | None = None, stop: Stop = never, record: bool = False
+) -> Run:
     """Solve and measure what was read; the second half of :func:`fill`."""
     recipe, clock = job.recipe, job.clock
+    recorder = Recorder() if record else None
+    observer = together(observer, recorder)
     with clock.time("start"):
         outlines = stand_ins([item.outline for item in job.items], recipe.outline)
         padding = recipe.padding_cu(job.container)
         region = padded(job.container, padding)
         start = begin(job, region, outlines)
+    if recorder is not None:
+        recorder.keep(start.poses)
     with clock.time("levels"):
         options = _solve_options(job, padding)
         outcome = solve(
             region, outlines, start.poses, start.nominal, options, observer, stop, start.limits
         )
-    poses, exact, filling = outcome.poses, None, None
+    poses, exact, filling, ids = outcome.poses, None, None, None
     if recipe.finish == "exact":
         with clock.time("finish"):
             exact = finished_well(job, start, poses, observer, stop)
@@ -92,8 +102,12 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         with clock.time("gaps"):
             filled = fill_gaps(job, start, exact, observer, stop)
         job, start, exact, filling = filled.job, filled.start, filled.exact, filled.filling
-        poses = exact.poses
-    return _judged(job, start, outcome, exact, poses, filling)
+        poses, ids = exact.poses, filled.ids
+    done = _judged(job, start, outcome, exact, poses, filling)
+    if recorder is None:
+        return done
+    track = recorder.track(poses, ids, job.items)
+    return replace(done, layout=replace(done.layout, track=track))
 
 
 def _judged(
