@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -12,6 +12,7 @@ from packwork import pipeline, writers
 from packwork.display.bar import bar_for, shown
 from packwork.display.picture import notebook_png, notebook_svg
 from packwork.metrics.measure import measure
+from packwork.pipeline.filming import film_options
 from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
@@ -121,12 +122,48 @@ class Layout(scene.Layout):
         b'PNG'
         """
         options = writers.write_options(
-            pixels=pixels,
-            background=background,
-            show_container=show_container,
-            flatten=flatten,
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten
         )
         writers.write(self, path, options)
+
+    def save_film(
+        self,
+        path: str | Path,
+        *,
+        background: str = "white",
+        show_container: bool = False,
+        progress: bool | None = None,
+        **options: Any,
+    ) -> None:
+        """Write a film of how the items came here, if the layout was made with ``record=True``.
+
+        Parameters
+        ----------
+        path
+            Its ending picks the format: .svg, .gif, .apng, .webp, .mp4, .webm, .json (Lottie).
+        background, show_container, progress
+            As for :meth:`save` and :func:`fill`.
+        options
+            As on the command line: ``fps``, ``seconds``, ``hold``, ``loop``, ``easing`` ...
+
+        Raises
+        ------
+        WriteError
+            If nothing was recorded, or for what :meth:`save` raises it.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> layout = fill("circle", "star", count=3, epochs=9, levels="50", record=True)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     layout.save_film(f"{folder}/stars.gif", fps=10, seconds=1, film_pixels=100)
+        """
+        writers.check_film(path)
+        film = writers.Film(self, film_options(**options), background, show_container)
+        bar = bar_for(progress)
+        with shown(bar):
+            told = writers.tell_nobody if bar is None else partial(bar.tell, text="film")
+            writers.write_atomic(path, writers.film_bytes(film, path, told))
 
     @cached_property
     def metrics(self) -> Mapping[str, Any]:
@@ -350,12 +387,11 @@ def _run(
 def _as_items(
     given: Sequence[str | Path | Item], holes: Literal["fill", "keep"], strict: bool
 ) -> list[Item]:
-    chosen: list[Item] = []
-    for entry in given:
-        chosen += (
-            [entry] if isinstance(entry, Item) else read_items(entry, holes=holes, strict=strict)
-        )
-    return chosen
+    several = (
+        [entry] if isinstance(entry, Item) else read_items(entry, holes=holes, strict=strict)
+        for entry in given
+    )
+    return [item for items in several for item in items]
 
 
 def _public(layout: scene.Layout) -> Layout:

@@ -31,6 +31,10 @@ class Bar(Observer, Protocol):
         """Be seen while the block runs."""
         ...
 
+    def tell(self, share: float, text: str) -> None:
+        """Show how much is done, 0 to 1, and of what."""
+        ...
+
 
 def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None:
     """Bar where one is to be shown, which tells the observer too; else None.
@@ -78,6 +82,10 @@ class Together:
         """Tell both."""
         self._both.on_step(step)
 
+    def tell(self, share: float, text: str) -> None:
+        """Move the bar."""
+        self._bar.tell(share, text)
+
     def showing(self) -> AbstractContextManager[None]:
         """Show the bar."""
         return self._bar.showing()
@@ -96,7 +104,11 @@ class NotebookBar:
 
     def on_step(self, step: Step) -> None:
         """Move the bar, unless it has just been moved."""
-        self._share, self._text = step.progress, f"{_level(step)}, {_shares(step)}"
+        self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
+
+    def tell(self, share: float, text: str) -> None:
+        """Move the bar, unless it has just been moved."""
+        self._share, self._text = share, text
         if time.monotonic() - self._sent >= SECONDS_BETWEEN:
             self._send()
 
@@ -154,8 +166,11 @@ class TerminalBar:
 
     def on_step(self, step: Step) -> None:
         """Move the bar."""
-        text = f"{_level(step)}, {_shares(step)}"
-        self._progress.update(self._task, completed=step.progress, description=text)
+        self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
+
+    def tell(self, share: float, text: str) -> None:
+        """Move the bar."""
+        self._progress.update(self._task, completed=share, description=text)
 
     @contextmanager
     def showing(self) -> Iterator[None]:
