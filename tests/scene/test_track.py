@@ -58,3 +58,9 @@ def test_numbers_and_poses_are_each_others_inverse() -> None:
 def test_times_and_keyframes_belong_together() -> None:
     with pytest.raises(ShapeError, match="a time for each keyframe, not 2 for 1"):
         Track(np.array([0.0, 1.0]), np.zeros((1, 3, 5)))
+
+
+def test_newcomers_take_their_time() -> None:
+    before, after = poses([0.0, 90.0], 0.0, scale=[1.0, 0.0]), poses([0.0, 90.0], 0.0)
+    times = track_of([before, after, after, after], np.ones(2)).times
+    assert np.diff(times)[0] > 3 * np.diff(times)[1]

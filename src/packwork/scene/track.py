@@ -23,6 +23,10 @@ EVEN = 0.35
 Larger shows how long the last refinements take, smaller lets nothing stand still. Chosen by
 eye."""
 
+ARRIVAL = 0.1
+"""Way, as a share of the whole, for which an item counts that was not there before. Larger
+gives fillers more of the time, smaller lets all of them come at once. Chosen by eye."""
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Track:
@@ -138,14 +142,16 @@ def track_of(keyframes: Sequence[Poses], radii: FloatArray | None = None) -> Tra
 
 def _paced(numbers: FloatArray, radii: FloatArray) -> FloatArray:
     """Times at which items move about as fast all the time, without standing still."""
-    if len(numbers) == 1:
-        return np.zeros(1)
+    if len(numbers) == 1 or numbers.shape[1] == 0:
+        return np.linspace(0.0, 1.0, len(numbers))
     step = np.abs(np.diff(numbers, axis=0))
     size = radii * np.maximum(numbers[1:, :, SCALE], numbers[:-1, :, SCALE])
     moved = np.hypot(step[:, :, 0], step[:, :, 1])
     moved += size * step[:, :, TURN] + radii * step[:, :, SCALE]
+    arriving = (numbers[:-1, :, SCALE] == 0) & (numbers[1:, :, SCALE] > 0)
+    moved[arriving] = ARRIVAL * float(np.ptp(numbers[:, :, :2], axis=(0, 1)).max(initial=0.0))
     # The root: what moves ten times as far may well go three times as fast.
-    lengths = np.sqrt(moved.mean(axis=1)) if moved.shape[1] else np.zeros(len(moved))
+    lengths = np.sqrt(moved.mean(axis=1))
     even = np.full(len(lengths), 1 / len(lengths))
     total = float(lengths.sum())
     shares = EVEN * even + (1 - EVEN) * lengths / total if total > 0 else even

@@ -19,7 +19,7 @@ from packwork.writers.film.options import FilmOptions
 PAPER = "#ffffff"
 """Behind the items of a film unless something else is asked for, as in a PNG."""
 
-SOFT_SECONDS = 0.3
+SOFT_SECONDS = 0.6
 """Time over which items set off and stop, and over which a leap from one place to another is
 drawn out. Longer blurs the small moves of the end, shorter lets items flit. Chosen by eye."""
 
