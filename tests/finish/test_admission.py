@@ -1,4 +1,4 @@
-"""Newcomers: all who stay are free of conflicts, the others are as they were."""
+"""Fillers: all who stay are free of conflicts, the others are as they were."""
 
 from __future__ import annotations
 

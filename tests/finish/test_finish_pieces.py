@@ -10,7 +10,7 @@ from packwork.finish.arrangement import Arrangement
 from packwork.finish.blocks import blocks
 from packwork.finish.compaction import compact, worth
 from packwork.finish.covers.cover import covering, lining
-from packwork.finish.part import part
+from packwork.finish.part import part, part_evenly
 from packwork.finish.relocate import relocate
 from packwork.finish.sizing import FixedSize, FreeSizes, SharedSize
 from packwork.geometry.outline import Outline
@@ -74,6 +74,16 @@ def test_parting_shrinks_only_those_in_conflict() -> None:
     assert len(moved) == 0
     assert growth[2] == 0
     assert -0.1 < growth[:2].max() < 0
+
+
+def test_parting_evenly_leaves_one_size_for_all_and_no_conflict() -> None:
+    places = np.array([[3.0, 5.0, 0, 0], [4.7, 5.0, 0, 0], [8.0, 8.0, 0, 0]])
+    arrangement = Arrangement([square()] * 3, box(0, 0, 10, 10), places)
+    part_evenly(arrangement, GAP)
+    growth = arrangement.places[:, 3]
+    assert is_clean(arrangement)
+    assert np.ptp(growth) < 1e-6
+    assert -0.3 < growth[0] < np.log(0.85)
 
 
 def test_a_trapped_item_moves_to_a_void() -> None:

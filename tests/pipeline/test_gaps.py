@@ -73,7 +73,7 @@ def test_sizes_that_are_data_stay(sizes: str) -> None:
         run(**options, max_items=40)
 
 
-def test_padding_and_turns_hold_for_newcomers() -> None:
+def test_padding_and_turns_hold_for_fillers() -> None:
     full = run(padding=4, rotate="0,90", max_items=40)
     assert full.certified
     assert full.metrics.exact.min_gap >= 4
@@ -81,7 +81,7 @@ def test_padding_and_turns_hold_for_newcomers() -> None:
     np.testing.assert_allclose(np.sin(2 * full.layout.poses.angle), 0, atol=1e-12)
 
 
-def test_items_that_rules_hold_stay_and_newcomers_look_like_them() -> None:
+def test_items_that_rules_hold_stay_and_fillers_look_like_them() -> None:
     rules = [{"items": "star", "color": "red", "pin": {"x": "50%", "y": "50%", "size": "20%"}}]
     full = run(rules=rules, count=6, max_items=30, palette="okabe-ito")
     assert full.certified
@@ -116,7 +116,7 @@ def test_a_stop_ends_it() -> None:
     assert 8 < len(ended.layout.items) < 900
 
 
-def test_layouts_with_newcomers_are_read_again(tmp_path) -> None:
+def test_layouts_with_fillers_are_read_again(tmp_path) -> None:
     layout = pw.fill(**QUICK | {"sizes": "shared"}, filler=["circle"], max_items=30)
     layout.save(tmp_path / "a.geojson")
     layout.save(tmp_path / "a.svg")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from packwork.geometry.affine import stretched
-from packwork.solve.detail import seen_at
+from packwork.solve.detail import DETAIL_PX, seen_at
 from packwork.solve.shaped import seen_posed
 from scenes import disc, placed, poses, square, star
 
@@ -24,7 +24,9 @@ def test_a_margin_is_as_wide_on_all_sides_on_the_canvas(stretch: float) -> None:
     where = poses([0.0], [0.0], 0.0, 4.0, stretch)
     seen = seen_posed([square()], where, 50.0, margin_cu=0.5)
     true, grown = placed([square()], where)[0], placed(seen, where)[0]
-    assert np.abs(np.subtract(true.bounds, grown.bounds)).tolist() == pytest.approx([0.5] * 4)
+    assert np.abs(np.subtract(true.bounds, grown.bounds)).tolist() == pytest.approx(
+        [0.5] * 4, abs=DETAIL_PX / 50.0
+    )
 
 
 def test_a_stretched_outline_has_the_detail_of_its_shape() -> None:

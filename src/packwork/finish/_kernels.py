@@ -85,7 +85,7 @@ class Wishes(NamedTuple):
 @njit(cache=True, nogil=True, error_model="numpy")
 def contacts(board, pairs, reach, slants):
     """Which pair each contact belongs to, and its numbers."""
-    room = 8 * pairs.shape[0] + 64
+    room = 24 * pairs.shape[0] + 256
     while True:
         who, numbers = np.empty(room, np.int64), np.empty((room, 7))
         count = contact.contacts(board, pairs, reach, slants, who, numbers)

@@ -1,4 +1,4 @@
-"""Newcomers in a clean layout: made to fit, or sent away."""
+"""Fillers in a clean layout: made to fit, or sent away."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
 CUT, CHECKS = 0.04, 20
-"""Logarithm of size that a newcomer in conflict loses at a time, and how often. A smaller
+"""Logarithm of size that a filler in conflict loses at a time, and how often. A smaller
 cut wastes less of its void and takes more checks. Tried."""
 
 
@@ -26,12 +26,12 @@ def admitted(
     container: Container,
     outlines: Sequence[Outline],
     poses: Poses,
-    newcomers: int,
+    fillers: int,
     gap_cu: float,
 ) -> tuple[IntArray, Poses]:
     """Who may stay, and the poses of those: no two of them in conflict.
 
-    The last ``newcomers`` items shrink until they are free of all others; those that do
+    The last ``fillers`` items shrink until they are free of all others; those that do
     not come free are left out. All others stay as they are.
 
     Parameters
@@ -41,8 +41,8 @@ def admitted(
     outlines
         One per item, item units.
     poses
-        Of all items; without the newcomers they have no conflicts.
-    newcomers
+        Of all items; without the fillers they have no conflicts.
+    fillers
         How many.
     gap_cu
         Gap between items and to the container's edge; a hair is added, as in the finish.
@@ -62,10 +62,10 @@ def admitted(
     covers = Detail(outlines, container.outline, poses).covers(FINE)
     zero = np.zeros(len(poses))
     arrangement = covers.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))
-    comers = np.arange(len(poses) - newcomers, len(poses))
-    pairs = contact.pairs_of(arrangement.board.boxes, comers, gap)
-    _kernels.clear_by_shrinking(arrangement.board, comers, pairs, gap, CUT, CHECKS)
+    last = np.arange(len(poses) - fillers, len(poses))
+    pairs = contact.pairs_of(arrangement.board.boxes, last, gap)
+    _kernels.clear_by_shrinking(arrangement.board, last, pairs, gap, CUT, CHECKS)
     stuck = np.unique(arrangement.conflicts(arrangement.pairs(gap), gap))
-    stay = np.setdiff1d(np.arange(len(poses)), np.intersect1d(stuck, comers))
+    stay = np.setdiff1d(np.arange(len(poses)), np.intersect1d(stuck, last))
     shrunk = replace(poses, scale=poses.scale * np.exp(arrangement.places[:, 3]))
     return stay, shrunk.some(stay)

@@ -16,7 +16,7 @@ from packwork.finish.compaction import compact
 from packwork.finish.detail import Detail
 from packwork.finish.offenders import Offender, find_offenders
 from packwork.finish.options import HAIR, FinishOptions
-from packwork.finish.part import part
+from packwork.finish.part import part, part_evenly
 from packwork.finish.relocate import relocate
 from packwork.finish.search import Room, search
 from packwork.finish.sizing import FixedSize, FreeSizes, SharedSize, Sizing, turn_ranges
@@ -201,6 +201,7 @@ class _Run:
         self._spacing = float(np.sqrt(self._area / len(poses)))
         own = np.array([outline.area for outline in outlines])
         self._sizing = _sizing(poses, own * poses.scale**2, options)
+        self._is_shared = isinstance(self._sizing, SharedSize)
         exact = Detail(outlines, container.outline, poses)
         self._fine = exact.covers(FINE)
         tolerance = COARSE if options.sizes == "free" else COMMON_COARSE
@@ -212,7 +213,7 @@ class _Run:
 
     def coarse(self) -> None:
         """Take conflicts apart and grow, on coarse outlines; move those that stay behind."""
-        part(self.arrangement, self.gap)
+        (part_evenly if self._is_shared else part)(self.arrangement, self.gap)
         count = round(COARSE_SHARE * self._planned)
         self._compact(range(count))
         for _ in range(RESCUES):
@@ -222,7 +223,7 @@ class _Run:
             relocate(self.arrangement, laggards, self.gap)
             part(self.arrangement, self.gap)
             self._compact(range(count // 2, count))
-        if isinstance(self._sizing, SharedSize):
+        if self._is_shared:
             self._relieve(range(count // 2, count))
 
     def _relieve(self, rounds: range) -> None:

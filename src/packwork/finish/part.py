@@ -24,6 +24,13 @@ to a void instead. Smaller moves items that had a place, larger makes dwarfs. Tr
 MOST_CHECKS = 400
 """Checks at most; what is in conflict after them is reported."""
 
+EVENINGS = 6
+"""Times that all come down to the smallest: who is smaller is in no new conflict but where
+its origin lies off its outline. Tried: more gain nothing."""
+
+EVEN = 1e-6
+"""Logarithm of size within which all are alike. Chosen."""
+
 
 def part(arrangement: Arrangement, gap: float) -> IntArray:
     """Make items in conflict smaller until none is; the items that had to be moved.
@@ -59,6 +66,35 @@ def part(arrangement: Arrangement, gap: float) -> IntArray:
             first[hopeless] = arrangement.places[hopeless, 3]
             moved += hopeless.tolist()
     return np.unique(np.array(moved, dtype=np.int64))
+
+
+def part_evenly(arrangement: Arrangement, gap: float) -> None:
+    """Make all items smaller until none is in conflict and all have shrunk alike, nearly.
+
+    Where one size is asked for in the end, the few that had to shrink by far would
+    else have to grow back through neighbours that lie tight.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
+    >>> places = np.array([[0.0, 0, 0, 0], [1.9, 0, 0, 0], [6, 6, 0, 0]])
+    >>> three = Arrangement([box] * 3, wall, places)
+    >>> part_evenly(three, 0.01)
+    >>> bool(np.ptp(three.places[:, 3]) < 0.001)
+    True
+    """
+    part(arrangement, gap)
+    everyone = np.arange(arrangement.count)
+    for _ in range(EVENINGS):
+        places = arrangement.places.copy()
+        least = places[:, 3].min()
+        if np.ptp(places[:, 3]) < EVEN:
+            return
+        places[:, 3] = least
+        arrangement.put(everyone, places)
+        part(arrangement, gap)
 
 
 def _items(pairs: IntArray, count: int) -> IntArray:

@@ -8,12 +8,12 @@ from functools import cached_property
 
 import numpy as np
 import shapely
-from shapely.geometry import LinearRing, MultiLineString, Polygon
+from shapely.geometry import LinearRing, MultiLineString, MultiPolygon, Polygon
 
 from packwork.arrays import FloatArray, IntArray, as_points, as_starts
 from packwork.errors import ShapeError
 from packwork.geometry import affine
-from packwork.geometry.polygon import Region, oriented_rings, signed_area, silhouette
+from packwork.geometry.polygon import Region, oriented_rings, silhouette
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +75,19 @@ class Outline:
     @cached_property
     def area(self) -> float:
         """Area in squared units of the points, holes taken off."""
-        return sum(signed_area(r) for r in self.rings)
+        return float(self._ring_areas.sum())
+
+    @cached_property
+    def _ring_areas(self) -> FloatArray:
+        """Signed area of each ring: shoelace sums about its first vertex."""
+        x, y = (self.points - np.repeat(self.points[self.starts[:-1]], self._lengths, axis=0)).T
+        after = np.arange(1, len(x) + 1)
+        after[self.starts[1:] - 1] = self.starts[:-1]
+        return 0.5 * np.add.reduceat(x * y[after] - x[after] * y, self.starts[:-1])
+
+    @cached_property
+    def _lengths(self) -> IntArray:
+        return np.diff(self.starts)
 
     @cached_property
     def centroid(self) -> FloatArray:
@@ -102,18 +114,36 @@ class Outline:
     @cached_property
     def has_holes(self) -> bool:
         """Whether any ring is a hole."""
-        return any(signed_area(r) < 0 for r in self.rings)
+        return bool((self._ring_areas < 0).any())
 
     @cached_property
     def region(self) -> Region:
         """The same region as a Shapely polygon or multipolygon."""
         if len(self.rings) == 1:
             return Polygon(self.rings[0])
+        if not self.has_holes:
+            return MultiPolygon([Polygon(r) for r in self.rings])
+        shape = self._in_order()
+        if shape is not None:
+            return shape
         # Even-odd nesting of rings that do not cross: holes, and islands inside holes.
         rings = MultiLineString([LinearRing(r) for r in self.rings])
         # GEOS tries corners that touch with numbers that are none; its answer has none.
         with np.errstate(invalid="ignore"):
             return shapely.build_area(rings)
+
+    def _in_order(self) -> Region | None:
+        """Region whose holes follow the rings that they lie in, as readers make them.
+
+        None if they do not: ten times faster than to find where they lie.
+        """
+        outer = np.flatnonzero(self._ring_areas > 0)
+        if len(outer) == 0 or outer[0] != 0:
+            return None
+        groups = np.split(np.arange(len(self.rings)), outer[1:])
+        rings = self.rings
+        shape = MultiPolygon([Polygon(rings[k[0]], [rings[h] for h in k[1:]]) for k in groups])
+        return shape if shape.is_valid else None
 
     def mapped(self, matrix: FloatArray) -> Outline:
         """Image under an affine map (2 x 3) that does not mirror."""

@@ -61,9 +61,24 @@ def polygon_parts(shape: Region) -> list[Polygon]:
     >>> len(polygon_parts(Polygon()))
     0
     """
-    parts = shapely.get_parts(shape)
-    flat = [q for p in parts for q in (p.geoms if isinstance(p, MultiPolygon) else [p])]
-    return [p for p in flat if isinstance(p, Polygon) and not p.is_empty and p.area > 0]
+    parts = shapely.get_parts(shapely.get_parts(shape))
+    kept = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & (shapely.area(parts) > 0)
+    return list(parts[kept])
+
+
+def united(regions: Iterable[Region]) -> Region:
+    """Union of valid regions; fast where they meet nowhere.
+
+    Examples
+    --------
+    >>> united([shapely.box(0, 0, 2, 2), shapely.box(1, 0, 3, 2)]).area
+    6.0
+    """
+    parts = [part for region in regions for part in polygon_parts(region)]
+    if len(parts) == 1:
+        return parts[0]
+    whole = MultiPolygon(parts)
+    return whole if whole.is_valid else shapely.union_all(parts)
 
 
 def silhouette(shape: Region) -> Region:
@@ -74,7 +89,10 @@ def silhouette(shape: Region) -> Region:
     >>> silhouette(shapely.box(0, 0, 3, 3) - shapely.box(1, 1, 2, 2)).area
     9.0
     """
-    return shapely.union_all([Polygon(part.exterior) for part in polygon_parts(shape)])
+    parts = polygon_parts(shape)
+    if not any(part.interiors for part in parts):
+        return shape
+    return shapely.union_all([Polygon(part.exterior) for part in parts])
 
 
 def oriented_rings(shape: Region) -> list[FloatArray]:
@@ -85,12 +103,16 @@ def oriented_rings(shape: Region) -> list[FloatArray]:
     >>> [len(r) for r in oriented_rings(shapely.box(0, 0, 1, 1))]
     [4]
     """
-    rings: list[FloatArray] = []
-    for polygon in polygon_parts(shape):
-        for ring, sign in [(polygon.exterior, 1.0)] + [(h, -1.0) for h in polygon.interiors]:
-            points = shapely.get_coordinates(ring)[:-1]
-            rings.append(points if signed_area(points) * sign > 0 else points[::-1])
-    return rings
+    rings, owners = shapely.get_rings(polygon_parts(shape), return_index=True)
+    points, rows = shapely.get_coordinates(rings, return_index=True)
+    # The first ring of a polygon is its outer one; the last point of a ring is its first.
+    signs = np.where(np.diff(owners, prepend=-1) > 0, 1.0, -1.0)
+    split = np.split(points, np.flatnonzero(np.diff(rows)) + 1) if len(rings) else []
+    turned = [ring[:-1] for ring in split]
+    return [
+        ring if signed_area(ring) * sign > 0 else ring[::-1]
+        for ring, sign in zip(turned, signs, strict=True)
+    ]
 
 
 def signed_area(points: FloatArray) -> float:
@@ -101,9 +123,9 @@ def signed_area(points: FloatArray) -> float:
     >>> signed_area(np.array([[0, 0], [1, 0], [1, 1], [0, 1.0]]))
     1.0
     """
-    shifted = points - points[0]
-    x, y = shifted[:, 0], shifted[:, 1]
-    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+    # About the first point, whose own two terms are then 0.
+    x, y = (points[1:] - points[0]).T
+    return 0.5 * float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
 
 
 def _without_repeats(ring: FloatArray) -> FloatArray:

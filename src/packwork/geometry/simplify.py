@@ -109,5 +109,5 @@ def hull_areas(outlines: Sequence[Outline]) -> FloatArray:
     known: dict[int, float] = {}
     for outline in outlines:
         if id(outline) not in known:
-            known[id(outline)] = hull(outline).area
+            known[id(outline)] = shapely.convex_hull(shapely.linestrings(outline.points)).area
     return np.array([known[id(outline)] for outline in outlines])

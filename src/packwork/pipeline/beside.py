@@ -7,18 +7,11 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.scene.layout import Layout
 from packwork.scene.neighbours import side_by_side
-from packwork.solve.shaped import seen_posed
-
-RESOLUTION = 600
-"""Pixels on the longer side of an image in which the outlines would look the same as the
-simpler ones that distances are taken between. Larger is slower and no better. Chosen."""
 
 
 def beside(layout: Layout) -> IntArray:
     """``(m, 2)`` pairs of items that lie side by side, as ``scene.neighbours`` says."""
-    outlines = [item.outline for item in layout.items]
-    seen = seen_posed(outlines, layout.poses, RESOLUTION / layout.container.side)
-    placed = [outline.mapped(layout.poses.matrix(k)) for k, outline in enumerate(seen)]
+    placed = [item.outline.mapped(layout.poses.matrix(k)) for k, item in enumerate(layout.items)]
     return side_by_side(placed, layout.poses.x, layout.poses.y)
 
 

@@ -32,7 +32,7 @@ from packwork.start.fitting import SECTORS
 from packwork.start.voids import copies_for_voids
 
 ROUNDS = {"draft": 4, "normal": 8, "best": 16}
-"""Linear programmes of each item after each round of newcomers, by effort. Measured in
+"""Linear programmes of each item after each round of fillers, by effort. Measured in
 docs/benchmarks-quality."""
 
 MORE, AT_LEAST = 0.4, 30
@@ -84,7 +84,7 @@ def fill_gaps(
 
     Each round finds the voids in an image, puts copies where they fit, and lets all items
     that may yield grow and make room in exact geometry. Where sizes are data or rules
-    hold items, only the newcomers move.
+    hold items, only the fillers move.
     """
     run = _Run(job, start, exact, observer, until_over(stop, job.seconds_left(1.0)))
     ending = None if exact.clean else "the layout was not clean"
@@ -113,7 +113,7 @@ class _Run:
         own = np.array([outline.area for outline in self._shapes])
         extents = np.array([outline.extent for outline in self._shapes])
         self._smallest = job.recipe.smallest_cu(job.container) / extents
-        # No newcomer outgrows what is a fair share for the items of before.
+        # No filler outgrows what is a fair share for the items of before.
         self._largest = np.sqrt(job.container.outline.area / self._first / own)
         if job.words is not None and not job.recipe.filler:
             self._largest = np.minimum(
@@ -122,7 +122,7 @@ class _Run:
         self._gap = gap_with_bulge(job, np.arange(self._first), self._ranges[1])
 
     def round(self) -> str | None:
-        """One round of newcomers; why the last one was the last, or None."""
+        """One round of fillers; why the last one was the last, or None."""
         recipe, before = self._job.recipe, self.coverage()
         if recipe.target_coverage is not None and before >= recipe.target_coverage:
             return f"{100 * recipe.target_coverage:g} % are covered"
@@ -174,7 +174,7 @@ class _Run:
         placed = [outline.mapped(self.poses.matrix(k)) for k, outline in enumerate(outlines)]
         turns = 2 * np.pi * np.arange(SECTORS) / SECTORS
         nearest = nearest_allowed(turns, rotation.limit, rotation.choices)
-        comers = copies_for_voids(
+        fillers = copies_for_voids(
             container,
             placed,
             self._shapes,
@@ -185,11 +185,11 @@ class _Run:
             gap=self._gap,
             rng=self._rng,
         )
-        angle = nearest_allowed(comers.poses.angle, rotation.limit, rotation.choices)
-        poses = self.poses.followed_by(replace(comers.poses, angle=angle))
-        shapes = [*outlines, *(self._shapes[k] for k in comers.sort)]
-        stay, poses = admitted(container, shapes, poses, len(comers.sort), self._gap)
-        here = np.array([*self.added, *comers.sort], dtype=np.int64)[
+        angle = nearest_allowed(fillers.poses.angle, rotation.limit, rotation.choices)
+        poses = self.poses.followed_by(replace(fillers.poses, angle=angle))
+        shapes = [*outlines, *(self._shapes[k] for k in fillers.sort)]
+        stay, poses = admitted(container, shapes, poses, len(fillers.sort), self._gap)
+        here = np.array([*self.added, *fillers.sort], dtype=np.int64)[
             stay[self._first :] - self._first
         ]
         large = poses.scale[self._first :] >= self._smallest[here]

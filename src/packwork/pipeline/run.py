@@ -17,11 +17,10 @@ from packwork.levels import refined_levels
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.measure import measure
 from packwork.metrics.pixel import pixel_metrics
-from packwork.pipeline.again import finished_well
 from packwork.pipeline.beginning import Beginning, begin
 from packwork.pipeline.beside import same_kind_beside
 from packwork.pipeline.dressing import dressed
-from packwork.pipeline.finishing import unfinished
+from packwork.pipeline.finishing import finished, unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn
@@ -96,7 +95,7 @@ def run(
     poses, exact, filling, ids = outcome.poses, None, None, None
     if recipe.finish == "exact":
         with clock.time("finish"):
-            exact = finished_well(job, start, poses, observer, stop)
+            exact = finished(job, start, poses, observer, stop)
             poses = exact.poses
     if exact is not None and recipe.fills_gaps:
         with clock.time("gaps"):

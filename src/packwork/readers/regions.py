@@ -4,13 +4,12 @@ from __future__ import annotations
 
 from typing import Literal, TypeAlias
 
-import shapely
-from shapely.geometry import Polygon
+from shapely.geometry import MultiPolygon, Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region, polygon_parts, silhouette
+from packwork.geometry.polygon import Region, polygon_parts, silhouette, united
 from packwork.readers.unfit import UnfitError
 
 Holes: TypeAlias = Literal["fill", "keep"]
@@ -36,26 +35,28 @@ def clean_union(*regions: Region, speck: float = SPECK) -> Region:
 
     Examples
     --------
+    >>> import shapely
     >>> clean_union(shapely.box(0, 0, 1, 1), shapely.box(5, 5, 5.0001, 5.0001)).area
     1.0
     """
-    united = shapely.union_all([p for region in regions for p in polygon_parts(region)])
-    if united.area == 0:
+    whole = united(regions)
+    if whole.area == 0:
         raise UnfitError("paints no area; give at least one filled or stroked shape")
-    left, top, right, bottom = united.bounds
+    left, top, right, bottom = whole.bounds
     extent = max(right - left, bottom - top)
-    if extent < SMALLEST_EXTENT_PX or united.area < THINNEST * extent**2:
+    if extent < SMALLEST_EXTENT_PX or whole.area < THINNEST * extent**2:
         raise UnfitError(
             f"paints only {right - left:.2g} x {bottom - top:.2g} px, too little to be placed; "
             "give a larger or thicker shape"
         )
-    smallest = speck * united.area
+    smallest = speck * whole.area
     parts = [
         Polygon(part.exterior, [h for h in part.interiors if Polygon(h).area > smallest])
-        for part in polygon_parts(united)
+        for part in polygon_parts(whole)
         if part.area > smallest
     ]
-    return parts[0] if len(parts) == 1 else shapely.union_all(parts)
+    # What lies in a hole is smaller than it: dropped with it, so parts stay apart.
+    return parts[0] if len(parts) == 1 else MultiPolygon(parts)
 
 
 def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
@@ -63,6 +64,7 @@ def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
 
     Examples
     --------
+    >>> import shapely
     >>> outline, ink, place = centred(shapely.box(2, 2, 4, 6), "fill")
     >>> outline.bounds, place[:, 2].tolist()
     ((-1.0, -2.0, 1.0, 2.0), [-3.0, -4.0])

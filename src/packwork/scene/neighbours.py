@@ -82,5 +82,6 @@ def side_by_side(outlines: Sequence[Outline], x: FloatArray, y: FloatArray) -> I
         return pairs
     radius = float(np.sqrt(np.median([outline.area for outline in outlines]) / np.pi))
     regions = np.array([outline.region for outline in outlines])
-    gaps = shapely.distance(regions[pairs[:, 0]], regions[pairs[:, 1]])
-    return np.asarray(pairs[gaps < NEAR * radius])
+    shapely.prepare(regions)
+    near = shapely.dwithin(regions[pairs[:, 0]], regions[pairs[:, 1]], NEAR * radius)
+    return np.asarray(pairs[near])

@@ -44,7 +44,7 @@ so that they do not meet in one void. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
-class Comers:
+class Fillers:
     """Copies for voids.
 
     Parameters
@@ -70,7 +70,7 @@ def copies_for_voids(
     largest: FloatArray,
     gap: float,
     rng: np.random.Generator,
-) -> Comers:
+) -> Fillers:
     """Copies that fit into the voids of a layout, in the largest first.
 
     Parameters
@@ -121,7 +121,7 @@ def copies_for_voids(
     voids, chosen = _chosen(worth, places, most, rng)
     x, y = places[voids, 1], places[voids, 0]
     angle = np.asarray(best_turns[voids, chosen] * (2 * np.pi / SECTORS), dtype=np.float64)
-    return Comers(chosen, Poses(x, y, angle, scales[voids, chosen]))
+    return Fillers(chosen, Poses(x, y, angle, scales[voids, chosen]))
 
 
 def _free_pixels(container: Container, placed: Sequence[Outline], px_per_cu: float) -> BoolArray:

@@ -2,22 +2,26 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
-import shapely
 from shapely import affinity
 
 from packwork.arrays import FloatArray
 from packwork.geometry.bezier import flatten_cubic
-from packwork.geometry.polygon import Region, region
+from packwork.geometry.polygon import Region, region, united
 from packwork.readers.svg.follow import FLATTENING
 from packwork.readers.typeface.face import Glyph, Segment, Typeface, points_of
 from packwork.readers.unfit import UnfitError
 
 LINE_STEP = 1.0
 """Distance of the base lines of a word of several lines, in ems. Chosen."""
+
+MOST_KNOWN = 4096
+"""Glyphs whose regions are remembered: those of a long Chinese text. Chosen."""
 
 _MARGIN = 0.5
 """Share of the allowed flattening that glyphs use up; the rest is rounding."""
@@ -68,9 +72,13 @@ def lettering(lines: Sequence[str], face: Typeface) -> Lettering | None:
     if not points:
         raise UnfitError("has no outlines to draw it with")
     extent = float(np.ptp(np.concatenate(points), axis=0).max())
-    tolerance = _MARGIN * FLATTENING * extent
-    covered = [region(_rings(contour, tolerance), "nonzero") for contour in contours]
-    whole = shapely.union_all([part for part in covered if not part.is_empty])
+    # Words of about one length share their glyphs.
+    tolerance = _MARGIN * FLATTENING * 2.0 ** math.floor(math.log2(extent))
+    covered = [
+        affinity.translate(_glyph_region(face, glyph.number, tolerance), glyph.x, glyph.y)
+        for glyph in placed
+    ]
+    whole = united(covered)
     em = 1 / face.units
     return Lettering(
         affinity.scale(whole, em, em, origin=(0, 0)),
@@ -111,6 +119,12 @@ def _moved(segments: Sequence[Segment], glyph: Glyph) -> list[Segment]:
         (letter, tuple(value + steps[k % 2] for k, value in enumerate(values)))
         for letter, values in segments
     ]
+
+
+@lru_cache(maxsize=MOST_KNOWN)
+def _glyph_region(face: Typeface, number: int, tolerance: float) -> Region:
+    """What a glyph covers about its origin, its curves followed to ``tolerance``."""
+    return region(_rings(face.drawing(number), tolerance), "nonzero")
 
 
 def _rings(segments: Sequence[Segment], tolerance: float) -> list[FloatArray]:
