@@ -39,8 +39,8 @@ class Step:
     is_last
         Whether it is the last one of its level; all are told of that.
     ids
-        ``(n,)`` what each item is called by, from 0, where newcomers have joined the run and
-        some of them have left it; None: their places in ``poses``.
+        ``(n,)`` what each item is called by, from 0, where fillers have joined the run and some
+        of them have left it; None: their places in ``poses``.
     """
 
     level: int

@@ -60,7 +60,7 @@ def test_times_and_keyframes_belong_together() -> None:
         Track(np.array([0.0, 1.0]), np.zeros((1, 3, 5)))
 
 
-def test_newcomers_take_their_time() -> None:
+def test_fillers_take_their_time() -> None:
     before, after = poses([0.0, 90.0], 0.0, scale=[1.0, 0.0]), poses([0.0, 90.0], 0.0)
     times = track_of([before, after, after, after], np.ones(2)).times
     assert np.diff(times)[0] > 3 * np.diff(times)[1]

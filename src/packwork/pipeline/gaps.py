@@ -195,9 +195,9 @@ class _Run:
         large = poses.scale[self._first :] >= self._smallest[here]
         kept = np.append(np.arange(self._first), self._first + np.flatnonzero(large))
         arrived = int(large.sum()) - len(self.added)
-        comers_ids = self._tried + np.arange(len(comers.sort))
-        self._ids = np.append(self._ids, comers_ids)[stay][kept]
-        self._tried += len(comers_ids)
+        ids = self._tried + np.arange(len(fillers.sort))
+        self._ids = np.append(self._ids, ids)[stay][kept]
+        self._tried += len(ids)
         self.poses, self.added = poses.some(kept), [int(k) for k in here[large]]
         return arrived
 
