@@ -92,6 +92,13 @@ def words(
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     text: shared.Text = "outlines",
+    film: shared.Film = None,
+    fps: shared.Fps = None,
+    seconds: shared.Seconds = None,
+    hold: shared.Hold = None,
+    loop: shared.Loop = None,
+    easing: shared.Easing = None,
+    film_pixels: shared.FilmPixels = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -108,9 +115,8 @@ def words(
     [bold]packwork words cat ar.txt --font "Noto Naskh Arabic"[/]  any script
     """
     with clear_errors():
-        from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.running import outputs_asked, run_and_write
         from packwork.pipeline.wording import words_recipe
-        from packwork.writers import write_options
 
         recipe = words_recipe(
             container,
@@ -155,12 +161,10 @@ def words(
             start=start,
             losses=shared.loss_weights(loss),
         )
-        drawn = write_options(
-            pixels=pixels, background=background, show_container=show_container,
-            flatten=flatten, text=text,
-        )  # fmt: skip
-        outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT], options=drawn, report=report, diagnose=diagnose,
-            recipe=save_recipe,
+        outputs = outputs_asked(
+            output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
+            film_pixels=film_pixels, recipes=recipe.film,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

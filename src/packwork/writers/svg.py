@@ -38,8 +38,10 @@ path and the place, 2.4 half steps in all. Derived."""
 NAME_LENGTH = 80
 """Characters of a name that are kept: it is repeated on every copy. Chosen."""
 
-_CONTAINER_STROKE = "#1a202c"
-_CONTAINER_STROKE_SHARE = 1 / 500
+CONTAINER_STROKE = "#1a202c"
+"""Colour of the container's drawn line. Chosen by eye."""
+
+CONTAINER_STROKE_SHARE = 1 / 500
 """Width of the container's drawn line, as a share of the canvas. Chosen by eye."""
 
 
@@ -239,8 +241,8 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
             "id": "container",
             "data-name": container.name[:NAME_LENGTH],
             "fill": "none",
-            "stroke": _CONTAINER_STROKE,
-            "stroke-width": f"{container.side * _CONTAINER_STROKE_SHARE:.6g}",
+            "stroke": CONTAINER_STROKE,
+            "stroke-width": f"{container.side * CONTAINER_STROKE_SHARE:.6g}",
             "display": "" if shown else "none",
         }
     )
