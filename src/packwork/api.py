@@ -198,10 +198,7 @@ def fill(
         items=[entry.source if isinstance(entry, Item) else str(entry) for entry in given],
         **options,
     )
-    chosen: list[Item] | None = None
-    if any(isinstance(entry, Item) for entry in given):
-        chosen = _as_items(given, recipe.holes, recipe.strict)
-    return _run(recipe, chosen, whole, observer, stop, progress)
+    return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress)
 
 
 def words(
@@ -258,6 +255,52 @@ def words(
         **options,
     )
     return _run(recipe, None, whole, observer, stop, progress)
+
+
+def pile(
+    container: str | Path | Container,
+    items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
+    *,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    **options: Any,
+) -> Layout:
+    """Heap items of given sizes, under forces, until they are at rest.
+
+    Parameters
+    ----------
+    container
+        As for :func:`fill`; an SVG of open paths is open where they are, and ``"none"``
+        lets items lie anywhere.
+    items, observer, stop, progress
+        As for :func:`fill`.
+    options
+        As on the command line: ``force`` (one or several), ``open``, ``size``,
+        ``compact``, and of those of :func:`fill` ``count``, ``font``, ``canvas``, ``seed``,
+        ``rotate``, ``padding``, ``weights``, ``holes``, ``strict``, ``palette``, ``rules``.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If an option has no meaning, or no item fits.
+
+    Examples
+    --------
+    >>> layout = pile("square", "circle", count=3, size="30%", seed=1)
+    >>> layout.metrics["exact"]["OO"], bool(layout.poses.y.mean() > 400)
+    (0.0, True)
+    """
+    given = [items] if isinstance(items, str | Path | Item) else list(items)
+    whole = container if isinstance(container, Container) else None
+    recipe = pipeline.pile_recipe(
+        whole.source if whole else str(container),
+        [entry.source if isinstance(entry, Item) else str(entry) for entry in given],
+        **options,
+    )
+    return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress)
 
 
 def read_items(
@@ -340,15 +383,18 @@ def _run(
     return layout
 
 
-def _as_items(
-    given: Sequence[str | Path | Item], holes: Literal["fill", "keep"], strict: bool
-) -> list[Item]:
-    chosen: list[Item] = []
-    for entry in given:
-        chosen += (
+def _as_items(given: Sequence[str | Path | Item], recipe: Recipe) -> list[Item] | None:
+    """Items where some are given as such; None if all are names for the recipe."""
+    if not any(isinstance(entry, Item) for entry in given):
+        return None
+    holes, strict = recipe.holes, recipe.strict
+    return [
+        item
+        for entry in given
+        for item in (
             [entry] if isinstance(entry, Item) else read_items(entry, holes=holes, strict=strict)
         )
-    return chosen
+    ]
 
 
 def _public(layout: scene.Layout) -> Layout:

@@ -7,7 +7,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
+    AfterValidator,
     BaseModel,
+    BeforeValidator,
     ConfigDict,
     Field,
     ValidationError,
@@ -17,7 +19,9 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.levels import parse_levels
+from packwork.forces.spec import ForceTexts
+from packwork.levels import checked_levels, parse_levels
+from packwork.piles import PileOptions
 from packwork.presets import PRESETS
 from packwork.readers.words.options import WordOptions
 from packwork.refusals import length_asked, refusal
@@ -112,6 +116,13 @@ class Recipe(BaseModel):
     """New colours for items of one colour, neighbours unlike: #e63946,#457b9d or okabe-ito,
     tol-bright, tol-vibrant, tol-muted, tol-high-contrast."""
 
+    force: ForceTexts = None
+    """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
+    balance or together; docs/forces.md has all. May be given several times."""
+
+    pile: PileOptions | None = None
+    """Items of given sizes, heaped by forces (``packwork pile``)."""
+
     apart: bool = False
     """Keep copies of one item from lying side by side, as far as that goes."""
 
@@ -165,7 +176,7 @@ class Recipe(BaseModel):
     preset: Literal["default", "paper"] = "default"
     """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
 
-    levels: str | None = None
+    levels: Annotated[str | None, BeforeValidator(as_text), AfterValidator(checked_levels)] = None
     """Resolutions from coarse to fine, pixels on the longer side, each with its share of
     the epochs, as 50:9,200:23,600:68 (the default); without shares, as 50,200,600 (the
     paper's), they are even."""
@@ -183,12 +194,6 @@ class Recipe(BaseModel):
                 "font", f"sets a container of words, as in text:HELLO, not {container!r}"
             )
         return str(font) if isinstance(font, Path) else font
-
-    @field_validator("levels", mode="before")
-    @classmethod
-    def _levels_are_text_too(cls, value: object) -> object:
-        """Let Python say ``levels=(50, 200)``."""
-        return as_text(value)
 
     @field_validator("rotate", mode="before")
     @classmethod
@@ -255,13 +260,6 @@ class Recipe(BaseModel):
             if not math.isfinite(weight):
                 raise RecipeError("losses", f"the weight of {name} must be a number, not {weight}")
         return losses
-
-    @field_validator("levels")
-    @classmethod
-    def _levels_are_numbers(cls, text: str | None) -> str | None:
-        if text is not None:
-            parse_levels(text)
-        return text
 
     @model_validator(mode="after")
     def _sizes_can_be_bounded(self) -> Recipe:

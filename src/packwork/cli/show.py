@@ -98,3 +98,18 @@ def filling_line(filling: Mapping[str, Any]) -> str:
         f"{filling['added']} smaller items fill voids; "
         f"{100 * covered:.2f} % covered{short}: {filling['ending']}"
     )
+
+
+def pile_line(pile: Mapping[str, Any]) -> str:
+    """How a heap came to rest, and how tight it is if that was asked.
+
+    Examples
+    --------
+    >>> pile_line({"rounds": 90, "compact": {"hull": 0.61, "circle": 0.4, "box": 0.5}})
+    'at rest after 90 rounds; covers 61.00 % of its hull, 40.00 % of its circle, 50.00 % of its box'
+    """
+    line = f"at rest after {pile['rounds']} rounds"
+    if "compact" not in pile:
+        return line
+    shares = [f"{_percent(share)} of its {name}" for name, share in pile["compact"].items()]
+    return f"{line}; covers {', '.join(shares)}"

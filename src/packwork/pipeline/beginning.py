@@ -11,6 +11,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.given import given_scales
 from packwork.pipeline.job import Job
 from packwork.pipeline.limiting import check_poses, held_to, item_limits, pinned_scales
 from packwork.rules import Rotation
@@ -29,7 +30,6 @@ from packwork.start.angles import nearest_allowed, start_angles
 from packwork.start.first_poses import disc_radii, first_poses
 from packwork.start.relocate import relocated
 from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
-from packwork.units import convert
 
 NOMINAL_COVERAGE = 0.82
 """With free sizes: area of all items' hulls at their nominal sizes over the container's.
@@ -81,7 +81,7 @@ def begin(job: Job, container: Container, outlines: Sequence[Outline]) -> Beginn
     rng = np.random.default_rng(recipe.seed)
     nominal, scales = _scales(job, container, outlines)
     earlier = None if job.earlier is None else _earlier_poses(job, job.earlier, nominal)
-    angles = _angles(job, rng, earlier)
+    angles = first_angles(job, rng, earlier)
     limits = item_limits(job, nominal, scales, angles) if job.is_limited else None
     if limits is not None:
         scales = np.clip(scales, limits.smallest, limits.largest)
@@ -124,8 +124,8 @@ def _scales(
     seen = [outlines[k] for k in free]
     areas = np.array([outline.area for outline in seen])
     if recipe.sizes == "fixed":
-        # Items are in px, as their files say; the canvas may be in mm.
-        nominal[free] = scales[free] = convert(1.0, "px", container.unit)
+        given = given_scales(recipe, job.items, job.weights, container.unit, container.side)
+        nominal[free] = scales[free] = given[free]
     elif recipe.sizes == "shared":
         nominal[free] = scales[free] = shared_scales(true[free], areas, job.weights[free], total)
     else:
@@ -135,7 +135,7 @@ def _scales(
     return nominal, scales
 
 
-def _angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> FloatArray:
+def first_angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> FloatArray:
     """First angles, or those of an earlier layout: as the recipe, rules and pins allow."""
 
     def allowed(rotation: Rotation, items: IntArray) -> FloatArray:

@@ -92,6 +92,10 @@ class Run:
         What of that does not hold although it was promised, a sentence each.
     filling
         How the voids were filled, if that was asked for.
+    left_out
+        Unplaced items that are not in the layout.
+    pile
+        How the items lie, if they were heaped.
     """
 
     layout: Layout
@@ -104,6 +108,8 @@ class Run:
     certified: bool = False
     broken: tuple[str, ...] = ()
     filling: Filling | None = None
+    left_out: int = 0
+    pile: Mapping[str, Any] | None = None
 
     @property
     def is_as_asked(self) -> bool:
@@ -119,7 +125,10 @@ class Run:
     @property
     def asked_for(self) -> int:
         """Items that were to be placed; words that no font could draw are among them."""
-        return max([len(self.layout.items), *(one.index + 1 for one in self.unplaced)])
+        placed = len(self.layout.items)
+        if self.left_out:
+            return placed + self.left_out
+        return max([placed, *(one.index + 1 for one in self.unplaced)])
 
     def report(self, write_seconds: float = 0.0) -> dict[str, Any]:
         """Plain values for ``--report``."""
@@ -138,6 +147,7 @@ class Run:
             "promised": self.layout.manifest["promised"] is not None,
             "broken": list(self.broken),
             "filling": None if self.filling is None else asdict(self.filling),
+            "pile": None if self.pile is None else dict(self.pile),
             "ending": self.ending.value,
             "seed": self.layout.manifest["seed"],
         }

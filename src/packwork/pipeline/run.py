@@ -3,28 +3,28 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import replace
 
 import numpy as np
 
 from packwork.errors import RecipeError
-from packwork.finish.finish import Finished, finish
+from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
+from packwork.forces.forces import Forces
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
 from packwork.levels import refined_levels
-from packwork.metrics.certificate import Promise, broken
-from packwork.metrics.measure import measure
 from packwork.metrics.pixel import pixel_metrics
 from packwork.pipeline.again import finished_well
-from packwork.pipeline.beginning import Beginning, begin
-from packwork.pipeline.beside import same_kind_beside
-from packwork.pipeline.dressing import dressed
+from packwork.pipeline.beginning import begin
 from packwork.pipeline.finishing import unfinished
+from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
-from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn
+from packwork.pipeline.judging import Judged, judged
+from packwork.pipeline.outcome import Run, find_unplaced
+from packwork.pipeline.piling import run_pile
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -32,7 +32,7 @@ from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
-from packwork.solve.solver import Outcome, solve
+from packwork.solve.solver import solve
 from packwork.solve.stand_ins import stand_ins
 
 LEVELS_SHARE = 0.6
@@ -73,6 +73,8 @@ def fill(
 def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
     """Solve and measure what was read; the second half of :func:`fill`."""
     recipe, clock = job.recipe, job.clock
+    if recipe.pile is not None:
+        return run_pile(job, recipe.pile, observer, stop)
     with clock.time("start"):
         outlines = stand_ins([item.outline for item in job.items], recipe.outline)
         padding = recipe.padding_cu(job.container)
@@ -81,8 +83,9 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
     with clock.time("levels"):
         options = _solve_options(job, padding)
         outcome = solve(
-            region, outlines, start.poses, start.nominal, options, observer, stop, start.limits
-        )
+            region, outlines, start.poses, start.nominal, options, observer, stop, start.limits,
+            _forces(job),
+        )  # fmt: skip
     poses, exact, filling = outcome.poses, None, None
     if recipe.finish == "exact":
         with clock.time("finish"):
@@ -93,49 +96,14 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
             filled = fill_gaps(job, start, exact, observer, stop)
         job, start, exact, filling = filled.job, filled.start, filled.exact, filled.filling
         poses = exact.poses
-    return _judged(job, start, outcome, exact, poses, filling)
+    unplaced = None if exact is None else unfinished(job, exact)
+    return judged(job, Judged(poses, start.method, start.limits, outcome, unplaced, filling))
 
 
-def _judged(
-    job: Job,
-    start: Beginning,
-    outcome: Outcome,
-    exact: Finished | None,
-    poses: Poses,
-    filling: Filling | None,
-) -> Run:
-    """The result, measured and compared with what was promised."""
-    recipe, clock = job.recipe, job.clock
-    layout = Layout(job.container, job.items, poses, job.weights)
-    with clock.time("measure"):
-        metrics = measure(layout)
-        unplaced = () if exact is None else unfinished(job, exact)
-        if not unplaced and (exact is None or not metrics.exact.is_clean):
-            unplaced = find_unplaced(layout, start.limits)
-        unplaced += undrawn(job)
-        shares = recipe.sizes == "shared" and start.limits is None
-        promise = Promise(recipe.padding_cu(job.container), shares) if exact is not None else None
-        faults = () if promise is None else broken(promise, layout, metrics.exact)
-        beside = None if start.limits is None else same_kind_beside(layout, start.limits.kinds)
-    certified = promise is not None and not faults and not unplaced
-    said = manifest(job, start.method, outcome, metrics, unplaced, beside)
-    said |= {
-        "certified": certified,
-        "promised": None if promise is None else asdict(promise),
-        "filling": None if filling is None else asdict(filling),
-    }
-    return Run(
-        layout=replace(dressed(job, layout), manifest=said),
-        metrics=metrics,
-        seconds=clock.seconds,
-        ending=outcome.ending,
-        unplaced=unplaced,
-        skipped=job.skipped,
-        beside=beside,
-        certified=certified,
-        broken=faults,
-        filling=filling,
-    )
+def _forces(job: Job) -> Forces | None:
+    """What pulls items about, if anything."""
+    texts = job.recipe.force
+    return forces_of(texts, job.items, job.weights, job.container) if texts else None
 
 
 def _solve_options(job: Job, padding: float) -> SolveOptions:

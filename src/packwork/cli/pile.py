@@ -1,0 +1,100 @@
+"""``packwork pile``: items of given sizes, heaped by forces."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from packwork.cli import options as shared
+from packwork.cli.failure import clear_errors
+from packwork.cli.fill import ItemNames
+from packwork.piles import PileOptions
+
+DEFAULT_OUTPUT = Path("pile.svg")
+
+
+def _flag(field: str) -> Any:
+    described = PileOptions.model_fields[field].description or ""
+    return typer.Option(f"--{field}", help=described, rich_help_panel=shared.PLACING)
+
+
+def pile(
+    container: Annotated[
+        str,
+        typer.Argument(
+            metavar="CONTAINER",
+            help="A mask (PNG, JPEG: dark is inside), an SVG (an open path is a wall with an "
+            "opening), text:WORD, a built-in name such as square, or none.",
+        ),
+    ],
+    items: ItemNames = None,
+    output: shared.Output = None,
+    force: shared.Force = None,
+    open: Annotated[list[str] | None, _flag("open")] = None,
+    size: Annotated[str | None, _flag("size")] = None,
+    compact: Annotated[bool, _flag("compact")] = False,
+    count: shared.Count = None,
+    font: shared.Font = None,
+    canvas: shared.Canvas = None,
+    rotate: shared.Rotate = "free",
+    padding: shared.Padding = "0",
+    weights: shared.Weights = None,
+    palette: shared.Palette = None,
+    holes: shared.Holes = "fill",
+    strict: shared.Strict = False,
+    seed: shared.Seed = 0,
+    pixels: shared.Pixels = 1_600,
+    background: shared.Background = None,
+    show_container: shared.ShowContainer = False,
+    flatten: shared.Flatten = False,
+    report: shared.Report = None,
+    diagnose: shared.Diagnose = None,
+    save_recipe: shared.SaveRecipe = None,
+    quiet: shared.Quiet = False,
+) -> None:
+    """Heap items of given sizes, under forces, until they are at rest.
+
+    [bold]packwork pile square icons -n 300 --size 6% --open top[/]  an open bin
+
+    [bold]packwork pile jar.svg icons -n 80[/]  an open path is a jar
+
+    [bold]packwork pile none circle -n 200 --force "towards centre"[/]  a round pack
+    """
+    with clear_errors():
+        from packwork.cli.running import Outputs, run_and_write
+        from packwork.pipeline import pile_recipe
+        from packwork.writers import write_options
+
+        recipe = pile_recipe(
+            container,
+            items or ["builtin:icons"],
+            force=force,
+            open=open,
+            size=size,
+            compact=compact,
+            count=count,
+            font=font,
+            canvas=canvas,
+            rotate=rotate,
+            padding=padding,
+            weights=weights,
+            palette=palette,
+            holes=holes,
+            strict=strict,
+            seed=seed,
+        )
+        outputs = Outputs(
+            files=output or [DEFAULT_OUTPUT],
+            options=write_options(
+                pixels=pixels,
+                background=background,
+                show_container=show_container,
+                flatten=flatten,
+            ),
+            report=report,
+            diagnose=diagnose,
+            recipe=save_recipe,
+        )
+        raise typer.Exit(run_and_write(recipe, outputs, quiet))

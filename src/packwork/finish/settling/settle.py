@@ -1,0 +1,138 @@
+"""Rounds of small steps down the forces' heights until nothing goes lower: at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.finish._kernels import TRAVEL
+from packwork.finish.arrangement import Arrangement
+from packwork.finish.blocks import blocks
+from packwork.finish.contact import _kernels as contact
+from packwork.finish.settling import _kernels
+from packwork.forces.forces import Forces, Pull
+from packwork.progress import Stop
+
+FIRST_TRUST, LAST_TRUST = 0.25, 3e-3
+"""First and last bound of a move, in sides of the square of an item's mean area. A larger
+first one falls faster and fails more checks; a smaller last one gains what nobody sees.
+Tried."""
+
+NARROWING = 0.6
+"""Factor on that bound once a round gains little. Larger takes more rounds, smaller leaves
+way that was to be gained by larger steps. Tried."""
+
+WORTHWHILE = 0.08
+"""Share of the bound that a round has to gain, as the mean way down, to be followed by one
+of the same bound. Larger leaves way, smaller takes more rounds. Tried."""
+
+REST = 1e-5
+"""Mean way down of a round, as a share of the canvas, below which all is at rest at the last
+bound. Derived: a hundredth of what counts as lying lower (a thousandth of the canvas)."""
+
+MOST_ROUNDS = 400
+"""Rounds at most. Chosen."""
+
+
+class Settling:
+    """Items of fixed sizes on their way down; the arrangement never has a conflict.
+
+    Parameters
+    ----------
+    arrangement
+        Without conflicts; changed in place.
+    forces
+        One strength for each item of the arrangement.
+    areas
+        ``(n,)`` how much each item counts.
+    turns
+        Farthest turns back and on, ``(n,)`` each, rad.
+    gap
+        Least distance that the check asks for.
+    hair
+        The part of it that nobody asked for.
+    side
+        Longer side of the canvas.
+    """
+
+    def __init__(
+        self,
+        arrangement: Arrangement,
+        forces: Forces,
+        areas: FloatArray,
+        turns: tuple[FloatArray, FloatArray],
+        gap: float,
+        hair: float,
+        side: float,
+    ) -> None:
+        self.arrangement, self._forces, self._areas, self._turns = arrangement, forces, areas, turns
+        self._gap, self._hair, self._side = gap, hair, side
+        self._spacing = float(np.sqrt(np.mean(areas)))
+        pressing = forces(arrangement.places[:, :2], areas).slopes
+        self._weight = max(float(np.hypot(pressing[:, 0], pressing[:, 1]).sum()), 1e-300)
+
+    def pull(self) -> Pull:
+        """Heights and slopes of the items where they are now."""
+        return self._forces(self.arrangement.places[:, :2], self._areas)
+
+    def mean_height(self) -> float:
+        """Area-weighted mean height, canvas units."""
+        return self.pull().value / self._weight
+
+    def settle(
+        self,
+        tell: Callable[[FloatArray], None],
+        stop: Stop,
+        trusts: tuple[float, float] = (FIRST_TRUST, LAST_TRUST),
+    ) -> int:
+        """Let all go down until they are at rest; how many rounds it took.
+
+        Parameters
+        ----------
+        tell
+            Called with the places after each round.
+        stop
+            Asked before each round.
+        trusts
+            First and last bound of a move.
+        """
+        trust = trusts[0]
+        for rounds in range(MOST_ROUNDS):
+            if stop():
+                return rounds
+            gained = self._round(trust * self._spacing, rounds)
+            tell(self.arrangement.places)
+            is_last = trust <= trusts[1]
+            if is_last and gained < REST * self._side:
+                return rounds + 1
+            if gained < WORTHWHILE * trust * self._spacing:
+                trust = max(trust * NARROWING, trusts[1])
+        return MOST_ROUNDS
+
+    def _round(self, trust: float, turn: int) -> float:
+        """One step of each block, the lowest first; the mean way down."""
+        before = self.mean_height()
+        pull = self.pull()
+        low = pull.parts / self._areas
+        found = blocks(self.arrangement.places[:, :2], turn)
+        for block in sorted(found, key=lambda items: float(low[items].mean())):
+            self._step(block, trust)
+        return before - self.mean_height()
+
+    def _step(self, items: IntArray, trust: float) -> None:
+        board = self.arrangement.board
+        slopes = self.pull().slopes[items]
+        if not slopes.any():
+            return
+        before = self.arrangement.places[items].copy()
+        height = self.mean_height()
+        pairs = contact.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
+        step = _kernels.best_step(
+            board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair
+        )
+        _kernels.move(board, items, step, pairs, self._gap)
+        if self.mean_height() > height:
+            # Near a point the slope turns within a step.
+            self.arrangement.put(items, before)
