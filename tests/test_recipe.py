@@ -48,7 +48,7 @@ BAD: dict[str, list[Any]] = {
     "palette": ["nocolour", "", 3],
     "apart": ["perhaps", 7],
     "force": [3, "", "dwn", ["down", 3], "towards 1", "down strength=0", "align"],
-    "pile": [3, "open", {"open": "lid"}, {"size": "0"}, {"size": "big"}, {"opne": "top"}],
+    "pile": [3, "open", {"open": "lid"}, {"compact": "very"}, {"opne": "top"}],
     "rules": [3, "star", [3], [{"items": 5}], [{"itmes": "star"}], [{"items": "a", "turn": 3}]],
     "finish": ["rough", "", True],
     "target_coverage": [0, 1, 94, -0.5, NAN, "most"],
