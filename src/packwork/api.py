@@ -276,9 +276,8 @@ def pile(
     items, observer, stop, progress
         As for :func:`fill`.
     options
-        As on the command line: ``force`` (one or several), ``open``, ``size``,
-        ``compact``, and of those of :func:`fill` ``count``, ``font``, ``canvas``, ``seed``,
-        ``rotate``, ``padding``, ``weights``, ``holes``, ``strict``, ``palette``, ``rules``.
+        As on the command line: ``force`` (one or several), ``open``, ``size``, ``emit``,
+        ``release``, ``compact``, and those of :func:`fill` about items, canvas and seed.
 
     Raises
     ------
@@ -387,14 +386,13 @@ def _as_items(given: Sequence[str | Path | Item], recipe: Recipe) -> list[Item] 
     """Items where some are given as such; None if all are names for the recipe."""
     if not any(isinstance(entry, Item) for entry in given):
         return None
-    holes, strict = recipe.holes, recipe.strict
-    return [
-        item
-        for entry in given
-        for item in (
-            [entry] if isinstance(entry, Item) else read_items(entry, holes=holes, strict=strict)
-        )
-    ]
+    chosen: list[Item] = []
+    for entry in given:
+        if isinstance(entry, Item):
+            chosen.append(entry)
+        else:
+            chosen += read_items(entry, holes=recipe.holes, strict=recipe.strict)
+    return chosen
 
 
 def _public(layout: scene.Layout) -> Layout:

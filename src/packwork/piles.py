@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from dataclasses import dataclass
+from typing import Annotated, Literal, TypeAlias, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, field_validator
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
+from packwork.forces.spec import is_pair
 from packwork.refusals import length_asked
 
 Side: TypeAlias = Literal["top", "bottom", "left", "right"]
@@ -18,6 +20,57 @@ def _one_or_more(value: object) -> object:
     if isinstance(value, str):
         return (value,)
     return () if value is None else value
+
+
+@dataclass(frozen=True)
+class Emitter:
+    """Where items come from, as it was written.
+
+    Parameters
+    ----------
+    side
+        An edge of the canvas; None for none.
+    points
+        Pairs ``X,Y`` of lengths: a point, or the corners of a line.
+    file
+        Of a drawn curve; None for none.
+    region
+        File or built-in name; None for none.
+    """
+
+    side: Side | None = None
+    points: tuple[str, ...] = ()
+    file: str | None = None
+    region: str | None = None
+
+
+def parse_emitter(text: str) -> Emitter:
+    """Emitter of its text.
+
+    Raises
+    ------
+    RecipeError
+        About ``emit``.
+
+    Examples
+    --------
+    >>> parse_emitter("top").side, parse_emitter("10%,0 90%,0").points
+    ('top', ('10%,0', '90%,0'))
+    """
+    words = text.split()
+    side = next((side for side in get_args(Side) if words == [side]), None)
+    if side is not None:
+        return Emitter(side=side)
+    if len(words) == 2 and words[0] == "in":
+        return Emitter(region=words[1])
+    if len(words) == 1 and words[0].lower().endswith(".svg"):
+        return Emitter(file=words[0])
+    if words and all(map(is_pair, words)):
+        return Emitter(points=tuple(words))
+    raise RecipeError(
+        "emit",
+        f"use top, bottom, left, right, X,Y, X,Y X,Y, FILE.svg or in NAME, not {text[:60]!r}",
+    )
 
 
 class PileOptions(BaseModel):
@@ -33,8 +86,30 @@ class PileOptions(BaseModel):
     """Longer side of each item, a length as for the padding; with weights, of one of weight 1.
     Default: as large as in their files."""
 
+    emit: str | None = None
+    """Where items come from: top, bottom, left, right (that edge of the canvas), X,Y (a point),
+    X,Y X,Y (a line), FILE.svg (a drawn curve) or in NAME (a region: a file or a built-in
+    name). Default: each begins at its lowest free place."""
+
+    release: Annotated[int, Field(ge=0, le=1_000)] = 0
+    """With --emit: rounds between one item and the next, so that they pour; 0 lets all begin
+    at once."""
+
     compact: bool = False
     """Report how tight the pile is: shares of its hull, its smallest circle and its box."""
+
+    @field_validator("emit")
+    @classmethod
+    def _emitter_is_known(cls, text: str | None) -> str | None:
+        if text is not None:
+            parse_emitter(text)
+        return text
+
+    @model_validator(mode="after")
+    def _released_from_somewhere(self) -> PileOptions:
+        if self.release and self.emit is None:
+            raise RecipeError("release", "says when items come, so --emit must say from where")
+        return self
 
     @field_validator("size")
     @classmethod

@@ -129,7 +129,7 @@ def _places(said: list[str], text: str) -> dict[str, Any]:
         return {"places": (said[0],), "is_line": True}
     is_line = bool(said) and said[0] == "line"
     pairs = tuple(CENTRE if word in {"centre", "center"} else word for word in said[is_line:])
-    if len(pairs) < 1 + is_line or not all(map(_is_pair, pairs)):
+    if len(pairs) < 1 + is_line or not all(map(is_pair, pairs)):
         raise RecipeError(
             "force",
             "use towards or away with centre, X,Y (several for the nearest of them), line X,Y X,Y, "
@@ -144,15 +144,21 @@ def _balance(said: list[str], text: str) -> dict[str, Any]:
     place = ["50%,50%"] if said in ([], ["centre"], ["center"]) else said
     if len(place) == 1 and place[0] in LINES:
         return {"axis": place[0], "places": (CENTRE,)}
-    if len(place) != 1 or not _is_pair(place[0]):
+    if len(place) != 1 or not is_pair(place[0]):
         raise RecipeError(
             "force", f"use balance with centre, X,Y, horizontal or vertical, not {text[:60]!r}"
         )
     return {"places": (place[0],)}
 
 
-def _is_pair(word: str) -> bool:
-    """Whether a word is ``X,Y``, each a length."""
+def is_pair(word: str) -> bool:
+    """Whether a word is ``X,Y``, each a length.
+
+    Examples
+    --------
+    >>> is_pair("50%,2mm"), is_pair("50%")
+    (True, False)
+    """
     parts = [split_length(part) for part in word.split(",")]
     return len(parts) == 2 and all(part is not None and math.isfinite(part[0]) for part in parts)
 

@@ -75,7 +75,7 @@ def _bond(spec: ForceSpec, container: Container) -> Bond:
         return Together(is_one=bool(spec.items))
     if spec.kind == "align":
         return Alignment(0 if spec.axis == "vertical" else 1)
-    point = _point(spec.places[0], container)
+    point = point_at(spec.places[0], container)
     # A vertical axis is one of x, and so on: the other coordinate does not matter.
     if spec.axis:
         point[1 if spec.axis == "vertical" else 0] = np.nan
@@ -91,25 +91,28 @@ def _field(spec: ForceSpec, container: Container) -> Field:
     elif spec.file is not None:
         field = Distance(*read_curve(spec.file, container.width, container.height))
     else:
-        points = np.array([_point(place, container) for place in spec.places])
+        points = np.array([point_at(place, container) for place in spec.places])
         field = Distance.from_line(points) if spec.is_line else Distance.from_points(points)
     if spec.reach is None:
         return field
     return Fading(field, _length(spec.reach, container, container.side))
 
 
-def _point(pair: str, container: Container) -> FloatArray:
-    """Point of ``X,Y``, percents of the canvas' width and height; may lie off the canvas."""
-    wholes = container.width, container.height
-    x, y = (
-        _length(text, container, whole) for text, whole in zip(pair.split(","), wholes, strict=True)
-    )
-    return np.array([x, y])
+def point_at(pair: str, container: Container, key: str = "force") -> FloatArray:
+    """Point of ``X,Y``, percents of the canvas' width and height; may lie off the canvas.
+
+    Raises
+    ------
+    RecipeError
+        About ``key``, if a length has no meaning.
+    """
+    pairs = zip(pair.split(","), (container.width, container.height), strict=True)
+    return np.array([_length(text, container, whole, key) for text, whole in pairs])
 
 
-def _length(text: str, container: Container, whole: float) -> float:
+def _length(text: str, container: Container, whole: float, key: str = "force") -> float:
     sign = -1.0 if text.startswith("-") else 1.0
     try:
         return sign * parse_length(text.removeprefix("-"), container.unit, whole)
     except ValueError as error:
-        raise RecipeError("force", str(error)) from None
+        raise RecipeError(key, str(error)) from None

@@ -17,6 +17,7 @@ from packwork.finish.settling.pile import Piled, pile
 from packwork.metrics.compactness import compactness
 from packwork.piles import PileOptions
 from packwork.pipeline.beginning import first_angles
+from packwork.pipeline.emitting import source_of
 from packwork.pipeline.finishing import gap_with_bulge, solid_outlines
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.given import given_scales
@@ -90,11 +91,15 @@ def run_pile(job: Job, asked: PileOptions, observer: Observer | None, stop: Stop
         discs = np.pi * (np.array([o.radius for o in outlines]) * poses.scale) ** 2
         room = opened(job.container, asked.open, job.mouths, float(discs.sum()))
         job = replace(job, container=room.container)
+        largest = float((np.array([o.radius for o in outlines]) * poses.scale).max())
+        basin = room.basin or room.container.outline
+        source = source_of(asked, room.container, basin, largest)
         forces = forces_of(job.recipe.force or (), job.items, job.weights, room.container)
     with clock.time("finish"):
         options = _options(job, poses)
         heap = pile(
             room.container, outlines, poses, forces, options, room.basin, observer, stop,
+            source=source,
             shuffle=SHUFFLE_ALONE if room.container.name == NO_CONTAINER else SHUFFLE,
         )  # fmt: skip
     return _judged(job, asked, heap, room)

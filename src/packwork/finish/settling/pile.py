@@ -16,8 +16,10 @@ from packwork.finish.offenders import find_offenders
 from packwork.finish.options import HAIR, FinishOptions
 from packwork.finish.settling.ease import ease
 from packwork.finish.settling.nestle import nestle
+from packwork.finish.settling.pour import Source, Spout, pour
 from packwork.finish.settling.settle import FIRST_TRUST, LAST_TRUST, Settling
 from packwork.finish.sizing import turn_ranges
+from packwork.forces.distance import Distance
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import Observer, Step, Stop, never
@@ -72,6 +74,7 @@ def pile(
     stop: Stop = never,
     is_placed: bool = False,
     shuffle: float = 0.0,
+    source: Source | None = None,
 ) -> Piled:
     """Poses in which items of the given sizes are at rest and nothing meets.
 
@@ -101,6 +104,8 @@ def pile(
     shuffle
         Logarithm of size within which items without a place come in random order and not the
         largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
+    source
+        Where items come from, one after another or all at once; None for their lowest places.
 
     Examples
     --------
@@ -118,7 +123,10 @@ def pile(
         return Piled(poses, np.arange(0), 0, 0.0)
     run = _Pile(container, outlines, poses, forces, options, observer, stop, shuffle)
     room = container.outline if basin is None else basin
-    run.gather(room, is_placed)
+    if source is not None:
+        run.pour(room, source)
+    else:
+        run.gather(room, is_placed)
     run.settle(room, FIRST_TRUST)
     if basin is not None and run.leave_out_what_sticks_out():
         run.settle(container.outline, ROUGH_TRUST)
@@ -170,6 +178,38 @@ class _Pile:
         self._take_over(arrangement, everyone)
         self._items = np.setdiff1d(everyone, left)
 
+    def pour(self, room: Outline, source: Source) -> None:
+        """Let items in by a source."""
+        everyone = self._items
+        arrangement = self._arrangement(room, COARSE, everyone)
+        rng = np.random.default_rng(self._options.seed)
+        queue = rng.permutation(everyone)
+        if source.every == 0:
+            near = Distance.from_points(source.points)
+            left = nestle(
+                arrangement, queue, np.arange(0), lambda points, _: near(points)[0],
+                np.zeros(len(everyone), dtype=np.int64), self._gap,
+            )  # fmt: skip
+        else:
+            spout = Spout(source, room.region, self._gap, rng)
+            settling = self._settling(arrangement, everyone)
+            tell = partial(self._tell, self._poses, everyone)
+            left, rounds = pour(settling, spout, queue, source.every, tell, self._stop)
+            self._rounds += rounds
+        self._take_over(arrangement, everyone)
+        self._items = np.setdiff1d(everyone, left)
+
+    def _settling(self, arrangement: Arrangement, items: IntArray) -> Settling:
+        return Settling(
+            arrangement,
+            self._forces.some(items),
+            self._areas[items],
+            turn_ranges(self._poses.angle[items], self._options),
+            self._gap,
+            self._hair,
+            self._container.side,
+        )
+
     def settle(self, room: Outline, first_trust: float) -> None:
         """Let the placed ones go down to rest, on coarse outlines, then on fine ones."""
         for tolerance, trusts in (
@@ -179,15 +219,7 @@ class _Pile:
             if trusts[0] < trusts[1] or len(self._items) == 0:
                 continue
             arrangement = self._arrangement(room, tolerance, self._items)
-            settling = Settling(
-                arrangement,
-                self._forces.some(self._items),
-                self._areas[self._items],
-                turn_ranges(self._poses.angle[self._items], self._options),
-                self._gap,
-                self._hair,
-                self._container.side,
-            )
+            settling = self._settling(arrangement, self._items)
             tell = partial(self._tell, self._poses, self._items)
             self._rounds += settling.settle(tell, self._stop, trusts)
             self._height = settling.mean_height()

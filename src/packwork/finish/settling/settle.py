@@ -69,17 +69,20 @@ class Settling:
     ) -> None:
         self.arrangement, self._forces, self._areas, self._turns = arrangement, forces, areas, turns
         self._gap, self._hair, self._side = gap, hair, side
+        self.active = np.arange(len(areas))
+        """Items that move; all others count as not there, and have to be far away."""
         self._spacing = float(np.sqrt(np.mean(areas)))
-        pressing = forces(arrangement.places[:, :2], areas).slopes
-        self._weight = max(float(np.hypot(pressing[:, 0], pressing[:, 1]).sum()), 1e-300)
 
     def pull(self) -> Pull:
-        """Heights and slopes of the items where they are now."""
-        return self._forces(self.arrangement.places[:, :2], self._areas)
+        """Heights and slopes of the active items where they are now."""
+        forces = self._forces if len(self.active) == len(self._areas) else (
+            self._forces.some(self.active)
+        )  # fmt: skip
+        return forces(self.arrangement.places[self.active, :2], self._areas[self.active])
 
     def mean_height(self) -> float:
-        """Area-weighted mean height, canvas units."""
-        return self.pull().value / self._weight
+        """Area-weighted mean height of the active items, canvas units."""
+        return self.pull().value / max(float(self._areas[self.active].sum()), 1e-300)
 
     def settle(
         self,
@@ -102,7 +105,7 @@ class Settling:
         for rounds in range(MOST_ROUNDS):
             if stop():
                 return rounds
-            gained = self._round(trust * self._spacing, rounds)
+            gained = self.round(trust, rounds)
             tell(self.arrangement.places)
             is_last = trust <= trusts[1]
             if is_last and gained < REST * self._side:
@@ -111,21 +114,34 @@ class Settling:
                 trust = max(trust * NARROWING, trusts[1])
         return MOST_ROUNDS
 
-    def _round(self, trust: float, turn: int) -> float:
-        """One step of each block, the lowest first; the mean way down."""
+    def round(self, trust: float, turn: int) -> float:
+        """One step of each block, the lowest first; the mean way down.
+
+        Parameters
+        ----------
+        trust
+            Bound of a move, in sides of the square of an item's mean area.
+        turn
+            Number of the round: others cut blocks elsewhere.
+        """
         before = self.mean_height()
-        pull = self.pull()
-        low = pull.parts / self._areas
-        found = blocks(self.arrangement.places[:, :2], turn)
+        low = self.pull().parts / self._areas[self.active]
+        found = blocks(self.arrangement.places[self.active, :2], turn)
         for block in sorted(found, key=lambda items: float(low[items].mean())):
-            self._step(block, trust)
+            self._step(block, trust * self._spacing)
         return before - self.mean_height()
 
-    def _step(self, items: IntArray, trust: float) -> None:
+    def is_still(self, gained: float, least: float) -> bool:
+        """Whether a round gained less than ``least`` sides of an item's square."""
+        return gained < least * self._spacing
+
+    def _step(self, block: IntArray, trust: float) -> None:
+        """One step of some of the active items."""
         board = self.arrangement.board
-        slopes = self.pull().slopes[items]
+        slopes = self.pull().slopes[block]
         if not slopes.any():
             return
+        items = self.active[block]
         before = self.arrangement.places[items].copy()
         height = self.mean_height()
         pairs = contact.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
