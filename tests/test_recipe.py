@@ -48,6 +48,7 @@ BAD: dict[str, list[Any]] = {
     "palette": ["nocolour", "", 3],
     "apart": ["perhaps", 7],
     "force": [3, "", "dwn", ["down", 3], "towards 1", "down strength=0", "align"],
+    "stay": ["perhaps", 7, True],
     "pile": [3, "open", {"open": "lid"}, {"compact": "very"}, {"opne": "top"}],
     "rules": [3, "star", [3], [{"items": 5}], [{"itmes": "star"}], [{"items": "a", "turn": 3}]],
     "finish": ["rough", "", True],

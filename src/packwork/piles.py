@@ -1,4 +1,4 @@
-"""What a pile is asked to be, beside what all runs have in common."""
+"""What a run is asked about moving items: forces, piles, staying near an earlier layout."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Annotated, Literal, TypeAlias, get_args
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
-from packwork.forces.spec import is_pair
+from packwork.forces.spec import ForceTexts, is_pair
 from packwork.refusals import length_asked
 
 Side: TypeAlias = Literal["top", "bottom", "left", "right"]
@@ -117,3 +117,20 @@ class PileOptions(BaseModel):
         if value is not None and length_asked("size", value, "px", 1.0) <= 0:
             raise RecipeError("size", f"must be more than nothing, not {value}")
         return value
+
+
+class Moving(BaseModel):
+    """The part of a recipe that says how items move."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    force: ForceTexts = None
+    """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
+    balance or together; docs/forces.md has all. May be given several times."""
+
+    pile: PileOptions | None = None
+    """Items of given sizes, heaped by forces (``packwork pile``)."""
+
+    stay: bool = False
+    """With --start LAYOUT: items stay as near to where they were as the result allows. They are
+    told by their names; new ones go into voids, and those no longer asked for leave."""

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     AfterValidator,
-    BaseModel,
     BeforeValidator,
     ConfigDict,
     Field,
@@ -19,9 +18,8 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.forces.spec import ForceTexts
 from packwork.levels import checked_levels, parse_levels
-from packwork.piles import PileOptions
+from packwork.piles import Moving
 from packwork.presets import PRESETS
 from packwork.readers.words.options import WordOptions
 from packwork.refusals import length_asked, refusal
@@ -56,7 +54,7 @@ DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
 
 
-class Recipe(BaseModel):
+class Recipe(Moving):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
@@ -115,13 +113,6 @@ class Recipe(BaseModel):
     palette: str | tuple[str, ...] | None = None
     """New colours for items of one colour, neighbours unlike: #e63946,#457b9d or okabe-ito,
     tol-bright, tol-vibrant, tol-muted, tol-high-contrast."""
-
-    force: ForceTexts = None
-    """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
-    balance or together; docs/forces.md has all. May be given several times."""
-
-    pile: PileOptions | None = None
-    """Items of given sizes, heaped by forces (``packwork pile``)."""
 
     apart: bool = False
     """Keep copies of one item from lying side by side, as far as that goes."""
@@ -270,6 +261,12 @@ class Recipe(BaseModel):
                     f"rule {number}: scale bounds free sizes, not {self.sizes} ones; "
                     'leave it out, pin the size, or use sizes = "free"',
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _stays_somewhere(self) -> Recipe:
+        if self.stay and not self.starts_from_layout:
+            raise RecipeError("stay", f"needs an earlier layout as --start, not {self.start}")
         return self
 
     @model_validator(mode="after")

@@ -54,7 +54,7 @@ def _heaped(
         forces,
         options or FinishOptions(),
         basin,
-        is_placed=placed,
+        known=np.arange(n) if placed else None,
     )
 
 
@@ -185,7 +185,7 @@ def test_every_round_is_told() -> None:
     forces = Forces([FieldForce(DOWN, np.ones(12))], [], np.zeros(12, dtype=np.int64), SIDE)
     done = pile(
         square_container(), outlines, start, forces, FinishOptions(), None, Watcher(),
-        is_placed=True,
+        known=np.arange(12),
     )  # fmt: skip
     assert len(seen) == done.rounds
     np.testing.assert_allclose(seen[-1], done.poses.y)

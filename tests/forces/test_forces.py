@@ -7,7 +7,7 @@ import pytest
 
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
-from packwork.forces.bonds import Alignment, Balance, Together
+from packwork.forces.bonds import Alignment, Balance, Home, Together
 from packwork.forces.direction import Direction
 from packwork.forces.distance import Distance
 from packwork.forces.fading import Fading
@@ -31,6 +31,7 @@ BONDS: dict[str, Bond] = {
     "column": Alignment(0),
     "kinds together": Together(),
     "all together": Together(is_one=True),
+    "home": Home(np.array([[10.0, 20.0], [80.0, 30.0]] * 5)),
     "balance about a point": Balance(np.array([30.0, 60.0])),
     "balance about an axis": Balance(np.array([np.nan, 60.0])),
 }

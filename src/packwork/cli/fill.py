@@ -62,6 +62,7 @@ def fill(
     preset: shared.Preset = "default",
     levels: shared.Levels = None,
     start: shared.Start = "distance-field",
+    stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
@@ -114,6 +115,7 @@ def fill(
             preset=preset,
             levels=levels,
             start=start,
+            stay=stay,
             losses=shared.loss_weights(loss),
         )
         from packwork.cli.running import Outputs, run_and_write

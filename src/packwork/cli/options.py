@@ -62,6 +62,7 @@ Time = Annotated[float | None, flag("time", panel=SOLVING)]
 Preset = Annotated[Literal["default", "paper"], flag("preset", panel=SOLVING)]
 Levels = Annotated[str | None, flag("levels", panel=SOLVING)]
 Start = Annotated[str, flag("start", panel=SOLVING)]
+Stay = Annotated[bool, flag("stay", "--stay", panel=SOLVING)]
 Loss = Annotated[
     list[str] | None,
     typer.Option(

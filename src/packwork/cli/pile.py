@@ -46,6 +46,7 @@ def pile(
     palette: shared.Palette = None,
     holes: shared.Holes = "fill",
     strict: shared.Strict = False,
+    start: shared.Start = "distance-field",
     seed: shared.Seed = 0,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
@@ -87,6 +88,7 @@ def pile(
             palette=palette,
             holes=holes,
             strict=strict,
+            start=start,
             seed=seed,
         )
         outputs = Outputs(

@@ -83,6 +83,7 @@ def words(
     time: shared.Time = None,
     levels: shared.Levels = None,
     start: shared.Start = "distance-field",
+    stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
@@ -146,6 +147,7 @@ def words(
             time=time,
             levels=levels,
             start=start,
+            stay=stay,
             losses=shared.loss_weights(loss),
         )
         outputs = Outputs(

@@ -1,4 +1,4 @@
-"""Forces between the items of a group: alignment, balance, keeping together."""
+"""Forces between the items of a group: alignment, balance, keeping together, keeping near home."""
 
 from __future__ import annotations
 
@@ -68,6 +68,31 @@ class Together:
             own = kinds == kind
             parts[own], slopes[own] = _about(group.points[own], group.areas[own], group.side)
         return parts, slopes
+
+
+@dataclass(frozen=True, eq=False)
+class Home:
+    """Each item of the group to a place of its own: distance from it costs.
+
+    Parameters
+    ----------
+    places
+        ``(n, 2)`` one for each of the group; NaN for an item that has none.
+
+    Examples
+    --------
+    >>> two = Group(np.array([[0.0, 0], [4, 2]]), np.ones(2), np.zeros(2, int), 10.0)
+    >>> Home(np.array([[1.0, 0], [np.nan, np.nan]]))(two)[1].tolist()
+    [[-0.1, 0.0], [0.0, 0.0]]
+    """
+
+    places: FloatArray
+
+    def __call__(self, group: Group) -> tuple[FloatArray, FloatArray]:
+        """Area times squared distance from home over twice the side."""
+        off = np.nan_to_num(group.points - self.places)
+        parts = group.areas * (off**2).sum(axis=1) / (2 * group.side)
+        return parts, group.areas[:, None] * off / group.side
 
 
 @dataclass(frozen=True, eq=False)

@@ -30,8 +30,11 @@ def finished_well(
 ) -> Finished:
     """Exact poses near the solver's; where sizes are shared, as large as a few finishes get."""
     best = finished(job, start, poses, observer, stop)
-    # A time that was asked for is used up by the first.
-    if job.recipe.sizes != "shared" or start.limits is not None or job.recipe.time is not None:
+    recipe = job.recipe
+    if recipe.sizes != "shared" or start.limits is not None:
+        return best
+    # A time that was asked for is used up by the first, and whoever is to stay does.
+    if recipe.stay or recipe.time is not None:
         return best
     for _ in range(MOST - 1):
         if not best.clean or stop() or _factor(best.poses, poses) >= KEPT:

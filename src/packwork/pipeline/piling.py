@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from pydantic import ValidationError
 
+from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.finish.options import FinishOptions
 from packwork.finish.settling.pile import Piled, pile
@@ -23,14 +24,17 @@ from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.given import given_scales
 from packwork.pipeline.job import Job
 from packwork.pipeline.judging import Judged, judged
+from packwork.pipeline.matching import matched
 from packwork.pipeline.opening import Opened, opened
 from packwork.pipeline.outcome import Run, Unplaced
 from packwork.progress import Observer, Stop
 from packwork.recipe import Recipe, make_recipe
 from packwork.refusals import refusal
+from packwork.scene.canvas import brought_over
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.solver import Ending, Outcome
+from packwork.start.angles import nearest_allowed
 
 _LOG = logging.getLogger(__name__)
 
@@ -86,7 +90,7 @@ def run_pile(job: Job, asked: PileOptions, observer: Observer | None, stop: Stop
     clock = job.clock
     _check(job)
     with clock.time("start"):
-        poses = _first_poses(job)
+        poses, known = _first_poses(job)
         outlines = solid_outlines(job.recipe, job.items)
         discs = np.pi * (np.array([o.radius for o in outlines]) * poses.scale) ** 2
         room = opened(job.container, asked.open, job.mouths, float(discs.sum()))
@@ -99,6 +103,7 @@ def run_pile(job: Job, asked: PileOptions, observer: Observer | None, stop: Stop
         options = _options(job, poses)
         heap = pile(
             room.container, outlines, poses, forces, options, room.basin, observer, stop,
+            known=known,
             source=source,
             shuffle=SHUFFLE_ALONE if room.container.name == NO_CONTAINER else SHUFFLE,
         )  # fmt: skip
@@ -121,13 +126,23 @@ def _check(job: Job) -> None:
         raise RecipeError("pile", "is settled in exact geometry, and its voids stay as they are")
 
 
-def _first_poses(job: Job) -> Poses:
+def _first_poses(job: Job) -> tuple[Poses, IntArray]:
+    """Poses to begin with, and which items an earlier layout has places for."""
     rng = np.random.default_rng(job.recipe.seed)
     container = job.container
     scales = given_scales(job.recipe, job.items, job.weights, container.unit, container.side)
     middle = np.array(container.outline.bounds).reshape(2, 2).mean(axis=0)
     x, y = np.tile(middle, (len(scales), 1)).T
-    return Poses(x, y, first_angles(job, rng, None), scales)
+    poses = Poses(x, y, first_angles(job, rng, None), scales)
+    if job.earlier is None:
+        return poses, np.arange(0)
+    then = brought_over(job.earlier.poses, job.earlier.container, container)
+    found = matched([i.name for i in job.items], [i.name for i in job.earlier.items])
+    known = np.flatnonzero(found >= 0)
+    before = then.some(found[known])
+    limits = job.recipe.rotation.limit, job.recipe.rotation.choices
+    angles = nearest_allowed(before.angle, *limits)
+    return poses.with_some(known, replace(before, angle=angles, scale=scales[known])), known
 
 
 def _options(job: Job, poses: Poses) -> FinishOptions:
@@ -173,7 +188,7 @@ def _judged(job: Job, asked: PileOptions, heap: Piled, room: Opened) -> Run:
     return judged(
         smaller,
         Judged(
-            poses, "open" if room.basin is not None else "closed", None,
+            poses, "lowest" if job.earlier is None else "layout", None,
             Outcome(poses, Ending.DONE), unplaced, None, len(left), lies, faults,
         ),
     )  # fmt: skip

@@ -17,7 +17,7 @@ from packwork.geometry.simplify import grown
 from packwork.levels import refined_levels
 from packwork.metrics.pixel import pixel_metrics
 from packwork.pipeline.again import finished_well
-from packwork.pipeline.beginning import begin
+from packwork.pipeline.beginning import Beginning, begin
 from packwork.pipeline.finishing import unfinished
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.gaps import fill_gaps
@@ -25,6 +25,7 @@ from packwork.pipeline.job import Job, read
 from packwork.pipeline.judging import Judged, judged
 from packwork.pipeline.outcome import Run, find_unplaced
 from packwork.pipeline.piling import run_pile
+from packwork.pipeline.staying import calmed, needs_no_levels, with_homes
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -32,7 +33,7 @@ from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
-from packwork.solve.solver import solve
+from packwork.solve.solver import Ending, Outcome, solve
 from packwork.solve.stand_ins import stand_ins
 
 LEVELS_SHARE = 0.6
@@ -81,11 +82,7 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         region = padded(job.container, padding)
         start = begin(job, region, outlines)
     with clock.time("levels"):
-        options = _solve_options(job, padding)
-        outcome = solve(
-            region, outlines, start.poses, start.nominal, options, observer, stop, start.limits,
-            _forces(job),
-        )  # fmt: skip
+        outcome = _levels(job, region, outlines, start, observer, stop)
     poses, exact, filling = outcome.poses, None, None
     if recipe.finish == "exact":
         with clock.time("finish"):
@@ -98,6 +95,27 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         poses = exact.poses
     unplaced = None if exact is None else unfinished(job, exact)
     return judged(job, Judged(poses, start.method, start.limits, outcome, unplaced, filling))
+
+
+def _levels(
+    job: Job,
+    region: Container,
+    outlines: Sequence[Outline],
+    start: Beginning,
+    observer: Observer | None,
+    stop: Stop,
+) -> Outcome:
+    """What the levels make of the first poses; those themselves, where items are to stay."""
+    if needs_no_levels(job):
+        return Outcome(start.poses, Ending.DONE)
+    options = _solve_options(job, job.recipe.padding_cu(job.container))
+    forces = _forces(job)
+    if job.recipe.stay:
+        options = calmed(options)
+        forces = with_homes(job, forces, start.poses, job.container)
+    return solve(
+        region, outlines, start.poses, start.nominal, options, observer, stop, start.limits, forces
+    )
 
 
 def _forces(job: Job) -> Forces | None:

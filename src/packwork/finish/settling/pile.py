@@ -72,7 +72,7 @@ def pile(
     basin: Outline | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
-    is_placed: bool = False,
+    known: IntArray | None = None,
     shuffle: float = 0.0,
     source: Source | None = None,
 ) -> Piled:
@@ -87,7 +87,7 @@ def pile(
     outlines
         One per item, item units.
     poses
-        Sizes and angles, and where they are if ``is_placed``.
+        Sizes and angles, and where the ``known`` ones are.
     forces
         What they go down.
     options
@@ -99,8 +99,9 @@ def pile(
         Told of each round.
     stop
         Asked before each round.
-    is_placed
-        Whether items begin where their poses have them, not quite clear of each other.
+    known
+        Items that begin where their poses have them, not quite clear of each other; None for
+        nobody.
     shuffle
         Logarithm of size within which items without a place come in random order and not the
         largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
@@ -126,7 +127,7 @@ def pile(
     if source is not None:
         run.pour(room, source)
     else:
-        run.gather(room, is_placed)
+        run.gather(room, np.arange(0) if known is None else known)
     run.settle(room, FIRST_TRUST)
     if basin is not None and run.leave_out_what_sticks_out():
         run.settle(container.outline, ROUGH_TRUST)
@@ -167,13 +168,18 @@ class _Pile:
         )  # fmt: skip
         self._kinds = self._kinds.ravel()
 
-    def gather(self, room: Outline, is_placed: bool) -> None:
+    def gather(self, room: Outline, known: IntArray) -> None:
         """Give all items a first place without conflicts."""
-        arrangement = self._arrangement(room, COARSE, self._items)
         everyone = self._items
-        lifted = ease(arrangement, self._gap, self._hair) if is_placed else everyone
+        standing = known
+        if len(known):
+            near = self._arrangement(room, COARSE, known)
+            lost = ease(near, self._gap, self._hair)
+            self._take_over(near, known)
+            standing = np.delete(known, lost)
+        arrangement = self._arrangement(room, COARSE, everyone)
+        lifted = np.setdiff1d(everyone, standing)
         lifted = lifted[np.argsort(-self._order_sizes(arrangement)[lifted], kind="stable")]
-        standing = np.setdiff1d(everyone, lifted)
         left = self._nestle(arrangement, lifted, standing)
         self._take_over(arrangement, everyone)
         self._items = np.setdiff1d(everyone, left)
