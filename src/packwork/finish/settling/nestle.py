@@ -67,11 +67,13 @@ class Nest:
         rows, columns = np.indices(shape)
         pixels = np.column_stack([columns.ravel(), rows.ravel()]) + 0.5
         self._points = self._corner + pixels / self._px_per_cu
-        self._room = self._wall.ravel().copy()
+        self._largest = float(arrangement.radii.max())
+        # Room beyond that of the largest disc interests nobody.
+        self._most = self._largest + self._gap + 2 / self._px_per_cu
+        self._room = np.minimum(self._wall.ravel(), self._most)
         self._heights: dict[int, FloatArray] = {}
         self._discs = np.empty((0, 3))
         self._pairs = np.empty((0, 2), dtype=np.int64)
-        self._largest = float(arrangement.radii.max())
 
     def place(self, radius: float, item: int, kind: int, heights: HeightOf) -> FloatArray | None:
         """Lowest centre ``(2,)`` for a disc; None if it fits nowhere. It then stands there.
@@ -152,8 +154,20 @@ class Nest:
         new = np.column_stack([near, np.full(len(near), len(self._discs))])
         self._pairs = np.vstack([self._pairs, new])
         self._discs = np.vstack([self._discs, [*centre, radius]])
-        apart = np.hypot(self._points[:, 0] - centre[0], self._points[:, 1] - centre[1])
-        np.minimum(self._room, apart - radius, out=self._room)
+        self._take_room(centre, radius)
+
+    def _take_room(self, centre: FloatArray, radius: float) -> None:
+        """Less room about a disc, as far as it can be felt."""
+        rows, columns = self._wall.shape
+        reach = (radius + self._most) * self._px_per_cu
+        x, y = (centre - self._corner) * self._px_per_cu
+        top, bottom = max(int(y - reach), 0), min(int(y + reach) + 2, rows)
+        left, right = max(int(x - reach), 0), min(int(x + reach) + 2, columns)
+        away = np.hypot(
+            np.arange(left, right)[None] + 0.5 - x, np.arange(top, bottom)[:, None] + 0.5 - y
+        )
+        window = self._room.reshape(rows, columns)[top:bottom, left:right]
+        np.minimum(window, away / self._px_per_cu - radius, out=window)
 
 
 def _crossings(a: FloatArray, b: FloatArray) -> FloatArray:

@@ -26,7 +26,7 @@ from packwork.progress import Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
-COARSE = 0.01
+COARSE = 0.02
 """Tolerance of the outlines that are settled first, shares of an item's extent. Larger is faster
 and leaves more way to the fine ones. Tried."""
 
@@ -161,6 +161,7 @@ class _Pile:
         self._hair = HAIR * container.side
         self._gap = options.gap_cu + self._hair
         self._rounds = self._told = 0
+        self._details: dict[tuple[Outline, float], Detail] = {}
         self._height = 0.0
         _, self._kinds = np.unique(
             np.column_stack([np.zeros(len(poses)), *(f.strengths for f in forces.fields)]),
@@ -266,11 +267,14 @@ class _Pile:
         return np.asarray(arrangement.radii * np.exp(spread))
 
     def _arrangement(self, room: Outline, tolerance: float, items: IntArray) -> Arrangement:
-        poses = self._poses.some(items)
-        zero = np.zeros(len(items))
-        places = np.column_stack([poses.x, poses.y, zero, zero])
-        detail = Detail([self._outlines[k] for k in items], room, poses).covers(FINE)
-        return (detail if tolerance <= FINE else detail.covers(tolerance)).arrangement(places)
+        if (room, tolerance) not in self._details:
+            detail = Detail(self._outlines, room, self._poses).covers(FINE)
+            self._details[room, FINE] = detail
+            if tolerance > FINE:
+                self._details[room, tolerance] = detail.covers(tolerance)
+        x, y, zero = self._poses.x[items], self._poses.y[items], np.zeros(len(items))
+        detail = self._details[room, tolerance].some(items, self._poses)
+        return detail.arrangement(np.column_stack([x, y, zero, zero]))
 
     def _take_over(self, arrangement: Arrangement, items: IntArray) -> None:
         self._poses = _moved(self._poses, items, arrangement.places)

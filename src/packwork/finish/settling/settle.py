@@ -15,7 +15,7 @@ from packwork.finish.settling import _kernels
 from packwork.forces.forces import Forces, Pull
 from packwork.progress import Stop
 
-FIRST_TRUST, LAST_TRUST = 0.25, 3e-3
+FIRST_TRUST, LAST_TRUST = 0.25, 5e-3
 """First and last bound of a move, in sides of the square of an item's mean area. A larger
 first one falls faster and fails more checks; a smaller last one gains what nobody sees.
 Tried."""
@@ -24,13 +24,13 @@ NARROWING = 0.6
 """Factor on that bound once a round gains little. Larger takes more rounds, smaller leaves
 way that was to be gained by larger steps. Tried."""
 
-WORTHWHILE = 0.08
+WORTHWHILE = 0.12
 """Share of the bound that a round has to gain, as the mean way down, to be followed by one
 of the same bound. Larger leaves way, smaller takes more rounds. Tried."""
 
-REST = 1e-5
+REST = 2e-5
 """Mean way down of a round, as a share of the canvas, below which all is at rest at the last
-bound. Derived: a hundredth of what counts as lying lower (a thousandth of the canvas)."""
+bound. Derived: a fiftieth of what counts as lying lower (a thousandth of the canvas)."""
 
 MOST_ROUNDS = 400
 """Rounds at most. Chosen."""
