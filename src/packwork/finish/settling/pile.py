@@ -128,13 +128,13 @@ def pile(
         run.pour(room, source)
     else:
         run.gather(room, np.arange(0) if known is None else known)
-    run.settle(room, FIRST_TRUST)
+    run.settle(room, run.first_trust)
     if basin is not None and run.leave_out_what_sticks_out():
         run.settle(container.outline, ROUGH_TRUST)
     for _ in range(TRIES):
         if not run.try_again(container.outline):
             break
-        run.settle(container.outline, FIRST_TRUST)
+        run.settle(container.outline, run.first_trust)
     return run.result()
 
 
@@ -161,6 +161,7 @@ class _Pile:
         self._hair = HAIR * container.side
         self._gap = options.gap_cu + self._hair
         self._rounds = self._told = 0
+        self._is_given = False
         self._details: dict[tuple[Outline, float], Detail] = {}
         self._height = 0.0
         _, self._kinds = np.unique(
@@ -173,7 +174,8 @@ class _Pile:
         """Give all items a first place without conflicts."""
         everyone = self._items
         standing = known
-        if len(known):
+        self._is_given = len(known) > 0
+        if self._is_given:
             near = self._arrangement(room, COARSE, known)
             lost = ease(near, self._gap, self._hair)
             self._take_over(near, known)
@@ -184,6 +186,11 @@ class _Pile:
         left = self._nestle(arrangement, lifted, standing)
         self._take_over(arrangement, everyone)
         self._items = np.setdiff1d(everyone, left)
+
+    @property
+    def first_trust(self) -> float:
+        """First bound of a move: a narrow one where items were given places."""
+        return ROUGH_TRUST if self._is_given else FIRST_TRUST
 
     def pour(self, room: Outline, source: Source) -> None:
         """Let items in by a source."""
@@ -227,6 +234,8 @@ class _Pile:
                 continue
             arrangement = self._arrangement(room, tolerance, self._items)
             settling = self._settling(arrangement, self._items)
+            # Those that were given a place keep it as well as they can.
+            settling.is_swaying = not self._is_given
             tell = partial(self._tell, self._poses, self._items)
             self._rounds += settling.settle(tell, self._stop, trusts)
             self._height = settling.mean_height()
