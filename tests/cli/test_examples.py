@@ -49,9 +49,16 @@ def files_named_in(arguments: list[str]) -> list[str]:
 
 
 def test_the_gallery_is_found() -> None:
-    assert {"collage", "letter-s", "letter-i", "letter-r", "australia", "usa-axis", "jar", "round-pack"} <= {
-        page.parent.name for page in PAGES
-    }
+    assert {
+        "collage",
+        "letter-s",
+        "letter-i",
+        "letter-r",
+        "australia",
+        "usa-axis",
+        "jar",
+        "round-pack",
+    } <= {page.parent.name for page in PAGES}
     assert len(FILLS) >= 6
 
 

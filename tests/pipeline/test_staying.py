@@ -12,9 +12,7 @@ from packwork.errors import RecipeError
 from packwork.pipeline.matching import matched
 
 NAMES = ["owl", "fox", "bear", "wolf", "hare"]
-WEIGHTS = {
-    name: 40.0 / (k + 1) ** 0.5 for k, name in enumerate(NAMES)
-}
+WEIGHTS = {name: 40.0 / (k + 1) ** 0.5 for k, name in enumerate(NAMES)}
 QUICK = {"epochs": 60, "levels": "50,150", "seed": 3}
 
 

@@ -15,7 +15,7 @@ from packwork.finish.settling import _kernels
 from packwork.forces.forces import Forces, Pull
 from packwork.progress import Stop
 
-FIRST_TRUST, LAST_TRUST = 0.25, 5e-3
+FIRST_TRUST, LAST_TRUST = 0.25, 1e-2
 """First and last bound of a move, in sides of the square of an item's mean area. A larger
 first one falls faster and fails more checks; a smaller last one gains what nobody sees.
 Tried."""
@@ -29,9 +29,9 @@ WORTHWHILE = 0.3
 round to be followed by one of the same bound. Larger leaves arches and items in the air, smaller
 takes more rounds. Tried."""
 
-REST = 2e-5
+REST = 3e-5
 """Mean way down of a round, as a share of the canvas, below which all is at rest at the last
-bound. Derived: a fiftieth of what counts as lying lower (a thousandth of the canvas)."""
+bound. Derived: a thirtieth of what counts as lying lower (a thousandth of the canvas)."""
 
 TILT = 0.5
 """Turn of the way down, rad, to one side and the other in turn, while bounds are wide: what
