@@ -139,9 +139,9 @@ def search(
         if wishes.power == AREA_POWER:
             heat = HEAT * room.spacing**2 * (1 - trial / trials)
             target -= heat * rng.exponential()
-        candidates = _at_angles(places, moved, wishes, rng)
+        candidates = at_angles(places, moved, wishes, rng)
         least, short = arrangement.places[:, 3].min(), _shortfall(arrangement, wishes, items)
-        gains = _put_best(arrangement, wishes, moved, candidates, room) and _grow(
+        gains = put_best(arrangement, wishes, moved, candidates, room) and _grow(
             arrangement, wishes, items, room, target
         )
         # Where the smallest counts, what all the others gain does not make up for it; nor
@@ -173,7 +173,7 @@ def _sweep(arrangement: Arrangement, wishes: Wishes, room: Room, turn: int) -> N
             compact(arrangement, wishes, block, trust, room.gap, room.hair)
 
 
-def _put_best(
+def put_best(
     arrangement: Arrangement, wishes: Wishes, moved: IntArray, candidates: FloatArray, room: Room
 ) -> bool:
     """Put ``moved`` to the best of some candidate places; False if none comes clear.
@@ -233,7 +233,7 @@ def _exchanged(arrangement: Arrangement, rng: np.random.Generator) -> tuple[IntA
     return pair, places
 
 
-def _at_angles(
+def at_angles(
     places: FloatArray, moved: IntArray, wishes: Wishes, rng: np.random.Generator
 ) -> FloatArray:
     """``(angles, items, 4)``: the places, turned evenly apart with random beginnings.
