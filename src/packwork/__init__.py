@@ -12,6 +12,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from packwork.albums import photos
     from packwork.api import Layout, fill, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
@@ -37,6 +38,7 @@ __all__ = [
     "WriteError",
     "fill",
     "fit_outline",
+    "photos",
     "read_container",
     "read_items",
     "render",
@@ -59,6 +61,7 @@ _HOMES = {
     "WriteError": "packwork.errors:WriteError",
     "fill": "packwork.api:fill",
     "fit_outline": "packwork.fit.fitted:fit_outline",
+    "photos": "packwork.albums:photos",
     "read_container": "packwork.api:read_container",
     "read_items": "packwork.api:read_items",
     "render": "packwork.raster.coverage:coverage",

@@ -85,18 +85,21 @@ class Layout(scene.Layout):
         path: str | Path,
         *,
         pixels: int = 1_600,
+        dpi: float | None = None,
         background: str | None = None,
         show_container: bool = False,
         flatten: bool = False,
     ) -> None:
-        """Write the layout; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format.
+        """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
 
         Parameters
         ----------
         path
             Where to; an older file is replaced only when the new one is complete.
         pixels
-            Longer side of a PNG.
+            Longer side of a PNG or JPEG.
+        dpi
+            Pixels to the inch: of photos (300 if None), and of PNG and JPEG, not ``pixels``.
         background
             Any CSS colour, or ``none``. Default: none in SVG and PDF, white in PNG.
         show_container
@@ -120,6 +123,7 @@ class Layout(scene.Layout):
         """
         options = writers.write_options(
             pixels=pixels,
+            dpi=dpi,
             background=background,
             show_container=show_container,
             flatten=flatten,

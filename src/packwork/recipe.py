@@ -7,7 +7,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
-    BaseModel,
     ConfigDict,
     Field,
     ValidationError,
@@ -18,6 +17,7 @@ from pydantic import (
 
 from packwork.errors import RecipeError
 from packwork.levels import parse_levels
+from packwork.pictures import Pictured
 from packwork.presets import PRESETS
 from packwork.readers.words.options import WordOptions
 from packwork.refusals import length_asked, refusal
@@ -52,7 +52,7 @@ DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
 
 
-class Recipe(BaseModel):
+class Recipe(Pictured):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)

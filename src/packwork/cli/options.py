@@ -29,7 +29,7 @@ Output = Annotated[
     typer.Option(
         "-o",
         "--output",
-        help="File to write; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format. "
+        help="File to write; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format. "
         "May be given several times.",
         rich_help_panel=WRITING,
     ),
@@ -71,7 +71,16 @@ Loss = Annotated[
     ),
 ]
 Pixels = Annotated[
-    int, typer.Option("--pixels", help="Longer side of a PNG.", rich_help_panel=WRITING)
+    int, typer.Option("--pixels", help="Longer side of a PNG or JPEG.", rich_help_panel=WRITING)
+]
+Dpi = Annotated[
+    float | None,
+    typer.Option(
+        "--dpi",
+        help="Pixels to the inch of paper: of photos (default 300), and of a PNG or JPEG in place "
+        "of --pixels.",
+        rich_help_panel=WRITING,
+    ),
 ]
 Background = Annotated[
     str | None,

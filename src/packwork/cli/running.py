@@ -80,6 +80,8 @@ class Outputs:
             writers.check_writable(side)
         writers.check_outputs(self.every)
         named = [recipe.container, *recipe.items]
+        if recipe.photos is not None:
+            named += recipe.photos.sources
         if recipe.words is not None and isinstance(recipe.words.source, str):
             # A text itself is no file; nor could so long a name be one.
             named.append(recipe.words.source[:LONGEST_NAME])

@@ -17,6 +17,7 @@ from packwork.pipeline.word_colours import check_colours
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layout import read_layout
+from packwork.readers.photos.read import read_photos
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
 from packwork.scene.canvas import on_canvas
@@ -104,11 +105,8 @@ def read(
             region = on_canvas(container, recipe.canvas_size)
         words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)
         check_colours(recipe, () if words is None else words.words)
-        # Items are mixed in with words only if they were named.
-        named = "items" in recipe.model_fields_set and recipe.items
-        if items is None and (words is None or named):
-            found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
-            items, skipped = found.items, found.skipped
+        if items is None:
+            items, skipped = _items(recipe)
         chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
@@ -131,6 +129,21 @@ def read(
         fillers,
         words,
     )
+
+
+def _items(recipe: Recipe) -> tuple[tuple[Item, ...] | None, tuple[PackworkError, ...]]:
+    """Photos and items; None where words come alone, and files that were left out."""
+    items: tuple[Item, ...] = ()
+    skipped: tuple[PackworkError, ...] = ()
+    if recipe.photos is not None:
+        photos = read_photos(recipe.photos, strict=recipe.strict)
+        items, skipped = photos.items, photos.skipped
+    # Items are mixed in with words and photos only if they were named.
+    is_alone = recipe.words is None and recipe.photos is None
+    if is_alone or ("items" in recipe.model_fields_set and recipe.items):
+        found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
+        items, skipped = (*items, *found.items), (*skipped, *found.skipped)
+    return items or None, skipped
 
 
 def _fillers(

@@ -48,6 +48,8 @@ def read_recipe(path: str | Path) -> dict[str, Any]:
         ]
     if isinstance(options.get("words"), dict):
         _find_words(options["words"], folder)
+    if isinstance(options.get("photos"), dict):
+        _find_photos(options["photos"], folder)
     rules = options.get("rules")
     for rule in rules if isinstance(rules, list) else ():
         if isinstance(rule, dict) and isinstance(rule.get("region"), str):
@@ -61,6 +63,15 @@ def _find_words(words: dict[str, Any], folder: Path) -> None:
             words[key] = _found(words[key], folder)
     if isinstance(words.get("fonts"), list):
         words["fonts"] = [_found(f, folder) if isinstance(f, str) else f for f in words["fonts"]]
+
+
+def _find_photos(photos: dict[str, Any], folder: Path) -> None:
+    if isinstance(photos.get("shape"), str):
+        photos["shape"] = _found(photos["shape"], folder)
+    if isinstance(photos.get("sources"), list):
+        photos["sources"] = [
+            _found(s, folder) if isinstance(s, str) else s for s in photos["sources"]
+        ]
 
 
 def _found(name: str, folder: Path) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
@@ -58,7 +58,30 @@ class PictureArt:
     matrix: FloatArray
 
 
-Art: TypeAlias = FlatArt | VectorArt | PictureArt
+class Original(Protocol):
+    """A photograph on disk, opened anew each time it is printed."""
+
+    def printed(self, px_per_unit: float) -> VectorArt:
+        """The photograph with that many pixels per item unit, never more than it has."""
+
+
+@dataclass(frozen=True, eq=False)
+class PhotoArt:
+    """A photograph of which only a small copy is kept.
+
+    Parameters
+    ----------
+    preview
+        The small copy, for screens.
+    original
+        Where a writer gets as many pixels as the print needs.
+    """
+
+    preview: VectorArt
+    original: Original
+
+
+Art: TypeAlias = FlatArt | VectorArt | PictureArt | PhotoArt
 
 
 @dataclass(frozen=True, eq=False)

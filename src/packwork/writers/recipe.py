@@ -27,6 +27,8 @@ def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
         kept["items"] = [_seen_from(folder, name) for name in kept["items"]]
     if "words" in kept:
         kept["words"] = _words_seen_from(folder, kept["words"])
+    if "photos" in kept:
+        kept["photos"] = _photos_seen_from(folder, kept["photos"])
     rules = [
         {**rule, "region": _seen_from(folder, rule["region"])}
         if isinstance(rule.get("region"), str)
@@ -42,6 +44,13 @@ def _words_seen_from(folder: Path, words: Mapping[str, Any]) -> dict[str, Any]:
         if isinstance(seen.get(key), str):
             seen[key] = _seen_from(folder, seen[key])
     return {**seen, "fonts": [_seen_from(folder, font) for font in seen.get("fonts", ())]}
+
+
+def _photos_seen_from(folder: Path, photos: Mapping[str, Any]) -> dict[str, Any]:
+    seen = {key: value for key, value in photos.items() if value is not None}
+    if "shape" in seen:
+        seen["shape"] = _seen_from(folder, seen["shape"])
+    return {**seen, "sources": [_seen_from(folder, source) for source in seen["sources"]]}
 
 
 def _seen_from(folder: Path, name: str) -> str:
