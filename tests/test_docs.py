@@ -32,7 +32,7 @@ PARAMETERS = [
 ]
 WRITING_OPTIONS = {
     "output", "pixels", "background", "show_container", "flatten", "report", "diagnose",
-    "save_recipe", "quiet", "loss",
+    "save_recipe", "quiet", "loss", "show_saliency",
 }  # fmt: skip
 
 

@@ -37,6 +37,8 @@ def fill(
     count: shared.Count = None,
     font: shared.Font = None,
     canvas: shared.Canvas = None,
+    quiet_share: shared.QuietShare = 0.4,
+    keep_clear: shared.KeepClear = None,
     sizes: shared.Sizes = "free",
     size_ratio: shared.SizeRatio = 2.0,
     stretch: shared.Stretch = 1.0,
@@ -66,6 +68,7 @@ def fill(
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
+    show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -88,6 +91,8 @@ def fill(
             count=count,
             font=font,
             canvas=canvas,
+            quiet_share=quiet_share,
+            keep_clear=keep_clear,
             sizes=sizes,
             size_ratio=size_ratio,
             stretch=stretch,
@@ -115,8 +120,10 @@ def fill(
             losses=shared.loss_weights(loss),
         )
         from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.saliency import write_saliency
         from packwork.writers import write_options
 
+        write_saliency(recipe, show_saliency)
         outputs = Outputs(
             files=output or [DEFAULT_OUTPUT],
             options=write_options(

@@ -45,6 +45,17 @@ Padding = Annotated[str, flag("padding", panel=PLACING)]
 Hero = Annotated[str | None, flag("hero", panel=PLACING)]
 Palette = Annotated[str | None, flag("palette", panel=PLACING)]
 Apart = Annotated[bool, flag("apart", "--apart", panel=PLACING)]
+QuietShare = Annotated[float, flag("quiet_share", panel=PLACING)]
+KeepClear = Annotated[list[str] | None, flag("keep_clear", panel=PLACING)]
+ShowSaliency = Annotated[
+    Path | None,
+    typer.Option(
+        "--show-saliency",
+        help="Write a picture (PNG) of what was found of a container around:IMAGE: what stands out "
+        "red, a line round what is filled.",
+        rich_help_panel=WRITING,
+    ),
+]
 Weights = Annotated[str | None, flag("weights", panel=PLACING)]
 Holes = Annotated[Literal["fill", "keep"], flag("holes", panel=PLACING)]
 OutlineChoice = Annotated[Literal["exact", "fitted", "hull"], flag("outline", panel=PLACING)]

@@ -52,6 +52,8 @@ def photos(
         ),
     ] = None,
     canvas: shared.Canvas = None,
+    quiet_share: shared.QuietShare = 0.4,
+    keep_clear: shared.KeepClear = None,
     sizes: shared.Sizes = "free",
     size_ratio: shared.SizeRatio = 2.0,
     rotate: shared.Rotate = "15",
@@ -77,6 +79,7 @@ def photos(
     dpi: shared.Dpi = None,
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
+    show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -94,6 +97,7 @@ def photos(
     """
     with clear_errors():
         from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.saliency import write_saliency
         from packwork.pipeline.photographing import photos_recipe
         from packwork.writers import write_options
 
@@ -106,6 +110,8 @@ def photos(
             border=border,
             border_color=border_color,
             canvas=canvas,
+            quiet_share=quiet_share,
+            keep_clear=keep_clear,
             sizes=sizes,
             size_ratio=size_ratio,
             rotate=rotate,
@@ -128,6 +134,7 @@ def photos(
             start=start,
             losses=shared.loss_weights(loss),
         )
+        write_saliency(recipe, show_saliency)
         outputs = Outputs(
             files=output or [DEFAULT_OUTPUT],
             options=write_options(

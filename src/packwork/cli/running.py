@@ -25,6 +25,7 @@ from packwork.cli.show import (
 )
 from packwork.display.bar import TerminalBar
 from packwork.errors import WriteError
+from packwork.readers.quiet.container import AROUND
 from packwork.recipe import Recipe
 
 MOST_NAMED = 5
@@ -79,7 +80,7 @@ class Outputs:
         for side in self.sides:
             writers.check_writable(side)
         writers.check_outputs(self.every)
-        named = [recipe.container, *recipe.items]
+        named = [recipe.container.removeprefix(AROUND), *recipe.items]
         if recipe.photos is not None:
             named += recipe.photos.sources
         if recipe.words is not None and isinstance(recipe.words.source, str):

@@ -64,6 +64,8 @@ def words(
         ),
     ] = None,
     canvas: shared.Canvas = None,
+    quiet_share: shared.QuietShare = 0.4,
+    keep_clear: shared.KeepClear = None,
     sizes: shared.Sizes = "shared",
     size_ratio: shared.SizeRatio = 2.0,
     rotate: shared.Rotate = "horizontal",
@@ -87,6 +89,7 @@ def words(
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
+    show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -104,6 +107,7 @@ def words(
     """
     with clear_errors():
         from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.saliency import write_saliency
         from packwork.pipeline.wording import words_recipe
         from packwork.writers import write_options
 
@@ -126,6 +130,8 @@ def words(
             contrast=contrast,
             background=background,
             canvas=canvas,
+            quiet_share=quiet_share,
+            keep_clear=keep_clear,
             sizes=sizes,
             size_ratio=size_ratio,
             rotate=rotate,
@@ -146,13 +152,11 @@ def words(
             start=start,
             losses=shared.loss_weights(loss),
         )
+        write_saliency(recipe, show_saliency)
         outputs = Outputs(
             files=output or [DEFAULT_OUTPUT],
             options=write_options(
-                pixels=pixels,
-                background=background,
-                show_container=show_container,
-                flatten=flatten,
+                pixels=pixels, background=background, show_container=show_container, flatten=flatten
             ),
             report=report,
             diagnose=diagnose,

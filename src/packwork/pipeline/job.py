@@ -18,6 +18,7 @@ from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layout import read_layout
 from packwork.readers.photos.read import read_photos
+from packwork.readers.quiet.container import QuietOptions
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
 from packwork.scene.canvas import on_canvas
@@ -100,7 +101,8 @@ def read(
     skipped: tuple[PackworkError, ...] = ()
     with clock.time("read"):
         if container is None:
-            region = read_container(recipe.container, recipe.canvas_size, recipe.font)
+            quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
+            region = read_container(recipe.container, recipe.canvas_size, recipe.font, quiet)
         else:
             region = on_canvas(container, recipe.canvas_size)
         words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)

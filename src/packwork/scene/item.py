@@ -103,6 +103,9 @@ class Item:
         How it is drawn.
     label
         What this one is called in a file, where it links to, its tooltip.
+    halo
+        Colour of a rim that makes it stand out from a picture behind; empty for none. It is
+        no part of the item, and is drawn under all.
     """
 
     name: str
@@ -111,3 +114,4 @@ class Item:
     ink: Outline
     art: Art
     label: Label = field(default_factory=Label)
+    halo: str = ""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from packwork.scene.item import Item, PhotoArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.units import convert
@@ -27,6 +29,7 @@ def printed(layout: Layout, px_per_cu: float) -> Layout:
     ReadError
         If a photo is no longer there, or broken.
     """
+    layout = _with_backdrop(layout, px_per_cu)
     largest: dict[int, float] = {}
     scales = layout.poses.axis_scales.max(axis=1).tolist()
     for item, scale in zip(layout.items, scales, strict=True):
@@ -43,6 +46,17 @@ def printed(layout: Layout, px_per_cu: float) -> Layout:
                 arts[key] = item.art.original.printed(largest[key] * px_per_cu)
             known[id(item)] = replace(item, art=arts[key])
     return replace(layout, items=tuple(known.get(id(item), item) for item in layout.items))
+
+
+def _with_backdrop(layout: Layout, px_per_cu: float) -> Layout:
+    """The same layout, the picture behind as fine as that."""
+    container = layout.container
+    behind = container.backdrop
+    if behind is None:
+        return layout
+    art = behind.art.original.printed(float(np.hypot(*behind.matrix[:, 0])) * px_per_cu)
+    behind = replace(behind, art=replace(behind.art, preview=art))
+    return replace(layout, container=replace(container, backdrop=behind))
 
 
 def printed_on_paper(layout: Layout, dpi: float) -> Layout:

@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+_AROUND = "around:"
+"""Before a picture whose quiet part is the container."""
+
 
 def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
     """TOML of a recipe's plain options, files named as seen from ``folder``.
@@ -23,8 +26,9 @@ def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
     for key in ("container", "weights", "start", "font"):
         if isinstance(kept.get(key), str):
             kept[key] = _seen_from(folder, kept[key])
-    if "items" in kept:
-        kept["items"] = [_seen_from(folder, name) for name in kept["items"]]
+    for key in ("items", "keep_clear"):
+        if key in kept:
+            kept[key] = [_seen_from(folder, name) for name in kept[key]]
     if "words" in kept:
         kept["words"] = _words_seen_from(folder, kept["words"])
     if "photos" in kept:
@@ -55,6 +59,8 @@ def _photos_seen_from(folder: Path, photos: Mapping[str, Any]) -> dict[str, Any]
 
 def _seen_from(folder: Path, name: str) -> str:
     """A file's path relative to ``folder`` where that is possible, else absolute."""
+    if name.startswith(_AROUND):
+        return _AROUND + _seen_from(folder, name.removeprefix(_AROUND))
     path = Path(name)
     try:
         if not path.exists():

@@ -9,7 +9,6 @@ import shapely
 
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
-from packwork.readers.container import read_container
 from packwork.readers.photos.developing import Negative, Window, developed
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.pictures.silhouette import outline_of_cut_out
@@ -84,6 +83,9 @@ def _rounded(full: Window, radius: float) -> Region:
 
 def _shaped(shape: str, full: Window) -> tuple[Window, Region]:
     """The largest copy of a shape in the middle of a photo, and the box about it."""
+    # Containers may be parts of photos: they know this module.
+    from packwork.readers.container import read_container
+
     region = read_container(shape).outline.region
     left, top, right, bottom = region.bounds
     scale = min(full[2] / (right - left), full[3] / (bottom - top))
