@@ -35,7 +35,7 @@ from packwork.scene.pose import Poses
 from packwork.writers.dxf import dxf_bytes
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
-from packwork.writers.svg import svg_text
+from packwork.writers.svg import SvgOptions, svg_text
 
 sys.path.append(str(DOCS.parent / "tests"))
 from printed import read_pdf
@@ -53,6 +53,14 @@ BROWSER_SECONDS = 120
 ROOM_PX = 200
 """Window below the picture: some browsers count their own bars as part of it."""
 
+EXAMPLES, WORDS = Path(__file__).parents[1] / "examples", 60
+CLOUDS = {
+    "Latin": ("words-bird/raven.txt", None),
+    "Arabic": ("words-arabic/words.csv", "words-arabic/NotoNaskhArabic-Bold.ttf"),
+    "Hindi": ("words-hindi/words.csv", "words-hindi/NotoSansDevanagari-Bold.ttf"),
+    "Chinese": ("words-chinese/words.csv", "words-chinese/NotoSerifSC-Bold.otf"),
+}
+
 HEADER = ["what", "measured", "target"]
 
 
@@ -63,8 +71,30 @@ def outputs_table(icons: Sequence[Item]) -> str:
     )
     sheet = pw.fill("cloud", "builtin:icons", count=ICONS, canvas=SHEET, effort="draft", seed=0)
     return markdown_table(
-        HEADER, [*_crowd_rows(crowd), _sizes_row(sheet), _dxf_row(sheet), _pdf_row(sheet)]
+        HEADER,
+        [
+            *_crowd_rows(crowd),
+            *_text_rows(),
+            _sizes_row(sheet),
+            _dxf_row(sheet),
+            _pdf_row(sheet),
+        ],
     )
+
+
+def _text_rows() -> list[list[str]]:
+    """Live text against our PNG, whose words are outlines."""
+    rows = []
+    for script, (source, font) in CLOUDS.items():
+        fonts = None if font is None else [str(EXAMPLES / font)]
+        layout = pw.words(
+            "circle", str(EXAMPLES / source), fonts=fonts, count=WORDS, rotate="20",
+            canvas=CANVAS_PX, effort="draft", seed=0,
+        )  # fmt: skip
+        found = _in_browser(layout, svg_text(layout, SvgOptions(text="live")))
+        what = f"{WORDS} words as text in a browser and our PNG, {script}"
+        rows.append([what, found, "IoU >= 0.99"])
+    return rows
 
 
 def _crowd_rows(layout: Layout) -> list[list[str]]:

@@ -1,8 +1,9 @@
 """Word clouds beside the ``wordcloud`` package: ``packwork bench words [CONTAINER...] [100|400]``.
 
 Same words, weights, font and container in one run; ours with ``padding 0`` and one word in four
-vertical, the peer with its defaults. Without arguments all rows are run and the tables are written
-to docs/benchmarks-words.md. The peer comes with ``pip install '.[bench]'``.
+vertical, the peer with its defaults, and once more asked for sizes in proportion. Without
+arguments all rows are run and the tables are written to docs/benchmarks-words.md. The peer
+comes with ``pip install '.[bench]'``.
 """
 
 from __future__ import annotations
@@ -48,10 +49,11 @@ Made by `packwork bench words` on {date}.
 
 Weights are 1 / rank^0.35, heights of letters. "ink" is the share of the container's pixels that is
 drawn on, at 1,200 px; "sizes off by" the median distance of a word's height from its share, in
-percent of it; the largest gap is the radius of the largest empty disc and L-nU the mean squared
-distance from empty pixels to the nearest ink, both on a canvas of 600 px. Overlap and outside are
-exact areas of ours, shares of the container; the peer writes pixels. Seconds are the processor's,
-reading and measuring taken in, on a machine that others use too.
+percent of it; "scaling 1" is the peer with `relative_scaling=1`, which asks for sizes in
+proportion as ours are; the largest gap is the radius of the largest empty disc and L-nU the mean
+squared distance from empty pixels to the nearest ink, both on a canvas of 600 px. Overlap and
+outside are exact areas of ours, shares of the container; the peer writes pixels. Seconds are
+the processor's, reading and measuring taken in, on a machine that others use too.
 
 {table}
 """
@@ -105,7 +107,7 @@ def ours(container: Container, weights: dict[str, float]) -> Cloud:
     )
 
 
-def peer(container: Container, weights: dict[str, float]) -> Cloud:
+def peer(container: Container, weights: dict[str, float], relative_scaling: Any = "auto") -> Cloud:
     import wordcloud
 
     inside = pixels([container.outline], container)
@@ -115,6 +117,7 @@ def peer(container: Container, weights: dict[str, float]) -> Cloud:
         mask=np.where(inside, 0, 255).astype(np.uint8),
         max_words=len(weights),
         random_state=0,
+        relative_scaling=relative_scaling,
         mode="RGB",
         background_color="white",
         color_func=lambda *_, **__: "black",
@@ -122,7 +125,13 @@ def peer(container: Container, weights: dict[str, float]) -> Cloud:
     shown = np.asarray(cloud.to_array())[..., 0] < 128
     seconds = time.process_time() - began
     heights = {word: float(size) for (word, _), size, *_ in cloud.layout_}
-    return Cloud("wordcloud", len(heights), shown, heights, seconds)
+    name = "wordcloud" if relative_scaling == "auto" else f"wordcloud, scaling {relative_scaling}"
+    return Cloud(name, len(heights), shown, heights, seconds)
+
+
+def proportional_peer(container: Container, weights: dict[str, float]) -> Cloud:
+    """The peer asked for sizes in proportion, as ours are."""
+    return peer(container, weights, 1)
 
 
 def pixels(outlines: Sequence[Any], container: Container) -> np.ndarray:
@@ -161,7 +170,7 @@ def rows(names: Sequence[str], counts: Sequence[int]) -> Iterator[list[str]]:
         weights = vocabulary(count)
         for name in names:
             container = read_container(name)
-            for program in (ours, peer):
+            for program in (ours, peer, proportional_peer):
                 found = row(container, weights, program(container, weights))
                 print(" | ".join(found), file=sys.stderr, flush=True)
                 yield found

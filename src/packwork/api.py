@@ -89,6 +89,7 @@ class Layout(scene.Layout):
         background: str | None = None,
         show_container: bool = False,
         flatten: bool = False,
+        text: Literal["outlines", "live"] = "outlines",
     ) -> None:
         """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
 
@@ -106,6 +107,9 @@ class Layout(scene.Layout):
             Draw the container's line.
         flatten
             In SVG, repeat each drawing in place, for tools that choke on ``use``.
+        text
+            ``live``: words in SVG are text, to be selected and found, in parts of their
+            fonts that the file carries; ``outlines``: they are curves.
 
         Raises
         ------
@@ -127,6 +131,7 @@ class Layout(scene.Layout):
             background=background,
             show_container=show_container,
             flatten=flatten,
+            text=text,
         )
         writers.write(self, path, options)
 
@@ -233,9 +238,10 @@ def words(
         As for :func:`fill`.
     options
         As on the command line: ``count``, ``min_count``, ``language``, ``stopwords``,
-        ``phrases``, ``plurals``, ``case``, ``fonts``, ``font_weight``, ``weight_is``,
-        ``color_by``, ``contrast``, ``background`` (to be given to ``save`` too), and those
-        of :func:`fill` but ``count`` and ``weights``.
+        ``phrases``, ``plurals``, ``case``, ``min_word_length``, ``include_numbers``,
+        ``regexp``, ``fonts``, ``font_weight``, ``weight_is``, ``smallest``, ``largest``,
+        ``color_by`` (also a function of a word), ``contrast``, ``background`` (to be given to
+        ``save`` too), and those of :func:`fill` but ``count`` and ``weights``.
 
     Raises
     ------

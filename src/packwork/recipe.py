@@ -146,8 +146,8 @@ class Recipe(Pictured):
     """Most items in all once smaller copies have been put into the voids. Default: 1000."""
 
     smallest: str | float | None = None
-    """Put smaller copies into the voids, down to this longer side, a length as for the padding.
-    Default: 0.5%."""
+    """Put smaller copies into the voids, down to this longer side, a length as for the padding
+    (default 0.5%). Of words: the least font size; smaller ones are left out and named."""
 
     filler: tuple[str, ...] | None = None
     """Items to put into the voids, in place of smaller copies of the items."""

@@ -44,6 +44,22 @@ def test_words_without_a_font_are_named_and_the_rest_is_written(
     assert Path("c.svg").exists()
 
 
+def test_how_many_words_there_were_is_said(packwork: Command, text: Path) -> None:
+    line = QUICK.replace("-q", "")
+    result = packwork(f"words circle bears.txt -n 3 {line} -o c.svg --report r.json")
+    assert "the 3 largest of 6 different words; -n takes more" in result.stdout
+    report = json.loads(Path("r.json").read_text(encoding="utf-8"))
+    assert report["words"] == {"found": 6, "asked": 3}
+    assert "different words" not in packwork(f"words circle bears.txt {line} -o c.svg").stdout
+
+
+def test_words_are_written_as_text(packwork: Command, text: Path) -> None:
+    result = packwork(f"words circle bears.txt -n 3 {QUICK} --text live -o c.svg -o c.png")
+    assert result.exit_code == 0, result.output
+    assert ">honey</text>" in Path("c.svg").read_text(encoding="utf-8")
+    assert packwork("measure c.svg").exit_code == 0
+
+
 def test_standard_input_is_read(packwork: Command) -> None:
     from typer.testing import CliRunner
 
@@ -62,7 +78,10 @@ def test_standard_input_is_read(packwork: Command) -> None:
         ("circle bears.txt --font bears.txt", "bears.txt: is not a font"),
         ("circle bears.txt --font NoSuchFamily", "is no font file and no installed family"),
         ("circle bears.txt --language klingon", "--language: there is no list for 'klingon'"),
-        ("circle bears.txt --min-count 50", "none that is no stop word and stands there 50 times"),
+        (
+            "circle bears.txt --min-count 50",
+            "has no word 50 times; the most frequent, 'bear', is there 3 times",
+        ),
         ("circle bears.txt --stopwords missing.txt", "missing.txt: there is no such file"),
         ("circle bears.txt --color-by kind", "--color-by: there is no column 'kind'"),
         ("circle bears.txt --color-by missing.png", "missing.png: there is no such file"),

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 from collections import Counter
+from importlib import resources
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +12,11 @@ import pytest
 from PIL import Image
 
 import packwork as pw
+from made_fonts import EMOJI, STRIKE_PX, emoji_font
 from packwork.pipeline import fill, words_recipe
 from packwork.pipeline.casting import BOX_OVER_INK
 from packwork.readers.recipe import read_recipe
+from packwork.readers.written.read import read_written
 from packwork.recipe import make_recipe
 from packwork.scene.contrast import contrast
 from packwork.writers.recipe import recipe_bytes
@@ -91,6 +95,32 @@ def test_colours_from_a_picture_are_those_under_the_words(tmp_path: Path) -> Non
             assert colour == ("#000080" if right < 299 else "#800000")
 
 
+def test_colours_from_a_function_are_what_it_says_of_each_word() -> None:
+    def by_length(word):
+        return "#800000" if len(word.text) > 3 else None
+
+    layout = pw.words("circle", WEIGHTS, color_by=by_length, palette="navy", **QUICK)
+    assert fills(layout) == ["#800000", "#800000", "#000080", "#000080"]
+    assert layout.manifest["recipe"]["words"]["color_by"].endswith("by_length")
+    pale = pw.words("circle", WEIGHTS, color_by=lambda _: "yellow", **QUICK)
+    assert all(contrast(colour, "white") >= 2.95 for colour in fills(pale))
+    with pytest.raises(pw.RecipeError, match="color_by: gave 'honey' the colour 'sky', which is"):
+        pw.words("circle", WEIGHTS, color_by=lambda _: "sky", **QUICK)
+
+
+def test_pictures_of_colour_fonts_keep_their_colours(tmp_path: Path) -> None:
+    made = io.BytesIO()
+    Image.new("RGBA", (STRIKE_PX, STRIKE_PX), "gold").save(made, format="png")
+    (tmp_path / "faces.ttf").write_bytes(emoji_font(made.getvalue()))
+    inter = str(resources.files("packwork.bundled").joinpath("fonts/InterDisplay-Black.otf"))
+    fonts = [inter, str(tmp_path / "faces.ttf")]
+    for by in (None, "weight"):
+        layout = pw.words("circle", {"ox": 2, EMOJI: 1}, fonts=fonts, color_by=by, **QUICK)
+        assert "<image" in layout.items[1].art.markup
+    layout.save(tmp_path / "cloud.svg")
+    assert read_written(tmp_path / "cloud.svg").items[1].outline.area > 0
+
+
 @pytest.mark.parametrize("background", ["white", "#102030"])
 def test_words_can_be_read_on_the_background(background: str) -> None:
     layout = pw.words("circle", WEIGHTS, palette="yellow,#112233", background=background, **QUICK)
@@ -150,3 +180,20 @@ def test_names_of_turns() -> None:
     assert layout.poses.angle == pytest.approx(-np.pi / 2)
     layout = pw.words("circle", WEIGHTS, rotate="mixed", **QUICK)
     assert set(layout.poses.angle.round(6)) <= {0.0, round(-np.pi / 2, 6)}
+
+
+@pytest.mark.parametrize(("outline", "may"), [("hull", False), ("exact", True)])
+def test_words_stand_between_the_letters_of_others_unless_hulls_are_asked_for(
+    outline: str, may: bool
+) -> None:
+    weights = {"lily": 6.0} | {f"o{k}": 1.0 for k in range(24)}
+    layout = pw.words("square", weights, outline=outline, padding=0, seed=3, **QUICK)
+    hulls = [placed.region.convex_hull for placed in layout.outlines]
+    meeting = [(i, j) for i in range(len(hulls)) for j in range(i) if hulls[i].intersects(hulls[j])]
+    assert bool(meeting) == may
+
+
+@pytest.mark.parametrize("holes", ["fill", "keep"])
+def test_counters_are_free_for_words_only_if_holes_are_kept(holes: str) -> None:
+    layout = pw.words("circle", {"OO": 9.0, "i": 1.0}, holes=holes, **QUICK)
+    assert layout.items[0].outline.has_holes == (holes == "keep")

@@ -54,7 +54,7 @@ def test_text_is_where_the_renderer_puts_it():
 
 def test_letters_keep_the_curves_of_their_font():
     face = bundled_typeface()
-    curves = face.drawing(face.shaped("O")[0].number)
+    curves = face.drawing(face.shaped("O").glyphs[0].number)
     data = "".join(letter + " ".join(map(str, numbers)) for letter, numbers in curves)
     drawn = item_of(f'<path transform="translate(0 90) scale({80 / face.units})" d="{data}"/>')
     text = item_of(f'<text y="90" font-size="80" {BUNDLED}>O</text>')

@@ -13,6 +13,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.errors import PackworkError, ReadError, RecipeError
+from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import read_words
 from packwork.readers.words.stop_words import guess_language, stop_words
@@ -116,12 +117,12 @@ def test_tables_are_read(tmp_path: Path, name: str, text: str) -> None:
     assert counted(str(file)) == {"bear": 2.0, "fox": 1.0}
 
 
-def test_a_table_says_that_it_was_cut_and_adds_up_what_reads_the_same(caplog, tmp_path) -> None:
+def test_a_long_table_is_cut_and_what_reads_the_same_is_added_up(tmp_path: Path) -> None:
     file = tmp_path / "a.csv"
     file.write_text("".join(f"w{k % 60_000},{1 + k}\n" for k in range(100_000)), encoding="utf-8")
     found = counted(str(file), count=2)
     assert found == {"w39999": 140_000.0, "w39998": 139_998.0}
-    assert "the 2 largest of 60000 words are kept" in caplog.text
+    assert read_word_items(WordOptions(source=str(file), count=2)).found == 60_000
 
 
 @pytest.mark.parametrize(
@@ -152,7 +153,7 @@ def test_bad_tables_are_one_clear_line(tmp_path: Path, text: str, problem: str) 
         ("my missing notes.txt", "there is no such file"),
         (" ", "source: is empty"),
         ("... --- ...", "holds no words"),
-        ("the and of the to", "none that is no stop word"),
+        ("the and of the to", "holds 4 different words, and all are stop words"),
         ({}, "holds no words"),
         ({"\ud800\x00": 1}, "holds no words"),
     ],
@@ -181,3 +182,24 @@ def test_any_text_gives_words_or_a_refusal(text: str) -> None:
     except PackworkError:
         return
     assert all(word.weight > 0 and word.text.isprintable() for word in words)
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ({}, {"bear", "ox"}),
+        ({"min_word_length": 3}, {"bear"}),
+        ({"min_word_length": 1}, {"bear", "ox", "x"}),
+        ({"include_numbers": True}, {"bear", "ox", "42"}),
+        ({"regexp": r"[#@]\w+"}, {"#bear", "@ox"}),
+        ({"regexp": r"(b)(e)ar"}, {"bear"}),
+    ],
+)
+def test_what_counts_as_a_word_can_be_chosen(options: dict, expected: set[str]) -> None:
+    text = "the #bear and the @ox, x and 42"
+    assert set(counted(text, language="en", **options)) == expected
+
+
+def test_a_pattern_that_is_none_is_refused() -> None:
+    with pytest.raises(RecipeError, match="regexp: is no regular expression"):
+        counted("a bear", regexp="(")

@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 import pytest
-from fontTools.fontBuilder import FontBuilder
-from fontTools.pens.ttGlyphPen import TTGlyphPen
-from fontTools.ttLib.tables.TupleVariation import TupleVariation
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from made_fonts import variable_font
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.typeface.face import Typeface, bundled_typeface
 from packwork.readers.typeface.fonts import open_fonts
@@ -106,7 +102,7 @@ def test_a_damaged_font_gives_glyphs_or_a_refusal(data: st.DataObject) -> None:
         font[place] ^= 0x5A
     try:
         face = Typeface(bytes(font), "x")
-        for glyph in face.shaped("bear"):
+        for glyph in face.shaped("bear").glyphs:
             face.drawing(glyph.number)
     except UnfitError:
         pass
@@ -114,7 +110,7 @@ def test_a_damaged_font_gives_glyphs_or_a_refusal(data: st.DataObject) -> None:
 
 def test_curves_are_exact_in_the_fonts_units() -> None:
     face = bundled_typeface()
-    drawn = face.drawing(face.shaped("o")[0].number)
+    drawn = face.drawing(face.shaped("o").glyphs[0].number)
     assert {letter for letter, _ in drawn} <= set("MLQCZ")
     values = [value for _, numbers in drawn for value in numbers]
     assert all(value == round(value) for value in values)
@@ -126,31 +122,9 @@ def test_a_variable_font_is_drawn_at_the_weight_asked_for() -> None:
     for weight in (100, 500, 900, 2_000):
         face = Typeface(data, "x", weight=weight)
         points = [
-            v for _, numbers in face.drawing(face.shaped("a")[0].number) for v in numbers[::2]
+            v
+            for _, numbers in face.drawing(face.shaped("a").glyphs[0].number)
+            for v in numbers[::2]
         ]
         widths.append(max(points))
     assert widths == [100, 200, 300, 300]
-
-
-def variable_font() -> bytes:
-    """A font of one square, 100 units wide at weight 100 and 300 at 900."""
-    builder = FontBuilder(1000, isTTF=True)
-    builder.setupGlyphOrder([".notdef", "a"])
-    builder.setupCharacterMap({ord("a"): "a"})
-    pen = TTGlyphPen(None)
-    pen.moveTo((0, 0))
-    for point in ((0, 500), (100, 500), (100, 0)):
-        pen.lineTo(point)
-    pen.closePath()
-    builder.setupGlyf({".notdef": TTGlyphPen(None).glyph(), "a": pen.glyph()})
-    builder.setupHorizontalMetrics({".notdef": (400, 0), "a": (400, 0)})
-    builder.setupHorizontalHeader(ascent=800, descent=-200)
-    builder.setupNameTable({"familyName": "Squares", "styleName": "Regular"})
-    builder.setupFvar([("wght", 100, 100, 900, "Weight")], [])
-    deltas = [(0, 0), (0, 0), (200, 0), (200, 0), (0, 0), (0, 0), (0, 0), (0, 0)]
-    builder.setupGvar({"a": [TupleVariation({"wght": (0.0, 1.0, 1.0)}, deltas)], ".notdef": []})
-    builder.setupOS2()
-    builder.setupPost()
-    file = io.BytesIO()
-    builder.save(file)
-    return file.getvalue()

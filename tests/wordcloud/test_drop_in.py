@@ -147,9 +147,36 @@ def test_words_repeat_until_there_are_enough() -> None:
     cloud = WordCloud(
         width=160, height=100, repeat=True, max_words=20, stopwords=[], random_state=0
     ).generate("Some short text")
-    assert len(cloud.layout_) == 20
+    assert len(cloud.layout_) == 21
     assert len(cloud.words_) == 3
     assert {entry[0][0] for entry in cloud.layout_} == {"Some", "short", "text"}
+
+
+def test_functions_that_take_arrays_get_bytes(cloud: WordCloud) -> None:
+    """What shows pictures takes floats to be shares of one."""
+    assert np.asarray(cloud).dtype == np.uint8
+    assert np.asarray(cloud, dtype=np.float64).max() > 1
+
+
+def test_svg_holds_outlines_or_text(cloud: WordCloud) -> None:
+    assert "<text" not in cloud.to_svg()
+    assert ">honey</text>" in cloud.to_svg(embed_font=True)
+
+
+def test_repeated_words_come_in_whole_rounds() -> None:
+    options = {"width": 160, "height": 100, "stopwords": [], "random_state": 0}
+    cloud = WordCloud(repeat=True, max_words=10, **options).generate("Some short text")
+    assert len(cloud.layout_) == 12
+    assert len(WordCloud(repeat=True, max_words=2, **options).generate("Some short").layout_) == 2
+
+
+def test_what_failed_leaves_nothing_behind(cloud: WordCloud) -> None:
+    small = WordCloud(width=1, height=1)
+    with pytest.raises(ValueError, match="Couldn't find space"):
+        small.fit_words({"ox": 1})
+    assert small.layout_ == []
+    with pytest.raises(ValueError, match="call generate"):
+        small.to_image()
 
 
 def test_texts_become_words_and_pairs() -> None:

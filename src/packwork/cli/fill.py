@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
+from packwork.cli.saliency import write_saliency
 from packwork.recipe import make_recipe
 
 DEFAULT_OUTPUT = Path("collage.svg")
@@ -120,7 +121,6 @@ def fill(
             losses=shared.loss_weights(loss),
         )
         from packwork.cli.running import Outputs, run_and_write
-        from packwork.cli.saliency import write_saliency
         from packwork.writers import write_options
 
         write_saliency(recipe, show_saliency)

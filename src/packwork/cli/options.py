@@ -113,6 +113,15 @@ Flatten = Annotated[
         rich_help_panel=WRITING,
     ),
 ]
+Text = Annotated[
+    Literal["outlines", "live"],
+    typer.Option(
+        "--text",
+        help="Words in SVG: outlines, or live text that can be selected and found, in parts of "
+        "their fonts that the file carries.",
+        rich_help_panel=WRITING,
+    ),
+]
 Report = Annotated[
     Path | None,
     typer.Option("--report", help="Write measures and times as JSON.", rich_help_panel=WRITING),

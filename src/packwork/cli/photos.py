@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
+from packwork.cli.saliency import write_saliency
 from packwork.readers.photos.options import PhotoOptions
 
 DEFAULT_OUTPUT = Path("photos.jpg")
@@ -97,7 +98,6 @@ def photos(
     """
     with clear_errors():
         from packwork.cli.running import Outputs, run_and_write
-        from packwork.cli.saliency import write_saliency
         from packwork.pipeline.photographing import photos_recipe
         from packwork.writers import write_options
 

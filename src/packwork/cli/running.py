@@ -22,6 +22,7 @@ from packwork.cli.show import (
     metrics_table,
     notice_if_slow,
     seconds_line,
+    words_line,
 )
 from packwork.display.bar import TerminalBar
 from packwork.errors import WriteError
@@ -176,6 +177,8 @@ def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console,
         style="dim",
         soft_wrap=True,
     )
+    if results["words"] is not None and results["words"]["found"] > results["words"]["asked"]:
+        console.print(words_line(results["words"]), style="dim")
     if results["beside"] is not None:
         console.print(f"{results['beside']} pairs of one kind lie side by side", style="dim")
     if results["filling"] is not None:

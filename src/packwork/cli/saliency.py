@@ -4,11 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from packwork.display.saliency import saliency_png
-from packwork.errors import RecipeError
-from packwork.readers.quiet.container import AROUND, QuietOptions
 from packwork.recipe import Recipe
-from packwork.writers import check_writable, write_atomic
 
 
 def write_saliency(recipe: Recipe, path: Path | None) -> None:
@@ -27,6 +23,12 @@ def write_saliency(recipe: Recipe, path: Path | None) -> None:
     """
     if path is None:
         return
+    # Only what is asked for loads the picture library.
+    from packwork.display.saliency import saliency_png
+    from packwork.errors import RecipeError
+    from packwork.readers.quiet.container import AROUND, QuietOptions
+    from packwork.writers import check_writable, write_atomic
+
     if not recipe.container.startswith(AROUND):
         raise RecipeError(
             "show_saliency", f"needs a container {AROUND}IMAGE, not {recipe.container[:40]!r}"

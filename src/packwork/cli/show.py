@@ -98,3 +98,14 @@ def filling_line(filling: Mapping[str, Any]) -> str:
         f"{filling['added']} smaller items fill voids; "
         f"{100 * covered:.2f} % covered{short}: {filling['ending']}"
     )
+
+
+def words_line(words: Mapping[str, int]) -> str:
+    """How many of a source's words were to be set.
+
+    Examples
+    --------
+    >>> words_line({"found": 2317, "asked": 100})
+    'the 100 largest of 2,317 different words; -n takes more'
+    """
+    return f"the {words['asked']:,} largest of {words['found']:,} different words; -n takes more"

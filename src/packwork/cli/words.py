@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
+from packwork.cli.saliency import write_saliency
 from packwork.readers.words.options import WordOptions
 
 DEFAULT_OUTPUT = Path("words.svg")
@@ -43,6 +44,9 @@ def words(
     min_count: Annotated[int, _flag("min_count")] = 1,
     language: Annotated[str, _flag("language")] = "auto",
     stopwords: Annotated[str | None, _flag("stopwords")] = None,
+    min_word_length: Annotated[int, _flag("min_word_length")] = 2,
+    include_numbers: Annotated[bool, _flag("include_numbers", "--include-numbers")] = False,
+    regexp: Annotated[str | None, _flag("regexp")] = None,
     phrases: Annotated[int, _flag("phrases")] = 1,
     plurals: Annotated[Literal["merge", "keep"], _flag("plurals")] = "merge",
     case: Annotated[Literal["common", "lower", "upper"], _flag("case", panel=TYPE)] = "common",
@@ -73,6 +77,7 @@ def words(
     target_coverage: shared.TargetCoverage = None,
     max_items: shared.MaxItems = None,
     smallest: shared.Smallest = None,
+    largest: Annotated[str | None, _flag("largest", panel=TYPE)] = None,
     filler: shared.Filler = None,
     hero: shared.Hero = None,
     holes: shared.Holes = "fill",
@@ -89,6 +94,7 @@ def words(
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
+    text: shared.Text = "outlines",
     show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
@@ -107,7 +113,6 @@ def words(
     """
     with clear_errors():
         from packwork.cli.running import Outputs, run_and_write
-        from packwork.cli.saliency import write_saliency
         from packwork.pipeline.wording import words_recipe
         from packwork.writers import write_options
 
@@ -119,6 +124,9 @@ def words(
             min_count=min_count,
             language=language,
             stopwords=stopwords,
+            min_word_length=min_word_length,
+            include_numbers=include_numbers,
+            regexp=regexp,
             phrases=phrases,
             plurals=plurals,
             case=case,
@@ -139,6 +147,7 @@ def words(
             target_coverage=target_coverage,
             max_items=max_items,
             smallest=smallest,
+            largest=largest,
             filler=filler,
             hero=hero,
             holes=holes,
@@ -153,13 +162,12 @@ def words(
             losses=shared.loss_weights(loss),
         )
         write_saliency(recipe, show_saliency)
+        drawn = write_options(
+            pixels=pixels, background=background, show_container=show_container,
+            flatten=flatten, text=text,
+        )  # fmt: skip
         outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT],
-            options=write_options(
-                pixels=pixels, background=background, show_container=show_container, flatten=flatten
-            ),
-            report=report,
-            diagnose=diagnose,
+            files=output or [DEFAULT_OUTPUT], options=drawn, report=report, diagnose=diagnose,
             recipe=save_recipe,
-        )
+        )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -1,7 +1,7 @@
 """The one place that knows every stage: from a recipe to a measured layout."""
 
 from packwork.pipeline.casting import item_weights
-from packwork.pipeline.job import Clock, Job, read
+from packwork.pipeline.job import Clock, Job, Letters, read
 from packwork.pipeline.outcome import Run, Unplaced, find_unplaced
 from packwork.pipeline.photographing import photos_recipe
 from packwork.pipeline.run import fill, padded, run, warm_up
@@ -10,6 +10,7 @@ from packwork.pipeline.wording import words_recipe
 __all__ = [
     "Clock",
     "Job",
+    "Letters",
     "Run",
     "Unplaced",
     "fill",

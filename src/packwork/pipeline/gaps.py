@@ -26,6 +26,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.limiting import kinds
 from packwork.pipeline.outcome import Filling
 from packwork.progress import Observer, Stop
+from packwork.readers.words.items import EM_PX
 from packwork.scene.item import Item
 from packwork.start.angles import nearest_allowed
 from packwork.start.fitting import SECTORS
@@ -109,6 +110,9 @@ class _Run:
         own = np.array([outline.area for outline in self._shapes])
         extents = np.array([outline.extent for outline in self._shapes])
         self._smallest = job.recipe.smallest_cu(job.container) / extents
+        if job.letters is not None and job.letters.smallest and not job.recipe.filler:
+            # The copies are words too, and to be read.
+            self._smallest = np.full(len(extents), job.letters.smallest / EM_PX)
         # No filler outgrows what is a fair share for the items of before.
         self._largest = np.sqrt(job.container.outline.area / self._first / own)
         if job.words is not None and not job.recipe.filler:

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from packwork.arrays import FloatArray
-from packwork.errors import PackworkError
+from packwork.errors import PackworkError, RecipeError
 from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.casting import cast, cast_words
@@ -21,6 +21,7 @@ from packwork.readers.photos.read import read_photos
 from packwork.readers.quiet.container import QuietOptions
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
+from packwork.refusals import length_asked
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -41,6 +42,20 @@ class Clock:
             yield
         finally:
             self.seconds[part] = self.seconds.get(part, 0.0) + time.perf_counter() - began
+
+
+@dataclass(frozen=True)
+class Letters:
+    """Bounds of the font size of words, canvas units; None where there is none.
+
+    Examples
+    --------
+    >>> Letters(smallest=8.0).largest is None
+    True
+    """
+
+    smallest: float | None = None
+    largest: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,6 +82,8 @@ class Job:
         What may be put into the voids that are left, one of each sort.
     words
         The words among the items, if any.
+    letters
+        How large words may be; None if as it comes.
     """
 
     recipe: Recipe
@@ -80,6 +97,7 @@ class Job:
     earlier: Layout | None = None
     fillers: tuple[Item, ...] = ()
     words: WordsRead | None = None
+    letters: Letters | None = None
 
     @property
     def is_limited(self) -> bool:
@@ -130,6 +148,7 @@ def read(
         earlier,
         fillers,
         words,
+        _letters(recipe, region),
     )
 
 
@@ -146,6 +165,36 @@ def _items(recipe: Recipe) -> tuple[tuple[Item, ...] | None, tuple[PackworkError
         found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
         items, skipped = (*items, *found.items), (*skipped, *found.skipped)
     return items or None, skipped
+
+
+def _letters(recipe: Recipe, container: Container) -> Letters | None:
+    """Bounds of the font size that a recipe asks for.
+
+    Raises
+    ------
+    RecipeError
+        If one is no length, they cross, or sizes are not shared.
+    """
+    if recipe.words is None:
+        return None
+    found: dict[str, float | None] = {}
+    for key in ("smallest", "largest"):
+        asked = getattr(recipe.words, key)
+        if asked is None:
+            continue
+        found[key] = size = length_asked(key, asked, container.unit, container.side)
+        if size <= 0:
+            raise RecipeError(key, f"must be more than nothing, not {asked}")
+        if recipe.sizes != "shared":
+            raise RecipeError(
+                key, f"bounds words in proportion to each other, not --sizes {recipe.sizes}"
+            )
+    letters = Letters(**found)
+    if letters.smallest and letters.largest and letters.smallest > letters.largest:
+        raise RecipeError(
+            "smallest", f"is {letters.smallest:g}, more than the {letters.largest:g} of --largest"
+        )
+    return letters if found else None
 
 
 def _fillers(

@@ -65,6 +65,14 @@ class Filling:
         return self.target is not None and self.covered < self.target
 
 
+@dataclass(frozen=True)
+class WordsFound:
+    """How many different words a source holds, and how many of them were to be set."""
+
+    found: int
+    asked: int
+
+
 @dataclass(frozen=True, eq=False)
 class Run:
     """What a run gave.
@@ -92,6 +100,9 @@ class Run:
         What of that does not hold although it was promised, a sentence each.
     filling
         How the voids were filled, if that was asked for.
+    words
+        How many different words the source holds, and how many of them were to be set; None
+        if there are none.
     """
 
     layout: Layout
@@ -104,6 +115,7 @@ class Run:
     certified: bool = False
     broken: tuple[str, ...] = ()
     filling: Filling | None = None
+    words: WordsFound | None = None
 
     @property
     def is_as_asked(self) -> bool:
@@ -138,9 +150,17 @@ class Run:
             "promised": self.layout.manifest["promised"] is not None,
             "broken": list(self.broken),
             "filling": None if self.filling is None else asdict(self.filling),
+            "words": None if self.words is None else asdict(self.words),
             "ending": self.ending.value,
             "seed": self.layout.manifest["seed"],
         }
+
+
+def words_found(job: Job) -> WordsFound | None:
+    """What the words of a job are a part of."""
+    if job.words is None:
+        return None
+    return WordsFound(job.words.found, len(job.words.items) + len(job.words.undrawn))
 
 
 def undrawn(job: Job) -> tuple[Unplaced, ...]:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, replace
+from dataclasses import asdict, dataclass, replace
+from itertools import count
 
 import numpy as np
 
@@ -23,7 +24,8 @@ from packwork.pipeline.dressing import dressed
 from packwork.pipeline.finishing import finished, unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
-from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn
+from packwork.pipeline.letters import held_down, with_readable, without_hopeless
+from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn, words_found
 from packwork.progress import Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -70,7 +72,42 @@ def fill(
 
 
 def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
-    """Solve and measure what was read; the second half of :func:`fill`."""
+    """Solve and measure what was read; the second half of :func:`fill`.
+
+    Where words would come out smaller than they may be, those are left out and the others
+    are placed anew.
+    """
+    job = without_hopeless(job)
+    for attempt in count(1):
+        placed = _placed(job, observer, stop)
+        fewer = job if stop() else with_readable(job, placed.poses, attempt)
+        if fewer is job:
+            break
+        job = fewer
+    if placed.exact is None or not job.recipe.fills_gaps:
+        return _judged(job, placed.start, placed.outcome, placed.exact, placed.poses, None)
+    with job.clock.time("gaps"):
+        filled = fill_gaps(job, placed.start, placed.exact, observer, stop)
+    return _judged(
+        filled.job, filled.start, placed.outcome, filled.exact, filled.exact.poses, filled.filling
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Placed:
+    """What the levels gave, and the finish if one was asked for."""
+
+    start: Beginning
+    outcome: Outcome
+    exact: Finished | None
+
+    @property
+    def poses(self) -> Poses:
+        return self.outcome.poses if self.exact is None else self.exact.poses
+
+
+def _placed(job: Job, observer: Observer | None, stop: Stop) -> _Placed:
+    """Poses of all items, before voids are filled."""
     recipe, clock = job.recipe, job.clock
     with clock.time("start"):
         outlines = stand_ins([item.outline for item in job.items], recipe.outline)
@@ -82,17 +119,12 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
         outcome = solve(
             region, outlines, start.poses, start.nominal, options, observer, stop, start.limits
         )
-    poses, exact, filling = outcome.poses, None, None
-    if recipe.finish == "exact":
-        with clock.time("finish"):
-            exact = finished(job, start, poses, observer, stop)
-            poses = exact.poses
-    if exact is not None and recipe.fills_gaps:
-        with clock.time("gaps"):
-            filled = fill_gaps(job, start, exact, observer, stop)
-        job, start, exact, filling = filled.job, filled.start, filled.exact, filled.filling
-        poses = exact.poses
-    return _judged(job, start, outcome, exact, poses, filling)
+    if recipe.finish != "exact":
+        return _Placed(start, outcome, None)
+    with clock.time("finish"):
+        exact = finished(job, start, outcome.poses, observer, stop)
+        exact = held_down(job, start, exact, observer, stop)
+    return _Placed(start, outcome, exact)
 
 
 def _judged(
@@ -116,12 +148,14 @@ def _judged(
         promise = Promise(recipe.padding_cu(job.container), shares) if exact is not None else None
         faults = () if promise is None else broken(promise, layout, metrics.exact)
         beside = None if start.limits is None else same_kind_beside(layout, start.limits.kinds)
+    words = words_found(job)
     certified = promise is not None and not faults and not unplaced
     said = manifest(job, start.method, outcome, metrics, unplaced, beside)
     said |= {
         "certified": certified,
         "promised": None if promise is None else asdict(promise),
         "filling": None if filling is None else asdict(filling),
+        "words": None if words is None else asdict(words),
     }
     return Run(
         layout=replace(dressed(job, layout), manifest=said),
@@ -134,6 +168,7 @@ def _judged(
         certified=certified,
         broken=faults,
         filling=filling,
+        words=words,
     )
 
 

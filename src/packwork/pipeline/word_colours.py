@@ -18,12 +18,13 @@ from packwork.readers.pictures.decode import (
     decode_picture,
 )
 from packwork.readers.unfit import naming
-from packwork.readers.words.options import WordOptions
+from packwork.readers.words.options import ColourOf, WordOptions
 from packwork.readers.words.word import Word
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout
 from packwork.scene.palette import palette_colours
+from packwork.writers.recolour import has_one_colour
 
 if TYPE_CHECKING:
     from packwork.pipeline.job import Job
@@ -50,8 +51,11 @@ def word_colours(job: Job, layout: Layout) -> list[str | None] | None:
     if job.words is None or recipe.words is None or recipe.words.color_by is None:
         return None
     named = dict(zip((i.name for i in job.words.items), job.words.words, strict=True))
-    words = [named.get(item.name) for item in layout.items]
+    # Emoji in colours of their own keep them.
+    words = [named.get(item.name) if has_one_colour(item.art) else None for item in layout.items]
     by = recipe.words.color_by
+    if callable(by):
+        return _by_function(words, by, recipe)
     if by == WEIGHT:
         return _by_weight(words, _palette(recipe))
     if _is_picture(by):
@@ -70,7 +74,7 @@ def check_colours(recipe: Recipe, words: Sequence[Word]) -> None:
         If the table has no such column.
     """
     by = None if recipe.words is None else recipe.words.color_by
-    if by is None or by == WEIGHT:
+    if by is None or by == WEIGHT or callable(by):
         return
     if _is_picture(by):
         _covering(by, (1, 1))
@@ -101,6 +105,31 @@ def _by_weight(words: list[Word | None], palette: tuple[str, ...]) -> list[str |
         else between(palette, (float(logs.max()) - float(np.log(word.weight))) / span)
         for word in words
     ]
+
+
+def _by_function(words: list[Word | None], colour_of: ColourOf, recipe: Recipe) -> list[str | None]:
+    """What a function says of each word, kept readable.
+
+    Raises
+    ------
+    RecipeError
+        If that is no colour.
+    """
+    assert recipe.words is not None  # noqa: S101 - who asks has words
+    paper, first = recipe.words.paper or PAPER, _palette(recipe)[0]
+    found: list[str | None] = []
+    for word in words:
+        said = None if word is None else colour_of(word)
+        colour = first if said is None else said
+        try:
+            legible = readable(colour, paper, recipe.words.contrast)
+        except (ValueError, TypeError, AttributeError):
+            text = "" if word is None else word.text
+            raise RecipeError(
+                "color_by", f"gave {text[:40]!r} the colour {str(said)[:40]!r}, which is none"
+            ) from None
+        found.append(None if word is None else legible)
+    return found
 
 
 def _by_column(words: list[Word | None], column: str, palette: tuple[str, ...]) -> list[str | None]:

@@ -8,6 +8,7 @@ from typing import Protocol, TypeAlias
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.scene.label import Label
+from packwork.scene.live_text import LiveText
 
 
 @dataclass(frozen=True)
@@ -103,6 +104,8 @@ class Item:
         How it is drawn.
     label
         What this one is called in a file, where it links to, its tooltip.
+    text
+        What it says, if it is a word; its art then draws these letters and nothing else.
     halo
         Colour of a rim that makes it stand out from a picture behind; empty for none. It is
         no part of the item, and is drawn under all.
@@ -114,4 +117,5 @@ class Item:
     ink: Outline
     art: Art
     label: Label = field(default_factory=Label)
+    text: LiveText | None = None
     halo: str = ""

@@ -27,7 +27,7 @@ from packwork.wordcloud.setting import Placed, Setting, container_of_mask, place
 from packwork.wordcloud.words import STOPWORDS, frequencies, tokens, with_bigrams
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.recolour import recoloured
-from packwork.writers.svg import SvgOptions, svg_text
+from packwork.writers.svg import SvgOptions, TextChoice, svg_text
 
 _LOG = logging.getLogger("packwork")
 
@@ -135,6 +135,8 @@ class WordCloud:
             If there is no word, or no room for one.
         """
         ranked = sorted(frequencies.items(), key=lambda pair: -pair[1])[: self.max_words]
+        self.layout_ = []
+        self.__dict__.pop("_layout", None)
         if not ranked:
             raise ValueError("We need at least 1 word to plot a word cloud, got 0.")
         most = float(ranked[0][1]) or 1.0
@@ -225,7 +227,8 @@ class WordCloud:
 
     def __array__(self, dtype: Any = None, copy: bool | None = None) -> npt.NDArray[Any]:
         """Pixels, for functions that take arrays."""
-        return self.to_array(copy=copy).astype(dtype, copy=False)
+        pixels = self.to_array(copy=copy)
+        return pixels if dtype is None else pixels.astype(dtype, copy=False)
 
     def to_svg(
         self,
@@ -233,11 +236,14 @@ class WordCloud:
         optimize_embedded_font: bool = True,
         embed_image: bool = False,
     ) -> str:
-        """SVG of the cloud; its words are outlines, so that no font need be there."""
+        """SVG of the cloud; its words are outlines, or text in fonts that it carries."""
         self._check_generated()
         if embed_image:
             _warn_once("embed_image has no effect: the outlines are what the picture shows")
-        return svg_text(self.layout, SvgOptions(background=self._css_background()))
+        if not optimize_embedded_font:
+            _warn_once("optimize_embedded_font has no effect: only letters in use are embedded")
+        text: TextChoice = "live" if embed_font else "outlines"
+        return svg_text(self.layout, SvgOptions(background=self._css_background(), text=text))
 
     def to_html(self) -> str:
         """Not there, as in the other package; ``to_svg`` is."""
@@ -257,14 +263,12 @@ class WordCloud:
         return replace(self._layout, items=tuple(named))
 
     def _repeated(self, shares: list[tuple[str, float]]) -> list[tuple[str, float]]:
-        """Words, again and again and each time rarer, until there are ``max_words``."""
+        """Words, again and again and each time rarer, in whole rounds to ``max_words`` or more."""
         if not self.repeat:
             return shares
         rounds = -(-self.max_words // len(shares))
         least = shares[-1][1]
-        return [(word, share * least**turn) for turn in range(rounds) for word, share in shares][
-            : self.max_words
-        ]
+        return [(word, share * least**turn) for turn in range(rounds) for word, share in shares]
 
     def _setting(self, largest: float | None) -> Setting:
         return Setting(
@@ -315,7 +319,7 @@ class WordCloud:
             )  # fmt: skip
 
     def _check_generated(self) -> None:
-        if not hasattr(self, "layout_"):
+        if not hasattr(self, "_layout"):
             raise ValueError("WordCloud has not been calculated, call generate first.")
 
     def _css_background(self) -> str | None:

@@ -203,12 +203,8 @@ def _solved(
         effort="draft",
         seed=seed,
     )
-    layout = pipeline.fill(recipe, items, asked.container).layout
-    most = float((layout.poses.scale * EM_PX).max())
-    if asked.largest is None or most <= asked.largest:
-        return layout
-    poses = replace(layout.poses, scale=layout.poses.scale * (asked.largest / most))
-    return replace(layout, poses=poses)
+    job = pipeline.read(recipe, items, asked.container)
+    return pipeline.run(replace(job, letters=pipeline.Letters(largest=asked.largest))).layout
 
 
 def _is_white(mask: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:

@@ -61,7 +61,9 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None) -> bytes:
 
     container = layout.container
     width, height = (convert(v, container.unit, "pt") for v in (container.width, container.height))
-    drawing = svg_text(without_text(layout), options)
+    # A PDF's words are curves: what sets the page would take fonts of its own for text.
+    curves = replace(options or SvgOptions(), text="outlines")
+    drawing = svg_text(without_text(layout), curves)
     try:
         return typst.compile(
             _PAGE.format(width=width, height=height).encode(),

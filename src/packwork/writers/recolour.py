@@ -71,6 +71,25 @@ def has_one_colour(art: Art) -> bool:
         return False
 
 
+def one_colour(art: Art) -> tuple[int, int, int, int] | None:
+    """Channels of what is drawn in one colour; None for any other drawing.
+
+    Examples
+    --------
+    >>> one_colour(VectorArt('<g fill="red" opacity="0.4"><path d="M0 0h9v9z"/></g>', np.eye(2, 3)))
+    (255, 0, 0, 102)
+    """
+    if isinstance(art, FlatArt):
+        return css_colour(art.fill)
+    if not isinstance(art, VectorArt) or not has_one_colour(art):
+        return None
+    root = _tree(art.markup)
+    named = {element.get("id"): element for element in root.iter()}
+    red, green, blue = next(_channels(root, _FIRST, named))[:3]
+    opacity = next((e.get("opacity") for e in root.iter() if e.get("opacity")), None)
+    return red, green, blue, round(255 * float(opacity or 1))
+
+
 def recoloured(item: Item, colour: str) -> Item:
     """Item in one colour: a drawing of one colour keeps its curves, any other its ink alone.
 

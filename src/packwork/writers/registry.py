@@ -19,7 +19,7 @@ from packwork.writers.jpeg import jpeg_bytes
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.printing import DPI, SPARE, printed, printed_on_paper
-from packwork.writers.svg import SvgOptions, svg_text
+from packwork.writers.svg import SvgOptions, TextChoice, svg_text
 
 MOST_DPI = 2_400
 """Pixels to the inch at most: what the finest printers set. Chosen."""
@@ -206,6 +206,7 @@ def write_options(
     background: str | None = None,
     show_container: bool = False,
     flatten: bool = False,
+    text: TextChoice = "outlines",
 ) -> WriteOptions:
     """Options of every format from the few that people give.
 
@@ -221,6 +222,8 @@ def write_options(
         Draw the container's line.
     flatten
         In SVG, repeat each drawing in place.
+    text
+        Words in SVG: ``outlines``, or ``live`` text.
 
     Raises
     ------
@@ -235,7 +238,9 @@ def write_options(
     colour = None if background in {None, "none", "transparent"} else background
     png = PngOptions(show_container=show_container)
     return WriteOptions(
-        svg=SvgOptions(background=colour, show_container=show_container, flatten=flatten),
+        svg=SvgOptions(
+            background=colour, show_container=show_container, flatten=flatten, text=text
+        ),
         png=png if background is None else replace(png, background=colour),
         png_side_px=pixels,
         dpi=dpi,

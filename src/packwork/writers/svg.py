@@ -13,6 +13,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import Literal, TypeAlias
 
 from packwork.geometry import affine
 from packwork.scene.container import Backdrop
@@ -21,6 +22,7 @@ from packwork.scene.layout import Layout
 from packwork.units import Unit
 from packwork.writers.colours import hex_colour, parse_colour
 from packwork.writers.labels import item_ids, labelled
+from packwork.writers.live import LiveWords
 from packwork.writers.marks import element, paint, shape_key, with_fresh_ids
 from packwork.writers.notation import attributes, decimals, matrix_text, number, path_data, xml_text
 from packwork.writers.promise import promised, stated_weights
@@ -47,6 +49,9 @@ _CONTAINER_STROKE_SHARE = 1 / 500
 """Width of the container's drawn line, as a share of the canvas. Chosen by eye."""
 
 
+TextChoice: TypeAlias = Literal["outlines", "live"]
+
+
 @dataclass(frozen=True, kw_only=True)
 class SvgOptions:
     """How a layout is drawn.
@@ -59,6 +64,9 @@ class SvgOptions:
         Show the container's line. Its path is in the file either way.
     flatten
         Write every copy in full, for tools that do not know ``use``.
+    text
+        ``live``: words are text, to be selected and found, in fonts that the file carries;
+        ``outlines``: they are curves.
 
     Raises
     ------
@@ -74,6 +82,7 @@ class SvgOptions:
     background: str | None = None
     show_container: bool = False
     flatten: bool = False
+    text: TextChoice = "outlines"
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -146,18 +155,20 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
     True
     """
     digits = decimals(layout.container.side * _STEP_SHARE)
+    live = LiveWords(layout.items if options.text == "live" else ())
     shapes = _shapes(layout)
     lines = [
         '<?xml version="1.0" encoding="UTF-8"?>',
         _root(sheet),
         f"<title>{xml_text(layout.container.name[:NAME_LENGTH])}</title>",
-        *([] if options.flatten else _definitions(shapes.values())),
+        *live.style(),
+        *([] if options.flatten else _definitions(shapes.values(), live)),
         *_background(options.background),
         *_backdrop(layout.container.backdrop),
         *_halos(layout, digits),
         *_container(layout, options.show_container, digits),
         f'<g id="items"{attributes(_said(layout))}>',
-        *_copies(layout, shapes, digits, flatten=options.flatten),
+        *_copies(layout, shapes, digits, live, flatten=options.flatten),
         "</g>",
         "</svg>",
         "",
@@ -213,8 +224,10 @@ def _root(sheet: Sheet) -> str:
     )
 
 
-def _definitions(shapes: Iterable[_Shape]) -> list[str]:
-    drawn = [element(s.item, {"id": s.name}, "", s.path_digits) for s in shapes]
+def _definitions(shapes: Iterable[_Shape], live: LiveWords) -> list[str]:
+    # Text that stands for another's copy could not be selected.
+    curves = (shape for shape in shapes if not live.has(shape.item))
+    drawn = [element(s.item, {"id": s.name}, "", s.path_digits) for s in curves]
     return ["<defs>", *drawn, "</defs>"] if drawn else []
 
 
@@ -274,7 +287,9 @@ def _said(layout: Layout) -> dict[str, str]:
     }
 
 
-def _copies(layout: Layout, shapes: dict[int, _Shape], digits: int, *, flatten: bool) -> list[str]:
+def _copies(
+    layout: Layout, shapes: dict[int, _Shape], digits: int, live: LiveWords, *, flatten: bool
+) -> list[str]:
     copies = []
     scales, ids = layout.poses.axis_scales.tolist(), item_ids(layout.items)
     weights = stated_weights(layout)
@@ -283,7 +298,12 @@ def _copies(layout: Layout, shapes: dict[int, _Shape], digits: int, *, flatten: 
         name = (item.label.name or item.name)[:NAME_LENGTH]
         own = {"id": ids[k], "data-name": name, "data-weight": weights[k], **paint(item)}
         place = _place(layout, k, scales[k], shape, digits)
-        drawn = _in_full(item, own, place, shape, k + 1) if flatten else _use(own, place, shape)
+        if live.has(item):
+            drawn = live.element(item, own, place)
+        elif flatten:
+            drawn = _in_full(item, own, place, shape, k + 1)
+        else:
+            drawn = _use(own, place, shape)
         copies.append(labelled(drawn, item.label))
     return copies
 

@@ -15,6 +15,10 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.readers.text.sfnt import MAX_FONT_BYTES as MAX_FONT_BYTES
 from packwork.readers.unfit import UnfitError
+from packwork.scene.live_text import FontFile
+
+UNKNOWN_LANGUAGE = "und"
+"""What HarfBuzz is told where no language is given: it would ask the machine."""
 
 Segment: TypeAlias = tuple[str, tuple[float, ...]]
 """A letter of SVG's paths (M, L, Q, C or Z) and its absolute coordinates, y down."""
@@ -41,6 +45,41 @@ class Glyph:
     number: int
     x: float
     y: float
+
+
+@dataclass(frozen=True)
+class Shaped:
+    """Glyphs of a run, and where the next run would begin.
+
+    Parameters
+    ----------
+    glyphs
+        From left to right.
+    advance
+        In the font's units.
+    """
+
+    glyphs: tuple[Glyph, ...]
+    advance: float
+
+
+@dataclass(frozen=True)
+class Bitmap:
+    """A glyph that is a picture.
+
+    Parameters
+    ----------
+    png
+        The file, as the font holds it.
+    left, top, right, bottom
+        Its box about the glyph's origin, in the font's units, y down.
+    """
+
+    png: bytes
+    left: float
+    top: float
+    right: float
+    bottom: float
 
 
 class Typeface:
@@ -83,10 +122,12 @@ class Typeface:
         self._font = hb.Font(face)
         self._known: dict[int, tuple[Segment, ...]] = {}
         axes = {axis.tag: axis for axis in face.axis_infos}
+        held = None
         if weight is not None and "wght" in axes:
             axis = axes["wght"]
             held = min(max(float(weight), axis.min_value), axis.max_value)
             self._font.set_variations({"wght": held})
+        self.file = FontFile(data, name, index, held)
 
     @cached_property
     def weight(self) -> float:
@@ -105,18 +146,23 @@ class Typeface:
         """Whether there is a glyph for each character by itself."""
         return all(self._font.get_nominal_glyph(ord(character)) for character in characters)
 
-    def shaped(self, line: str) -> list[Glyph]:
-        """Glyphs of one line of one direction: ligatures, joined letters, stacked marks.
+    def shaped(
+        self, run: str, *, is_leftward: bool = False, language: str = UNKNOWN_LANGUAGE
+    ) -> Shaped:
+        """Glyphs of one script and direction: ligatures, joined letters, stacked marks.
 
         Examples
         --------
         >>> face = bundled_typeface()
-        >>> len(face.shaped("office")), [glyph.number for glyph in face.shaped("中")]
+        >>> found = [face.shaped(text).glyphs for text in ("office", "中")]
+        >>> len(found[0]), [glyph.number for glyph in found[1]]
         (6, [0])
         """
         buffer = self._hb.Buffer()
-        buffer.add_str(line)
+        buffer.add_str(run)
+        buffer.language = language
         buffer.guess_segment_properties()
+        buffer.direction = "rtl" if is_leftward else "ltr"
         self._hb.shape(self._font, buffer, {"kern": True, "liga": True})
         x = y = 0.0
         found = []
@@ -124,7 +170,17 @@ class Typeface:
             found.append(Glyph(info.codepoint, x + place.x_offset, y - place.y_offset))
             x += place.x_advance
             y -= place.y_advance
-        return found
+        return Shaped(tuple(found), x)
+
+    def bitmap(self, number: int) -> Bitmap | None:
+        """Picture of a glyph of a colour font; None if it has none."""
+        if not self._font.face.has_color_png:
+            return None
+        blob, box = self._font.get_glyph_color_png(number), self._font.get_glyph_extents(number)
+        if blob is None or len(blob) == 0 or box is None:
+            return None
+        left, top = float(box.x_bearing), -float(box.y_bearing)
+        return Bitmap(bytes(blob.data), left, top, left + box.width, top - box.height)
 
     def drawing(self, number: int) -> tuple[Segment, ...]:
         """Curves of a glyph about its origin, in the font's units, y down.

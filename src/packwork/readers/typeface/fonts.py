@@ -5,14 +5,20 @@ from __future__ import annotations
 import difflib
 import unicodedata
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.readers.files import exists, read_bytes
 from packwork.readers.svg.fonts import installed_families
-from packwork.readers.typeface.face import MAX_FONT_BYTES, Typeface, bundled_typeface
-from packwork.readers.typeface.lettering import Lettering, lettering
+from packwork.readers.typeface.face import (
+    MAX_FONT_BYTES,
+    UNKNOWN_LANGUAGE,
+    Typeface,
+    bundled_typeface,
+)
+from packwork.readers.typeface.itemise import Piece, clusters, itemised
+from packwork.readers.typeface.lettering import Lettering, Setting, lettering_of
 from packwork.readers.unfit import UnfitError, naming
 
 MOST_FACES = 64
@@ -35,15 +41,20 @@ class Fonts:
         Of installed families and variable fonts.
     is_open
         Whether installed fonts are asked where these lack a letter.
+    language
+        Of the words, where letters have forms of their own in some; empty if not known.
     """
 
     faces: list[Typeface]
     weight: int = 700
     is_open: bool = False
+    language: str = ""
     _installed: list[Typeface] = field(default_factory=list)
 
     def lettering(self, lines: Sequence[str]) -> Lettering:
         """Lines as the first font draws them that has all their characters.
+
+        Where none has all, each part is drawn by the first font that has it.
 
         Raises
         ------
@@ -55,16 +66,34 @@ class Fonts:
         >>> Fonts([bundled_typeface()]).lettering(["ox"]).region.is_valid
         True
         """
-        for face in self._asked(lines):
-            found = lettering(lines, face)
+        pieces = [itemised(line) for line in lines]
+        for face in self._asked("".join(lines)):
+            whole = [[Setting(piece, face) for piece in line] for line in pieces]
+            found = lettering_of(whole, self.language or UNKNOWN_LANGUAGE)
             if found is not None:
                 return found
-        raise UnfitError(self._lacking("".join(lines)))
+        mixed = [[part for piece in line for part in self._parts(piece)] for line in pieces]
+        found = lettering_of(mixed, self.language or UNKNOWN_LANGUAGE)
+        if found is None:
+            raise UnfitError(self._lacking("".join(lines)))
+        return found
 
-    def _asked(self, lines: Sequence[str]) -> Iterator[Typeface]:
+    def _parts(self, piece: Piece) -> list[Setting]:
+        """A piece, cut where its font changes."""
+        found: list[Setting] = []
+        for cluster in clusters(piece.text):
+            face = next((face for face in self._asked(cluster) if face.has(_seen(cluster))), None)
+            if face is None:
+                raise UnfitError(self._lacking(cluster))
+            if found and found[-1].face is face:
+                cluster = found.pop().piece.text + cluster
+            found.append(Setting(replace(piece, text=cluster), face))
+        return found
+
+    def _asked(self, text: str) -> Iterator[Typeface]:
         yield from self.faces
         if self.is_open:
-            characters = "".join(c for c in "".join(lines) if not _is_unseen(c))
+            characters = _seen(text)
             yield from (face for face in self._installed if face.has(characters))
             face = _installed_face(characters, self.weight)
             if face is not None:
@@ -81,7 +110,7 @@ class Fonts:
         return f"no font {whom} has {what}; give one with --font"
 
 
-def open_fonts(names: Sequence[str], weight: int = 700) -> Fonts:
+def open_fonts(names: Sequence[str], weight: int = 700, language: str = "") -> Fonts:
     """Fonts by file or by installed family; the bundled one, then any, if none is named.
 
     Raises
@@ -95,8 +124,8 @@ def open_fonts(names: Sequence[str], weight: int = 700) -> Fonts:
     ('Inter Display', False)
     """
     if not names:
-        return Fonts([bundled_typeface()], weight, is_open=True)
-    return Fonts([_named(name, weight) for name in names], weight)
+        return Fonts([bundled_typeface()], weight, is_open=True, language=language)
+    return Fonts([_named(name, weight) for name in names], weight, language=language)
 
 
 def _named(name: str, weight: int) -> Typeface:
@@ -144,6 +173,10 @@ def _faces(file: str, weight: int) -> list[Typeface]:
         return [Typeface(data, file, k, weight) for k in range(min(count, MOST_FACES))]
     except (ReadError, UnfitError):
         return []
+
+
+def _seen(text: str) -> str:
+    return "".join(character for character in text if not _is_unseen(character))
 
 
 def _is_unseen(character: str) -> bool:

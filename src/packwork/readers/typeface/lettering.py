@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import lru_cache
 
 import numpy as np
@@ -14,8 +14,18 @@ from packwork.arrays import FloatArray
 from packwork.geometry.bezier import flatten_cubic
 from packwork.geometry.polygon import Region, region, united
 from packwork.readers.svg.follow import FLATTENING
-from packwork.readers.typeface.face import Glyph, Segment, Typeface, points_of
+from packwork.readers.typeface.face import (
+    UNKNOWN_LANGUAGE,
+    Glyph,
+    Segment,
+    Shaped,
+    Typeface,
+    points_of,
+)
+from packwork.readers.typeface.itemise import Piece, itemised, visual_order
+from packwork.readers.typeface.pictures import Picture, picture_of
 from packwork.readers.unfit import UnfitError
+from packwork.scene.live_text import TextRun
 
 LINE_STEP = 1.0
 """Distance of the base lines of a word of several lines, in ems. Chosen."""
@@ -29,21 +39,36 @@ _MARGIN = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Lettering:
-    """A word as a font draws it, in ems, y down, the first base line at 0.
+    """A word as fonts draw it, in ems, y down, the first base line at 0.
 
     Parameters
     ----------
     region
         What it covers, with holes and parts.
     path
-        SVG path data of its curves, in the font's units; contours may overlap, non-zero.
+        SVG path data of its curves, in units of its first font; contours may overlap,
+        non-zero.
     units
-        The font's units in one em.
+        Such units in one em.
+    runs
+        The same as text, in those units.
+    pictures
+        Glyphs of colour fonts.
     """
 
     region: Region
     path: str
     units: float
+    runs: tuple[TextRun, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+
+
+@dataclass(frozen=True)
+class Setting:
+    """A piece of a line and the font that draws it."""
+
+    piece: Piece
+    face: Typeface
 
 
 def lettering(lines: Sequence[str], face: Typeface) -> Lettering | None:
@@ -60,30 +85,49 @@ def lettering(lines: Sequence[str], face: Typeface) -> Lettering | None:
     --------
     >>> from packwork.readers.typeface.face import bundled_typeface
     >>> word = lettering(["ox"], bundled_typeface())
-    >>> len(word.region.geoms), word.path[:1]
-    (2, 'M')
+    >>> len(word.region.geoms), word.path[:1], [run.text for run in word.runs]
+    (2, 'M', ['ox'])
     """
-    shaped = [face.shaped(line) for line in lines]
-    if any(glyph.number == 0 for line in shaped for glyph in line):
+    return lettering_of([[Setting(piece, face) for piece in itemised(line)] for line in lines])
+
+
+def lettering_of(
+    lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LANGUAGE
+) -> Lettering | None:
+    """Word whose pieces are drawn by fonts of their own, as :func:`lettering`.
+
+    Raises
+    ------
+    UnfitError
+        As there.
+
+    Examples
+    --------
+    >>> from packwork.readers.typeface.face import bundled_typeface
+    >>> face = bundled_typeface()
+    >>> word = lettering_of([[Setting(Piece("o"), face), Setting(Piece("x"), face)]])
+    >>> [run.text for run in word.runs], word.runs[0].x < word.runs[1].x
+    (['o', 'x'], True)
+    """
+    units = lines[0][0].face.units
+    shaped = [_line(line, k, units, language) for k, line in enumerate(lines)]
+    if any(glyph.number == 0 for line in shaped for run in line for glyph in run.glyphs):
         return None
-    placed = [glyph for k, line in enumerate(shaped) for glyph in _line(line, k, face)]
-    contours = [_moved(face.drawing(glyph.number), glyph) for glyph in placed]
-    points = [points_of(s) for contour in contours for s in contour if s[0] != "Z"]
-    if not points:
+    runs = [run for line in shaped for run in line]
+    contours = [contour for run in runs for contour in run.contours()]
+    pictures = tuple(picture for run in runs for picture in run.pictures())
+    corners = [points_of(s) for contour in contours for s in contour if s[0] != "Z"]
+    if not corners and not pictures:
         raise UnfitError("has no outlines to draw it with")
-    extent = float(np.ptp(np.concatenate(points), axis=0).max())
-    # Words of about one length share their glyphs.
-    tolerance = _MARGIN * FLATTENING * 2.0 ** math.floor(math.log2(extent))
-    covered = [
-        affinity.translate(_glyph_region(face, glyph.number, tolerance), glyph.x, glyph.y)
-        for glyph in placed
-    ]
-    whole = united(covered)
-    em = 1 / face.units
+    tolerance = _tolerance(corners)
+    covered = [region for run in runs for region in run.regions(tolerance)]
+    whole = united([*covered, *(picture.region for picture in pictures)])
     return Lettering(
-        affinity.scale(whole, em, em, origin=(0, 0)),
+        affinity.scale(whole, 1 / units, 1 / units, origin=(0, 0)),
         "".join(path_data(contour) for contour in contours),
-        face.units,
+        units,
+        tuple(run.text for run in runs),
+        pictures,
     )
 
 
@@ -102,23 +146,97 @@ def path_data(segments: Sequence[Segment]) -> str:
     return "".join(pieces)
 
 
-def _line(glyphs: Sequence[Glyph], number: int, face: Typeface) -> list[Glyph]:
-    """Glyphs of one line, centred about 0 if there are several lines."""
-    points = [points_of(s)[:, 0] + g.x for g in glyphs for s in face.drawing(g.number) if s[1]]
-    middle = 0.0
-    if points:
-        across = np.concatenate(points)
-        middle = float(np.round((across.min() + across.max()) / 2))
-    down = number * LINE_STEP * face.units
-    return [Glyph(g.number, g.x - middle, g.y + down) for g in glyphs]
+@dataclass(frozen=True)
+class _Run:
+    """A shaped piece at its place, in the word's units."""
+
+    setting: Setting
+    shaped: Shaped
+    x: float
+    y: float
+    scale: float
+
+    @property
+    def glyphs(self) -> tuple[Glyph, ...]:
+        return self.shaped.glyphs
+
+    @property
+    def text(self) -> TextRun:
+        piece, face = self.setting.piece, self.setting.face
+        return TextRun(
+            piece.text,
+            face.file,
+            self.x,
+            self.y,
+            face.units * self.scale,
+            tuple(glyph.x / face.units for glyph in self.glyphs),
+            self.shaped.advance / face.units,
+            piece.is_leftward,
+        )
+
+    def contours(self) -> list[list[Segment]]:
+        drawn = ((self.setting.face.drawing(glyph.number), glyph) for glyph in self.glyphs)
+        return [self._moved(segments, glyph) for segments, glyph in drawn if segments]
+
+    def regions(self, tolerance: float) -> list[Region]:
+        """What the glyphs cover, their curves followed to ``tolerance``."""
+        face, size = self.setting.face, self.scale
+        return [
+            affinity.affine_transform(
+                _glyph_region(face, glyph.number, tolerance / size),
+                (size, 0, 0, size, *self._place(glyph)),
+            )
+            for glyph in self.glyphs
+        ]
+
+    def pictures(self) -> list[Picture]:
+        face = self.setting.face
+        found = []
+        for glyph in self.glyphs:
+            bitmap = None if face.drawing(glyph.number) else face.bitmap(glyph.number)
+            if bitmap is not None:
+                found.append(picture_of(bitmap, self._place(glyph), self.scale))
+        return found
+
+    def ends(self) -> list[float]:
+        """Leftmost and rightmost of what is drawn."""
+        found = [points_of(s)[:, 0] for contour in self.contours() for s in contour if s[1]]
+        found += [np.array(picture.region.bounds)[::2] for picture in self.pictures()]
+        across = np.concatenate(found) if found else np.zeros(0)
+        return [float(across.min()), float(across.max())] if len(across) else []
+
+    def _place(self, glyph: Glyph) -> tuple[float, float]:
+        return self.x + glyph.x * self.scale, self.y + glyph.y * self.scale
+
+    def _moved(self, segments: Sequence[Segment], glyph: Glyph) -> list[Segment]:
+        steps = self._place(glyph)
+        return [
+            (letter, tuple(value * self.scale + steps[k % 2] for k, value in enumerate(values)))
+            for letter, values in segments
+        ]
 
 
-def _moved(segments: Sequence[Segment], glyph: Glyph) -> list[Segment]:
-    steps = (glyph.x, glyph.y)
-    return [
-        (letter, tuple(value + steps[k % 2] for k, value in enumerate(values)))
-        for letter, values in segments
-    ]
+def _line(line: Sequence[Setting], number: int, units: float, language: str) -> list[_Run]:
+    """Runs of one line beside each other, centred about 0 by what they draw."""
+    runs: dict[int, _Run] = {}
+    x = 0.0
+    for k in visual_order([setting.piece for setting in line]):
+        piece, face = line[k].piece, line[k].face
+        shaped = face.shaped(piece.text, is_leftward=piece.is_leftward, language=language)
+        runs[k] = _Run(line[k], shaped, x, number * LINE_STEP * units, units / face.units)
+        x += shaped.advance * runs[k].scale
+    ends = [end for run in runs.values() for end in run.ends()]
+    middle = float(np.round((min(ends) + max(ends)) / 2)) if ends else 0.0
+    return [replace(runs[k], x=runs[k].x - middle) for k in range(len(line))]
+
+
+def _tolerance(corners: Sequence[FloatArray]) -> float:
+    """How far chords may lie from curves, in the word's units."""
+    if not corners:
+        return 1.0
+    extent = float(np.ptp(np.concatenate(corners), axis=0).max())
+    # Words of about one length share their glyphs.
+    return _MARGIN * FLATTENING * 2.0 ** math.floor(math.log2(max(extent, 1e-9)))
 
 
 @lru_cache(maxsize=MOST_KNOWN)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -15,12 +16,14 @@ from packwork.geometry.outline import Outline
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.typeface.fonts import Fonts, open_fonts
 from packwork.readers.typeface.lettering import Lettering
+from packwork.readers.typeface.pictures import Picture
 from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.options import WeightIs, WordOptions
-from packwork.readers.words.source import read_words
+from packwork.readers.words.source import ranked_words
 from packwork.readers.words.word import Word
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.label import Label
+from packwork.scene.live_text import LiveText
 
 EM_PX = 100.0
 """Height of an em in an item's own units. Any number would do."""
@@ -52,12 +55,15 @@ class WordsRead:
         The same words, with their weights and columns.
     undrawn
         Words that could not be set, each with the reason.
+    found
+        How many different words there were; the largest are kept.
     """
 
     items: tuple[Item, ...]
     areas: FloatArray
     words: tuple[Word, ...]
     undrawn: Mapping[str, str]
+    found: int
 
 
 def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
@@ -76,11 +82,12 @@ def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
     >>> [item.name for item in read.items], list(read.undrawn.values())
     (['bear'], ['has 200 characters; the most is 100'])
     """
-    fonts = open_fonts(options.fonts, options.font_weight)
+    fonts = open_fonts(options.fonts, options.font_weight, _one_language(options.language))
     items: list[Item] = []
     words: list[Word] = []
     undrawn: dict[str, str] = {}
-    for word in read_words(options):
+    ranked = ranked_words(options)
+    for word in ranked[: options.count]:
         try:
             items.append(word_item(word, fonts, holes))
             words.append(word)
@@ -91,7 +98,11 @@ def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
         raise ReadError(first, f"cannot be set, nor any other word: {undrawn[first]}")
     weights = np.array([word.weight for word in words])
     return WordsRead(
-        tuple(items), area_shares(items, weights, options.weight_is), tuple(words), undrawn
+        tuple(items),
+        area_shares(items, weights, options.weight_is),
+        tuple(words),
+        undrawn,
+        len(ranked),
     )
 
 
@@ -117,7 +128,8 @@ def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
     label = Label(name=name, title=f"{name}: {word.weight:.6g}")
     with naming(name):
         outline, ink, place = _placed(drawn, holes)
-    return Item(name, word.text, outline, ink, _art(drawn, place), label)
+    text = None if drawn.pictures else LiveText(drawn.runs, drawn.path, fonts.language)
+    return Item(name, word.text, outline, ink, _art(drawn, place), label, text)
 
 
 def area_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs) -> FloatArray:
@@ -157,4 +169,20 @@ def _placed(drawn: Lettering, holes: Holes) -> tuple[Outline, Outline, FloatArra
 
 def _art(drawn: Lettering, place: FloatArray) -> VectorArt:
     scale = affine.similarity(0.0, 0.0, 0.0, EM_PX / drawn.units)
-    return VectorArt(f'<path fill="{INK}" d="{drawn.path}"/>', affine.compose(place, scale))
+    curves = f'<path fill="{INK}" d="{drawn.path}"/>' if drawn.path else ""
+    markup = curves + "".join(map(_image, drawn.pictures))
+    return VectorArt(markup, affine.compose(place, scale), is_traced=bool(drawn.pictures))
+
+
+def _image(picture: Picture) -> str:
+    data = base64.b64encode(picture.png).decode("ascii")
+    place = " ".join(f"{value:.10g}" for value in picture.matrix.T.ravel())
+    return (
+        f'<image width="{picture.width}" height="{picture.height}" transform="matrix({place})"'
+        f' preserveAspectRatio="none" xlink:href="data:image/png;base64,{data}"/>'
+    )
+
+
+def _one_language(language: str) -> str:
+    """The words' language; empty where several may be meant, or none was named."""
+    return "" if language in {"auto", "none"} or "," in language else language

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+import re
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator
+from pydantic import BaseModel, ConfigDict, Field, field_serializer, field_validator
 
 from packwork.errors import RecipeError
+from packwork.readers.words.word import Word
 
 WeightIs: TypeAlias = Literal["height", "area", "ink"]
+
+ColourOf: TypeAlias = Callable[[Word], str | None]
+"""Any CSS colour of a word, by its ``text``, ``weight`` and ``columns``; None leaves the
+palette's first."""
 
 MOST_WORDS = 5_000
 """Words in one cloud; more could not be read on any sheet. Chosen."""
@@ -39,6 +45,15 @@ class WordOptions(BaseModel):
     stopwords: str | tuple[str, ...] | None = None
     """File of further words to leave out (in Python also a list of them)."""
 
+    min_word_length: Annotated[int, Field(ge=1)] = 2
+    """Letters that a word of a text has at least; one syllable of Korean is a word anyway."""
+
+    include_numbers: bool = False
+    """Numbers that stand alone count as words too."""
+
+    regexp: str | None = None
+    """What counts as a word of a text, as a regular expression of Python such as [#@]\\w+."""
+
     phrases: Annotated[int, Field(ge=1, le=4)] = 1
     """2 also counts pairs of words that often stand together, 3 triples too."""
 
@@ -59,9 +74,17 @@ class WordOptions(BaseModel):
     """What is in the proportion of the weights: height (of the letters), area (of the
     letters: their height by the root) or ink (of the whole word: long ones are lower)."""
 
-    color_by: str | None = None
+    smallest: str | float | None = None
+    """Font size of the smallest word, a length as for the padding: words that would come out
+    smaller are left out, the lightest first, and named."""
+
+    largest: str | float | None = None
+    """Font size of the largest word at most, a length as for the padding, such as 48pt or 10%;
+    all others stay in proportion."""
+
+    color_by: str | ColourOf | None = None
     """weight (the palette from small to large), a column of the table, or a picture under
-    the words. Default: neighbours unlike."""
+    the words; in Python also a function of a word. Default: neighbours unlike."""
 
     background: str | None = None
     """Colour behind the words: theirs are made to be read on it. Default: white."""
@@ -74,6 +97,10 @@ class WordOptions(BaseModel):
         """Colour that words are read on; None if it is not known."""
         seen = self.background not in (None, "none", "transparent")
         return self.background if seen else None
+
+    @field_serializer("color_by")
+    def _functions_go_by_their_names(self, by: str | ColourOf | None) -> str | None:
+        return getattr(by, "__qualname__", repr(by)) if callable(by) else by
 
     @field_validator("source", mode="before")
     @classmethod
@@ -100,6 +127,15 @@ class WordOptions(BaseModel):
         if isinstance(words, Path):
             return str(words)
         return sorted(words) if isinstance(words, set | frozenset) else words
+
+    @field_validator("regexp")
+    @classmethod
+    def _regexp_compiles(cls, pattern: str | None) -> str | None:
+        try:
+            re.compile(pattern or "")
+        except (re.error, RecursionError, OverflowError) as error:
+            raise RecipeError("regexp", f"is no regular expression: {error}") from None
+        return pattern
 
     @field_validator("background")
     @classmethod

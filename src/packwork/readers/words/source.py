@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping
@@ -26,7 +25,7 @@ from packwork.readers.words.stop_words import (
     stop_words,
 )
 from packwork.readers.words.table import ENDINGS, rows_of_csv, rows_of_json
-from packwork.readers.words.tokens import sentences
+from packwork.readers.words.tokens import matches, sentences
 from packwork.readers.words.word import Word, sound
 
 MAX_BYTES = 50_000_000
@@ -36,8 +35,6 @@ STANDARD_INPUT = "-"
 """Stands for what is piped into the program."""
 
 _TEXT_ENDINGS = frozenset({".txt", ".md", ".rst", ".text", ".json", *ENDINGS})
-
-_LOG = logging.getLogger("packwork")
 
 
 def read_words(options: WordOptions) -> list[Word]:
@@ -59,19 +56,27 @@ def read_words(options: WordOptions) -> list[Word]:
     >>> [(word.text, word.weight) for word in read_words(WordOptions(source=text, count=3))]
     [('bear', 3.0), ('bees', 2.0), ('honey', 2.0)]
     """
-    words = _words(options)
-    cased = [_cased(word, options.case) for word in words]
+    return ranked_words(options)[: options.count]
+
+
+def ranked_words(options: WordOptions) -> list[Word]:
+    """All words that could be set, more than ``count`` if there are, as :func:`read_words`.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        As there.
+
+    Examples
+    --------
+    >>> len(ranked_words(WordOptions(source={"bear": 2, "fox": 1}, count=1)))
+    2
+    """
+    cased = [_cased(word, options.case) for word in _words(options)]
     ranked = sorted(_merged(cased), key=lambda word: -word.weight)
     if not ranked:
         raise ReadError(_name(options), "holds no words that could be set")
-    if isinstance(options.source, dict) or _is_table(options.source):
-        left = len(ranked) - options.count
-        if left > 0:
-            _LOG.warning(
-                "%s: the %d largest of %d words are kept; -n takes more",
-                _name(options), options.count, len(ranked),
-            )  # fmt: skip
-    return ranked[: options.count]
+    return ranked
 
 
 def _words(options: WordOptions) -> list[Word]:
@@ -88,7 +93,11 @@ def _words(options: WordOptions) -> list[Word]:
 
 def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]:
     """Words of a text, weighed by how often they stand there."""
-    found = list(sentences(text))
+    found = list(
+        sentences(text, include_numbers=options.include_numbers)
+        if options.regexp is None
+        else matches(text, options.regexp)
+    )
     counts, written = folded(count_forms(found))
     if not counts:
         raise ReadError(_name(options), "holds no words; give a text, or a table of word,weight")
@@ -100,23 +109,34 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]
         several, forms = folded(phrases(found, options.phrases, stops))
         counts, written = without_parts(counts, several), written | forms
     kept = Counter(
-        {word: n for word, n in counts.items() if word not in stops and _says_something(word)}
+        {word: n for word, n in counts.items() if word not in stops and _is_long(word, options)}
     )
     if options.plurals == "merge" and ENGLISH in language.split(","):
         kept = without_plurals(kept)
     words = [Word(written[word], float(n)) for word, n in kept.items() if n >= options.min_count]
     if not words:
-        raise ReadError(
-            _name(options),
-            f"holds {len(counts)} words, but none that is no stop word and stands there "
-            f"{options.min_count} times; use --language none or a smaller --min-count",
-        )
+        raise ReadError(_name(options), _why_none(counts, kept, options))
     return words
 
 
-def _says_something(word: str) -> bool:
-    """Whether it is more than one letter; one syllable of Korean is a word."""
-    return len(word) > 1 or "\uac00" <= word <= "\ud7a3"
+def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) -> str:
+    """What became of all words of a text."""
+    if not kept:
+        named = ", ".join(word for word, _ in counts.most_common(3))
+        return (
+            f"holds {len(counts)} different words, and all are stop words or too short "
+            f"({named} ...); use --language none, a smaller --min-word-length, or another text"
+        )
+    word, most = kept.most_common(1)[0]
+    return (
+        f"has no word {options.min_count} times; the most frequent, {word[:40]!r}, is there "
+        f"{most} times; use a smaller --min-count"
+    )
+
+
+def _is_long(word: str, options: WordOptions) -> bool:
+    """Whether it has letters enough; one syllable of Korean is a word."""
+    return len(word) >= options.min_word_length or "\uac00" <= word <= "\ud7a3"
 
 
 def _rows(source: str) -> list[Word]:

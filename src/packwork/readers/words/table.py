@@ -50,7 +50,8 @@ def rows_of_csv(text: str, file: str, separator: str) -> list[Word]:
                 names = row if _is_header(row) else ["word", "weight"]
                 if names is row:
                     continue
-            words.append(_word(dict(zip(names, row, strict=False)), file, reader.line_num))
+            where = f"line {reader.line_num}"
+            words.append(_word(dict(zip(names, row, strict=False)), file, where))
             _check_rows(words, file)
     except csv.Error as error:
         raise ReadError(file, f"line {reader.line_num}: is not CSV ({error})") from None
@@ -76,7 +77,7 @@ def rows_of_json(text: str, file: str) -> list[Word]:
         raise ReadError(file, f"is not JSON ({error})") from None
     words: list[Word] = []
     for number, entry in enumerate(_entries(data, file), start=1):
-        words.append(_word(entry, file, number))
+        words.append(_word(entry, file, f"entry {number}"))
         _check_rows(words, file)
     return words
 
@@ -107,7 +108,7 @@ def _is_number(cell: str) -> bool:
     return True
 
 
-def _word(row: Mapping[str, Any], file: str, line: int) -> Word:
+def _word(row: Mapping[str, Any], file: str, where: str) -> Word:
     keys = list(row)
     by_name = {key.strip().lower(): key for key in keys}
     first = next((by_name[n] for n in WORD_COLUMNS if n in by_name), keys[0] if keys else "")
@@ -115,14 +116,14 @@ def _word(row: Mapping[str, Any], file: str, line: int) -> Word:
     second = next((by_name[n] for n in WEIGHT_COLUMNS if n in by_name), rest[0] if rest else "")
     text, weight = row.get(first), row.get(second)
     if not isinstance(text, str) or not text.strip() or weight is None:
-        raise ReadError(file, f"line {line}: needs a word and a weight, as in bear,2")
+        raise ReadError(file, f"{where}: needs a word and a weight, as in bear,2")
     try:
         value = float(weight)
     except (TypeError, ValueError):
         value = math.nan
     if not (math.isfinite(value) and value > 0) or isinstance(weight, bool):
         met = repr(str(weight)[:20])
-        raise ReadError(file, f"line {line}: a weight must be a positive number, not {met}")
+        raise ReadError(file, f"{where}: a weight must be a positive number, not {met}")
     others = {key: str(row[key]) for key in rest if key != second}
     return Word(text.strip(), value, others)
 

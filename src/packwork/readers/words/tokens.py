@@ -7,6 +7,7 @@ import unicodedata
 from collections.abc import Iterator
 
 from packwork.readers.words.unspaced import is_unspaced, segments
+from packwork.readers.words.word import sound
 
 JOINERS = "\u200c\u200d"
 """Unseen characters that belong to words of Persian and Indian scripts."""
@@ -16,7 +17,7 @@ _APOSTROPHES = dict.fromkeys(map(ord, "\u2018\u2019\u02bc\uff07"), "'")
 _POSSESSIVE = re.compile(r"'[sS]$")
 
 
-def sentences(text: str) -> Iterator[list[str]]:
+def sentences(text: str, *, include_numbers: bool = False) -> Iterator[list[str]]:
     """Words that follow each other with nothing but spaces between them, as they are written.
 
     A word is letters, marks and digits, with apostrophes inside; numbers alone and addresses
@@ -28,7 +29,22 @@ def sentences(text: str) -> Iterator[list[str]]:
     [['The', 'bear', 'honey'], ["don't"], ['हिन्दी']]
     """
     for run in _runs(_ADDRESS.sub("\n", unicodedata.normalize("NFC", text))):
-        words = [word for token in run.split() for word in _words(token)]
+        words = [word for token in run.split() for word in _words(token, include_numbers)]
+        if words:
+            yield words
+
+
+def matches(text: str, pattern: str) -> Iterator[list[str]]:
+    r"""What a regular expression finds, line by line; control characters and idle spaces off.
+
+    Examples
+    --------
+    >>> list(matches("a #bear and\n#honey", r"#\w+"))
+    [['#bear'], ['#honey']]
+    """
+    known = re.compile(pattern)
+    for line in unicodedata.normalize("NFC", text).splitlines():
+        words = [word for match in known.finditer(line) if (word := sound(match.group()))]
         if words:
             yield words
 
@@ -52,11 +68,11 @@ def _in_words(character: str) -> str:
     return " " if character.isspace() and character not in "\f\v" else "\n"
 
 
-def _words(token: str) -> Iterator[str]:
+def _words(token: str, include_numbers: bool) -> Iterator[str]:
     word = _POSSESSIVE.sub("", token.strip("'" + JOINERS))
     if any(is_unspaced(character) for character in word):
         yield from segments(word)
-    elif word and not _is_number(word):
+    elif word and (include_numbers or not _is_number(word)):
         yield word
 
 

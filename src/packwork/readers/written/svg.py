@@ -140,7 +140,9 @@ class _Drawings:
         if _tag(source) == "image":
             return _placed(_picture(source), own)
         if "data-outline" in source.attrib:
-            return _placed(self._followed([_path(source.attrib["data-outline"])], size), own)
+            # Letters of a font may overlap, so non-zero; rings of outlines turn either way.
+            path = _path(source.attrib["data-outline"], "nonzero")
+            return _placed(self._followed([path], size * _size(own)), own)
         bare = copy.copy(source)
         bare.attrib = {key: v for key, v in source.attrib.items() if key != "transform"}
         return _placed(self._followed([bare], size * _size(own)), own)
@@ -213,8 +215,8 @@ def _picture(image: ET.Element) -> Region:
     return shapely.transform(ink, lambda points: points * picture.unit)
 
 
-def _path(data: str) -> ET.Element:
-    return ET.Element(f"{_SPACE}path", {"d": data, "fill-rule": "evenodd"})
+def _path(data: str, rule: str = "evenodd") -> ET.Element:
+    return ET.Element(f"{_SPACE}path", {"d": data, "fill-rule": rule})
 
 
 def _placed(region: Region, matrix: FloatArray) -> Region:
