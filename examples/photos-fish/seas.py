@@ -47,6 +47,7 @@ def weed(draw: ImageDraw.ImageDraw, size: tuple[int, int], rng: np.random.Genera
         up = np.linspace(0, 1, 40)
         line = [(x + sway * np.sin(5 * u + phase) * u, height - tall * u) for u in up]
         for (x0, y0), (x1, y1), u in zip(line, line[1:], up, strict=False):
+            thick = max(2, round(0.03 * width * (1 - u)))
             draw.line((x0, y0, x1, y1), fill=(10, 60, 58), width=thick)
 
 
