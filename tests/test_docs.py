@@ -35,6 +35,9 @@ WRITING_OPTIONS = {
     "save_recipe", "quiet", "loss", "show_saliency",
 }  # fmt: skip
 
+ELSEWHERE = {"losses", "rules", "words", "photos", "share"}
+"""Fields that ``fill`` does not offer: rules stand in files only, others in other commands."""
+
 
 def defines(page: str, name: str) -> bool:
     """Whether a name stands in code quotes or as a table's first cell, not just in prose."""
@@ -73,14 +76,23 @@ def test_every_recipe_field_says_what_it_means(name: str) -> None:
 
 def test_fill_offers_every_recipe_field_under_its_own_name() -> None:
     offered = {parameter.name for parameter in COMMANDS["fill"].params}
-    elsewhere = {"losses", "rules", "words", "photos"}  # rules in files only, others as commands
+    elsewhere = {
+        "losses",
+        "rules",
+        "words",
+        "photos",
+        "share",
+    }  # rules in files only, others as commands
     fields = set(Recipe.model_fields) - elsewhere
     assert offered == fields | WRITING_OPTIONS
 
 
 @pytest.mark.parametrize(
     "name",
-    sorted(set(Recipe.model_fields) - {"container", "items", "losses", "rules", "words", "photos"}),
+    sorted(
+        set(Recipe.model_fields)
+        - {"container", "items", "losses", "rules", "words", "photos", "share"}
+    ),
 )
 def test_help_and_default_of_an_option_are_the_recipes(name: str) -> None:
     (option,) = (p for p in COMMANDS["fill"].params if p.name == name)

@@ -26,6 +26,7 @@ BAD: dict[str, list[Any]] = {
     "items": [7, ["star", 3]],
     "words": [3, "bear", {}, {"source": 3}, {"source": "a b", "cuont": 3}],
     "photos": {"sources": []},
+    "share": [3, "words", "trees=3", {"words": -1}],
     "quiet_share": [0, 1, "much"],
     "keep_clear": [3],
     "count": [0, -1, 2.5, "many", MAX_COUNT + 1],

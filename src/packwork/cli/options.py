@@ -45,6 +45,15 @@ Padding = Annotated[str, flag("padding", panel=PLACING)]
 Hero = Annotated[str | None, flag("hero", panel=PLACING)]
 Palette = Annotated[str | None, flag("palette", panel=PLACING)]
 Apart = Annotated[bool, flag("apart", "--apart", panel=PLACING)]
+Share = Annotated[str | None, flag("share", panel=PLACING)]
+AddedPhotos = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--photos",
+        help="Photos that are placed too: files, folders or patterns. May be given several times.",
+        rich_help_panel=PLACING,
+    ),
+]
 QuietShare = Annotated[float, flag("quiet_share", panel=PLACING)]
 KeepClear = Annotated[list[str] | None, flag("keep_clear", panel=PLACING)]
 ShowSaliency = Annotated[
@@ -146,6 +155,19 @@ SaveRecipe = Annotated[
 Quiet = Annotated[
     bool, typer.Option("-q", "--quiet", help="Print nothing but warnings and errors.")
 ]
+
+
+def mixing(add: list[str] | None, photos: list[str] | None, share: str | None) -> dict[str, Any]:
+    """Options of a recipe about what is mixed in with words.
+
+    Examples
+    --------
+    >>> mixing(["star"], None, "words=80%,items=20%")
+    {'add': ['star'], 'photos': None, 'share': 'words=80%,items=20%'}
+    """
+    return {
+        "add": add or [], "photos": {"sources": photos} if photos else None, "share": share,
+    }  # fmt: skip
 
 
 def loss_weights(losses: list[str] | None) -> dict[str, float]:

@@ -67,6 +67,8 @@ def words(
             rich_help_panel=shared.PLACING,
         ),
     ] = None,
+    photos: shared.AddedPhotos = None,
+    share: shared.Share = None,
     canvas: shared.Canvas = None,
     quiet_share: shared.QuietShare = 0.4,
     keep_clear: shared.KeepClear = None,
@@ -119,7 +121,7 @@ def words(
         recipe = words_recipe(
             container,
             source,
-            add=add or (),
+            **shared.mixing(add, photos, share),
             count=count,
             min_count=min_count,
             language=language,

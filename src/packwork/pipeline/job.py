@@ -13,6 +13,7 @@ from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.casting import cast, cast_words
 from packwork.pipeline.regions import Region, read_regions
+from packwork.pipeline.sharing import shared_out
 from packwork.pipeline.word_colours import check_colours
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
@@ -125,9 +126,10 @@ def read(
             region = on_canvas(container, recipe.canvas_size)
         words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)
         check_colours(recipe, () if words is None else words.words)
-        if items is None:
-            items, skipped = _items(recipe)
+        items, skipped = _items(recipe, items)
         chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
+        names = () if words is None else {item.name for item in words.items}
+        weights = shared_out(chosen.items, chosen.weights, names, recipe.share)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
         fillers, more = _fillers(recipe, items or () if words is None else words.items)
@@ -141,7 +143,7 @@ def read(
         region,
         chosen.items,
         chosen.asked,
-        chosen.weights,
+        weights,
         regions,
         skipped,
         clock,
@@ -152,13 +154,20 @@ def read(
     )
 
 
-def _items(recipe: Recipe) -> tuple[tuple[Item, ...] | None, tuple[PackworkError, ...]]:
-    """Photos and items; None where words come alone, and files that were left out."""
+def _items(
+    recipe: Recipe, given: Sequence[Item] | None
+) -> tuple[tuple[Item, ...] | None, tuple[PackworkError, ...]]:
+    """Photos and items; None where words come alone, and files that were left out.
+
+    Items that were given are in place of the recipe's names.
+    """
     items: tuple[Item, ...] = ()
     skipped: tuple[PackworkError, ...] = ()
     if recipe.photos is not None:
         photos = read_photos(recipe.photos, strict=recipe.strict)
         items, skipped = photos.items, photos.skipped
+    if given is not None:
+        return (*items, *given), skipped
     # Items are mixed in with words and photos only if they were named.
     is_alone = recipe.words is None and recipe.photos is None
     if is_alone or ("items" in recipe.model_fields_set and recipe.items):
