@@ -148,7 +148,9 @@ def opened(data: bytes, *, shrinking: bool = False) -> Iterator[Image.Image]:
     except UnidentifiedImageError:
         raise UnfitError("is not a picture that can be read; give PNG, JPEG or WebP") from None
     except Image.DecompressionBombError:
-        raise UnfitError(_too_large("far more", MAX_PIXELS)) from None
+        raise UnfitError(
+            _too_large("far more", MAX_JPEG_PIXELS if shrinking else MAX_PIXELS)
+        ) from None
     except _FAILURES as error:
         reason = " ".join(str(error).split())[:120] or type(error).__name__
         raise UnfitError(f"is a broken picture ({reason}); save it again") from None
