@@ -2,7 +2,7 @@
 
 Runs the commands of each example's README in a copy of its folder and keeps their PNGs, at
 most 800 px long and in 256 colours: the one of the last command as ``expected.png``, others
-under their own names.
+under their own names; films as they are.
 """
 
 from __future__ import annotations
@@ -41,6 +41,11 @@ def pictures(arguments: list[str], flag: str = "-o") -> list[str]:
     return [name for name in written if name.endswith(".png")]
 
 
+def films(arguments: list[str]) -> list[str]:
+    """Films that a command writes."""
+    return [value for flag, value in pairwise(arguments) if flag == "--film"]
+
+
 def draw(folder: Path) -> None:
     """Run an example's commands and keep their pictures."""
     lines = commands(folder)
@@ -54,6 +59,8 @@ def draw(folder: Path) -> None:
                 keep(copy / name, folder / (kept or name))
             for name in pictures(arguments, "--show-saliency"):
                 keep(copy / name, folder / name)
+            for name in films(arguments):
+                shutil.copy(copy / name, folder / name)
 
 
 def keep(picture: Path, target: Path) -> None:

@@ -60,6 +60,7 @@ BAD: dict[str, list[Any]] = {
     "time": [0, -1, NAN, INF, "soon", 1e9],
     "preset": ["Paper", "", None],
     "losses": ["overlap", {"overlap": "much"}, {"overlap": NAN}, {"overlap": INF}],
+    "film": ["a.gif", {"fps": 0}, {"speed": 2}, {"seconds": NAN}, {"easing": "bouncy"}],
 }  # fmt: skip
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Any, Literal
 
@@ -12,6 +12,7 @@ from packwork import pipeline, writers
 from packwork.display.bar import bar_for, shown
 from packwork.display.picture import notebook_png, notebook_svg
 from packwork.metrics.measure import measure
+from packwork.pipeline.filming import film_options
 from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
@@ -26,8 +27,7 @@ from packwork.scene.item import Item
 class Layout(scene.Layout):
     """Container + items + poses: what :func:`fill` returns, what is saved and shown.
 
-    It shows itself in a notebook, and may be copied and pickled. It never changes:
-    ``dataclasses.replace(layout, poses=...)`` gives another one.
+    It shows itself in a notebook and never changes: ``dataclasses.replace`` gives another.
 
     Parameters
     ----------
@@ -42,6 +42,8 @@ class Layout(scene.Layout):
         ``(n,)`` share of area asked for each item; all ones if none were given.
     manifest
         What the run did: version, recipe, seed, seconds and metrics per level.
+    track
+        How the items came here, if that was recorded: :meth:`save_film` shows it.
 
     Examples
     --------
@@ -50,10 +52,8 @@ class Layout(scene.Layout):
     <Layout: 4 items in heart>
     >>> [item.name for item in layout.items]
     ['circle', 'star', 'circle', 'star']
-    >>> layout.poses.x.shape, layout.container.width
-    ((4,), 600.0)
-    >>> layout.manifest["recipe"]["effort"]
-    'draft'
+    >>> layout.poses.x.shape, layout.manifest["recipe"]["effort"]
+    ((4,), 'draft')
     """
 
     @classmethod
@@ -89,7 +89,7 @@ class Layout(scene.Layout):
         background: str | None = None,
         show_container: bool = False,
         flatten: bool = False,
-        text: Literal["outlines", "live"] = "outlines",
+        text: writers.TextChoice = "outlines",
     ) -> None:
         """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
 
@@ -97,19 +97,14 @@ class Layout(scene.Layout):
         ----------
         path
             Where to; an older file is replaced only when the new one is complete.
-        pixels
-            Longer side of a PNG or JPEG.
-        dpi
-            Pixels to the inch: of photos (300 if None), and of PNG and JPEG, not ``pixels``.
+        pixels, dpi
+            Longer side of a PNG or JPEG; or pixels to the inch of it, and of photos (300).
         background
             Any CSS colour, or ``none``. Default: none in SVG and PDF, white in PNG.
-        show_container
-            Draw the container's line.
-        flatten
-            In SVG, repeat each drawing in place, for tools that choke on ``use``.
+        show_container, flatten
+            Draw the container's line; in SVG, repeat each drawing in place, without ``use``.
         text
-            ``live``: words in SVG are text, to be selected and found, in parts of their
-            fonts that the file carries; ``outlines``: they are curves.
+            ``live``: words in SVG are text; ``outlines``: they are curves.
 
         Raises
         ------
@@ -122,18 +117,51 @@ class Layout(scene.Layout):
         >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
-        ...     Path(folder, "stars.png").read_bytes()[1:4]
-        b'PNG'
         """
         options = writers.write_options(
-            pixels=pixels,
-            dpi=dpi,
-            background=background,
-            show_container=show_container,
-            flatten=flatten,
-            text=text,
-        )
+            pixels=pixels, dpi=dpi, background=background, show_container=show_container,
+            flatten=flatten, text=text,
+        )  # fmt: skip
         writers.write(self, path, options)
+
+    def save_film(
+        self,
+        path: str | Path,
+        *,
+        background: str = "white",
+        show_container: bool = False,
+        progress: bool | None = None,
+        **options: Any,
+    ) -> None:
+        """Write a film of how the items came here, if the layout was made with ``record=True``.
+
+        Parameters
+        ----------
+        path
+            Its ending picks the format: .svg, .gif, .apng, .webp, .mp4, .webm, .json (Lottie).
+        background, show_container, progress
+            As for :meth:`save` and :func:`fill`.
+        options
+            As on the command line: ``fps``, ``seconds``, ``hold``, ``loop``, ``easing`` ...
+
+        Raises
+        ------
+        WriteError
+            If nothing was recorded, or for what :meth:`save` raises it.
+
+        Examples
+        --------
+        >>> import tempfile
+        >>> layout = fill("circle", "star", count=3, epochs=9, levels="50", record=True)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     layout.save_film(f"{folder}/stars.gif", fps=10, seconds=1, film_pixels=100)
+        """
+        writers.check_film(path)
+        film = writers.Film(self, film_options(**options), background, show_container)
+        bar = bar_for(progress)
+        with shown(bar):
+            told = writers.tell_nobody if bar is None else partial(bar.tell, text="film")
+            writers.write_atomic(path, writers.film_bytes(film, path, told))
 
     @cached_property
     def metrics(self) -> Mapping[str, Any]:
@@ -163,6 +191,7 @@ def fill(
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
+    record: bool = False,
     **options: Any,
 ) -> Layout:
     """Fill a container with items.
@@ -170,8 +199,8 @@ def fill(
     Parameters
     ----------
     container
-        A mask (PNG, JPEG), an SVG, words to fill such as ``"text:HELLO"`` (a ``|``
-        begins a new line), a built-in name such as ``"heart"``, or a :class:`Container`.
+        A mask (PNG, JPEG), an SVG, ``"text:HELLO"``, ``"around:IMAGE"``, a built-in name such
+        as ``"heart"``, or a :class:`Container`.
     items
         SVGs, pictures, folders, built-in names, or what :func:`read_items` returned.
     observer
@@ -179,7 +208,9 @@ def fill(
     stop
         Asked before every epoch; True ends the run with what it has.
     progress
-        True shows a bar, False none; None shows one in a notebook only.
+        True shows a bar, False none; None one in a notebook only.
+    record
+        Keep the way of the items, for :meth:`Layout.save_film`.
     options
         As on the command line: ``count``, ``font``, ``canvas``, ``seed``, ``sizes``,
         ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``, ``holes``,
@@ -210,7 +241,7 @@ def fill(
     chosen: list[Item] | None = None
     if any(isinstance(entry, Item) for entry in given):
         chosen = _as_items(given, recipe.holes, recipe.strict)
-    return _run(recipe, chosen, whole, observer, stop, progress)
+    return _run(recipe, chosen, whole, observer, stop, progress, record)
 
 
 def words(
@@ -221,6 +252,7 @@ def words(
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
+    record: bool = False,
     **options: Any,
 ) -> Layout:
     """Fill a container with words.
@@ -234,7 +266,7 @@ def words(
         weights by word: a dict, a ``Counter``, a pandas Series.
     add
         Items that are placed among the words: files, folders or built-in names.
-    observer, stop, progress
+    observer, stop, progress, record
         As for :func:`fill`.
     options
         As on the command line: ``count``, ``min_count``, ``language``, ``stopwords``,
@@ -267,7 +299,7 @@ def words(
         add=[str(item) for item in mixed_in],
         **options,
     )
-    return _run(recipe, None, whole, observer, stop, progress)
+    return _run(recipe, None, whole, observer, stop, progress, record)
 
 
 def read_items(
@@ -340,10 +372,11 @@ def _run(
     observer: Observer | None,
     stop: Stop,
     progress: bool | None,
+    record: bool,
 ) -> Layout:
     bar = bar_for(progress, observer)
     with shown(bar):
-        run = pipeline.fill(recipe, items, container, bar or observer, stop)
+        run = pipeline.fill(recipe, items, container, bar or observer, stop, record)
     layout = _public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = run.metrics.as_dict()
@@ -353,13 +386,14 @@ def _run(
 def _as_items(
     given: Sequence[str | Path | Item], holes: Literal["fill", "keep"], strict: bool
 ) -> list[Item]:
-    chosen: list[Item] = []
-    for entry in given:
-        chosen += (
-            [entry] if isinstance(entry, Item) else read_items(entry, holes=holes, strict=strict)
-        )
-    return chosen
+    several = (
+        [entry] if isinstance(entry, Item) else read_items(entry, holes=holes, strict=strict)
+        for entry in given
+    )
+    return [item for items in several for item in items]
 
 
 def _public(layout: scene.Layout) -> Layout:
-    return Layout(layout.container, layout.items, layout.poses, layout.weights, layout.manifest)
+    return Layout(
+        layout.container, layout.items, layout.poses, layout.weights, layout.manifest, layout.track
+    )

@@ -31,6 +31,7 @@ from packwork.solve.options import (
 )
 from packwork.start.options import StartOptions
 from packwork.units import CanvasSize, canvas_size
+from packwork.writers.film.options import FilmOptions
 
 if TYPE_CHECKING:
     from packwork.scene.container import Container
@@ -174,6 +175,9 @@ class Recipe(Pictured):
     """Weights of losses, by name, module:function or (in Python) as functions: in place of
     the preset's, or beside them; 0 switches one off."""
 
+    film: FilmOptions | None = None
+    """How a film of the run is made, where one is asked for (``--film``)."""
+
     @field_validator("font", mode="before")
     @classmethod
     def _font_sets_words(cls, font: Any, info: ValidationInfo) -> Any:
@@ -186,9 +190,12 @@ class Recipe(Pictured):
 
     @field_validator("levels", mode="before")
     @classmethod
-    def _levels_are_text_too(cls, value: object) -> object:
+    def _levels_are_numbers(cls, value: object) -> object:
         """Let Python say ``levels=(50, 200)``."""
-        return as_text(value)
+        text = as_text(value)
+        if isinstance(text, str):
+            parse_levels(text)
+        return text
 
     @field_validator("rotate", mode="before")
     @classmethod
@@ -255,13 +262,6 @@ class Recipe(Pictured):
             if not math.isfinite(weight):
                 raise RecipeError("losses", f"the weight of {name} must be a number, not {weight}")
         return losses
-
-    @field_validator("levels")
-    @classmethod
-    def _levels_are_numbers(cls, text: str | None) -> str | None:
-        if text is not None:
-            parse_levels(text)
-        return text
 
     @model_validator(mode="after")
     def _sizes_can_be_bounded(self) -> Recipe:

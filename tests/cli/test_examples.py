@@ -18,10 +18,11 @@ Command = Callable[..., Result]
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAGES = sorted(EXAMPLES.glob("*/README.md"))
-QUICK = "-n 6 --epochs 3 --levels 16,32 --effort draft --pixels 64 -q"
+QUICK = "-n 6 --epochs 3 --levels 16,32 --effort draft --pixels 64 -q --fps 5 --seconds 0.5"
 FEW = "--max-items 9"
 """Where voids are filled: that many are enough."""
 MOST_BYTES = 150_000
+MOST_FILM_BYTES = 1_000_000
 
 
 def commands(page: Path) -> list[list[str]]:
@@ -42,7 +43,7 @@ FILLS = [
 
 def files_named_in(arguments: list[str]) -> list[str]:
     """What a command writes."""
-    flags = ("-o", "--output", "--diagnose", "--report", "--show-saliency")
+    flags = ("-o", "--output", "--diagnose", "--report", "--show-saliency", "--film")
     return [value for flag, value in pairwise(arguments) if flag in flags]
 
 
@@ -77,6 +78,15 @@ def test_pictures_of_an_example_are_small_and_shown(page: Path) -> None:
         with Image.open(picture) as image:
             assert max(image.size) <= 1_000
         assert picture.name in page.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[page.parent.name for page in PAGES])
+def test_films_of_an_example_are_there_small_and_shown(page: Path) -> None:
+    for arguments in commands(page):
+        for flag, name in pairwise(arguments):
+            if flag == "--film":
+                assert 1_000 < (page.parent / name).stat().st_size <= MOST_FILM_BYTES
+                assert f"]({name})" in page.read_text(encoding="utf-8")
 
 
 def test_drawing_the_gallery_runs_the_same_commands() -> None:

@@ -214,7 +214,7 @@ def test_a_stopped_finish_is_clean_all_the_same() -> None:
         assert_clean(square_container(), outlines, done)
 
 
-def test_an_observer_is_told_of_each_round() -> None:
+def test_an_observer_is_told_of_each_round_and_trial() -> None:
     class Log:
         every = 1
 
@@ -227,7 +227,7 @@ def test_an_observer_is_told_of_each_round() -> None:
     log = Log()
     outlines, start = crowd(np.random.default_rng(9), 6, 100.0)
     done = finish(square_container(), outlines, start, FAST, observer=log)
-    assert len(log.steps) == done.rounds
+    assert len(log.steps) == done.rounds + FAST.trials
     assert log.steps[-1].coverage > log.steps[0].coverage
     assert log.steps[0].overlap == 0
 

@@ -69,6 +69,13 @@ def fill(
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
+    film: shared.Film = None,
+    fps: shared.Fps = None,
+    seconds: shared.Seconds = None,
+    hold: shared.Hold = None,
+    loop: shared.Loop = None,
+    easing: shared.Easing = None,
+    film_pixels: shared.FilmPixels = None,
     show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
@@ -120,20 +127,13 @@ def fill(
             start=start,
             losses=shared.loss_weights(loss),
         )
-        from packwork.cli.running import Outputs, run_and_write
-        from packwork.writers import write_options
+        from packwork.cli.running import outputs_asked, run_and_write
 
         write_saliency(recipe, show_saliency)
-        outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT],
-            options=write_options(
-                pixels=pixels,
-                background=background,
-                show_container=show_container,
-                flatten=flatten,
-            ),
-            report=report,
-            diagnose=diagnose,
-            recipe=save_recipe,
-        )
+        outputs = outputs_asked(
+            output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
+            film_pixels=film_pixels, recipes=recipe.film,
+        )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

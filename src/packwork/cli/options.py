@@ -9,11 +9,13 @@ from typing import Annotated, Any, Literal
 import typer
 
 from packwork.recipe import Recipe
+from packwork.writers.film.options import FilmOptions
 
 PLACING = "What is placed"
 GAPS = "What fills the voids"
 SOLVING = "How it is solved"
 WRITING = "What is written"
+FILMING = "What is filmed"
 
 
 def flag(field: str, *names: str, panel: str) -> Any:
@@ -21,6 +23,19 @@ def flag(field: str, *names: str, panel: str) -> Any:
     described = Recipe.model_fields[field].description or ""
     return typer.Option(
         *(names or (f"--{field.replace('_', '-')}",)), help=described, rich_help_panel=panel
+    )
+
+
+def film_flag(field: str, *names: str) -> Any:
+    """Typer option of a film: not given, it is what the recipe says, or that default."""
+    described = FilmOptions.model_fields[field]
+    value = described.default
+    shown = {True: "loop", False: "once"}.get(value, value) if field == "loop" else value
+    return typer.Option(
+        *(names or (f"--{field.replace('_', '-')}",)),
+        help=described.description or "",
+        show_default=f"{shown:g}" if isinstance(shown, float) else str(shown),
+        rich_help_panel=FILMING,
     )
 
 
@@ -144,6 +159,21 @@ Diagnose = Annotated[
         rich_help_panel=WRITING,
     ),
 ]
+Film = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--film",
+        help="Film of the run to write; the ending (.svg, .gif, .apng, .webp, .mp4, .webm, .json "
+        "for Lottie) picks the format. May be given several times.",
+        rich_help_panel=FILMING,
+    ),
+]
+Fps = Annotated[float | None, film_flag("fps")]
+Seconds = Annotated[float | None, film_flag("seconds")]
+Hold = Annotated[float | None, film_flag("hold")]
+Loop = Annotated[bool | None, film_flag("loop", "--loop/--once")]
+Easing = Annotated[Literal["smooth", "linear"] | None, film_flag("easing")]
+FilmPixels = Annotated[int | None, film_flag("film_pixels")]
 SaveRecipe = Annotated[
     Path | None,
     typer.Option(

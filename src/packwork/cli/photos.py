@@ -81,6 +81,13 @@ def photos(
     dpi: shared.Dpi = None,
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
+    film: shared.Film = None,
+    fps: shared.Fps = None,
+    seconds: shared.Seconds = None,
+    hold: shared.Hold = None,
+    loop: shared.Loop = None,
+    easing: shared.Easing = None,
+    film_pixels: shared.FilmPixels = None,
     show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
@@ -98,9 +105,8 @@ def photos(
     [bold]packwork photos circle party/ --shape circle --rotate none[/]  round photos
     """
     with clear_errors():
-        from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.running import outputs_asked, run_and_write
         from packwork.pipeline.photographing import photos_recipe
-        from packwork.writers import write_options
 
         recipe = photos_recipe(
             container,
@@ -137,13 +143,10 @@ def photos(
             losses=shared.loss_weights(loss),
         )
         write_saliency(recipe, show_saliency)
-        outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT],
-            options=write_options(
-                pixels=pixels, dpi=dpi, background=background, show_container=show_container
-            ),
-            report=report,
-            diagnose=diagnose,
-            recipe=save_recipe,
-        )
+        outputs = outputs_asked(
+            output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
+            pixels=pixels, dpi=dpi, background=background, show_container=show_container,
+            film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
+            film_pixels=film_pixels, recipes=recipe.film,
+        )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

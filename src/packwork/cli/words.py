@@ -97,6 +97,13 @@ def words(
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     text: shared.Text = "outlines",
+    film: shared.Film = None,
+    fps: shared.Fps = None,
+    seconds: shared.Seconds = None,
+    hold: shared.Hold = None,
+    loop: shared.Loop = None,
+    easing: shared.Easing = None,
+    film_pixels: shared.FilmPixels = None,
     show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
@@ -114,9 +121,8 @@ def words(
     [bold]packwork words cat ar.txt --font "Noto Naskh Arabic"[/]  any script
     """
     with clear_errors():
-        from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.running import outputs_asked, run_and_write
         from packwork.pipeline.wording import words_recipe
-        from packwork.writers import write_options
 
         recipe = words_recipe(
             container,
@@ -164,12 +170,10 @@ def words(
             losses=shared.loss_weights(loss),
         )
         write_saliency(recipe, show_saliency)
-        drawn = write_options(
-            pixels=pixels, background=background, show_container=show_container,
-            flatten=flatten, text=text,
-        )  # fmt: skip
-        outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT], options=drawn, report=report, diagnose=diagnose,
-            recipe=save_recipe,
+        outputs = outputs_asked(
+            output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
+            film_pixels=film_pixels, recipes=recipe.film,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

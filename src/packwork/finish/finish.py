@@ -83,6 +83,10 @@ RESCUES = 3
 BACK = (0.0, 0.0, 1e-4, 1e-3, 0.003, 0.01, 0.03, 0.1, 0.3)
 """Logarithms of size given back in turn until one common size has no conflict. Chosen."""
 
+TOLD = 10
+"""How often the trials are told of, for each trial of an item: what they turn and exchange is
+then seen on its way. More take longer to tell. Chosen."""
+
 SIZE_TOLERANCE = 1e-3
 """Logarithm of size below which nobody is too small: steps end a little off their bounds,
 and a thousandth is not seen. Chosen."""
@@ -192,6 +196,7 @@ class _Run:
         self.hair = HAIR * container.side
         self.gap = options.gap_cu + self.hair
         self.rounds = 0
+        self._is_trying = False
         self._planned = options.rounds * (1 if options.sizes == "free" else COMMON_ROUNDS)
         self._spacing = float(np.sqrt(self._area / len(poses)))
         own = np.array([outline.area for outline in outlines])
@@ -236,7 +241,9 @@ class _Run:
         before = arrangement.places.copy()
         relocate(arrangement, np.array([item]), self.gap)
         part(arrangement, self.gap)
+        self._is_trying = True
         self._compact(rounds)
+        self._is_trying = False
         if arrangement.places[:, 3].min() >= before[:, 3].min() + RELIEF:
             return True
         arrangement.put(everyone, before)
@@ -253,7 +260,13 @@ class _Run:
         rng = np.random.default_rng(self._options.seed)
         wish = partial(self._sizing.wishes, spread=SEARCH_SPREAD)
         trials = round(self._options.trials * min(1.0, EASY_POINTS / self._points_each()))
-        search(self.arrangement, wish, trials, room, rng, self._is_enough)
+        every = max(self.arrangement.count // TOLD, 1)
+
+        def tell(trial: int) -> None:
+            if trial % every == 0:
+                self._tell(COARSE_SHARE)
+
+        search(self.arrangement, wish, trials, room, rng, self._is_enough, tell)
 
     def _points_each(self) -> float:
         return float(self.arrangement.board.starts[-2]) / self.arrangement.count
@@ -311,6 +324,7 @@ class _Run:
         for _ in range(LEVELLING_ROUNDS):
             spread = np.ptp(self.arrangement.places[:, 3])
             self._level_round(sizing, back)
+            self._tell(1.0)
             if np.ptp(self.arrangement.places[:, 3]) >= spread:
                 break
 
@@ -343,7 +357,8 @@ class _Run:
         return tuple(int(k) for k in np.flatnonzero(lag > SIZE_TOLERANCE))
 
     def _tell(self, done: float) -> None:
-        if self._observer is None:
+        # What is only tried may be undone: nobody is to see it.
+        if self._observer is None or self._is_trying:
             return
         growth = self.arrangement.places[:, 3]
         covered = float((self._sizing.areas * np.exp(2 * growth)).sum() / self._area)
@@ -352,7 +367,8 @@ class _Run:
             self._poses, x=x.copy(), y=y.copy(), angle=self._poses.angle + turn,
             scale=self._poses.scale * np.exp(growth),
         )  # fmt: skip
-        self._observer.on_step(Step(0, 1, 0, self.rounds, done, poses, covered, 0.0, 0.0))
+        shares = (covered, 0.0, 0.0)
+        self._observer.on_step(Step(0, 1, 0, self.rounds, done, poses, lambda: shares))
 
 
 def _sizing(poses: Poses, areas: FloatArray, options: FinishOptions) -> Sizing:

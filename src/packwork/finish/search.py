@@ -96,6 +96,7 @@ def search(
     room: Room,
     rng: np.random.Generator,
     stop: Stop = never,
+    tell: Callable[[int], None] | None = None,
 ) -> int:
     """Try to turn or exchange items; how many trials were kept.
 
@@ -116,6 +117,8 @@ def search(
         The only source of randomness.
     stop
         Asked before each trial; True ends the search.
+    tell
+        Called with the number of each trial, once it has been kept or undone.
     """
     wishes = wish(arrangement.places[:, 3])
     can_turn = bool((wishes.backmost < wishes.foremost).any())
@@ -148,6 +151,8 @@ def search(
             kept += 1
         else:
             arrangement.put(items, before)
+        if tell is not None:
+            tell(trial)
         if (trial + 1) % arrangement.count == 0:
             _sweep(arrangement, wishes, room, trial)
         # How far an item may grow depends on how large the smallest is now.

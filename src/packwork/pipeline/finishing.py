@@ -265,16 +265,30 @@ def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
 
 
 class Closing:
-    """Passes steps of some items on as those of a last level of all."""
+    """Passes steps of some items on as those of a last level of all.
 
-    def __init__(self, observer: Observer, poses: Poses, items: IntArray) -> None:
-        self._observer, self._poses, self._items = observer, poses, items
+    Parameters
+    ----------
+    observer
+        The run's.
+    poses
+        Of all items.
+    items
+        Whom the steps are of.
+    ids
+        What all items are called by, as in ``Step``.
+    """
+
+    def __init__(
+        self, observer: Observer, poses: Poses, items: IntArray, ids: IntArray | None = None
+    ) -> None:
+        self._observer, self._poses, self._items, self._ids = observer, poses, items, ids
         self.every = observer.every
 
     def on_step(self, step: Step) -> None:
         """Tell the run's observer."""
         poses = self._poses.with_some(self._items, step.poses)
-        self._observer.on_step(replace(step, poses=poses, is_finish=True))
+        self._observer.on_step(replace(step, poses=poses, is_finish=True, ids=self._ids))
 
 
 def until_over(stop: Stop, seconds: float | None) -> Stop:

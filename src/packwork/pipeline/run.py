@@ -26,7 +26,8 @@ from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
 from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn, words_found
-from packwork.progress import Observer, Stop, never
+from packwork.pipeline.recording import Recorder
+from packwork.progress import Observer, Stop, never, together
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
@@ -47,6 +48,7 @@ def fill(
     container: Container | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
+    record: bool = False,
 ) -> Run:
     """Fill a container with items.
 
@@ -60,6 +62,8 @@ def fill(
         Told of progress.
     stop
         Asked before every epoch; True ends the run with what it has.
+    record
+        Keep the way of the items, in the layout's ``track``.
 
     Raises
     ------
@@ -68,10 +72,12 @@ def fill(
     RecipeError
         If an option has no meaning for these files.
     """
-    return run(read(recipe, items, container), observer, stop)
+    return run(read(recipe, items, container), observer, stop, record)
 
 
-def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
+def run(
+    job: Job, observer: Observer | None = None, stop: Stop = never, record: bool = False
+) -> Run:
     """Solve and measure what was read; the second half of :func:`fill`.
 
     Where words would come out smaller than they may be, those are left out and the others
@@ -79,18 +85,25 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
     """
     job = without_hopeless(job)
     for attempt in count(1):
-        placed = _placed(job, observer, stop)
+        recorder = Recorder() if record else None
+        told = together(observer, recorder)
+        placed = _placed(job, told, stop, recorder)
         fewer = job if stop() else with_readable(job, placed.poses, attempt)
         if fewer is job:
             break
         job = fewer
     if placed.exact is None or not job.recipe.fills_gaps:
-        return _judged(job, placed.start, placed.outcome, placed.exact, placed.poses, None)
-    with job.clock.time("gaps"):
-        filled = fill_gaps(job, placed.start, placed.exact, observer, stop)
-    return _judged(
-        filled.job, filled.start, placed.outcome, filled.exact, filled.exact.poses, filled.filling
-    )
+        ids = None
+        done = _judged(job, placed.start, placed.outcome, placed.exact, placed.poses, None)
+    else:
+        with job.clock.time("gaps"):
+            filled = fill_gaps(job, placed.start, placed.exact, told, stop)
+        job, exact, ids = filled.job, filled.exact, filled.ids
+        done = _judged(job, filled.start, placed.outcome, exact, exact.poses, filled.filling)
+    if recorder is None:
+        return done
+    track = recorder.track(done.layout.poses, ids, job.items)
+    return replace(done, layout=replace(done.layout, track=track))
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,7 +119,7 @@ class _Placed:
         return self.outcome.poses if self.exact is None else self.exact.poses
 
 
-def _placed(job: Job, observer: Observer | None, stop: Stop) -> _Placed:
+def _placed(job: Job, observer: Observer | None, stop: Stop, recorder: Recorder | None) -> _Placed:
     """Poses of all items, before voids are filled."""
     recipe, clock = job.recipe, job.clock
     with clock.time("start"):
@@ -114,6 +127,8 @@ def _placed(job: Job, observer: Observer | None, stop: Stop) -> _Placed:
         padding = recipe.padding_cu(job.container)
         region = padded(job.container, padding)
         start = begin(job, region, outlines)
+    if recorder is not None:
+        recorder.keep(start.poses)
     with clock.time("levels"):
         options = _solve_options(job, padding)
         outcome = solve(

@@ -15,6 +15,7 @@ from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
+from packwork.scene.track import Track
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -33,6 +34,8 @@ class Layout:
         ``(n,)`` share of area asked for each item; all ones if none were given.
     manifest
         What the run did: version, recipe, seed, seconds and metrics per level.
+    track
+        How the items came here; None if that was not recorded.
     """
 
     container: Container
@@ -40,6 +43,7 @@ class Layout:
     poses: Poses
     weights: FloatArray
     manifest: Mapping[str, Any] = field(default_factory=dict)
+    track: Track | None = None
 
     def __post_init__(self) -> None:
         if not len(self.items) == len(self.poses) == len(self.weights):

@@ -188,7 +188,8 @@ class _Run:
         observer.on_step(
             Step(
                 index, len(self._options.levels), level.resolution, self._done,
-                self.pace.progress(), poses, *level.shares(level.density(poses)),
+                self.pace.progress(), poses, lambda: level.shares(level.density(poses)),
+                is_last=is_end,
             )
         )  # fmt: skip
 

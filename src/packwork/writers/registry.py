@@ -114,6 +114,9 @@ WRITERS: Mapping[str, Encoder] = MappingProxyType(
 )
 """File ending, in lower case, to the function that makes the file's bytes."""
 
+ONLY_FILMS = frozenset({".gif", ".apng", ".webp", ".mp4", ".webm"})
+"""Endings of pictures that move, which a layout alone is not."""
+
 
 def check_output(path: str | Path) -> None:
     """Refuse, before a run, a path that :func:`write` would refuse after it.
@@ -193,6 +196,8 @@ def _encoder(path: str | Path) -> Encoder:
     ending = Path(path).suffix.lower()
     if ending not in WRITERS:
         known = ", ".join(WRITERS)
+        if ending in ONLY_FILMS:
+            raise WriteError(path, "is a film; give it to --film (in Python to save_film)")
         met = f"the ending {ending!r} is not known" if ending else "the name has no ending"
         raise WriteError(path, f"{met}; use one of {known}")
     check_extra(path)

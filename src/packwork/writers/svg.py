@@ -44,8 +44,10 @@ HALO_SHARE = 0.004
 """How far a halo reaches beyond its item, as a share of the canvas. Larger ones run into each
 other, smaller ones are lost on busy ground. Chosen by eye."""
 
-_CONTAINER_STROKE = "#1a202c"
-_CONTAINER_STROKE_SHARE = 1 / 500
+CONTAINER_STROKE = "#1a202c"
+"""Colour of the container's drawn line. Chosen by eye."""
+
+CONTAINER_STROKE_SHARE = 1 / 500
 """Width of the container's drawn line, as a share of the canvas. Chosen by eye."""
 
 
@@ -269,8 +271,8 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
             "id": "container",
             "data-name": container.name[:NAME_LENGTH],
             "fill": "none",
-            "stroke": _CONTAINER_STROKE,
-            "stroke-width": f"{container.side * _CONTAINER_STROKE_SHARE:.6g}",
+            "stroke": CONTAINER_STROKE,
+            "stroke-width": f"{container.side * CONTAINER_STROKE_SHARE:.6g}",
             "display": "" if shown else "none",
         }
     )
