@@ -59,7 +59,7 @@ class Recipe(Pictured):
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     container: str
-    """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, or a built-in name such as heart."""
+    """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, around:IMAGE, or a built-in name."""
 
     font: str | None = None
     """Font file (TTF, OTF, TTC) for a container text:WORD, or for words; for these also an

@@ -30,7 +30,7 @@ def fill(
         typer.Argument(
             metavar="CONTAINER",
             help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD (text:ONE|TWO for two "
-            "lines), or a built-in name such as heart.",
+            "lines), around:IMAGE (its quiet part), or a built-in name such as heart.",
         ),
     ],
     items: ItemNames = None,

@@ -26,8 +26,8 @@ def photos(
         str,
         typer.Argument(
             metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, or a built-in name such "
-            "as moon.",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, around:IMAGE (its quiet "
+            "part), or a built-in name such as moon.",
         ),
     ],
     sources: Annotated[

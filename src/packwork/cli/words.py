@@ -28,8 +28,8 @@ def words(
         str,
         typer.Argument(
             metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, or a built-in name such "
-            "as heart.",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, around:IMAGE (its quiet "
+            "part), or a built-in name such as heart.",
         ),
     ],
     source: Annotated[
