@@ -24,7 +24,13 @@ HERE = Path(__file__).resolve().parent
 COLOURS = 256
 LONGEST_PX = 800
 MOST_BYTES = 150_000
-STARTS = ("packwork fill ", "packwork words ", "packwork photos ", "packwork run ")
+STARTS = (
+    "packwork fill ",
+    "packwork words ",
+    "packwork photos ",
+    "packwork pile ",
+    "packwork run ",
+)
 
 
 def commands(folder: Path) -> list[list[str]]:

@@ -37,9 +37,9 @@ WRITING_OPTIONS = {
     "save_recipe", "quiet", "loss", "show_saliency", "film", *FilmOptions.model_fields,
 }  # fmt: skip
 
-ELSEWHERE = {"losses", "rules", "words", "photos", "share", "film"}
-"""Fields that ``fill`` does not offer: rules stand in files only, words and photos are commands, a
-film's table is several flags."""
+ELSEWHERE = {"losses", "rules", "words", "photos", "share", "pile", "film"}
+"""Fields that ``fill`` does not offer: rules stand in files only, words, photos
+and piles are commands, a film's table is several flags."""
 
 
 def defines(page: str, name: str) -> bool:

@@ -12,8 +12,9 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from packwork.albums import photos
-    from packwork.api import Layout, fill, read_container, read_items, words
+    from packwork.api.albums import photos
+    from packwork.api.layout import Layout
+    from packwork.api.verbs import fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.losses.term import ImageLoss, Term
@@ -39,6 +40,7 @@ __all__ = [
     "fill",
     "fit_outline",
     "photos",
+    "pile",
     "read_container",
     "read_items",
     "render",
@@ -51,7 +53,7 @@ _HOMES = {
     "FittedOutline": "packwork.fit.fitted:FittedOutline",
     "ImageLoss": "packwork.losses.term:ImageLoss",
     "Item": "packwork.scene.item:Item",
-    "Layout": "packwork.api:Layout",
+    "Layout": "packwork.api.layout:Layout",
     "PackworkError": "packwork.errors:PackworkError",
     "ReadError": "packwork.errors:ReadError",
     "RecipeError": "packwork.errors:RecipeError",
@@ -59,14 +61,15 @@ _HOMES = {
     "Step": "packwork.progress:Step",
     "Term": "packwork.losses.term:Term",
     "WriteError": "packwork.errors:WriteError",
-    "fill": "packwork.api:fill",
+    "fill": "packwork.api.verbs:fill",
     "fit_outline": "packwork.fit.fitted:fit_outline",
-    "photos": "packwork.albums:photos",
-    "read_container": "packwork.api:read_container",
-    "read_items": "packwork.api:read_items",
+    "photos": "packwork.api.albums:photos",
+    "pile": "packwork.api.verbs:pile",
+    "read_container": "packwork.api.verbs:read_container",
+    "read_items": "packwork.api.verbs:read_items",
     "render": "packwork.raster.coverage:coverage",
     "render_pullback": "packwork.raster.coverage:coverage_pullback",
-    "words": "packwork.api:words",
+    "words": "packwork.api.verbs:words",
 }
 
 

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
+    AfterValidator,
+    BeforeValidator,
     ConfigDict,
     Field,
     ValidationError,
@@ -16,8 +18,9 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.levels import parse_levels
+from packwork.levels import checked_levels, parse_levels
 from packwork.pictures import Pictured
+from packwork.piles import Moving
 from packwork.presets import PRESETS
 from packwork.readers.words.options import WordOptions
 from packwork.refusals import length_asked, refusal
@@ -53,7 +56,7 @@ DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
 
 
-class Recipe(Pictured):
+class Recipe(Pictured, Moving):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
@@ -166,7 +169,7 @@ class Recipe(Pictured):
     preset: Literal["default", "paper"] = "default"
     """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
 
-    levels: str | None = None
+    levels: Annotated[str | None, BeforeValidator(as_text), AfterValidator(checked_levels)] = None
     """Resolutions from coarse to fine, pixels on the longer side, each with its share of
     the epochs, as 50:9,200:23,600:68 (the default); without shares, as 50,200,600 (the
     paper's), they are even."""
@@ -187,15 +190,6 @@ class Recipe(Pictured):
                 "font", f"sets a container of words, as in text:HELLO, not {container!r}"
             )
         return str(font) if isinstance(font, Path) else font
-
-    @field_validator("levels", mode="before")
-    @classmethod
-    def _levels_are_numbers(cls, value: object) -> object:
-        """Let Python say ``levels=(50, 200)``."""
-        text = as_text(value)
-        if isinstance(text, str):
-            parse_levels(text)
-        return text
 
     @field_validator("rotate", mode="before")
     @classmethod
@@ -272,6 +266,12 @@ class Recipe(Pictured):
                     f"rule {number}: scale bounds free sizes, not {self.sizes} ones; "
                     'leave it out, pin the size, or use sizes = "free"',
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _stays_somewhere(self) -> Recipe:
+        if self.stay and not self.starts_from_layout:
+            raise RecipeError("stay", f"needs an earlier layout as --start, not {self.start}")
         return self
 
     @model_validator(mode="after")

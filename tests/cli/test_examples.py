@@ -19,6 +19,8 @@ Command = Callable[..., Result]
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAGES = sorted(EXAMPLES.glob("*/README.md"))
 QUICK = "-n 6 --epochs 3 --levels 16,32 --effort draft --pixels 64 -q --fps 5 --seconds 0.5"
+QUICK_PILE = "-n 6 --pixels 64 -q"
+"""A pile has no levels."""
 FEW = "--max-items 9"
 """Where voids are filled: that many are enough."""
 MOST_BYTES = 150_000
@@ -37,7 +39,7 @@ FILLS = [
     pytest.param(page.parent, arguments, id=f"{page.parent.name}-{number}")
     for page in PAGES
     for number, arguments in enumerate(commands(page))
-    if arguments[0] in {"fill", "words", "photos"}
+    if arguments[0] in {"fill", "words", "photos", "pile"}
 ]
 
 
@@ -48,9 +50,16 @@ def files_named_in(arguments: list[str]) -> list[str]:
 
 
 def test_the_gallery_is_found() -> None:
-    assert {"collage", "letter-s", "letter-i", "letter-r", "australia", "usa-axis"} <= {
-        page.parent.name for page in PAGES
-    }
+    assert {
+        "collage",
+        "letter-s",
+        "letter-i",
+        "letter-r",
+        "australia",
+        "usa-axis",
+        "jar",
+        "round-pack",
+    } <= {page.parent.name for page in PAGES}
     assert len(FILLS) >= 6
 
 
@@ -64,7 +73,8 @@ def test_the_command_of_an_example_writes_what_it_names(
     monkeypatch.chdir(copy)
     monkeypatch.syspath_prepend(str(copy))
     few = FEW.split() if "--target-coverage" in arguments else []
-    result = packwork("", *arguments, *QUICK.split(), *few)
+    quick = QUICK_PILE if arguments[0] == "pile" else QUICK
+    result = packwork("", *arguments, *quick.split(), *few)
     assert result.exit_code in {0, 1}, result.output
     written = files_named_in(arguments)
     assert written
@@ -96,5 +106,5 @@ def test_drawing_the_gallery_runs_the_same_commands() -> None:
     draw = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(draw)
     for page in PAGES:
-        ours = [c for c in commands(page) if c[0] in {"fill", "words", "photos", "run"}]
+        ours = [c for c in commands(page) if c[0] in {"fill", "words", "photos", "pile", "run"}]
         assert draw.commands(page.parent) == ours

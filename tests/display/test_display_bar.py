@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from packwork.api import fill
+from packwork.api.verbs import fill
 from packwork.display import bar as bars
 from packwork.display.bar import Bar, NotebookBar, TerminalBar, Together, bar_for, shown
 from packwork.progress import Step

@@ -47,6 +47,7 @@ def fill(
     padding: shared.Padding = "0",
     weights: shared.Weights = None,
     hero: shared.Hero = None,
+    force: shared.Force = None,
     palette: shared.Palette = None,
     apart: shared.Apart = False,
     holes: shared.Holes = "fill",
@@ -64,6 +65,7 @@ def fill(
     preset: shared.Preset = "default",
     levels: shared.Levels = None,
     start: shared.Start = "distance-field",
+    stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
@@ -108,6 +110,7 @@ def fill(
             padding=padding,
             weights=weights,
             hero=hero,
+            force=force,
             palette=palette,
             apart=apart,
             holes=holes,
@@ -125,6 +128,7 @@ def fill(
             preset=preset,
             levels=levels,
             start=start,
+            stay=stay,
             losses=shared.loss_weights(loss),
         )
         from packwork.cli.running import outputs_asked, run_and_write

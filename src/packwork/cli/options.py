@@ -80,6 +80,7 @@ ShowSaliency = Annotated[
         rich_help_panel=WRITING,
     ),
 ]
+Force = Annotated[list[str] | None, flag("force", panel=PLACING)]
 Weights = Annotated[str | None, flag("weights", panel=PLACING)]
 Holes = Annotated[Literal["fill", "keep"], flag("holes", panel=PLACING)]
 OutlineChoice = Annotated[Literal["exact", "fitted", "hull"], flag("outline", panel=PLACING)]
@@ -96,6 +97,7 @@ Time = Annotated[float | None, flag("time", panel=SOLVING)]
 Preset = Annotated[Literal["default", "paper"], flag("preset", panel=SOLVING)]
 Levels = Annotated[str | None, flag("levels", panel=SOLVING)]
 Start = Annotated[str, flag("start", panel=SOLVING)]
+Stay = Annotated[bool, flag("stay", "--stay", panel=SOLVING)]
 Loss = Annotated[
     list[str] | None,
     typer.Option(

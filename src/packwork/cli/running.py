@@ -21,6 +21,7 @@ from packwork.cli.show import (
     filling_line,
     metrics_table,
     notice_if_slow,
+    pile_line,
     seconds_line,
     words_line,
 )
@@ -279,6 +280,8 @@ def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console,
         console.print(f"{results['beside']} pairs of one kind lie side by side", style="dim")
     if results["filling"] is not None:
         console.print(filling_line(results["filling"]), style="dim")
+    if results["pile"] is not None:
+        console.print(pile_line(results["pile"]), style="dim")
     console.print(certificate_line(results["promised"], results["certified"]))
     written = ", ".join(str(path) for path in outputs)
     console.print(f"wrote {written}", soft_wrap=True, markup=False)

@@ -82,6 +82,7 @@ def words(
     largest: Annotated[str | None, _flag("largest", panel=TYPE)] = None,
     filler: shared.Filler = None,
     hero: shared.Hero = None,
+    force: shared.Force = None,
     holes: shared.Holes = "fill",
     outline: shared.OutlineChoice = "exact",
     seed: shared.Seed = 0,
@@ -91,6 +92,7 @@ def words(
     time: shared.Time = None,
     levels: shared.Levels = None,
     start: shared.Start = "distance-field",
+    stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
@@ -158,6 +160,7 @@ def words(
             largest=largest,
             filler=filler,
             hero=hero,
+            force=force,
             holes=holes,
             outline=outline,
             seed=seed,
@@ -167,6 +170,7 @@ def words(
             time=time,
             levels=levels,
             start=start,
+            stay=stay,
             losses=shared.loss_weights(loss),
         )
         write_saliency(recipe, show_saliency)

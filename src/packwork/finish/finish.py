@@ -165,6 +165,8 @@ def finish(
     run = _Run(container, outlines, poses, options, observer, stop, is_enough)
     if options.refining:
         run.refine()
+        if options.staying:
+            run.level()
     else:
         run.coarse()
         run.search()

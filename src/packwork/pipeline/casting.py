@@ -148,6 +148,12 @@ def item_weights(items: Sequence[Item], weights: str | Mapping[str, float] | Non
     return np.array([float(table.get(item.name, other)) for item, other in pairs])
 
 
+def kinds(items: Sequence[Item]) -> IntArray:
+    """``(n,)`` the same number for items of one name."""
+    _, numbers = np.unique([item.name for item in items], return_inverse=True)
+    return np.asarray(numbers, dtype=np.int64)
+
+
 def _weights(items: Sequence[Item], asked: Sequence[Asked], recipe: Recipe) -> FloatArray:
     """Weights of the table, those of the rules in their place, not too far apart."""
     table = item_weights(items, recipe.weights)

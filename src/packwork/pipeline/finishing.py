@@ -19,6 +19,7 @@ from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.settling import settled
+from packwork.pipeline.staying import needs_no_levels
 from packwork.progress import Observer, Step, Stop
 from packwork.readers.svg.follow import FLATTENING
 from packwork.recipe import Recipe
@@ -177,7 +178,9 @@ def _options(
         largest=tuple(largest.tolist()),
         turning=turning,
         turn_limit=limit if turning else None,
-        trials=trials_for(job, len(items)),
+        trials=0 if recipe.stay else trials_for(job, len(items)),
+        refining=needs_no_levels(job),
+        staying=recipe.stay,
         seed=recipe.seed,
     )
 

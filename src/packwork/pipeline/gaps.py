@@ -14,6 +14,7 @@ from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.beginning import Beginning
+from packwork.pipeline.casting import kinds
 from packwork.pipeline.finishing import (
     Closing,
     gap_with_bulge,
@@ -23,7 +24,6 @@ from packwork.pipeline.finishing import (
     without,
 )
 from packwork.pipeline.job import Job
-from packwork.pipeline.limiting import kinds
 from packwork.pipeline.outcome import Filling
 from packwork.progress import Observer, Stop
 from packwork.readers.words.items import EM_PX

@@ -6,12 +6,17 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError, RecipeError
 from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.casting import cast, cast_words
+from packwork.pipeline.forcing import forces_of
+from packwork.pipeline.given import no_container
 from packwork.pipeline.regions import Region, read_regions
 from packwork.pipeline.sharing import shared_out
 from packwork.pipeline.word_colours import check_colours
@@ -20,6 +25,7 @@ from packwork.readers.items import read_items
 from packwork.readers.layout import read_layout
 from packwork.readers.photos.read import read_photos
 from packwork.readers.quiet.container import QuietOptions
+from packwork.readers.svg.walls import walled_container
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
 from packwork.refusals import length_asked
@@ -85,6 +91,8 @@ class Job:
         The words among the items, if any.
     letters
         How large words may be; None if as it comes.
+    mouths
+        ``(m, 2, 2)`` ends of the openings that a container of open paths has; None if none.
     """
 
     recipe: Recipe
@@ -99,6 +107,7 @@ class Job:
     fillers: tuple[Item, ...] = ()
     words: WordsRead | None = None
     letters: Letters | None = None
+    mouths: FloatArray | None = None
 
     @property
     def is_limited(self) -> bool:
@@ -119,17 +128,15 @@ def read(
     clock = Clock()
     skipped: tuple[PackworkError, ...] = ()
     with clock.time("read"):
-        if container is None:
-            quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
-            region = read_container(recipe.container, recipe.canvas_size, recipe.font, quiet)
-        else:
-            region = on_canvas(container, recipe.canvas_size)
+        room, mouths = _container(recipe, container)
         words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)
         check_colours(recipe, () if words is None else words.words)
         items, skipped = _items(recipe, items)
         chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
+        region = no_container(recipe, chosen) if room is None else room
         names = () if words is None else {item.name for item in words.items}
         weights = shared_out(chosen.items, chosen.weights, names, recipe.share)
+        forces_of(recipe.force or (), chosen.items, weights, region)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
         fillers, more = _fillers(recipe, items or () if words is None else words.items)
@@ -151,6 +158,7 @@ def read(
         fillers,
         words,
         _letters(recipe, region),
+        mouths,
     )
 
 
@@ -204,6 +212,31 @@ def _letters(recipe: Recipe, container: Container) -> Letters | None:
             "smallest", f"is {letters.smallest:g}, more than the {letters.largest:g} of --largest"
         )
     return letters if found else None
+
+
+def _container(
+    recipe: Recipe, given: Container | None
+) -> tuple[Container | None, FloatArray | None]:
+    """The container, None for none at all, and its openings if it is drawn with some."""
+    if given is not None:
+        return on_canvas(given, recipe.canvas_size), None
+    if recipe.pile is not None and recipe.container == "none":
+        return None, None
+    if recipe.pile is not None and Path(recipe.container).suffix.lower() == ".svg":
+        size = recipe.canvas_size
+        walled = walled_container(recipe.container, None if size is None else size.side)
+        if walled is not None:
+            placed = on_canvas(walled[0], size)
+            return placed, _brought_along(walled[1], walled[0], placed)
+    quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
+    return read_container(recipe.container, recipe.canvas_size, recipe.font, quiet), None
+
+
+def _brought_along(points: FloatArray, before: Container, after: Container) -> FloatArray:
+    """Points of a container that has been put on another canvas."""
+    scale = after.outline.extent / before.outline.extent
+    old, new = (np.array(c.outline.bounds[:2]) for c in (before, after))
+    return np.asarray(new + (points - old) * scale)
 
 
 def _fillers(

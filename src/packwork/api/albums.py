@@ -1,4 +1,4 @@
-"""The Python face of photographs: :func:`packwork.api.fill`, told what to read."""
+"""Photographs in Python: :func:`packwork.fill`, told what to read."""
 
 from __future__ import annotations
 
@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from packwork.api import Layout, fill
+from packwork.api.layout import Layout
+from packwork.api.verbs import fill
 from packwork.pipeline.photographing import photo_choices
 from packwork.progress import Observer, Stop, never
 from packwork.scene.container import Container

@@ -1,0 +1,272 @@
+"""The Python face: the verbs of the command line, on plain values."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Literal
+
+from packwork import pipeline
+from packwork.api.layout import Layout, public
+from packwork.display.bar import bar_for, shown
+from packwork.progress import Observer, Stop, never
+from packwork.readers import items as item_reader
+from packwork.readers.container import read_container as _read_container
+from packwork.recipe import Recipe, make_recipe
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+
+
+def fill(
+    container: str | Path | Container,
+    items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
+    *,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    record: bool = False,
+    **options: Any,
+) -> Layout:
+    """Fill a container with items.
+
+    Parameters
+    ----------
+    container
+        A mask (PNG, JPEG), an SVG, ``"text:HELLO"``, ``"around:IMAGE"``, a built-in name such
+        as ``"heart"``, or a :class:`Container`.
+    items
+        SVGs, pictures, folders, built-in names, or what :func:`read_items` returned.
+    observer
+        Told of progress.
+    stop
+        Asked before every epoch; True ends the run with what it has.
+    progress
+        True shows a bar, False none; None one in a notebook only.
+    record
+        Keep the way of the items, for :meth:`Layout.save_film`.
+    options
+        As on the command line: ``count``, ``font``, ``canvas``, ``seed``, ``sizes``,
+        ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``, ``holes``,
+        ``outline``, ``strict``, ``start``, ``effort``, ``epochs``, ``levels``,
+        ``losses``, ``hero``, ``palette``, ``apart``; and ``rules`` about single items,
+        tables as in a recipe file: ``[{"items": "star", "count": 3}]``.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If an option has no meaning.
+
+    Examples
+    --------
+    >>> layout = fill("circle", ["star"], count=3, effort="draft", levels="50", seed=1)
+    >>> layout.manifest["seed"]
+    1
+    """
+    given = [items] if isinstance(items, str | Path | Item) else list(items)
+    whole = container if isinstance(container, Container) else None
+    recipe = make_recipe(
+        container=whole.source if whole else str(container),
+        items=[entry.source if isinstance(entry, Item) else str(entry) for entry in given],
+        **options,
+    )
+    return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
+
+
+def words(
+    container: str | Path | Container,
+    source: str | Path | Mapping[str, float] | Any,
+    *,
+    add: str | Path | Sequence[str | Path] = (),
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    record: bool = False,
+    **options: Any,
+) -> Layout:
+    """Fill a container with words.
+
+    Parameters
+    ----------
+    container
+        As for :func:`fill`.
+    source
+        A text or the file that holds it, a table ``word,weight`` (.csv, .tsv, .json), or
+        weights by word: a dict, a ``Counter``, a pandas Series.
+    add
+        Items that are placed among the words: files, folders or built-in names.
+    observer, stop, progress, record
+        As for :func:`fill`.
+    options
+        As on the command line: ``count``, ``min_count``, ``language``, ``stopwords``,
+        ``phrases``, ``plurals``, ``case``, ``min_word_length``, ``include_numbers``,
+        ``regexp``, ``fonts``, ``font_weight``, ``weight_is``, ``smallest``, ``largest``,
+        ``color_by`` (also a function of a word), ``contrast``, ``background`` (to be given to
+        ``save`` too), and those of :func:`fill` but ``count`` and ``weights``.
+
+    Raises
+    ------
+    ReadError
+        If a file or a font cannot be used, or no word is left.
+    RecipeError
+        If an option has no meaning.
+
+    Examples
+    --------
+    >>> layout = words("heart", {"bear": 3, "fox": 2, "owl": 1}, effort="draft", levels="50")
+    >>> [item.name for item in layout.items]
+    ['bear', 'fox', 'owl']
+    >>> heights = layout.poses.scale / layout.poses.scale[-1]
+    >>> heights.round(6).tolist()
+    [3.0, 2.0, 1.0]
+    """
+    whole = container if isinstance(container, Container) else None
+    mixed_in = [add] if isinstance(add, str | Path) else add
+    recipe = pipeline.words_recipe(
+        whole.source if whole else str(container),
+        source,
+        add=[str(item) for item in mixed_in],
+        **options,
+    )
+    return _run(recipe, None, whole, observer, stop, progress, record)
+
+
+def pile(
+    container: str | Path | Container,
+    items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
+    *,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    record: bool = False,
+    **options: Any,
+) -> Layout:
+    """Heap items of given sizes, under forces, until they are at rest.
+
+    Parameters
+    ----------
+    container
+        As for :func:`fill`; an SVG of open paths is open where they are, and ``"none"``
+        lets items lie anywhere.
+    items, observer, stop, progress, record
+        As for :func:`fill`.
+    options
+        As on the command line: ``force`` (one or several), ``open``, ``size``, ``emit``,
+        ``release``, ``compact``, and those of :func:`fill` about items, canvas and seed.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If an option has no meaning, or no item fits.
+
+    Examples
+    --------
+    >>> layout = pile("square", "circle", count=3, size="30%", seed=1)
+    >>> layout.metrics["exact"]["OO"], bool(layout.poses.y.mean() > 400)
+    (0.0, True)
+    """
+    given = [items] if isinstance(items, str | Path | Item) else list(items)
+    whole = container if isinstance(container, Container) else None
+    recipe = pipeline.pile_recipe(
+        whole.source if whole else str(container),
+        [entry.source if isinstance(entry, Item) else str(entry) for entry in given],
+        **options,
+    )
+    return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
+
+
+def read_items(
+    sources: str | Path | Sequence[str | Path],
+    *,
+    holes: Literal["fill", "keep"] = "fill",
+    strict: bool = False,
+) -> list[Item]:
+    """Items from SVGs, pictures, folders of them, globs or built-in names.
+
+    Unusable files in a folder are left out with a warning in the log.
+
+    Parameters
+    ----------
+    sources
+        One or several.
+    holes
+        ``"keep"`` lets small items sit in the holes of large ones.
+    strict
+        Refuse a folder with an unusable file.
+
+    Raises
+    ------
+    ReadError
+        If a file that is named cannot be used, or nothing usable is found.
+
+    Examples
+    --------
+    >>> [item.name for item in read_items(["circle", "star"])]
+    ['circle', 'star']
+    """
+    several = [sources] if isinstance(sources, str | Path) else list(sources)
+    return list(item_reader.read_items(several, holes=holes, strict=strict).items)
+
+
+def read_container(
+    source: str | Path, *, canvas: str | float | None = None, font: str | Path | None = None
+) -> Container:
+    """Container from a mask, an SVG, ``text:WORD`` or a built-in name.
+
+    Parameters
+    ----------
+    source
+        As for :func:`fill`.
+    canvas
+        Its longer side (``600``, ``"200mm"``, ``"8in"``) or a sheet (``"200x150mm"``,
+        ``"A4"``). None: an SVG in mm, cm, in or pt keeps its size, any other is 600 px.
+    font
+        Font file for ``text:WORD``; the bundled one if None.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be used.
+    RecipeError
+        If the canvas has no meaning.
+
+    Examples
+    --------
+    >>> read_container("circle").width
+    600.0
+    """
+    return _read_container(str(source), canvas, font)
+
+
+def _run(
+    recipe: Recipe,
+    items: list[Item] | None,
+    container: Container | None,
+    observer: Observer | None,
+    stop: Stop,
+    progress: bool | None,
+    record: bool,
+) -> Layout:
+    bar = bar_for(progress, observer)
+    with shown(bar):
+        run = pipeline.fill(recipe, items, container, bar or observer, stop, record)
+    layout = public(run.layout)
+    # What was just measured is not measured again when it is asked for.
+    layout.__dict__["metrics"] = run.metrics.as_dict()
+    return layout
+
+
+def _as_items(given: Sequence[str | Path | Item], recipe: Recipe) -> list[Item] | None:
+    """Items where some are given as such; None if all are names for the recipe."""
+    if not any(isinstance(entry, Item) for entry in given):
+        return None
+    chosen: list[Item] = []
+    for entry in given:
+        if isinstance(entry, Item):
+            chosen.append(entry)
+        else:
+            chosen += read_items(entry, holes=recipe.holes, strict=recipe.strict)
+    return chosen
