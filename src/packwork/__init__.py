@@ -12,6 +12,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from packwork.api.albums import photos
     from packwork.api.layout import Layout
     from packwork.api.verbs import fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
@@ -38,6 +39,7 @@ __all__ = [
     "WriteError",
     "fill",
     "fit_outline",
+    "photos",
     "pile",
     "read_container",
     "read_items",
@@ -61,6 +63,7 @@ _HOMES = {
     "WriteError": "packwork.errors:WriteError",
     "fill": "packwork.api.verbs:fill",
     "fit_outline": "packwork.fit.fitted:fit_outline",
+    "photos": "packwork.api.albums:photos",
     "pile": "packwork.api.verbs:pile",
     "read_container": "packwork.api.verbs:read_container",
     "read_items": "packwork.api.verbs:read_items",

@@ -19,6 +19,7 @@ from pydantic import (
 
 from packwork.errors import RecipeError
 from packwork.levels import checked_levels, parse_levels
+from packwork.pictures import Pictured
 from packwork.piles import Moving
 from packwork.presets import PRESETS
 from packwork.readers.words.options import WordOptions
@@ -55,13 +56,13 @@ DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
 
 
-class Recipe(Moving):
+class Recipe(Pictured, Moving):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     container: str
-    """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, or a built-in name such as heart."""
+    """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, around:IMAGE, or a built-in name."""
 
     font: str | None = None
     """Font file (TTF, OTF, TTC) for a container text:WORD, or for words; for these also an

@@ -39,13 +39,13 @@ FILLS = [
     pytest.param(page.parent, arguments, id=f"{page.parent.name}-{number}")
     for page in PAGES
     for number, arguments in enumerate(commands(page))
-    if arguments[0] in {"fill", "words", "pile"}
+    if arguments[0] in {"fill", "words", "photos", "pile"}
 ]
 
 
 def files_named_in(arguments: list[str]) -> list[str]:
     """What a command writes."""
-    flags = ("-o", "--output", "--diagnose", "--report", "--film")
+    flags = ("-o", "--output", "--diagnose", "--report", "--show-saliency", "--film")
     return [value for flag, value in pairwise(arguments) if flag in flags]
 
 
@@ -106,5 +106,5 @@ def test_drawing_the_gallery_runs_the_same_commands() -> None:
     draw = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(draw)
     for page in PAGES:
-        ours = [c for c in commands(page) if c[0] in {"fill", "words", "pile", "run"}]
+        ours = [c for c in commands(page) if c[0] in {"fill", "words", "photos", "pile", "run"}]
         assert draw.commands(page.parent) == ours

@@ -19,6 +19,7 @@ PHRASES = {
         "What is placed", "How it is solved", "What is written", "all built-in icons",
     ],
     "words": ["packwork words heart speech.txt", "SOURCE", "How words are set", "--weight-is"],
+    "photos": ["packwork photos heart holidays/", "PHOTO", "What becomes of edges", "--dpi 300"],
     "pile": ["packwork pile square icons", "--open", "--size", "open path"],
     "measure": ["packwork measure bear.geojson", "LAYOUT", "--diagnose"],
     "demo": ["packwork demo", "bear", "dragon", "--folder"],

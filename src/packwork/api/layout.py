@@ -81,19 +81,22 @@ class Layout(scene.Layout):
         path: str | Path,
         *,
         pixels: int = 1_600,
+        dpi: float | None = None,
         background: str | None = None,
         show_container: bool = False,
         flatten: bool = False,
         text: writers.TextChoice = "outlines",
     ) -> None:
-        """Write the layout; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format.
+        """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
 
         Parameters
         ----------
         path
             Where to; an older file is replaced only when the new one is complete.
         pixels
-            Longer side of a PNG.
+            Longer side of a PNG or JPEG.
+        dpi
+            Pixels to the inch: of photos (300 if None), and of PNG and JPEG, not ``pixels``.
         background
             Any CSS colour, or ``none``. Default: none in SVG and PDF, white in PNG.
         show_container
@@ -117,8 +120,8 @@ class Layout(scene.Layout):
         ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
         """
         options = writers.write_options(
-            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
-            text=text,
+            pixels=pixels, dpi=dpi, background=background, show_container=show_container,
+            flatten=flatten, text=text,
         )  # fmt: skip
         writers.write(self, path, options)
 

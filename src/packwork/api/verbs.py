@@ -32,8 +32,8 @@ def fill(
     Parameters
     ----------
     container
-        A mask (PNG, JPEG), an SVG, words to fill such as ``"text:HELLO"`` (a ``|``
-        begins a new line), a built-in name such as ``"heart"``, or a :class:`Container`.
+        A mask (PNG, JPEG), an SVG, ``"text:HELLO"``, ``"around:IMAGE"``, a built-in name such
+        as ``"heart"``, or a :class:`Container`.
     items
         SVGs, pictures, folders, built-in names, or what :func:`read_items` returned.
     observer
@@ -41,7 +41,7 @@ def fill(
     stop
         Asked before every epoch; True ends the run with what it has.
     progress
-        True shows a bar, False none; None shows one in a notebook only.
+        True shows a bar, False none; None one in a notebook only.
     record
         Keep the way of the items, for :meth:`Layout.save_film`.
     options

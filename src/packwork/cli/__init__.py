@@ -13,6 +13,7 @@ from packwork.cli.bench import bench
 from packwork.cli.demo import demo
 from packwork.cli.fill import fill
 from packwork.cli.measure import measure
+from packwork.cli.photos import photos
 from packwork.cli.pile import pile
 from packwork.cli.run import run
 from packwork.cli.usage import OneLineGroup
@@ -61,6 +62,7 @@ def _main(
 
 app.command()(fill)
 app.command()(words)
+app.command()(photos)
 app.command()(pile)
 app.command()(run)
 app.command()(measure)

@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
+from packwork.cli.saliency import write_saliency
 from packwork.recipe import make_recipe
 
 DEFAULT_OUTPUT = Path("collage.svg")
@@ -29,7 +30,7 @@ def fill(
         typer.Argument(
             metavar="CONTAINER",
             help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD (text:ONE|TWO for two "
-            "lines), or a built-in name such as heart.",
+            "lines), around:IMAGE (its quiet part), or a built-in name such as heart.",
         ),
     ],
     items: ItemNames = None,
@@ -37,6 +38,8 @@ def fill(
     count: shared.Count = None,
     font: shared.Font = None,
     canvas: shared.Canvas = None,
+    quiet_share: shared.QuietShare = 0.4,
+    keep_clear: shared.KeepClear = None,
     sizes: shared.Sizes = "free",
     size_ratio: shared.SizeRatio = 2.0,
     stretch: shared.Stretch = 1.0,
@@ -75,6 +78,7 @@ def fill(
     loop: shared.Loop = None,
     easing: shared.Easing = None,
     film_pixels: shared.FilmPixels = None,
+    show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -97,6 +101,8 @@ def fill(
             count=count,
             font=font,
             canvas=canvas,
+            quiet_share=quiet_share,
+            keep_clear=keep_clear,
             sizes=sizes,
             size_ratio=size_ratio,
             stretch=stretch,
@@ -127,6 +133,7 @@ def fill(
         )
         from packwork.cli.running import outputs_asked, run_and_write
 
+        write_saliency(recipe, show_saliency)
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
             pixels=pixels, background=background, show_container=show_container, flatten=flatten,

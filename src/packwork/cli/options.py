@@ -44,7 +44,7 @@ Output = Annotated[
     typer.Option(
         "-o",
         "--output",
-        help="File to write; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format. "
+        help="File to write; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format. "
         "May be given several times.",
         rich_help_panel=WRITING,
     ),
@@ -60,6 +60,26 @@ Padding = Annotated[str, flag("padding", panel=PLACING)]
 Hero = Annotated[str | None, flag("hero", panel=PLACING)]
 Palette = Annotated[str | None, flag("palette", panel=PLACING)]
 Apart = Annotated[bool, flag("apart", "--apart", panel=PLACING)]
+Share = Annotated[str | None, flag("share", panel=PLACING)]
+AddedPhotos = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--photos",
+        help="Photos that are placed too: files, folders or patterns. May be given several times.",
+        rich_help_panel=PLACING,
+    ),
+]
+QuietShare = Annotated[float, flag("quiet_share", panel=PLACING)]
+KeepClear = Annotated[list[str] | None, flag("keep_clear", panel=PLACING)]
+ShowSaliency = Annotated[
+    Path | None,
+    typer.Option(
+        "--show-saliency",
+        help="Write a picture (PNG) of what was found of a container around:IMAGE: what stands out "
+        "red, a line round what is filled.",
+        rich_help_panel=WRITING,
+    ),
+]
 Force = Annotated[list[str] | None, flag("force", panel=PLACING)]
 Weights = Annotated[str | None, flag("weights", panel=PLACING)]
 Holes = Annotated[Literal["fill", "keep"], flag("holes", panel=PLACING)]
@@ -88,7 +108,16 @@ Loss = Annotated[
     ),
 ]
 Pixels = Annotated[
-    int, typer.Option("--pixels", help="Longer side of a PNG.", rich_help_panel=WRITING)
+    int, typer.Option("--pixels", help="Longer side of a PNG or JPEG.", rich_help_panel=WRITING)
+]
+Dpi = Annotated[
+    float | None,
+    typer.Option(
+        "--dpi",
+        help="Pixels to the inch of paper: of photos (default 300), and of a PNG or JPEG in place "
+        "of --pixels.",
+        rich_help_panel=WRITING,
+    ),
 ]
 Background = Annotated[
     str | None,
@@ -158,6 +187,19 @@ SaveRecipe = Annotated[
 Quiet = Annotated[
     bool, typer.Option("-q", "--quiet", help="Print nothing but warnings and errors.")
 ]
+
+
+def mixing(add: list[str] | None, photos: list[str] | None, share: str | None) -> dict[str, Any]:
+    """Options of a recipe about what is mixed in with words.
+
+    Examples
+    --------
+    >>> mixing(["star"], None, "words=80%,items=20%")
+    {'add': ['star'], 'photos': None, 'share': 'words=80%,items=20%'}
+    """
+    return {
+        "add": add or [], "photos": {"sources": photos} if photos else None, "share": share,
+    }  # fmt: skip
 
 
 def loss_weights(losses: list[str] | None) -> dict[str, float]:

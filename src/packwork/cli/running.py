@@ -28,6 +28,7 @@ from packwork.cli.show import (
 from packwork.display.bar import TerminalBar
 from packwork.errors import WriteError
 from packwork.pipeline.filming import film_options
+from packwork.readers.quiet.container import AROUND
 from packwork.recipe import Recipe
 from packwork.writers.film.options import FilmOptions
 
@@ -89,7 +90,9 @@ class Outputs:
         for side in self.sides:
             writers.check_writable(side)
         writers.check_outputs(self.every)
-        named = [recipe.container, *recipe.items]
+        named = [recipe.container.removeprefix(AROUND), *recipe.items]
+        if recipe.photos is not None:
+            named += recipe.photos.sources
         if recipe.words is not None and isinstance(recipe.words.source, str):
             # A text itself is no file; nor could so long a name be one.
             named.append(recipe.words.source[:LONGEST_NAME])
@@ -106,6 +109,7 @@ def outputs_asked(
     diagnose: Path | None = None,
     recipe: Path | None = None,
     pixels: int = 1_600,
+    dpi: float | None = None,
     background: str | None = None,
     show_container: bool = False,
     flatten: bool = False,
@@ -122,7 +126,7 @@ def outputs_asked(
         Layouts.
     report, diagnose, recipe
         As in :class:`Outputs`.
-    pixels, background, show_container, flatten, text
+    pixels, dpi, background, show_container, flatten, text
         How layouts are drawn, and films but for their size.
     film
         Films; None for none.
@@ -133,6 +137,7 @@ def outputs_asked(
         files=files,
         options=writers.write_options(
             pixels=pixels,
+            dpi=dpi,
             background=background,
             show_container=show_container,
             flatten=flatten,

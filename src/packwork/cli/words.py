@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
+from packwork.cli.saliency import write_saliency
 from packwork.readers.words.options import WordOptions
 
 DEFAULT_OUTPUT = Path("words.svg")
@@ -27,8 +28,8 @@ def words(
         str,
         typer.Argument(
             metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, or a built-in name such "
-            "as heart.",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, around:IMAGE (its quiet "
+            "part), or a built-in name such as heart.",
         ),
     ],
     source: Annotated[
@@ -66,7 +67,11 @@ def words(
             rich_help_panel=shared.PLACING,
         ),
     ] = None,
+    photos: shared.AddedPhotos = None,
+    share: shared.Share = None,
     canvas: shared.Canvas = None,
+    quiet_share: shared.QuietShare = 0.4,
+    keep_clear: shared.KeepClear = None,
     sizes: shared.Sizes = "shared",
     size_ratio: shared.SizeRatio = 2.0,
     rotate: shared.Rotate = "horizontal",
@@ -101,6 +106,7 @@ def words(
     loop: shared.Loop = None,
     easing: shared.Easing = None,
     film_pixels: shared.FilmPixels = None,
+    show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -123,7 +129,7 @@ def words(
         recipe = words_recipe(
             container,
             source,
-            add=add or (),
+            **shared.mixing(add, photos, share),
             count=count,
             min_count=min_count,
             language=language,
@@ -142,6 +148,8 @@ def words(
             contrast=contrast,
             background=background,
             canvas=canvas,
+            quiet_share=quiet_share,
+            keep_clear=keep_clear,
             sizes=sizes,
             size_ratio=size_ratio,
             rotate=rotate,
@@ -165,6 +173,7 @@ def words(
             stay=stay,
             losses=shared.loss_weights(loss),
         )
+        write_saliency(recipe, show_saliency)
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
             pixels=pixels, background=background, show_container=show_container, flatten=flatten,

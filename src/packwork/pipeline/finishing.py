@@ -36,6 +36,11 @@ TRIALS = {"draft": 0, "normal": 4, "best": 40}
 """Turns and exchanges tried for each item, by effort: 4 ms each. More fill better, ever less
 so. Measured in docs/benchmarks-quality."""
 
+PHOTO_TRIALS = 4
+"""How many times as many of photos: rectangles have few corners and are tried faster. Three
+containers, two seeds: 60 photos cover 0.888 with 1, 0.892 with 3, 0.894 with 6, in 0.4, 1.0 and
+2.3 s. Measured."""
+
 MOST_TRIALS = {"draft": 0, "normal": 3_000, "best": 20_000}
 """Such trials at most: what a person waits for must not grow with the items for ever. With
 500, four containers of 1,000 items took 15 s each and ended at a mean LC of 0.805; with 3,000
@@ -190,7 +195,8 @@ def trials_for(job: Job, count: int) -> int:
     is_ranked = recipe.sizes == "free" and np.ptp(job.weights) > 0
     if recipe.keeps_apart or is_ranked or any(loss not in PRESSING for loss in recipe.losses):
         return 0
-    return min(TRIALS[recipe.effort] * count, MOST_TRIALS[recipe.effort])
+    each = TRIALS[recipe.effort] * (1 if recipe.photos is None else PHOTO_TRIALS)
+    return min(each * count, MOST_TRIALS[recipe.effort])
 
 
 def without(whole: Outline, walls: Sequence[Outline]) -> Outline:

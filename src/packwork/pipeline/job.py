@@ -18,10 +18,13 @@ from packwork.pipeline.casting import cast, cast_words
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.given import no_container
 from packwork.pipeline.regions import Region, read_regions
+from packwork.pipeline.sharing import shared_out
 from packwork.pipeline.word_colours import check_colours
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layout import read_layout
+from packwork.readers.photos.read import read_photos
+from packwork.readers.quiet.container import QuietOptions
 from packwork.readers.svg.walls import walled_container
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
@@ -128,14 +131,12 @@ def read(
         room, mouths = _container(recipe, container)
         words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)
         check_colours(recipe, () if words is None else words.words)
-        # Items are mixed in with words only if they were named.
-        named = "items" in recipe.model_fields_set and recipe.items
-        if items is None and (words is None or named):
-            found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
-            items, skipped = found.items, found.skipped
+        items, skipped = _items(recipe, items)
         chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
         region = no_container(recipe, chosen) if room is None else room
-        forces_of(recipe.force or (), chosen.items, chosen.weights, region)
+        names = () if words is None else {item.name for item in words.items}
+        weights = shared_out(chosen.items, chosen.weights, names, recipe.share)
+        forces_of(recipe.force or (), chosen.items, weights, region)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
         fillers, more = _fillers(recipe, items or () if words is None else words.items)
@@ -149,7 +150,7 @@ def read(
         region,
         chosen.items,
         chosen.asked,
-        chosen.weights,
+        weights,
         regions,
         skipped,
         clock,
@@ -159,6 +160,28 @@ def read(
         _letters(recipe, region),
         mouths,
     )
+
+
+def _items(
+    recipe: Recipe, given: Sequence[Item] | None
+) -> tuple[tuple[Item, ...] | None, tuple[PackworkError, ...]]:
+    """Photos and items; None where words come alone, and files that were left out.
+
+    Items that were given are in place of the recipe's names.
+    """
+    items: tuple[Item, ...] = ()
+    skipped: tuple[PackworkError, ...] = ()
+    if recipe.photos is not None:
+        photos = read_photos(recipe.photos, strict=recipe.strict)
+        items, skipped = photos.items, photos.skipped
+    if given is not None:
+        return (*items, *given), skipped
+    # Items are mixed in with words and photos only if they were named.
+    is_alone = recipe.words is None and recipe.photos is None
+    if is_alone or ("items" in recipe.model_fields_set and recipe.items):
+        found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
+        items, skipped = (*items, *found.items), (*skipped, *found.skipped)
+    return items or None, skipped
 
 
 def _letters(recipe: Recipe, container: Container) -> Letters | None:
@@ -205,7 +228,8 @@ def _container(
         if walled is not None:
             placed = on_canvas(walled[0], size)
             return placed, _brought_along(walled[1], walled[0], placed)
-    return read_container(recipe.container, recipe.canvas_size, recipe.font), None
+    quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
+    return read_container(recipe.container, recipe.canvas_size, recipe.font, quiet), None
 
 
 def _brought_along(points: FloatArray, before: Container, after: Container) -> FloatArray:
