@@ -15,8 +15,13 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item, PhotoArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.scene.track import Track
+from packwork.writers.film.animated_svg import animated_svg_bytes
+from packwork.writers.film.film import Film
+from packwork.writers.film.options import FilmOptions
 from packwork.writers.printing import SPARE, printed, printed_on_paper
 from packwork.writers.registry import encoded, write_options
+from packwork.writers.svg import svg_text
 
 TILE = Outline.from_rings([np.array([[-10.0, -10], [10, -10], [10, 10], [-10, 10]])])
 ART = VectorArt('<rect width="20" height="20" fill="red"/>', np.array([[1.0, 0, -10], [0, 1, -10]]))
@@ -100,3 +105,14 @@ def test_a_resolution_that_makes_too_large_a_picture_says_which_would_do() -> No
     big = replace(layout, container=replace(layout.container, width=80.0))
     with pytest.raises(RecipeError, match="20,000 are the most; use 250 or less"):
         encoded(big, "out.png", write_options(dpi=300))
+
+
+def test_films_show_no_halos_that_stay_behind() -> None:
+    layout, _ = two_copies()
+    haloed = replace(layout, items=tuple(replace(item, halo="white") for item in layout.items))
+    assert 'id="halos"' in svg_text(haloed)
+    poses = haloed.poses
+    numbers = np.column_stack([poses.x, poses.y, poses.angle, poses.scale, poses.stretch])
+    track = Track(np.array([0.0, 1.0]), np.stack([numbers, numbers]))
+    film = Film(replace(haloed, track=track), FilmOptions(fps=2, seconds=1, hold=0))
+    assert b'id="halos"' not in animated_svg_bytes(film)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import hashlib
 import math
+from dataclasses import replace
 
 from packwork.arrays import FloatArray
 from packwork.scene.track import COLUMNS, poses_of
@@ -33,7 +34,11 @@ def animated_svg_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     size = (float(frame.columns), float(frame.rows))
     view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
     options = SvgOptions(background=film.background, show_container=film.show_container)
-    still = svg_document(film.layout, options, Sheet(size=size, unit="px", view=view))
+    # Halos lie under all items, in one group: they would stay behind.
+    bare = tuple(replace(item, halo="") for item in film.layout.items)
+    still = svg_document(
+        replace(film.layout, items=bare), options, Sheet(size=size, unit="px", view=view)
+    )
     head, end_of_title, rest = still.partition("</title>")
     return (head + end_of_title + "\n" + _style(film, tell) + rest).encode()
 
