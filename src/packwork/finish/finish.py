@@ -17,7 +17,16 @@ from packwork.finish.detail import Detail
 from packwork.finish.offenders import Offender, find_offenders
 from packwork.finish.options import HAIR, FinishOptions
 from packwork.finish.part import part, part_evenly
-from packwork.finish.relief import rehouse, suspects
+from packwork.finish.relief import (
+    NEARLY,
+    PROBE,
+    PROMISING,
+    RELIEF,
+    TRIES,
+    VOID_SPREAD,
+    rehouse,
+    suspects,
+)
 from packwork.finish.relocate import relocate
 from packwork.finish.search import Room, search
 from packwork.finish.sizing import FixedSize, FreeSizes, SharedSize, Sizing, turn_ranges
@@ -70,21 +79,6 @@ LEVELLING_ROUNDS = 60
 LEVELLING_ROOM = 1.5
 """Trust region of such a round over what the largest item has to come down. Larger lets
 items move about for nothing, smaller leaves them too large. Chosen."""
-
-BOTTLENECKS = 24
-"""Where sizes are shared: how many items that hold all others back are moved to voids. More
-take longer. Tried."""
-
-RELIEF = 0.004
-"""Logarithm by which all must grow for such a move to be kept. Larger ends before chains of
-small gains, smaller takes longer. Tried: word clouds gain two points of ink on 0.01."""
-
-NEARLY = 0.1
-"""Logarithm by which such an item may be smaller in its void than the smallest is. Larger
-tries moves that seldom gain. Chosen."""
-
-VOID_SPREAD = 0.05
-"""Logarithm of size by which it may outgrow the others while it looks for a place. Chosen."""
 
 RESCUES = 3
 """Times that items which stay behind are moved to voids. Chosen."""
@@ -239,10 +233,11 @@ class _Run:
 
     def _relieve(self, rounds: range) -> None:
         """Move who holds all others back to a void, as long as that lets all grow."""
-        for _ in range(BOTTLENECKS):
-            if self._stop() or not any(
-                self._helps(k, rounds) for k in suspects(self.arrangement, self._spacing)
-            ):
+        left = TRIES // self.arrangement.count
+        while left > 0 and not self._stop():
+            found = suspects(self.arrangement, self._spacing)[:left]
+            left -= len(found)
+            if not any(self._helps(int(k), rounds) for k in found):
                 return
 
     @property
@@ -259,7 +254,9 @@ class _Run:
         fits = rehouse(arrangement, item, wishes, self._room, rng)
         if fits and arrangement.places[item, 3] > least - NEARLY:
             self._is_trying = True
-            self._compact(rounds)
+            self._compact(rounds[:PROBE])
+            if arrangement.places[:, 3].min() >= least + PROMISING:
+                self._compact(rounds[PROBE:])
             self._is_trying = False
             if arrangement.places[:, 3].min() >= least + RELIEF:
                 return True
