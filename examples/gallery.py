@@ -21,7 +21,7 @@ EXPECTED = "expected.png"
 
 LONGEST_PX = 420
 """Side of the square that pictures are shown in: larger ones are scrolled past, in smaller ones
-words cannot be read; tried. Films with fewer pixels are not enlarged."""
+words cannot be read; chosen by eye. Films with fewer pixels are not enlarged."""
 
 COLLAGES = "Collages"
 GROUPS = {
