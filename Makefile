@@ -8,10 +8,13 @@ PYTHON ?= python3
 BIN := .venv/bin
 endif
 
-.PHONY: demo test check format clean
+.PHONY: demo gallery test check format clean
 
 demo: .venv/installed
 	$(BIN)/packwork demo
+
+gallery: .venv/installed
+	$(BIN)/python examples/gallery.py
 
 test: .venv/installed-dev
 	$(BIN)/ruff format --check src tests benchmarks examples tools
