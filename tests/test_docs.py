@@ -17,6 +17,7 @@ from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
 from packwork.metrics.pixel import PixelMetrics
+from packwork.readers.charts.options import ChartOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 
@@ -72,13 +73,14 @@ def test_every_recipe_field_says_what_it_means(name: str) -> None:
 
 def test_fill_offers_every_recipe_field_under_its_own_name() -> None:
     offered = {parameter.name for parameter in COMMANDS["fill"].params}
-    elsewhere = {"losses", "rules", "words"}  # rules in files only, words as a command
+    elsewhere = {"losses", "rules", "words", "chart"}  # rules in files only, the others as commands
     fields = set(Recipe.model_fields) - elsewhere
     assert offered == fields | WRITING_OPTIONS
 
 
 @pytest.mark.parametrize(
-    "name", sorted(set(Recipe.model_fields) - {"container", "items", "losses", "rules", "words"})
+    "name",
+    sorted(set(Recipe.model_fields) - {"container", "items", "losses", "rules", "words", "chart"}),
 )
 def test_help_and_default_of_an_option_are_the_recipes(name: str) -> None:
     (option,) = (p for p in COMMANDS["fill"].params if p.name == name)
@@ -94,6 +96,15 @@ def test_words_offer_every_option_of_theirs_with_its_help_and_default(name: str)
     if name not in Recipe.model_fields and name not in WRITING_OPTIONS:
         assert option.help == field.description
         assert option.default == field.default
+    assert f"`--{name.replace('_', '-')}" in DOCS
+
+
+@pytest.mark.parametrize("name", sorted(set(ChartOptions.model_fields) - {"data", "paper"}))
+def test_charts_offer_every_option_of_theirs_with_its_help_and_default(name: str) -> None:
+    (option,) = (p for p in COMMANDS["chart"].params if p.name == name)
+    field = ChartOptions.model_fields[name]
+    assert option.help == field.description
+    assert (option.default or None) == (field.default or None)
     assert f"`--{name.replace('_', '-')}" in DOCS
 
 

@@ -25,6 +25,7 @@ BAD: dict[str, list[Any]] = {
     "font": [3, "bold.ttf"],
     "items": [7, ["star", 3]],
     "words": [3, "bear", {}, {"source": 3}, {"source": "a b", "cuont": 3}],
+    "chart": [3, "a.csv", {}, {"data": 3}, {"data": "a.csv", "unit": 0}],
     "count": [0, -1, 2.5, "many", MAX_COUNT + 1],
     "canvas": [0, -600, NAN, INF, 1e7, "wide", "0x5mm", "5parsec", "-3in", "1e99mm", [200, 150]],
     "seed": [-1, 2**63, 0.5, "lucky"],

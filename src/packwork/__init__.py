@@ -12,7 +12,7 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from packwork.api import Layout, fill, read_container, read_items, words
+    from packwork.api import Layout, chart, fill, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.losses.term import ImageLoss, Term
@@ -35,6 +35,7 @@ __all__ = [
     "Step",
     "Term",
     "WriteError",
+    "chart",
     "fill",
     "fit_outline",
     "read_container",
@@ -57,6 +58,7 @@ _HOMES = {
     "Step": "packwork.progress:Step",
     "Term": "packwork.losses.term:Term",
     "WriteError": "packwork.errors:WriteError",
+    "chart": "packwork.api:chart",
     "fill": "packwork.api:fill",
     "fit_outline": "packwork.fit.fitted:fit_outline",
     "read_container": "packwork.api:read_container",

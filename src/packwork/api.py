@@ -266,6 +266,45 @@ def words(
     return _run(recipe, None, whole, observer, stop, progress)
 
 
+def chart(
+    container: str | Path | Container,
+    data: Any,
+    *,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    **options: Any,
+) -> Layout:
+    """Show a table's rows, a mark for each, sizes in proportion to numbers.
+
+    Parameters
+    ----------
+    container, observer, stop, progress
+        As for :func:`fill`.
+    data
+        A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
+        dict of columns.
+    options
+        As on the command line: ``size_by``, ``size_is``, ``unit``, ``color_by``, ``mark``,
+        ``mark_by``, ``label_by``, ``background``, and those of :func:`fill` but ``count``,
+        ``sizes``, ``weights``, ``size_ratio`` and ``stretch``.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        If a file, a column or an option cannot be used.
+
+    Examples
+    --------
+    >>> layout = chart("heart", {"kg": [4, 1]}, size_by="kg", effort="draft", levels="50")
+    >>> round(float(layout.areas[0] / layout.areas[1]), 6)
+    4.0
+    """
+    whole = container if isinstance(container, Container) else None
+    recipe = pipeline.chart_recipe(whole.source if whole else str(container), data, **options)
+    return _run(recipe, None, whole, observer, stop, progress)
+
+
 def read_items(
     sources: str | Path | Sequence[str | Path],
     *,

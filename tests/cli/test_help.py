@@ -19,6 +19,7 @@ PHRASES = {
         "What is placed", "How it is solved", "What is written", "all built-in icons",
     ],
     "words": ["packwork words heart speech.txt", "SOURCE", "How words are set", "--weight-is"],
+    "chart": ["packwork chart circle coffee.csv", "DATA", "What marks say", "--size-by"],
     "measure": ["packwork measure bear.geojson", "LAYOUT", "--diagnose"],
     "demo": ["packwork demo", "bear", "dragon", "--folder"],
     "bench": ["packwork bench engine", "NAME"],

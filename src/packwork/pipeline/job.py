@@ -8,12 +8,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 
 from packwork.arrays import FloatArray
-from packwork.errors import PackworkError, RecipeError
+from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
-from packwork.pipeline.casting import cast, cast_words
+from packwork.pipeline.casting import cast, cast_chart, cast_words
+from packwork.pipeline.chart_colours import chart_colours
 from packwork.pipeline.regions import Region, read_regions
 from packwork.pipeline.word_colours import check_colours
+from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layout import read_layout
@@ -82,6 +84,8 @@ class Job:
         The words among the items, if any.
     letters
         How large words may be; None if as it comes.
+    chart
+        What the items stand for, if they are marks of a chart.
     """
 
     recipe: Recipe
@@ -96,6 +100,7 @@ class Job:
     fillers: tuple[Item, ...] = ()
     words: WordsRead | None = None
     letters: Letters | None = None
+    chart: ChartRead | None = None
 
     @property
     def is_limited(self) -> bool:
@@ -124,10 +129,17 @@ def read(
         check_colours(recipe, () if words is None else words.words)
         # Items are mixed in with words only if they were named.
         named = "items" in recipe.model_fields_set and recipe.items
-        if items is None and (words is None or named):
+        chart = None if recipe.chart is None else _chart(recipe)
+        if items is None and chart is None and (words is None or named):
             found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
             items, skipped = found.items, found.skipped
-        chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
+        if chart is not None:
+            chosen = cast_chart(recipe, chart)
+            skipped += tuple(ReadError(chart.table.name, notice) for notice in chart.notices)
+        elif words is not None:
+            chosen = cast_words(recipe, words, items)
+        else:
+            chosen = cast(recipe, items or ())
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
         fillers, more = _fillers(recipe, items or () if words is None else words.items)
@@ -149,7 +161,16 @@ def read(
         fillers,
         words,
         _letters(recipe, region),
+        chart,
     )
+
+
+def _chart(recipe: Recipe) -> ChartRead:
+    """Marks of the recipe's chart, whose colours are known to be enough."""
+    assert recipe.chart is not None  # noqa: S101 - who asks has a chart
+    chart = read_chart(recipe.chart, recipe.holes)
+    chart_colours(recipe, chart)
+    return chart
 
 
 def _letters(recipe: Recipe, container: Container) -> Letters | None:

@@ -48,6 +48,8 @@ def read_recipe(path: str | Path) -> dict[str, Any]:
         ]
     if isinstance(options.get("words"), dict):
         _find_words(options["words"], folder)
+    if isinstance(options.get("chart"), dict):
+        _find_chart(options["chart"], folder)
     rules = options.get("rules")
     for rule in rules if isinstance(rules, list) else ():
         if isinstance(rule, dict) and isinstance(rule.get("region"), str):
@@ -61,6 +63,13 @@ def _find_words(words: dict[str, Any], folder: Path) -> None:
             words[key] = _found(words[key], folder)
     if isinstance(words.get("fonts"), list):
         words["fonts"] = [_found(f, folder) if isinstance(f, str) else f for f in words["fonts"]]
+
+
+def _find_chart(chart: dict[str, Any], folder: Path) -> None:
+    if isinstance(chart.get("data"), str):
+        chart["data"] = _found(chart["data"], folder)
+    if isinstance(chart.get("mark"), list):
+        chart["mark"] = [_found(m, folder) if isinstance(m, str) else m for m in chart["mark"]]
 
 
 def _found(name: str, folder: Path) -> str:
