@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
@@ -286,8 +286,7 @@ def chart(
         dict of columns.
     options
         As on the command line: ``size_by``, ``size_is``, ``unit``, ``color_by``, ``mark``,
-        ``mark_by``, ``label_by``, ``background``, and those of :func:`fill` but ``count``,
-        ``sizes``, ``weights``, ``size_ratio`` and ``stretch``.
+        ``mark_by``, ``label_by``, ``title``, ``legend``, ``background``; those of :func:`fill`.
 
     Raises
     ------
@@ -397,4 +396,4 @@ def _as_items(
 
 
 def _public(layout: scene.Layout) -> Layout:
-    return Layout(layout.container, layout.items, layout.poses, layout.weights, layout.manifest)
+    return Layout(**{field.name: getattr(layout, field.name) for field in fields(layout)})

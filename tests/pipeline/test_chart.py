@@ -79,3 +79,43 @@ def test_marks_of_one_drawing_share_it_in_each_colour(tmp_path: Path) -> None:
 def test_what_would_make_it_untrue_is_refused(options: dict[str, Any], message: str) -> None:
     with pytest.raises(pw.PackworkError, match=message):
         pw.chart("circle", ROWS, **{**QUICK, **options})
+
+
+def test_the_legend_shows_sizes_at_the_scale_of_the_chart() -> None:
+    layout = pw.chart("circle", ROWS, size_by="number", color_by="kind", title="Five", **QUICK)
+    said = [note.says for note in layout.notes if note.says]
+    assert said[:2] == ["Five", "number"]
+    assert {"x", "y", "missing"} <= set(said)
+    per_number = layout.areas[0] / NUMBERS[0]
+    keys = zip(layout.notes, layout.notes[1:], strict=False)
+    sizes = {b.says: a for a, b in keys if not a.says and b.says in {"10", "5", "1", "0.5"}}
+    assert sizes
+    circle = layout.items[0].outline.area
+    for number, note in sizes.items():
+        area = circle * note.matrix[0, 0] ** 2
+        assert area == pytest.approx(float(number) * per_number, rel=TRUE)
+
+
+def test_title_and_legend_have_room_of_their_own_on_the_canvas() -> None:
+    layout = pw.chart("square", ROWS, size_by="number", title="Five", canvas="A4", **QUICK)
+    left, top, right, bottom = layout.container.outline.bounds
+    assert (layout.container.width, layout.container.height) == (210.0, 297.0)
+    title, heading = (note for note in layout.notes if note.says in {"Five", "number"})
+    assert title.matrix[1, 2] < top < bottom < heading.matrix[1, 2]
+    assert left > 0
+    assert right < 210
+
+
+def test_without_legend_and_title_the_canvas_is_the_containers() -> None:
+    layout = pw.chart("square", ROWS, size_by="number", legend=False, **QUICK)
+    assert layout.notes == ()
+    assert layout.container.height == layout.container.width
+
+
+@pytest.mark.parametrize("options", [{"color_by": "number"}, {"unit": 1, "mark_by": "kind"}])
+def test_every_sort_of_key_is_drawn_and_is_no_item(options: Any, tmp_path: Path) -> None:
+    layout = pw.chart("square", ROWS, size_by="number", **options, **QUICK)
+    for ending in (".svg", ".png"):
+        layout.save(tmp_path / f"chart{ending}", pixels=100)
+    assert 'id="legend"' in (tmp_path / "chart.svg").read_text(encoding="utf-8")
+    assert len(read_written(tmp_path / "chart.svg").items) == len(layout.items)

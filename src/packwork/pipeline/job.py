@@ -13,6 +13,7 @@ from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.casting import cast, cast_chart, cast_words
 from packwork.pipeline.chart_colours import chart_colours
+from packwork.pipeline.framing import Frame, framed
 from packwork.pipeline.regions import Region, read_regions
 from packwork.pipeline.word_colours import check_colours
 from packwork.readers.charts.chart import ChartRead, read_chart
@@ -86,6 +87,8 @@ class Job:
         How large words may be; None if as it comes.
     chart
         What the items stand for, if they are marks of a chart.
+    frame
+        Where that chart's title and legend go.
     """
 
     recipe: Recipe
@@ -101,6 +104,7 @@ class Job:
     words: WordsRead | None = None
     letters: Letters | None = None
     chart: ChartRead | None = None
+    frame: Frame | None = None
 
     @property
     def is_limited(self) -> bool:
@@ -129,7 +133,10 @@ def read(
         check_colours(recipe, () if words is None else words.words)
         # Items are mixed in with words only if they were named.
         named = "items" in recipe.model_fields_set and recipe.items
-        chart = None if recipe.chart is None else _chart(recipe)
+        chart, frame = None, None
+        if recipe.chart is not None:
+            chart = _chart(recipe)
+            region, frame = framed(region, recipe.chart, chart, recipe.canvas_size)
         if items is None and chart is None and (words is None or named):
             found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
             items, skipped = found.items, found.skipped
@@ -162,6 +169,7 @@ def read(
         words,
         _letters(recipe, region),
         chart,
+        frame,
     )
 
 

@@ -24,6 +24,7 @@ from packwork.pipeline.dressing import dressed
 from packwork.pipeline.finishing import finished, unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
+from packwork.pipeline.legend import legend_notes
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
 from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn, words_found
 from packwork.progress import Observer, Stop, never
@@ -158,7 +159,7 @@ def _judged(
         "words": None if words is None else asdict(words),
     }
     return Run(
-        layout=replace(dressed(job, layout), manifest=said),
+        layout=replace(dressed(job, layout), manifest=said, notes=legend_notes(job, layout)),
         metrics=metrics,
         seconds=clock.seconds,
         ending=outcome.ending,

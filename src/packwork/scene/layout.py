@@ -14,6 +14,7 @@ from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.scene.note import Note
 from packwork.scene.pose import Poses
 
 
@@ -33,6 +34,8 @@ class Layout:
         ``(n,)`` share of area asked for each item; all ones if none were given.
     manifest
         What the run did: version, recipe, seed, seconds and metrics per level.
+    notes
+        Letters and keys that are drawn beside the items.
     """
 
     container: Container
@@ -40,6 +43,7 @@ class Layout:
     poses: Poses
     weights: FloatArray
     manifest: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[Note, ...] = ()
 
     def __post_init__(self) -> None:
         if not len(self.items) == len(self.poses) == len(self.weights):

@@ -22,7 +22,7 @@ from packwork.writers.colours import hex_colour, parse_colour
 from packwork.writers.labels import item_ids, labelled
 from packwork.writers.live import LiveWords
 from packwork.writers.marks import element, paint, shape_key, with_fresh_ids
-from packwork.writers.notation import attributes, decimals, number, path_data, xml_text
+from packwork.writers.notation import attributes, decimals, matrix_text, number, path_data, xml_text
 from packwork.writers.promise import promised, stated_weights
 
 PRECISION = 1e-7
@@ -162,6 +162,7 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
         f'<g id="items"{attributes(_said(layout))}>',
         *_copies(layout, shapes, digits, live, flatten=options.flatten),
         "</g>",
+        *_notes(layout),
         "</svg>",
         "",
     ]
@@ -245,6 +246,17 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
         }
     )
     return [f"<g{head}>", f'<path d="{path_data(container.outline, digits)}"/>', "</g>"]
+
+
+def _notes(layout: Layout) -> list[str]:
+    """Letters and keys beside the items."""
+    drawn = []
+    for note in layout.notes:
+        place = {"transform": matrix_text(note.matrix), "fill": note.fill}
+        title = f"<title>{xml_text(note.says)}</title>" if note.says else ""
+        path = f'<path{attributes(place)} fill-rule="evenodd" d="{note.path}"/>'
+        drawn.append(f"<g>{title}{path}</g>" if title else path)
+    return ['<g id="legend">', *drawn, "</g>"] if drawn else []
 
 
 def _said(layout: Layout) -> dict[str, str]:

@@ -45,6 +45,12 @@ class ChartOptions(BaseModel):
     label_by: str | None = None
     """Column that names marks: in files, tooltips and messages."""
 
+    title: str | None = None
+    """Line over the chart."""
+
+    legend: bool = True
+    """Keys to sizes, colours and marks under the chart."""
+
     paper: str = "white"
     """What is behind the chart: colours are made to be seen on it."""
 
