@@ -23,11 +23,11 @@ from packwork.cli import app
 HERE = Path(__file__).resolve().parent
 COLOURS = 256
 LONGEST_PX = 800
-STARTS = ("packwork fill ", "packwork words ", "packwork run ")
+STARTS = ("packwork fill ", "packwork words ", "packwork chart ", "packwork run ")
 
 
 def commands(folder: Path) -> list[list[str]]:
-    """Arguments of each ``packwork fill``, ``words`` or ``run`` in a README's blocks."""
+    """Arguments of each ``packwork fill``, ``words``, ``chart`` or ``run`` in a README's blocks."""
     text = (folder / "README.md").read_text(encoding="utf-8").replace("\\\n", " ")
     blocks = re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)
     lines = [line for block in blocks for line in block.splitlines()]

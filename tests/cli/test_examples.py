@@ -18,9 +18,11 @@ Command = Callable[..., Result]
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAGES = sorted(EXAMPLES.glob("*/README.md"))
-QUICK = "-n 6 --epochs 3 --levels 16,32 --effort draft --pixels 64 -q"
+QUICK = "--epochs 3 --levels 16,32 --effort draft --pixels 64 -q"
 FEW = "--max-items 9"
 """Where voids are filled: that many are enough."""
+COUNT = "-n 6"
+"""Charts count for themselves."""
 MOST_BYTES = 150_000
 
 
@@ -36,7 +38,7 @@ FILLS = [
     pytest.param(page.parent, arguments, id=f"{page.parent.name}-{number}")
     for page in PAGES
     for number, arguments in enumerate(commands(page))
-    if arguments[0] in {"fill", "words"}
+    if arguments[0] in {"fill", "words", "chart"}
 ]
 
 
@@ -63,7 +65,8 @@ def test_the_command_of_an_example_writes_what_it_names(
     monkeypatch.chdir(copy)
     monkeypatch.syspath_prepend(str(copy))
     few = FEW.split() if "--target-coverage" in arguments else []
-    result = packwork("", *arguments, *QUICK.split(), *few)
+    count = [] if arguments[0] == "chart" else COUNT.split()
+    result = packwork("", *arguments, *QUICK.split(), *count, *few)
     assert result.exit_code in {0, 1}, result.output
     written = files_named_in(arguments)
     assert written
@@ -86,5 +89,5 @@ def test_drawing_the_gallery_runs_the_same_commands() -> None:
     draw = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(draw)
     for page in PAGES:
-        ours = [c for c in commands(page) if c[0] in {"fill", "words", "run"}]
+        ours = [c for c in commands(page) if c[0] in {"fill", "words", "chart", "run"}]
         assert draw.commands(page.parent) == ours
