@@ -164,7 +164,7 @@ def _marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], Fl
         raise RecipeError(
             "unit",
             f"there would be {total:,.0f} marks; at most {MOST_MARKS:,} can be told apart: "
-            f"use --unit {_least_unit(amounts, least, options):g} or more",
+            f"use --unit {_least_unit(amounts, least, options):.12g} or more",
         )
     if unit is None:
         return list(range(len(amounts))), np.ones(len(amounts))
