@@ -2,7 +2,7 @@
 
 Runs the commands of each example's README in a copy of its folder and keeps their PNGs, at
 most 800 px long and in 256 colours: the one of the last command as ``expected.png``, others
-under their own names.
+under their own names; films as they are.
 """
 
 from __future__ import annotations
@@ -23,21 +23,34 @@ from packwork.cli import app
 HERE = Path(__file__).resolve().parent
 COLOURS = 256
 LONGEST_PX = 800
-STARTS = ("packwork fill ", "packwork words ", "packwork chart ", "packwork run ")
+MOST_BYTES = 150_000
+STARTS = (
+    "packwork fill ",
+    "packwork words ",
+    "packwork chart ",
+    "packwork photos ",
+    "packwork pile ",
+    "packwork run ",
+)
 
 
 def commands(folder: Path) -> list[list[str]]:
-    """Arguments of each ``packwork fill``, ``words``, ``chart`` or ``run`` in a README's blocks."""
+    """Arguments of each command in a README's blocks that makes a layout."""
     text = (folder / "README.md").read_text(encoding="utf-8").replace("\\\n", " ")
     blocks = re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)
     lines = [line for block in blocks for line in block.splitlines()]
     return [shlex.split(line)[1:] for line in lines if line.startswith(STARTS)]
 
 
-def pictures(arguments: list[str]) -> list[str]:
-    """PNGs that a command writes."""
-    written = [value for flag, value in pairwise(arguments) if flag == "-o"]
+def pictures(arguments: list[str], flag: str = "-o") -> list[str]:
+    """PNGs that a command writes for a flag."""
+    written = [value for given, value in pairwise(arguments) if given == flag]
     return [name for name in written if name.endswith(".png")]
+
+
+def films(arguments: list[str]) -> list[str]:
+    """Films that a command writes."""
+    return [value for flag, value in pairwise(arguments) if flag == "--film"]
 
 
 def draw(folder: Path) -> None:
@@ -51,15 +64,22 @@ def draw(folder: Path) -> None:
             kept = "expected.png" if arguments is lines[-1] else None
             for name in pictures(arguments):
                 keep(copy / name, folder / (kept or name))
+            for name in pictures(arguments, "--show-saliency"):
+                keep(copy / name, folder / name)
+            for name in films(arguments):
+                shutil.copy(copy / name, folder / name)
 
 
 def keep(picture: Path, target: Path) -> None:
-    """Save a picture small."""
+    """Save a picture small: in fewer pixels where it is full of detail, as photographs are."""
     with Image.open(picture) as image:
-        is_opaque = image.getchannel("A").getextrema()[0] == 255
+        is_opaque = image.mode == "RGB" or image.getchannel("A").getextrema()[0] == 255
         plain = image.convert("RGB") if is_opaque else image
-        plain.thumbnail((LONGEST_PX, LONGEST_PX), Image.Resampling.LANCZOS)
-        plain.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)
+        for longest in range(LONGEST_PX, 100, -50):
+            plain.thumbnail((longest, longest), Image.Resampling.LANCZOS)
+            plain.quantize(COLOURS, dither=Image.Dither.NONE).save(target, optimize=True)
+            if target.stat().st_size <= MOST_BYTES:
+                break
     sys.stdout.write(f"{target.relative_to(HERE)}  {target.stat().st_size / 1e3:.0f} kB\n")
 
 

@@ -161,10 +161,29 @@ def test_saving_refuses_what_has_no_meaning(
 
 
 def test_unknown_endings_and_options_are_refused(layout: pw.Layout, tmp_path: Path) -> None:
-    with pytest.raises(pw.WriteError, match=r"'\.gif' is not known"):
+    with pytest.raises(pw.WriteError, match=r"'\.bmp' is not known"):
+        layout.save(tmp_path / "out.bmp")
+    with pytest.raises(pw.WriteError, match=r"is a film; give it to --film"):
         layout.save(tmp_path / "out.gif")
     with pytest.raises(pw.RecipeError, match="colour: no such option"):
         pw.fill("heart", "star", colour="red")
+
+
+def test_a_layout_that_was_recorded_saves_films(tmp_path: Path) -> None:
+    layout = pw.fill("circle", "star", count=3, record=True, **QUICK)
+    for ending in (".gif", ".svg"):
+        layout.save_film(tmp_path / f"a{ending}", fps=8, seconds=0.5, film_pixels=40)
+        assert (tmp_path / f"a{ending}").stat().st_size > 100
+    with pytest.raises(pw.RecipeError, match="speed: no such option"):
+        layout.save_film(tmp_path / "b.gif", speed=2)
+    with pytest.raises(pw.WriteError, match="is none of a film"):
+        layout.save_film(tmp_path / "b.png")
+
+
+def test_a_layout_that_was_not_recorded_has_no_film(layout: pw.Layout, tmp_path: Path) -> None:
+    with pytest.raises(pw.WriteError, match="give record=True"):
+        layout.save_film(tmp_path / "a.gif")
+    assert not list(tmp_path.iterdir())
 
 
 def test_all_errors_share_a_root() -> None:

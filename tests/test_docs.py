@@ -18,8 +18,11 @@ from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
 from packwork.metrics.pixel import PixelMetrics
 from packwork.readers.charts.options import ChartOptions
+from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
+from packwork.writers.film.options import FilmOptions
+from packwork.writers.film.registry import FILMS
 
 ROOT = Path(__file__).parents[1]
 DOCS = "\n".join(page.read_text(encoding="utf-8") for page in sorted((ROOT / "docs").rglob("*.md")))
@@ -32,8 +35,12 @@ PARAMETERS = [
 ]
 WRITING_OPTIONS = {
     "output", "pixels", "background", "show_container", "flatten", "report", "diagnose",
-    "save_recipe", "quiet", "loss",
+    "save_recipe", "quiet", "loss", "show_saliency", "film", *FilmOptions.model_fields,
 }  # fmt: skip
+
+ELSEWHERE = {"losses", "rules", "words", "chart", "photos", "share", "pile", "film"}
+"""Fields that ``fill`` does not offer: rules stand in files only, words, photos
+and piles are commands, a film's table is several flags."""
 
 
 def defines(page: str, name: str) -> bool:
@@ -73,14 +80,13 @@ def test_every_recipe_field_says_what_it_means(name: str) -> None:
 
 def test_fill_offers_every_recipe_field_under_its_own_name() -> None:
     offered = {parameter.name for parameter in COMMANDS["fill"].params}
-    elsewhere = {"losses", "rules", "words", "chart"}  # rules in files only, the others as commands
-    fields = set(Recipe.model_fields) - elsewhere
+    fields = set(Recipe.model_fields) - ELSEWHERE
     assert offered == fields | WRITING_OPTIONS
 
 
 @pytest.mark.parametrize(
     "name",
-    sorted(set(Recipe.model_fields) - {"container", "items", "losses", "rules", "words", "chart"}),
+    sorted(set(Recipe.model_fields) - ELSEWHERE - {"container", "items"}),
 )
 def test_help_and_default_of_an_option_are_the_recipes(name: str) -> None:
     (option,) = (p for p in COMMANDS["fill"].params if p.name == name)
@@ -106,6 +112,29 @@ def test_charts_offer_every_option_of_theirs_with_its_help_and_default(name: str
     assert option.help == field.description
     assert (option.default or None) == (field.default or None)
     assert f"`--{name.replace('_', '-')}" in DOCS
+
+
+@pytest.mark.parametrize("name", sorted(set(PhotoOptions.model_fields) - {"sources"}))
+def test_photos_offer_every_option_of_theirs_with_its_help_and_default(name: str) -> None:
+    (option,) = (p for p in COMMANDS["photos"].params if p.name == name)
+    field = PhotoOptions.model_fields[name]
+    assert (option.help, option.default) == (field.description, field.default)
+    assert f"`--{name.replace('_', '-')}" in DOCS
+
+
+@pytest.mark.parametrize("command", ["fill", "words", "photos", "run"])
+@pytest.mark.parametrize("name", FilmOptions.model_fields)
+def test_every_option_of_films_is_offered_and_documented(name: str, command: str) -> None:
+    (option,) = (p for p in COMMANDS[command].params if p.name == name)
+    assert option.help == FilmOptions.model_fields[name].description
+    assert option.default is None
+    page = (ROOT / "docs" / "films.md").read_text(encoding="utf-8")
+    assert f"`{option.opts[0]}" in page
+
+
+@pytest.mark.parametrize("ending", FILMS)
+def test_every_format_of_films_is_documented(ending: str) -> None:
+    assert f"| `{ending}` |" in (ROOT / "docs" / "films.md").read_text(encoding="utf-8")
 
 
 def test_one_option_means_one_thing_in_all_commands() -> None:

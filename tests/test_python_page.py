@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import packwork
-from packwork.api import fill
+from packwork.api.verbs import fill
 
 PAGE = Path(__file__).parents[1] / "docs" / "python.md"
 

@@ -26,6 +26,10 @@ BAD: dict[str, list[Any]] = {
     "items": [7, ["star", 3]],
     "words": [3, "bear", {}, {"source": 3}, {"source": "a b", "cuont": 3}],
     "chart": [3, "a.csv", {}, {"data": 3}, {"data": "a.csv", "unit": 0}],
+    "photos": {"sources": []},
+    "share": [3, "words", "trees=3", {"words": -1}],
+    "quiet_share": [0, 1, "much"],
+    "keep_clear": [3],
     "count": [0, -1, 2.5, "many", MAX_COUNT + 1],
     "canvas": [0, -600, NAN, INF, 1e7, "wide", "0x5mm", "5parsec", "-3in", "1e99mm", [200, 150]],
     "seed": [-1, 2**63, 0.5, "lucky"],
@@ -48,6 +52,9 @@ BAD: dict[str, list[Any]] = {
     "hero": ["", "@", 3, "bear=", "bear@1"],
     "palette": ["nocolour", "", 3],
     "apart": ["perhaps", 7],
+    "force": [3, "", "dwn", ["down", 3], "towards 1", "down strength=0", "align"],
+    "stay": ["perhaps", 7, True],
+    "pile": [3, "open", {"open": "lid"}, {"compact": "very"}, {"opne": "top"}],
     "rules": [3, "star", [3], [{"items": 5}], [{"itmes": "star"}], [{"items": "a", "turn": 3}]],
     "finish": ["rough", "", True],
     "target_coverage": [0, 1, 94, -0.5, NAN, "most"],
@@ -57,6 +64,7 @@ BAD: dict[str, list[Any]] = {
     "time": [0, -1, NAN, INF, "soon", 1e9],
     "preset": ["Paper", "", None],
     "losses": ["overlap", {"overlap": "much"}, {"overlap": NAN}, {"overlap": INF}],
+    "film": ["a.gif", {"fps": 0}, {"speed": 2}, {"seconds": NAN}, {"easing": "bouncy"}],
 }  # fmt: skip
 
 

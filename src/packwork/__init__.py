@@ -12,7 +12,9 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from packwork.api import Layout, chart, fill, read_container, read_items, words
+    from packwork.api.albums import photos
+    from packwork.api.layout import Layout
+    from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.losses.term import ImageLoss, Term
@@ -38,6 +40,8 @@ __all__ = [
     "chart",
     "fill",
     "fit_outline",
+    "photos",
+    "pile",
     "read_container",
     "read_items",
     "render",
@@ -50,7 +54,7 @@ _HOMES = {
     "FittedOutline": "packwork.fit.fitted:FittedOutline",
     "ImageLoss": "packwork.losses.term:ImageLoss",
     "Item": "packwork.scene.item:Item",
-    "Layout": "packwork.api:Layout",
+    "Layout": "packwork.api.layout:Layout",
     "PackworkError": "packwork.errors:PackworkError",
     "ReadError": "packwork.errors:ReadError",
     "RecipeError": "packwork.errors:RecipeError",
@@ -58,14 +62,16 @@ _HOMES = {
     "Step": "packwork.progress:Step",
     "Term": "packwork.losses.term:Term",
     "WriteError": "packwork.errors:WriteError",
-    "chart": "packwork.api:chart",
-    "fill": "packwork.api:fill",
+    "chart": "packwork.api.verbs:chart",
+    "fill": "packwork.api.verbs:fill",
     "fit_outline": "packwork.fit.fitted:fit_outline",
-    "read_container": "packwork.api:read_container",
-    "read_items": "packwork.api:read_items",
+    "photos": "packwork.api.albums:photos",
+    "pile": "packwork.api.verbs:pile",
+    "read_container": "packwork.api.verbs:read_container",
+    "read_items": "packwork.api.verbs:read_items",
     "render": "packwork.raster.coverage:coverage",
     "render_pullback": "packwork.raster.coverage:coverage_pullback",
-    "words": "packwork.api:words",
+    "words": "packwork.api.verbs:words",
 }
 
 

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+from math import gcd
 from typing import Protocol, TypeAlias
 
+from packwork.arrays import IntArray
 from packwork.scene.pose import Poses
+
+Shares: TypeAlias = tuple[float, float, float]
+"""Image-space shares of the container: covered, covered twice, covered outside it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -25,11 +31,16 @@ class Step:
         How far the run is, 0 to 1.
     poses
         Where the items are now.
-    coverage, overlap, outside
-        Image-space shares of the container at this level: covered, covered twice,
-        and covered outside it.
+    measured
+        Asked for ``coverage``, ``overlap`` and ``outside`` by whoever is the first to read
+        one of them: that takes about as long as an epoch.
     is_finish
         Whether this is of the exact finish, after the last level.
+    is_last
+        Whether it is the last one of its level; all are told of that.
+    ids
+        ``(n,)`` what each item is called by, from 0, where fillers have joined the run and some
+        of them have left it; None: their places in ``poses``.
     """
 
     level: int
@@ -38,10 +49,29 @@ class Step:
     epoch: int
     progress: float
     poses: Poses
-    coverage: float
-    overlap: float
-    outside: float
+    measured: Callable[[], Shares]
     is_finish: bool = False
+    is_last: bool = False
+    ids: IntArray | None = None
+
+    @cached_property
+    def _shares(self) -> Shares:
+        return self.measured()
+
+    @property
+    def coverage(self) -> float:
+        """Share of the container that is covered, at this level's resolution."""
+        return self._shares[0]
+
+    @property
+    def overlap(self) -> float:
+        """Share of the container that is covered twice."""
+        return self._shares[1]
+
+    @property
+    def outside(self) -> float:
+        """What is covered outside the container, as a share of it."""
+        return self._shares[2]
 
 
 class Observer(Protocol):
@@ -53,6 +83,47 @@ class Observer(Protocol):
     def on_step(self, step: Step) -> None:
         """Receive a step; must not change it."""
         ...
+
+
+class Audience:
+    """Several observers as one, each told as often as it wants to be.
+
+    Parameters
+    ----------
+    observers
+        At least one.
+
+    Examples
+    --------
+    >>> class Watch:
+    ...     def __init__(self, every):
+    ...         self.every = every
+    >>> Audience([Watch(20), Watch(50)]).every
+    10
+    """
+
+    def __init__(self, observers: Sequence[Observer]) -> None:
+        self._observers = tuple(observers)
+        self.every = gcd(*(observer.every for observer in self._observers))
+
+    def on_step(self, step: Step) -> None:
+        """Tell those that are due."""
+        for observer in self._observers:
+            is_due = (step.epoch - 1) % observer.every == 0
+            if is_due or step.is_last or step.is_finish:
+                observer.on_step(step)
+
+
+def together(*observers: Observer | None) -> Observer | None:
+    """One observer for those that are there; None if none is.
+
+    Examples
+    --------
+    >>> together(None) is None
+    True
+    """
+    there = [observer for observer in observers if observer is not None]
+    return Audience(there) if len(there) > 1 else (there[0] if there else None)
 
 
 Stop: TypeAlias = Callable[[], bool]

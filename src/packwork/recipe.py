@@ -7,7 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
-    BaseModel,
+    AfterValidator,
+    BeforeValidator,
     ConfigDict,
     Field,
     ValidationError,
@@ -17,7 +18,9 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.levels import parse_levels
+from packwork.levels import checked_levels, parse_levels
+from packwork.pictures import Pictured
+from packwork.piles import Moving
 from packwork.presets import PRESETS
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.words.options import WordOptions
@@ -32,6 +35,7 @@ from packwork.solve.options import (
 )
 from packwork.start.options import StartOptions
 from packwork.units import CanvasSize, canvas_size
+from packwork.writers.film.options import FilmOptions
 
 if TYPE_CHECKING:
     from packwork.scene.container import Container
@@ -51,13 +55,13 @@ DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
 
 
-class Recipe(BaseModel):
+class Recipe(Pictured, Moving):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     container: str
-    """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, or a built-in name such as heart."""
+    """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, around:IMAGE, or a built-in name."""
 
     font: str | None = None
     """Font file (TTF, OTF, TTC) for a container text:WORD, or for words; for these also an
@@ -71,7 +75,6 @@ class Recipe(BaseModel):
 
     chart: ChartOptions | None = None
     """Rows of a table, a mark for each (``packwork chart``)."""
-
     count: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
     """How many items in all; the given ones are repeated in turn. Default: one of each.
     Of words: how many at most, those of the largest weights; default 100."""
@@ -167,7 +170,7 @@ class Recipe(BaseModel):
     preset: Literal["default", "paper"] = "default"
     """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
 
-    levels: str | None = None
+    levels: Annotated[str | None, BeforeValidator(as_text), AfterValidator(checked_levels)] = None
     """Resolutions from coarse to fine, pixels on the longer side, each with its share of
     the epochs, as 50:9,200:23,600:68 (the default); without shares, as 50,200,600 (the
     paper's), they are even."""
@@ -175,6 +178,9 @@ class Recipe(BaseModel):
     losses: dict[str | ImageLossFunction, float] = Field(default_factory=dict)
     """Weights of losses, by name, module:function or (in Python) as functions: in place of
     the preset's, or beside them; 0 switches one off."""
+
+    film: FilmOptions | None = None
+    """How a film of the run is made, where one is asked for (``--film``)."""
 
     @field_validator("font", mode="before")
     @classmethod
@@ -185,11 +191,6 @@ class Recipe(BaseModel):
                 "font", f"sets a container of words, as in text:HELLO, not {container!r}"
             )
         return str(font) if isinstance(font, Path) else font
-
-    @field_validator("levels", mode="before")
-    @classmethod
-    def _levels_are_text_too(cls, value: object) -> object:
-        return as_text(value)
 
     @field_validator("rotate", mode="before")
     @classmethod
@@ -256,13 +257,6 @@ class Recipe(BaseModel):
                 raise RecipeError("losses", f"the weight of {name} must be a number, not {weight}")
         return losses
 
-    @field_validator("levels")
-    @classmethod
-    def _levels_are_numbers(cls, text: str | None) -> str | None:
-        if text is not None:
-            parse_levels(text)
-        return text
-
     @model_validator(mode="after")
     def _sizes_can_be_bounded(self) -> Recipe:
         for number, rule in enumerate(self.rules, start=1):
@@ -272,6 +266,12 @@ class Recipe(BaseModel):
                     f"rule {number}: scale bounds free sizes, not {self.sizes} ones; "
                     'leave it out, pin the size, or use sizes = "free"',
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _stays_somewhere(self) -> Recipe:
+        if self.stay and not self.starts_from_layout:
+            raise RecipeError("stay", f"needs an earlier layout as --start, not {self.start}")
         return self
 
     @model_validator(mode="after")

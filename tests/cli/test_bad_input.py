@@ -108,9 +108,9 @@ OPTIONS = [
     ("--pixels 0", "pixels: a picture's longer side must be"),
     ("--pixels 99999999", "pixels: "),
     ("-o note.txt/out.svg", "a part of its path is a file"),
-    ("-o out.gif", "'.gif' is not known; use one of .svg"),
+    ("-o out.tga", "'.tga' is not known; use one of .svg"),
     ("-o out", "the name has no ending"),
-    ("-o nothing.svg -o out.gif", "'.gif' is not known"),
+    ("-o nothing.svg -o out.tga", "'.tga' is not known"),
     ("--report note.txt/report.json", "a part of its path is a file"),
     ("--diagnose note.txt/picture.png", "a part of its path is a file"),
 ]

@@ -18,12 +18,17 @@ Command = Callable[..., Result]
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAGES = sorted(EXAMPLES.glob("*/README.md"))
+VERBS = {"fill", "words", "chart", "photos", "pile"}
 QUICK = "--epochs 3 --levels 16,32 --effort draft --pixels 64 -q"
+QUICK_PILE = "--pixels 64 -q"
+"""A pile has no levels."""
 FEW = "--max-items 9"
 """Where voids are filled: that many are enough."""
 COUNT = "-n 6"
-"""Charts count for themselves."""
+FILM = "--fps 5 --seconds 0.5"
+"""Charts count for themselves and, as piles, take no film's options."""
 MOST_BYTES = 150_000
+MOST_FILM_BYTES = 1_000_000
 
 
 def commands(page: Path) -> list[list[str]]:
@@ -38,20 +43,27 @@ FILLS = [
     pytest.param(page.parent, arguments, id=f"{page.parent.name}-{number}")
     for page in PAGES
     for number, arguments in enumerate(commands(page))
-    if arguments[0] in {"fill", "words", "chart"}
+    if arguments[0] in VERBS
 ]
 
 
 def files_named_in(arguments: list[str]) -> list[str]:
     """What a command writes."""
-    flags = ("-o", "--output", "--diagnose", "--report")
+    flags = ("-o", "--output", "--diagnose", "--report", "--show-saliency", "--film")
     return [value for flag, value in pairwise(arguments) if flag in flags]
 
 
 def test_the_gallery_is_found() -> None:
-    assert {"collage", "letter-s", "letter-i", "letter-r", "australia", "usa-axis"} <= {
-        page.parent.name for page in PAGES
-    }
+    assert {
+        "collage",
+        "letter-s",
+        "letter-i",
+        "letter-r",
+        "australia",
+        "usa-axis",
+        "jar",
+        "round-pack",
+    } <= {page.parent.name for page in PAGES}
     assert len(FILLS) >= 6
 
 
@@ -66,7 +78,9 @@ def test_the_command_of_an_example_writes_what_it_names(
     monkeypatch.syspath_prepend(str(copy))
     few = FEW.split() if "--target-coverage" in arguments else []
     count = [] if arguments[0] == "chart" else COUNT.split()
-    result = packwork("", *arguments, *QUICK.split(), *count, *few)
+    few += [] if arguments[0] in {"chart", "pile"} else FILM.split()
+    quick = QUICK_PILE if arguments[0] == "pile" else QUICK
+    result = packwork("", *arguments, *quick.split(), *count, *few)
     assert result.exit_code in {0, 1}, result.output
     written = files_named_in(arguments)
     assert written
@@ -82,6 +96,15 @@ def test_pictures_of_an_example_are_small_and_shown(page: Path) -> None:
         assert picture.name in page.read_text(encoding="utf-8")
 
 
+@pytest.mark.parametrize("page", PAGES, ids=[page.parent.name for page in PAGES])
+def test_films_of_an_example_are_there_small_and_shown(page: Path) -> None:
+    for arguments in commands(page):
+        for flag, name in pairwise(arguments):
+            if flag == "--film":
+                assert 1_000 < (page.parent / name).stat().st_size <= MOST_FILM_BYTES
+                assert f"]({name})" in page.read_text(encoding="utf-8")
+
+
 def test_drawing_the_gallery_runs_the_same_commands() -> None:
     spec = importlib.util.spec_from_file_location("draw", EXAMPLES / "draw.py")
     assert spec is not None
@@ -89,5 +112,5 @@ def test_drawing_the_gallery_runs_the_same_commands() -> None:
     draw = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(draw)
     for page in PAGES:
-        ours = [c for c in commands(page) if c[0] in {"fill", "words", "chart", "run"}]
+        ours = [c for c in commands(page) if c[0] in VERBS | {"run"}]
         assert draw.commands(page.parent) == ours

@@ -10,14 +10,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from packwork.api import fill
+from packwork.api.verbs import fill
 from packwork.display import bar as bars
 from packwork.display.bar import Bar, NotebookBar, TerminalBar, Together, bar_for, shown
 from packwork.progress import Step
 from packwork.scene.pose import Poses
 
 NONE = np.zeros(0)
-HALF_WAY = Step(1, 3, 200, 40, 0.5, Poses(NONE, NONE, NONE, NONE), 0.25, 0.125, 0.0)
+HALF_WAY = Step(
+    1, 3, 200, 40, 0.5, Poses(NONE, NONE, NONE, NONE), lambda: (0.25, 0.125, 0.0), is_last=True
+)
 
 
 class Page:

@@ -2,16 +2,19 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
 
 from packwork.arrays import FloatArray
-from packwork.finish._kernels import LEAST_GROWTH, MOST_GROWTH
+from packwork.finish._kernels import LEAST_GROWTH, MOST_GROWTH, Wishes
 from packwork.finish.arrangement import Arrangement
 from packwork.finish.blocks import blocks
 from packwork.finish.compaction import compact, worth
 from packwork.finish.covers.cover import covering, lining
 from packwork.finish.part import part, part_evenly
+from packwork.finish.relief import rehouse
 from packwork.finish.relocate import relocate
+from packwork.finish.search import Room
 from packwork.finish.sizing import FixedSize, FreeSizes, SharedSize
 from packwork.geometry.outline import Outline
 from packwork.readers.container import read_container
@@ -213,3 +216,17 @@ def test_specks_neither_vanish_nor_jump() -> None:
         grown = two.places[:, 3] - before
         assert grown.max() <= MOST_GROWTH
         assert two.places[:, 3].min() >= LEAST_GROWTH
+
+
+def test_an_item_moves_house_to_where_it_grows_most() -> None:
+    """The pocket has the larger disc, but a bar has more room in the corridor."""
+    bar = box(-4.0, -0.5, 4.0, 0.5)
+    walls = Outline.from_region(shapely.union(box(0, 0, 4, 4).region, box(3.9, 0, 30, 2).region))
+    arrangement = Arrangement([bar], walls, np.array([[2.0, 2.0, 0.0, -0.8]]))
+    free, still = np.full(1, 9.0), np.zeros(1)
+    wishes = Wishes(-free, free, still, still, np.full(1, 8.0), 2.0)
+    room = Room(10.0, GAP, GAP)
+    assert rehouse(arrangement, 0, wishes, room, np.random.default_rng(0))
+    assert is_clean(arrangement)
+    assert arrangement.places[0, 0] > 4
+    assert arrangement.places[0, 3] > np.log(0.5)

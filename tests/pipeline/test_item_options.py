@@ -15,7 +15,8 @@ from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
 from packwork.finish.finish import SIZE_TOLERANCE
 from packwork.pipeline.beside import beside, same_kind_beside
-from packwork.pipeline.limiting import LEAD, kinds
+from packwork.pipeline.casting import kinds
+from packwork.pipeline.limiting import LEAD
 from packwork.progress import Step
 from packwork.recipe import make_recipe
 from packwork.scene.item import FlatArt, Item

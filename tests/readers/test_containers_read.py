@@ -75,8 +75,8 @@ def test_line_drawing_is_filled(svg_file):
         ("nowhere.svg", "no such file"),
         ("nowhere.png", "no such file"),
         ("hart", "no built-in container of that name; did you mean heart"),
-        ("around:a.png", "not known yet; give a PNG"),
-        ("none", "not known yet"),
+        ("around:a.png", "no such file"),
+        ("none", "not known yet; give a PNG"),
         ("\0", "no built-in container"),
     ],
 )

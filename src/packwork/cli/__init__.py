@@ -14,6 +14,8 @@ from packwork.cli.chart import chart
 from packwork.cli.demo import demo
 from packwork.cli.fill import fill
 from packwork.cli.measure import measure
+from packwork.cli.photos import photos
+from packwork.cli.pile import pile
 from packwork.cli.run import run
 from packwork.cli.usage import OneLineGroup
 from packwork.cli.words import words
@@ -62,6 +64,8 @@ def _main(
 app.command()(fill)
 app.command()(words)
 app.command()(chart)
+app.command()(photos)
+app.command()(pile)
 app.command()(run)
 app.command()(measure)
 app.command()(demo)

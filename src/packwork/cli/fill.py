@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
+from packwork.cli.saliency import write_saliency
 from packwork.recipe import make_recipe
 
 DEFAULT_OUTPUT = Path("collage.svg")
@@ -29,7 +30,7 @@ def fill(
         typer.Argument(
             metavar="CONTAINER",
             help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD (text:ONE|TWO for two "
-            "lines), or a built-in name such as heart.",
+            "lines), around:IMAGE (its quiet part), or a built-in name such as heart.",
         ),
     ],
     items: ItemNames = None,
@@ -37,6 +38,8 @@ def fill(
     count: shared.Count = None,
     font: shared.Font = None,
     canvas: shared.Canvas = None,
+    quiet_share: shared.QuietShare = 0.4,
+    keep_clear: shared.KeepClear = None,
     sizes: shared.Sizes = "free",
     size_ratio: shared.SizeRatio = 2.0,
     stretch: shared.Stretch = 1.0,
@@ -44,6 +47,7 @@ def fill(
     padding: shared.Padding = "0",
     weights: shared.Weights = None,
     hero: shared.Hero = None,
+    force: shared.Force = None,
     palette: shared.Palette = None,
     apart: shared.Apart = False,
     holes: shared.Holes = "fill",
@@ -61,11 +65,20 @@ def fill(
     preset: shared.Preset = "default",
     levels: shared.Levels = None,
     start: shared.Start = "distance-field",
+    stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
+    film: shared.Film = None,
+    fps: shared.Fps = None,
+    seconds: shared.Seconds = None,
+    hold: shared.Hold = None,
+    loop: shared.Loop = None,
+    easing: shared.Easing = None,
+    film_pixels: shared.FilmPixels = None,
+    show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -88,6 +101,8 @@ def fill(
             count=count,
             font=font,
             canvas=canvas,
+            quiet_share=quiet_share,
+            keep_clear=keep_clear,
             sizes=sizes,
             size_ratio=size_ratio,
             stretch=stretch,
@@ -95,6 +110,7 @@ def fill(
             padding=padding,
             weights=weights,
             hero=hero,
+            force=force,
             palette=palette,
             apart=apart,
             holes=holes,
@@ -112,21 +128,16 @@ def fill(
             preset=preset,
             levels=levels,
             start=start,
+            stay=stay,
             losses=shared.loss_weights(loss),
         )
-        from packwork.cli.running import Outputs, run_and_write
-        from packwork.writers import write_options
+        from packwork.cli.running import outputs_asked, run_and_write
 
-        outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT],
-            options=write_options(
-                pixels=pixels,
-                background=background,
-                show_container=show_container,
-                flatten=flatten,
-            ),
-            report=report,
-            diagnose=diagnose,
-            recipe=save_recipe,
-        )
+        write_saliency(recipe, show_saliency)
+        outputs = outputs_asked(
+            output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
+            film_pixels=film_pixels, recipes=recipe.film,
+        )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -9,11 +9,13 @@ from typing import Annotated, Any, Literal
 import typer
 
 from packwork.recipe import Recipe
+from packwork.writers.film.options import FilmOptions
 
 PLACING = "What is placed"
 GAPS = "What fills the voids"
 SOLVING = "How it is solved"
 WRITING = "What is written"
+FILMING = "What is filmed"
 
 
 def flag(field: str, *names: str, panel: str) -> Any:
@@ -24,12 +26,25 @@ def flag(field: str, *names: str, panel: str) -> Any:
     )
 
 
+def film_flag(field: str, *names: str) -> Any:
+    """Typer option of a film: not given, it is what the recipe says, or that default."""
+    described = FilmOptions.model_fields[field]
+    value = described.default
+    shown = {True: "loop", False: "once"}.get(value, value) if field == "loop" else value
+    return typer.Option(
+        *(names or (f"--{field.replace('_', '-')}",)),
+        help=described.description or "",
+        show_default=f"{shown:g}" if isinstance(shown, float) else str(shown),
+        rich_help_panel=FILMING,
+    )
+
+
 Output = Annotated[
     list[Path] | None,
     typer.Option(
         "-o",
         "--output",
-        help="File to write; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format. "
+        help="File to write; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format. "
         "May be given several times.",
         rich_help_panel=WRITING,
     ),
@@ -45,6 +60,27 @@ Padding = Annotated[str, flag("padding", panel=PLACING)]
 Hero = Annotated[str | None, flag("hero", panel=PLACING)]
 Palette = Annotated[str | None, flag("palette", panel=PLACING)]
 Apart = Annotated[bool, flag("apart", "--apart", panel=PLACING)]
+Share = Annotated[str | None, flag("share", panel=PLACING)]
+AddedPhotos = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--photos",
+        help="Photos that are placed too: files, folders or patterns. May be given several times.",
+        rich_help_panel=PLACING,
+    ),
+]
+QuietShare = Annotated[float, flag("quiet_share", panel=PLACING)]
+KeepClear = Annotated[list[str] | None, flag("keep_clear", panel=PLACING)]
+ShowSaliency = Annotated[
+    Path | None,
+    typer.Option(
+        "--show-saliency",
+        help="Write a picture (PNG) of what was found of a container around:IMAGE: what stands out "
+        "red, a line round what is filled.",
+        rich_help_panel=WRITING,
+    ),
+]
+Force = Annotated[list[str] | None, flag("force", panel=PLACING)]
 Weights = Annotated[str | None, flag("weights", panel=PLACING)]
 Holes = Annotated[Literal["fill", "keep"], flag("holes", panel=PLACING)]
 OutlineChoice = Annotated[Literal["exact", "fitted", "hull"], flag("outline", panel=PLACING)]
@@ -61,6 +97,7 @@ Time = Annotated[float | None, flag("time", panel=SOLVING)]
 Preset = Annotated[Literal["default", "paper"], flag("preset", panel=SOLVING)]
 Levels = Annotated[str | None, flag("levels", panel=SOLVING)]
 Start = Annotated[str, flag("start", panel=SOLVING)]
+Stay = Annotated[bool, flag("stay", "--stay", panel=SOLVING)]
 Loss = Annotated[
     list[str] | None,
     typer.Option(
@@ -71,7 +108,16 @@ Loss = Annotated[
     ),
 ]
 Pixels = Annotated[
-    int, typer.Option("--pixels", help="Longer side of a PNG.", rich_help_panel=WRITING)
+    int, typer.Option("--pixels", help="Longer side of a PNG or JPEG.", rich_help_panel=WRITING)
+]
+Dpi = Annotated[
+    float | None,
+    typer.Option(
+        "--dpi",
+        help="Pixels to the inch of paper: of photos (default 300), and of a PNG or JPEG in place "
+        "of --pixels.",
+        rich_help_panel=WRITING,
+    ),
 ]
 Background = Annotated[
     str | None,
@@ -115,6 +161,21 @@ Diagnose = Annotated[
         rich_help_panel=WRITING,
     ),
 ]
+Film = Annotated[
+    list[Path] | None,
+    typer.Option(
+        "--film",
+        help="Film of the run to write; the ending (.svg, .gif, .apng, .webp, .mp4, .webm, .json "
+        "for Lottie) picks the format. May be given several times.",
+        rich_help_panel=FILMING,
+    ),
+]
+Fps = Annotated[float | None, film_flag("fps")]
+Seconds = Annotated[float | None, film_flag("seconds")]
+Hold = Annotated[float | None, film_flag("hold")]
+Loop = Annotated[bool | None, film_flag("loop", "--loop/--once")]
+Easing = Annotated[Literal["smooth", "linear"] | None, film_flag("easing")]
+FilmPixels = Annotated[int | None, film_flag("film_pixels")]
 SaveRecipe = Annotated[
     Path | None,
     typer.Option(
@@ -126,6 +187,19 @@ SaveRecipe = Annotated[
 Quiet = Annotated[
     bool, typer.Option("-q", "--quiet", help="Print nothing but warnings and errors.")
 ]
+
+
+def mixing(add: list[str] | None, photos: list[str] | None, share: str | None) -> dict[str, Any]:
+    """Options of a recipe about what is mixed in with words.
+
+    Examples
+    --------
+    >>> mixing(["star"], None, "words=80%,items=20%")
+    {'add': ['star'], 'photos': None, 'share': 'words=80%,items=20%'}
+    """
+    return {
+        "add": add or [], "photos": {"sources": photos} if photos else None, "share": share,
+    }  # fmt: skip
 
 
 def loss_weights(losses: list[str] | None) -> dict[str, float]:

@@ -23,6 +23,13 @@ def run(
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     text: shared.Text = "outlines",
+    film: shared.Film = None,
+    fps: shared.Fps = None,
+    seconds: shared.Seconds = None,
+    hold: shared.Hold = None,
+    loop: shared.Loop = None,
+    easing: shared.Easing = None,
+    film_pixels: shared.FilmPixels = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     quiet: shared.Quiet = False,
@@ -34,21 +41,14 @@ def run(
     [bold]packwork run bear.toml -o bear.svg[/]  repeats the run, from any folder
     """
     with clear_errors(recipe):
-        from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.running import outputs_asked, run_and_write
         from packwork.readers.recipe import read_recipe
-        from packwork.writers import write_options
 
         asked = make_recipe(**read_recipe(recipe))
-        outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT],
-            options=write_options(
-                pixels=pixels,
-                background=background,
-                show_container=show_container,
-                flatten=flatten,
-                text=text,
-            ),
-            report=report,
-            diagnose=diagnose,
-        )
+        outputs = outputs_asked(
+            output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose,
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
+            film_pixels=film_pixels, recipes=asked.film,
+        )  # fmt: skip
         raise typer.Exit(run_and_write(asked, outputs, quiet))

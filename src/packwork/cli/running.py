@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -21,12 +21,16 @@ from packwork.cli.show import (
     filling_line,
     metrics_table,
     notice_if_slow,
+    pile_line,
     seconds_line,
     words_line,
 )
 from packwork.display.bar import TerminalBar
 from packwork.errors import WriteError
+from packwork.pipeline.filming import film_options
+from packwork.readers.quiet.container import AROUND
 from packwork.recipe import Recipe
+from packwork.writers.film.options import FilmOptions
 
 MOST_NAMED = 5
 """Items without a place that are named on the terminal; a report names all. Chosen."""
@@ -47,12 +51,16 @@ class Outputs:
         Layouts, each in the format of its ending.
     options
         How they are drawn.
+    films, filming
+        Films of the run, and how they are made.
     report, diagnose, recipe
         Measures (JSON), the diagnostic picture (PNG), the recipe (TOML); None for none.
     """
 
     files: Sequence[Path]
     options: writers.WriteOptions
+    films: Sequence[Path] = ()
+    filming: FilmOptions = field(default_factory=FilmOptions)
     report: Path | None = None
     diagnose: Path | None = None
     recipe: Path | None = None
@@ -65,7 +73,7 @@ class Outputs:
     @property
     def every(self) -> list[Path]:
         """All files."""
-        return [*self.files, *self.sides]
+        return [*self.files, *self.films, *self.sides]
 
     def check(self, recipe: Recipe) -> None:
         """Refuse paths that cannot be written, that collide, or that the run reads.
@@ -77,10 +85,14 @@ class Outputs:
         """
         for path in self.files:
             writers.check_output(path)
+        for path in self.films:
+            writers.check_film(path)
         for side in self.sides:
             writers.check_writable(side)
         writers.check_outputs(self.every)
-        named = [recipe.container, *recipe.items]
+        named = [recipe.container.removeprefix(AROUND), *recipe.items]
+        if recipe.photos is not None:
+            named += recipe.photos.sources
         if recipe.words is not None and isinstance(recipe.words.source, str):
             # A text itself is no file; nor could so long a name be one.
             named.append(recipe.words.source[:LONGEST_NAME])
@@ -90,6 +102,55 @@ class Outputs:
         for path in self.every:
             if path.resolve() in read:
                 raise WriteError(path, "is read by this run too; write to another file")
+
+
+def outputs_asked(
+    files: Sequence[Path],
+    *,
+    report: Path | None = None,
+    diagnose: Path | None = None,
+    recipe: Path | None = None,
+    pixels: int = 1_600,
+    dpi: float | None = None,
+    background: str | None = None,
+    show_container: bool = False,
+    flatten: bool = False,
+    text: writers.TextChoice = "outlines",
+    film: Sequence[Path] | None = None,
+    recipes: FilmOptions | None = None,
+    **filming: Any,
+) -> Outputs:
+    """What the flags of a command ask to be written.
+
+    Parameters
+    ----------
+    files
+        Layouts.
+    report, diagnose, recipe
+        As in :class:`Outputs`.
+    pixels, dpi, background, show_container, flatten, text
+        How layouts are drawn, and films but for their size.
+    film
+        Films; None for none.
+    recipes, filming
+        How films are made: as the recipe says, and as the flags do.
+    """
+    return Outputs(
+        files=files,
+        options=writers.write_options(
+            pixels=pixels,
+            dpi=dpi,
+            background=background,
+            show_container=show_container,
+            flatten=flatten,
+            text=text,
+        ),
+        films=film or (),
+        filming=film_options(recipes, **filming),
+        report=report,
+        diagnose=diagnose,
+        recipe=recipe,
+    )
 
 
 def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
@@ -112,30 +173,69 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     interrupt = Interrupt()
     with interrupt.listening():
         with bar.showing():
-            run = pipeline.run(job, None if quiet else bar, interrupt)
-        results = _write(run, recipe, outputs)
+            run = pipeline.run(job, None if quiet else bar, interrupt, bool(outputs.films))
+            is_rough = interrupt.pressed
+            began = time.perf_counter()
+            films = _filmed(run, outputs, bar, interrupt)
+        results = _write(run, recipe, outputs, films, began)
     _warn(run)
-    _show(results, outputs.every, console, run.layout.container.unit)
-    if interrupt.pressed:
+    written = [path for path in outputs.every if path not in outputs.films]
+    written += [path for path, _ in films]
+    _show(results, written, console, run.layout.container.unit)
+    if is_rough:
         typer.echo("packwork: stopped by Ctrl-C; this is the best so far, still rough", err=True)
-        return INTERRUPTED
-    return 0 if run.is_as_asked else SHORTFALL
+    return INTERRUPTED if interrupt.pressed else 0 if run.is_as_asked else SHORTFALL
 
 
-def _write(run: pipeline.Run, recipe: Recipe, outputs: Outputs) -> dict[str, Any]:
+def _filmed(
+    run: pipeline.Run, outputs: Outputs, bar: TerminalBar, interrupt: Interrupt
+) -> list[tuple[Path, bytes]]:
+    """Bytes of all films; none if Ctrl-C was pressed meanwhile, so that none is half a film."""
+    if not outputs.films:
+        return []
+    options, was_pressed = outputs.options, interrupt.pressed
+    film = writers.Film(
+        run.layout, outputs.filming, options.png.background or "none", options.svg.show_container
+    )
+
+    def encoded(path: Path) -> bytes:
+        def tell(share: float) -> None:
+            bar.tell(share, f"film {path.name}")
+            if interrupt.pressed and not was_pressed:
+                raise KeyboardInterrupt
+
+        return writers.film_bytes(film, path, tell)
+
+    try:
+        return [(path, encoded(path)) for path in outputs.films]
+    except KeyboardInterrupt:
+        interrupt.pressed = True
+        typer.echo("packwork: stopped by Ctrl-C: no film was written", err=True)
+        return []
+
+
+def _write(
+    run: pipeline.Run,
+    recipe: Recipe,
+    outputs: Outputs,
+    films: Sequence[tuple[Path, bytes]],
+    began: float,
+) -> dict[str, Any]:
     """Draw all, then write all, so that what fails leaves nothing; return the report."""
-    began = time.perf_counter()
     layout, options = run.layout, outputs.options
     files = [(path, writers.encoded(layout, path, options)) for path in outputs.files]
     if outputs.diagnose is not None:
         files.append((outputs.diagnose, writers.diagnose_png(layout, options.png_side_px)))
     if outputs.recipe is not None:
-        saved = writers.recipe_bytes(recipe.plain(), outputs.recipe.parent)
+        kept = recipe
+        if outputs.filming.model_fields_set:
+            kept = recipe.model_copy(update={"film": outputs.filming})
+        saved = writers.recipe_bytes(kept.plain(), outputs.recipe.parent)
         files.append((outputs.recipe, saved))
     results = run.report(time.perf_counter() - began)
     if outputs.report is not None:
         files.append((outputs.report, writers.json_bytes(results)))
-    writers.write_all(files)
+    writers.write_all([*files, *films])
     return results
 
 
@@ -182,6 +282,8 @@ def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console,
         console.print(f"{results['beside']} pairs of one kind lie side by side", style="dim")
     if results["filling"] is not None:
         console.print(filling_line(results["filling"]), style="dim")
+    if results["pile"] is not None:
+        console.print(pile_line(results["pile"]), style="dim")
     console.print(certificate_line(results["promised"], results["certified"]))
     written = ", ".join(str(path) for path in outputs)
     console.print(f"wrote {written}", soft_wrap=True, markup=False)

@@ -109,3 +109,18 @@ def words_line(words: Mapping[str, int]) -> str:
     'the 100 largest of 2,317 different words; -n takes more'
     """
     return f"the {words['asked']:,} largest of {words['found']:,} different words; -n takes more"
+
+
+def pile_line(pile: Mapping[str, Any]) -> str:
+    """How a heap came to rest, and how tight it is if that was asked.
+
+    Examples
+    --------
+    >>> pile_line({"rounds": 90, "compact": {"hull": 0.61, "circle": 0.4, "box": 0.5}})
+    'at rest after 90 rounds; covers 61.00 % of its hull, 40.00 % of its circle, 50.00 % of its box'
+    """
+    line = f"at rest after {pile['rounds']} rounds"
+    if "compact" not in pile:
+        return line
+    shares = [f"{_percent(share)} of its {name}" for name, share in pile["compact"].items()]
+    return f"{line}; covers {', '.join(shares)}"

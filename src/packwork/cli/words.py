@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
+from packwork.cli.saliency import write_saliency
 from packwork.readers.words.options import WordOptions
 
 DEFAULT_OUTPUT = Path("words.svg")
@@ -27,8 +28,8 @@ def words(
         str,
         typer.Argument(
             metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, or a built-in name such "
-            "as heart.",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, around:IMAGE (its quiet "
+            "part), or a built-in name such as heart.",
         ),
     ],
     source: Annotated[
@@ -66,7 +67,11 @@ def words(
             rich_help_panel=shared.PLACING,
         ),
     ] = None,
+    photos: shared.AddedPhotos = None,
+    share: shared.Share = None,
     canvas: shared.Canvas = None,
+    quiet_share: shared.QuietShare = 0.4,
+    keep_clear: shared.KeepClear = None,
     sizes: shared.Sizes = "shared",
     size_ratio: shared.SizeRatio = 2.0,
     rotate: shared.Rotate = "horizontal",
@@ -77,6 +82,7 @@ def words(
     largest: Annotated[str | None, _flag("largest", panel=TYPE)] = None,
     filler: shared.Filler = None,
     hero: shared.Hero = None,
+    force: shared.Force = None,
     holes: shared.Holes = "fill",
     outline: shared.OutlineChoice = "exact",
     seed: shared.Seed = 0,
@@ -86,12 +92,21 @@ def words(
     time: shared.Time = None,
     levels: shared.Levels = None,
     start: shared.Start = "distance-field",
+    stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     text: shared.Text = "outlines",
+    film: shared.Film = None,
+    fps: shared.Fps = None,
+    seconds: shared.Seconds = None,
+    hold: shared.Hold = None,
+    loop: shared.Loop = None,
+    easing: shared.Easing = None,
+    film_pixels: shared.FilmPixels = None,
+    show_saliency: shared.ShowSaliency = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -108,14 +123,13 @@ def words(
     [bold]packwork words cat ar.txt --font "Noto Naskh Arabic"[/]  any script
     """
     with clear_errors():
-        from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.running import outputs_asked, run_and_write
         from packwork.pipeline.wording import words_recipe
-        from packwork.writers import write_options
 
         recipe = words_recipe(
             container,
             source,
-            add=add or (),
+            **shared.mixing(add, photos, share),
             count=count,
             min_count=min_count,
             language=language,
@@ -134,6 +148,8 @@ def words(
             contrast=contrast,
             background=background,
             canvas=canvas,
+            quiet_share=quiet_share,
+            keep_clear=keep_clear,
             sizes=sizes,
             size_ratio=size_ratio,
             rotate=rotate,
@@ -144,6 +160,7 @@ def words(
             largest=largest,
             filler=filler,
             hero=hero,
+            force=force,
             holes=holes,
             outline=outline,
             seed=seed,
@@ -153,14 +170,14 @@ def words(
             time=time,
             levels=levels,
             start=start,
+            stay=stay,
             losses=shared.loss_weights(loss),
         )
-        drawn = write_options(
-            pixels=pixels, background=background, show_container=show_container,
-            flatten=flatten, text=text,
-        )  # fmt: skip
-        outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT], options=drawn, report=report, diagnose=diagnose,
-            recipe=save_recipe,
+        write_saliency(recipe, show_saliency)
+        outputs = outputs_asked(
+            output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
+            film_pixels=film_pixels, recipes=recipe.film,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from html import escape
 from typing import TYPE_CHECKING, Any, Protocol
 
-from packwork.progress import Observer, Step
+from packwork.progress import Audience, Observer, Step
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -31,6 +31,10 @@ class Bar(Observer, Protocol):
         """Be seen while the block runs."""
         ...
 
+    def tell(self, share: float, text: str) -> None:
+        """Show how much is done, 0 to 1, and of what."""
+        ...
+
 
 def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None:
     """Bar where one is to be shown, which tells the observer too; else None.
@@ -40,7 +44,7 @@ def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None
     wanted
         None: in a notebook only.
     observer
-        If given, says how often both are told.
+        One of one's own, told too.
 
     Examples
     --------
@@ -68,16 +72,19 @@ def in_notebook() -> bool:
 
 
 class Together:
-    """A bar and an observer of one's own, told at the same steps."""
+    """A bar and an observer of one's own, each told as often as it wants to be."""
 
     def __init__(self, bar: Bar, observer: Observer) -> None:
-        self._bar, self._observer = bar, observer
-        self.every = observer.every
+        self._bar, self._both = bar, Audience([bar, observer])
+        self.every = self._both.every
 
     def on_step(self, step: Step) -> None:
         """Tell both."""
-        self._bar.on_step(step)
-        self._observer.on_step(step)
+        self._both.on_step(step)
+
+    def tell(self, share: float, text: str) -> None:
+        """Move the bar."""
+        self._bar.tell(share, text)
 
     def showing(self) -> AbstractContextManager[None]:
         """Show the bar."""
@@ -97,7 +104,11 @@ class NotebookBar:
 
     def on_step(self, step: Step) -> None:
         """Move the bar, unless it has just been moved."""
-        self._share, self._text = step.progress, f"{_level(step)}, {_shares(step)}"
+        self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
+
+    def tell(self, share: float, text: str) -> None:
+        """Move the bar, unless it has just been moved."""
+        self._share, self._text = share, text
         if time.monotonic() - self._sent >= SECONDS_BETWEEN:
             self._send()
 
@@ -155,8 +166,11 @@ class TerminalBar:
 
     def on_step(self, step: Step) -> None:
         """Move the bar."""
-        text = f"{_level(step)}, {_shares(step)}"
-        self._progress.update(self._task, completed=step.progress, description=text)
+        self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
+
+    def tell(self, share: float, text: str) -> None:
+        """Move the bar."""
+        self._progress.update(self._task, completed=share, description=text)
 
     @contextmanager
     def showing(self) -> Iterator[None]:

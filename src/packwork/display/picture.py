@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import re
 
-from packwork.scene.item import Item, PictureArt, VectorArt
+from packwork.scene.item import Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.writers.marks import shape_key
 from packwork.writers.png import PngOptions, png_bytes
@@ -103,6 +103,8 @@ def _length(item: Item) -> float:
     """About how many characters a drawing takes."""
     if isinstance(item.art, VectorArt):
         return len(item.art.markup)
+    if isinstance(item.art, PhotoArt):
+        return len(item.art.preview.markup)
     if isinstance(item.art, PictureArt):
         return len(item.art.png) * 4 / 3
     return _PER_POINT * len(item.ink.points)

@@ -168,7 +168,7 @@ def freedoms(board, wishes, items, trust):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _strike(board, pairs, gap, changed, struck, room):
+def strike(board, pairs, gap, changed, struck, room):
     """Mark solids in conflict; only pairs of which one has ``changed`` can be. How many."""
     count = 0
     for i in range(struck.shape[0]):
@@ -201,7 +201,7 @@ def _settle_share(board, items, before, step, share, pairs, gap, unit):
                 place[0, 3] -= unit[k] * 2.0 ** (hits - 1)
                 place[0, 3] = max(place[0, 3], min(before[k, 3], LEAST_GROWTH))
             contact.put(board, items[k : k + 1], place)
-        if _strike(board, pairs, gap, changed, struck, room) == 0:
+        if strike(board, pairs, gap, changed, struck, room) == 0:
             return True
         for i in range(strikes.shape[0]):
             strikes[i] += struck[i]
@@ -233,8 +233,8 @@ def settle(board, items, step, pairs, gap, trust):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def best_step(board, wishes, items, pairs, trust, gap, hair):
-    """Change of place of ``items`` that gains most and keeps the contacts apart, nearly."""
+def near_contacts(board, items, pairs, trust, gap, hair):
+    """Contacts within reach of a step, each solid's number in the programme, the gap to keep."""
     slants = np.empty(pairs.shape[0])
     last = board.starts.shape[0] - 2
     mean = 0.0
@@ -250,6 +250,13 @@ def best_step(board, wishes, items, pairs, trust, gap, hair):
         mean += contact.arm(board, items[k]) / items.shape[0]
     who, numbers = contacts(board, pairs, gap + REACH * trust, slants)
     kept = gap + (TIGHT - 1.0) * hair + BEND * trust * trust / mean
+    return who, numbers, where, kept
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def best_step(board, wishes, items, pairs, trust, gap, hair):
+    """Change of place of ``items`` that gains most and keeps the contacts apart, nearly."""
+    who, numbers, where, kept = near_contacts(board, items, pairs, trust, gap, hair)
     rows = conditions(board, pairs, who, numbers, where, trust, kept)
     gain, low, high = freedoms(board, wishes, items, trust)
     z = programme.maximise(rows, gain, low, high, ACCURACY)
@@ -269,7 +276,7 @@ def clear_by_shrinking(board, items, pairs, gap, cut, checks):
     place = np.empty((1, 4))
     room = np.empty((2, contact.most_points(board.starts)), np.int64)
     for _ in range(checks):
-        if _strike(board, pairs, gap, changed, struck, room) == 0:
+        if strike(board, pairs, gap, changed, struck, room) == 0:
             return True
         for k in range(items.shape[0]):
             if struck[items[k]]:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.finish.arrangement import Arrangement
 from packwork.finish.covers.cover import covering, lining
 from packwork.geometry.outline import Outline
@@ -41,6 +41,10 @@ class Detail:
         slack = tolerance * float(np.median(sizes))
         container = Outline.from_region(lining(self._container.region, slack))
         return Detail(outlines, container, self._poses)
+
+    def some(self, items: IntArray, poses: Poses) -> Detail:
+        """The same of some items, as they are now: of the same sizes, in other poses."""
+        return Detail([self._outlines[int(k)] for k in items], self._container, poses.some(items))
 
     def arrangement(self, places: FloatArray) -> Arrangement:
         """Outlines in place: ``(n, 4)`` x, y, turn and growth against the first poses."""

@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from packwork.arrays import FloatArray, IntArray
+from packwork.arrays import FloatArray
 from packwork.finish._kernels import MOST_GROWTH, Wishes
 from packwork.finish.blocks import blocks
 from packwork.finish.compaction import compact
@@ -17,6 +17,7 @@ from packwork.finish.detail import Detail
 from packwork.finish.offenders import Offender, find_offenders
 from packwork.finish.options import HAIR, FinishOptions
 from packwork.finish.part import part, part_evenly
+from packwork.finish.relief import rehouse, suspects
 from packwork.finish.relocate import relocate
 from packwork.finish.search import Room, search
 from packwork.finish.sizing import FixedSize, FreeSizes, SharedSize, Sizing, turn_ranges
@@ -70,18 +71,30 @@ LEVELLING_ROOM = 1.5
 """Trust region of such a round over what the largest item has to come down. Larger lets
 items move about for nothing, smaller leaves them too large. Chosen."""
 
-BOTTLENECKS, SUSPECTS = 12, 4
-"""Where sizes are shared: how many items that hold all others back are moved to voids, and
-how many of the smallest are tried for that each time. More take longer. Tried."""
+BOTTLENECKS = 24
+"""Where sizes are shared: how many items that hold all others back are moved to voids. More
+take longer. Tried."""
 
-RELIEF = 0.01
-"""Logarithm by which all must grow for such a move to be kept. Chosen."""
+RELIEF = 0.004
+"""Logarithm by which all must grow for such a move to be kept. Larger ends before chains of
+small gains, smaller takes longer. Tried: word clouds gain two points of ink on 0.01."""
+
+NEARLY = 0.1
+"""Logarithm by which such an item may be smaller in its void than the smallest is. Larger
+tries moves that seldom gain. Chosen."""
+
+VOID_SPREAD = 0.05
+"""Logarithm of size by which it may outgrow the others while it looks for a place. Chosen."""
 
 RESCUES = 3
 """Times that items which stay behind are moved to voids. Chosen."""
 
 BACK = (0.0, 0.0, 1e-4, 1e-3, 0.003, 0.01, 0.03, 0.1, 0.3)
 """Logarithms of size given back in turn until one common size has no conflict. Chosen."""
+
+TOLD = 10
+"""How often the trials are told of, for each trial of an item: what they turn and exchange is
+then seen on its way. More take longer to tell. Chosen."""
 
 SIZE_TOLERANCE = 1e-3
 """Logarithm of size below which nobody is too small: steps end a little off their bounds,
@@ -161,6 +174,8 @@ def finish(
     run = _Run(container, outlines, poses, options, observer, stop, is_enough)
     if options.refining:
         run.refine()
+        if options.staying:
+            run.level()
     else:
         run.coarse()
         run.search()
@@ -192,6 +207,7 @@ class _Run:
         self.hair = HAIR * container.side
         self.gap = options.gap_cu + self.hair
         self.rounds = 0
+        self._is_trying = False
         self._planned = options.rounds * (1 if options.sizes == "free" else COMMON_ROUNDS)
         self._spacing = float(np.sqrt(self._area / len(poses)))
         own = np.array([outline.area for outline in outlines])
@@ -224,21 +240,29 @@ class _Run:
     def _relieve(self, rounds: range) -> None:
         """Move who holds all others back to a void, as long as that lets all grow."""
         for _ in range(BOTTLENECKS):
-            if self._stop() or not any(self._helps(k, rounds) for k in self._suspects()):
+            if self._stop() or not any(
+                self._helps(k, rounds) for k in suspects(self.arrangement, self._spacing)
+            ):
                 return
 
-    def _suspects(self) -> IntArray:
-        return np.argsort(self.arrangement.places[:, 3], kind="stable")[:SUSPECTS]
+    @property
+    def _room(self) -> Room:
+        return Room(self._spacing, self.gap, self.hair)
 
     def _helps(self, item: int, rounds: range) -> bool:
-        """Whether all can grow once an item has moved to the largest void; else undone."""
+        """Whether all can grow once an item has moved to a void; else undone."""
         arrangement, everyone = self.arrangement, np.arange(self.arrangement.count)
         before = arrangement.places.copy()
-        relocate(arrangement, np.array([item]), self.gap)
-        part(arrangement, self.gap)
-        self._compact(rounds)
-        if arrangement.places[:, 3].min() >= before[:, 3].min() + RELIEF:
-            return True
+        least = before[:, 3].min()
+        wishes = self._sizing.wishes(before[:, 3], VOID_SPREAD)
+        rng = np.random.default_rng(item)
+        fits = rehouse(arrangement, item, wishes, self._room, rng)
+        if fits and arrangement.places[item, 3] > least - NEARLY:
+            self._is_trying = True
+            self._compact(rounds)
+            self._is_trying = False
+            if arrangement.places[:, 3].min() >= least + RELIEF:
+                return True
         arrangement.put(everyone, before)
         return False
 
@@ -249,11 +273,16 @@ class _Run:
 
     def search(self) -> None:
         """Turn and exchange items where that gains."""
-        room = Room(self._spacing, self.gap, self.hair)
         rng = np.random.default_rng(self._options.seed)
         wish = partial(self._sizing.wishes, spread=SEARCH_SPREAD)
         trials = round(self._options.trials * min(1.0, EASY_POINTS / self._points_each()))
-        search(self.arrangement, wish, trials, room, rng, self._is_enough)
+        every = max(self.arrangement.count // TOLD, 1)
+
+        def tell(trial: int) -> None:
+            if trial % every == 0:
+                self._tell(COARSE_SHARE)
+
+        search(self.arrangement, wish, trials, self._room, rng, self._is_enough, tell)
 
     def _points_each(self) -> float:
         return float(self.arrangement.board.starts[-2]) / self.arrangement.count
@@ -311,6 +340,7 @@ class _Run:
         for _ in range(LEVELLING_ROUNDS):
             spread = np.ptp(self.arrangement.places[:, 3])
             self._level_round(sizing, back)
+            self._tell(1.0)
             if np.ptp(self.arrangement.places[:, 3]) >= spread:
                 break
 
@@ -343,7 +373,8 @@ class _Run:
         return tuple(int(k) for k in np.flatnonzero(lag > SIZE_TOLERANCE))
 
     def _tell(self, done: float) -> None:
-        if self._observer is None:
+        # What is only tried may be undone: nobody is to see it.
+        if self._observer is None or self._is_trying:
             return
         growth = self.arrangement.places[:, 3]
         covered = float((self._sizing.areas * np.exp(2 * growth)).sum() / self._area)
@@ -352,7 +383,8 @@ class _Run:
             self._poses, x=x.copy(), y=y.copy(), angle=self._poses.angle + turn,
             scale=self._poses.scale * np.exp(growth),
         )  # fmt: skip
-        self._observer.on_step(Step(0, 1, 0, self.rounds, done, poses, covered, 0.0, 0.0))
+        shares = (covered, 0.0, 0.0)
+        self._observer.on_step(Step(0, 1, 0, self.rounds, done, poses, lambda: shares))
 
 
 def _sizing(poses: Poses, areas: FloatArray, options: FinishOptions) -> Sizing:

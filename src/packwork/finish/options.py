@@ -44,6 +44,10 @@ class FinishOptions(BaseModel):
     refining: bool = False
     """The layout is clean already: small steps, so that nothing is lost, and no trials."""
 
+    staying: bool = False
+    """With ``refining``: the layout is clean but for a few items, which were made larger or
+    are new; where sizes are shared, all end at one."""
+
     trials: Annotated[int, Field(ge=0, le=1_000_000)] = 0
     """Turns and exchanges of items that are tried after the first compaction."""
 

@@ -34,7 +34,7 @@ def relocate(arrangement: Arrangement, items: IntArray, gap: float) -> None:
     An item for which there is no room stays where it is.
     """
     others = np.setdiff1d(np.arange(arrangement.count), items)
-    room, px_per_cu, corner = _clearance(arrangement, others)
+    room, px_per_cu, corner = free_room(arrangement, others)
     for k in items[np.argsort(-arrangement.radii[items], kind="stable")]:
         x, y, radius = room.largest()
         if radius < SMALLEST_VOID:
@@ -47,7 +47,7 @@ def relocate(arrangement: Arrangement, items: IntArray, gap: float) -> None:
         room.occupy(x, y, fitting * px_per_cu)
 
 
-def _clearance(
+def free_room(
     arrangement: Arrangement, items: IntArray
 ) -> tuple[Clearance, float, tuple[float, float]]:
     """Free room when only ``items`` are there; px per canvas unit; the image's corner."""

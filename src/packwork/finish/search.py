@@ -96,6 +96,7 @@ def search(
     room: Room,
     rng: np.random.Generator,
     stop: Stop = never,
+    tell: Callable[[int], None] | None = None,
 ) -> int:
     """Try to turn or exchange items; how many trials were kept.
 
@@ -116,6 +117,8 @@ def search(
         The only source of randomness.
     stop
         Asked before each trial; True ends the search.
+    tell
+        Called with the number of each trial, once it has been kept or undone.
     """
     wishes = wish(arrangement.places[:, 3])
     can_turn = bool((wishes.backmost < wishes.foremost).any())
@@ -136,9 +139,9 @@ def search(
         if wishes.power == AREA_POWER:
             heat = HEAT * room.spacing**2 * (1 - trial / trials)
             target -= heat * rng.exponential()
-        candidates = _at_angles(places, moved, wishes, rng)
+        candidates = at_angles(places, moved, wishes, rng)
         least, short = arrangement.places[:, 3].min(), _shortfall(arrangement, wishes, items)
-        gains = _put_best(arrangement, wishes, moved, candidates, room) and _grow(
+        gains = put_best(arrangement, wishes, moved, candidates, room) and _grow(
             arrangement, wishes, items, room, target
         )
         # Where the smallest counts, what all the others gain does not make up for it; nor
@@ -148,6 +151,8 @@ def search(
             kept += 1
         else:
             arrangement.put(items, before)
+        if tell is not None:
+            tell(trial)
         if (trial + 1) % arrangement.count == 0:
             _sweep(arrangement, wishes, room, trial)
         # How far an item may grow depends on how large the smallest is now.
@@ -168,7 +173,7 @@ def _sweep(arrangement: Arrangement, wishes: Wishes, room: Room, turn: int) -> N
             compact(arrangement, wishes, block, trust, room.gap, room.hair)
 
 
-def _put_best(
+def put_best(
     arrangement: Arrangement, wishes: Wishes, moved: IntArray, candidates: FloatArray, room: Room
 ) -> bool:
     """Put ``moved`` to the best of some candidate places; False if none comes clear.
@@ -228,7 +233,7 @@ def _exchanged(arrangement: Arrangement, rng: np.random.Generator) -> tuple[IntA
     return pair, places
 
 
-def _at_angles(
+def at_angles(
     places: FloatArray, moved: IntArray, wishes: Wishes, rng: np.random.Generator
 ) -> FloatArray:
     """``(angles, items, 4)``: the places, turned evenly apart with random beginnings.

@@ -107,8 +107,24 @@ def named(rule: Rule, voice: Voice, names: Sequence[str]) -> list[int]:
     >>> named(Rule(items=["b*", "fox"]), Voice("rules"), ["bear", "fox", "owl", "bee"])
     [0, 1, 3]
     """
+    return matching(rule.items, voice, names)
+
+
+def matching(patterns: Sequence[str], voice: Voice, names: Sequence[str]) -> list[int]:
+    """Which of the names match one of the patterns.
+
+    Raises
+    ------
+    RecipeError
+        If a pattern matches none.
+
+    Examples
+    --------
+    >>> matching(["b*"], Voice("force"), ["bear", "fox", "bee"])
+    [0, 2]
+    """
     found: set[int] = set()
-    for pattern in rule.items:
+    for pattern in patterns:
         hits = {k for k, name in enumerate(names) if fnmatchcase(name, pattern)}
         if not hits:
             raise voice.error(f"no item is called {pattern!r}; {_there_are(pattern, names)}")

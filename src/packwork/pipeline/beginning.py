@@ -11,8 +11,10 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.given import given_scales
 from packwork.pipeline.job import Job
 from packwork.pipeline.limiting import check_poses, held_to, item_limits, pinned_scales
+from packwork.pipeline.matching import matched
 from packwork.rules import Rotation
 from packwork.scene.canvas import brought_over
 from packwork.scene.container import Container
@@ -29,7 +31,6 @@ from packwork.start.angles import nearest_allowed, start_angles
 from packwork.start.first_poses import disc_radii, first_poses
 from packwork.start.relocate import relocated
 from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
-from packwork.units import convert
 
 NOMINAL_COVERAGE = 0.82
 """With free sizes: area of all items' hulls at their nominal sizes over the container's.
@@ -81,7 +82,7 @@ def begin(job: Job, container: Container, outlines: Sequence[Outline]) -> Beginn
     rng = np.random.default_rng(recipe.seed)
     nominal, scales = _scales(job, container, outlines)
     earlier = None if job.earlier is None else _earlier_poses(job, job.earlier, nominal)
-    angles = _angles(job, rng, earlier)
+    angles = first_angles(job, rng, earlier)
     limits = item_limits(job, nominal, scales, angles) if job.is_limited else None
     if limits is not None:
         scales = np.clip(scales, limits.smallest, limits.largest)
@@ -94,7 +95,9 @@ def begin(job: Job, container: Container, outlines: Sequence[Outline]) -> Beginn
         poses, method = first.poses, str(first.method)
     if limits is not None:
         check_poses(job, container, poses, limits)
-    if method in {"layout", "scatter"}:
+    if recipe.stay:
+        poses = relocated(container, outlines, poses, new_items(job), rng, limits)
+    elif method in {"layout", "scatter"}:
         poses = _unburied(container, outlines, poses, rng, limits)
     if limits is not None and limits.kinds is not None:
         poses = _kinds_apart(outlines, poses, limits, limits.kinds)
@@ -124,8 +127,8 @@ def _scales(
     seen = [outlines[k] for k in free]
     areas = np.array([outline.area for outline in seen])
     if recipe.sizes == "fixed":
-        # Items are in px, as their files say; the canvas may be in mm.
-        nominal[free] = scales[free] = convert(1.0, "px", container.unit)
+        given = given_scales(recipe, job.items, job.weights, container.unit, container.side)
+        nominal[free] = scales[free] = given[free]
     elif recipe.sizes == "shared":
         nominal[free] = scales[free] = shared_scales(true[free], areas, job.weights[free], total)
     else:
@@ -135,7 +138,7 @@ def _scales(
     return nominal, scales
 
 
-def _angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> FloatArray:
+def first_angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> FloatArray:
     """First angles, or those of an earlier layout: as the recipe, rules and pins allow."""
 
     def allowed(rotation: Rotation, items: IntArray) -> FloatArray:
@@ -151,6 +154,30 @@ def _angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> FloatA
         if "angle" in one.pin:
             angles[k] = np.radians(one.pin["angle"])
     return angles
+
+
+def _of_now(job: Job, earlier: Layout, poses: Poses, nominal: FloatArray) -> Poses:
+    """Poses of the items of now; those that are new lie in the middle, upright."""
+    found = _who_is_who(job, earlier)
+    known = found >= 0
+    if not known.any():
+        raise RecipeError("start", f"{job.recipe.start} has none of these items; leave --stay out")
+    middle = np.reshape(job.container.outline.bounds, (2, 2)).mean(axis=0)
+    ratio = float(np.median(poses.scale[found[known]] / nominal[known]))
+    x, y, angle = (np.full(len(found), value) for value in (*middle, 0.0))
+    of_now = Poses(x, y, angle, nominal * ratio)
+    return of_now.with_some(np.flatnonzero(known), poses.some(found[known]))
+
+
+def _who_is_who(job: Job, earlier: Layout) -> IntArray:
+    return matched([item.name for item in job.items], [item.name for item in earlier.items])
+
+
+def new_items(job: Job) -> IntArray:
+    """Items that an earlier layout does not have; none if there is no such layout."""
+    if job.earlier is None:
+        return np.arange(0)
+    return np.flatnonzero(_who_is_who(job, job.earlier) < 0)
 
 
 def _unburied(
@@ -185,12 +212,17 @@ def _earlier_poses(job: Job, earlier: Layout, nominal: FloatArray) -> Poses:
     """
     recipe = job.recipe
     poses = brought_over(earlier.poses, earlier.container, job.container)
+    if recipe.stay:
+        poses = _of_now(job, earlier, poses, nominal)
     if len(poses) != len(nominal):
         raise RecipeError(
             "start",
             f"{recipe.start} has {len(poses)} items, this run {len(nominal)}; give as many",
         )
-    if recipe.sizes == "shared":
+    if recipe.sizes == "shared" and recipe.stay:
+        # What most have; one that is to be larger now makes not all others so.
+        scale = nominal * np.median(poses.scale / nominal)
+    elif recipe.sizes == "shared":
         scale = nominal * np.sqrt(np.mean((poses.scale / nominal) ** 2))
     elif recipe.sizes == "fixed":
         scale = nominal

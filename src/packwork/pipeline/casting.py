@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -145,7 +146,7 @@ def turns(counts: Sequence[int | None], total: int | None) -> IntArray:
 
 
 def item_weights(items: Sequence[Item], weights: str | Mapping[str, float] | None) -> FloatArray:
-    """``(n,)`` share of area of each item, by its name; 1 where none is given.
+    """``(n,)`` share of area of each item, by its name or its file's; 1 where none is given.
 
     Raises
     ------
@@ -156,14 +157,23 @@ def item_weights(items: Sequence[Item], weights: str | Mapping[str, float] | Non
         return np.ones(len(items))
     table = read_weights(weights) if isinstance(weights, str) else weights
     names = {item.name for item in items}
+    files = {Path(item.source).name for item in items}
     for name, weight in table.items():
-        if name not in names:
+        if name not in names | files:
             raise RecipeError(
                 "weights", f"no item is called {name!r}; there are {', '.join(sorted(names)[:12])}"
             )
         if not (np.isfinite(weight) and weight > 0):
             raise RecipeError("weights", f"the weight of {name} must be positive, not {weight}")
-    return np.array([float(table.get(item.name, 1.0)) for item in items])
+    of_file = [table.get(Path(item.source).name, 1.0) for item in items]
+    pairs = zip(items, of_file, strict=True)
+    return np.array([float(table.get(item.name, other)) for item, other in pairs])
+
+
+def kinds(items: Sequence[Item]) -> IntArray:
+    """``(n,)`` the same number for items of one name."""
+    _, numbers = np.unique([item.name for item in items], return_inverse=True)
+    return np.asarray(numbers, dtype=np.int64)
 
 
 def _weights(items: Sequence[Item], asked: Sequence[Asked], recipe: Recipe) -> FloatArray:

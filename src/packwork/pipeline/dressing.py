@@ -11,6 +11,7 @@ from packwork.pipeline.asking import Asked
 from packwork.pipeline.beside import beside
 from packwork.pipeline.chart_colours import chart_colours
 from packwork.pipeline.job import Job
+from packwork.pipeline.legible import legible
 from packwork.pipeline.word_colours import word_colours
 from packwork.rules import OWN_COLOURS
 from packwork.scene.item import Art, Item
@@ -22,6 +23,11 @@ from packwork.writers.recolour import has_one_colour, recoloured
 
 
 def dressed(job: Job, layout: Layout) -> Layout:
+    """Layout whose items look and are called as was asked, and can be told from what is behind."""
+    return legible(job, _as_asked(job, layout))
+
+
+def _as_asked(job: Job, layout: Layout) -> Layout:
     """Layout whose items look and are called as rules and palette ask.
 
     Colours of a palette are given out in the order of the items, as many of each; then

@@ -14,6 +14,7 @@ from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.beginning import Beginning
+from packwork.pipeline.casting import kinds
 from packwork.pipeline.finishing import (
     Closing,
     gap_with_bulge,
@@ -23,7 +24,6 @@ from packwork.pipeline.finishing import (
     without,
 )
 from packwork.pipeline.job import Job
-from packwork.pipeline.limiting import kinds
 from packwork.pipeline.outcome import Filling
 from packwork.progress import Observer, Stop
 from packwork.readers.words.items import EM_PX
@@ -67,12 +67,15 @@ class GapFilling:
         All poses.
     filling
         What came of it.
+    ids
+        What the items were called by in steps, as some of them have left again.
     """
 
     job: Job
     start: Beginning
     exact: Finished
     filling: Filling
+    ids: IntArray
 
 
 def fill_gaps(
@@ -104,6 +107,7 @@ class _Run:
         self._rng = np.random.default_rng(job.recipe.seed)
         self._first = len(job.items)
         self.poses, self.added = exact.poses, list[int]()
+        self._ids, self._tried = np.arange(self._first), self._first
         self._originals = solid_outlines(job.recipe, job.items)
         self._yields = job.recipe.sizes == "free" and start.limits is None
         self._ranges = scale_ranges(job, start, exact.poses)
@@ -164,6 +168,7 @@ class _Run:
             replace(start, nominal=nominal, limits=limits),
             replace(self._exact, poses=self.poses),
             Filling(len(new), ending, self.coverage(), job.recipe.target_coverage),
+            self._ids,
         )
 
     def _let_in(self, count: int) -> int:
@@ -194,6 +199,9 @@ class _Run:
         large = poses.scale[self._first :] >= self._smallest[here]
         kept = np.append(np.arange(self._first), self._first + np.flatnonzero(large))
         arrived = int(large.sum()) - len(self.added)
+        ids = self._tried + np.arange(len(fillers.sort))
+        self._ids = np.append(self._ids, ids)[stay][kept]
+        self._tried += len(ids)
         self.poses, self.added = poses.some(kept), [int(k) for k in here[large]]
         return arrived
 
@@ -224,7 +232,9 @@ class _Run:
         return self.coverage()
 
     def _closing(self, movers: IntArray) -> Closing | None:
-        return None if self._observer is None else Closing(self._observer, self.poses, movers)
+        if self._observer is None:
+            return None
+        return Closing(self._observer, self.poses, movers, self._ids)
 
     def _all_outlines(self) -> list[Outline]:
         return [*self._originals, *(self._shapes[k] for k in self.added)]

@@ -6,6 +6,9 @@ import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError, ReadError, RecipeError
@@ -13,13 +16,19 @@ from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.casting import cast, cast_chart, cast_words
 from packwork.pipeline.chart_colours import chart_colours
+from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.framing import Frame, framed
+from packwork.pipeline.given import no_container
 from packwork.pipeline.regions import Region, read_regions
+from packwork.pipeline.sharing import shared_out
 from packwork.pipeline.word_colours import check_colours
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layout import read_layout
+from packwork.readers.photos.read import read_photos
+from packwork.readers.quiet.container import QuietOptions
+from packwork.readers.svg.walls import walled_container
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.recipe import Recipe
 from packwork.refusals import length_asked
@@ -89,6 +98,8 @@ class Job:
         What the items stand for, if they are marks of a chart.
     frame
         Where that chart's title and legend go.
+    mouths
+        ``(m, 2, 2)`` ends of the openings that a container of open paths has; None if none.
     """
 
     recipe: Recipe
@@ -105,6 +116,7 @@ class Job:
     letters: Letters | None = None
     chart: ChartRead | None = None
     frame: Frame | None = None
+    mouths: FloatArray | None = None
 
     @property
     def is_limited(self) -> bool:
@@ -125,21 +137,11 @@ def read(
     clock = Clock()
     skipped: tuple[PackworkError, ...] = ()
     with clock.time("read"):
-        if container is None:
-            region = read_container(recipe.container, recipe.canvas_size, recipe.font)
-        else:
-            region = on_canvas(container, recipe.canvas_size)
+        room, mouths = _container(recipe, container)
         words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)
         check_colours(recipe, () if words is None else words.words)
-        # Items are mixed in with words only if they were named.
-        named = "items" in recipe.model_fields_set and recipe.items
-        chart, frame = None, None
-        if recipe.chart is not None:
-            chart = _chart(recipe)
-            region, frame = framed(region, recipe.chart, chart, recipe.canvas_size)
-        if items is None and chart is None and (words is None or named):
-            found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
-            items, skipped = found.items, found.skipped
+        chart = None if recipe.chart is None else _chart(recipe)
+        items, skipped = (None, ()) if chart is not None else _items(recipe, items)
         if chart is not None:
             chosen = cast_chart(recipe, chart)
             skipped += tuple(ReadError(chart.table.name, notice) for notice in chart.notices)
@@ -147,6 +149,13 @@ def read(
             chosen = cast_words(recipe, words, items)
         else:
             chosen = cast(recipe, items or ())
+        region = no_container(recipe, chosen) if room is None else room
+        frame = None
+        if chart is not None and recipe.chart is not None:
+            region, frame = framed(region, recipe.chart, chart, recipe.canvas_size)
+        names = () if words is None else {item.name for item in words.items}
+        weights = shared_out(chosen.items, chosen.weights, names, recipe.share)
+        forces_of(recipe.force or (), chosen.items, weights, region)
         regions = read_regions(chosen.asked, region)
         earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
         fillers, more = _fillers(recipe, items or () if words is None else words.items)
@@ -160,7 +169,7 @@ def read(
         region,
         chosen.items,
         chosen.asked,
-        chosen.weights,
+        weights,
         regions,
         skipped,
         clock,
@@ -170,6 +179,7 @@ def read(
         _letters(recipe, region),
         chart,
         frame,
+        mouths,
     )
 
 
@@ -179,6 +189,28 @@ def _chart(recipe: Recipe) -> ChartRead:
     chart = read_chart(recipe.chart, recipe.holes)
     chart_colours(recipe, chart)
     return chart
+
+
+def _items(
+    recipe: Recipe, given: Sequence[Item] | None
+) -> tuple[tuple[Item, ...] | None, tuple[PackworkError, ...]]:
+    """Photos and items; None where words come alone, and files that were left out.
+
+    Items that were given are in place of the recipe's names.
+    """
+    items: tuple[Item, ...] = ()
+    skipped: tuple[PackworkError, ...] = ()
+    if recipe.photos is not None:
+        photos = read_photos(recipe.photos, strict=recipe.strict)
+        items, skipped = photos.items, photos.skipped
+    if given is not None:
+        return (*items, *given), skipped
+    # Items are mixed in with words and photos only if they were named.
+    is_alone = recipe.words is None and recipe.photos is None
+    if is_alone or ("items" in recipe.model_fields_set and recipe.items):
+        found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
+        items, skipped = (*items, *found.items), (*skipped, *found.skipped)
+    return items or None, skipped
 
 
 def _letters(recipe: Recipe, container: Container) -> Letters | None:
@@ -209,6 +241,31 @@ def _letters(recipe: Recipe, container: Container) -> Letters | None:
             "smallest", f"is {letters.smallest:g}, more than the {letters.largest:g} of --largest"
         )
     return letters if found else None
+
+
+def _container(
+    recipe: Recipe, given: Container | None
+) -> tuple[Container | None, FloatArray | None]:
+    """The container, None for none at all, and its openings if it is drawn with some."""
+    if given is not None:
+        return on_canvas(given, recipe.canvas_size), None
+    if recipe.pile is not None and recipe.container == "none":
+        return None, None
+    if recipe.pile is not None and Path(recipe.container).suffix.lower() == ".svg":
+        size = recipe.canvas_size
+        walled = walled_container(recipe.container, None if size is None else size.side)
+        if walled is not None:
+            placed = on_canvas(walled[0], size)
+            return placed, _brought_along(walled[1], walled[0], placed)
+    quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
+    return read_container(recipe.container, recipe.canvas_size, recipe.font, quiet), None
+
+
+def _brought_along(points: FloatArray, before: Container, after: Container) -> FloatArray:
+    """Points of a container that has been put on another canvas."""
+    scale = after.outline.extent / before.outline.extent
+    old, new = (np.array(c.outline.bounds[:2]) for c in (before, after))
+    return np.asarray(new + (points - old) * scale)
 
 
 def _fillers(

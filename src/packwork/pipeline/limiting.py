@@ -2,19 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
 
 import numpy as np
 import shapely
 
-from packwork.arrays import FloatArray, IntArray
+from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region
 from packwork.pipeline.asking import Voice
+from packwork.pipeline.casting import kinds
 from packwork.pipeline.job import Job
 from packwork.scene.container import Container
-from packwork.scene.item import Item
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.units import parse_length
@@ -67,12 +66,6 @@ def item_limits(job: Job, nominal: FloatArray, scales: FloatArray, angles: Float
         zones=tuple(region.zone for region in job.regions),
         kinds=kinds(job.items) if job.recipe.keeps_apart else None,
     )
-
-
-def kinds(items: Sequence[Item]) -> IntArray:
-    """``(n,)`` the same number for items of one name."""
-    _, numbers = np.unique([item.name for item in items], return_inverse=True)
-    return np.asarray(numbers, dtype=np.int64)
 
 
 def held_to(limits: Limits, poses: Poses) -> Poses:

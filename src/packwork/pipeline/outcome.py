@@ -103,6 +103,10 @@ class Run:
     words
         How many different words the source holds, and how many of them were to be set; None
         if there are none.
+    left_out
+        Unplaced items that are not in the layout.
+    pile
+        How the items lie, if they were heaped.
     """
 
     layout: Layout
@@ -116,6 +120,8 @@ class Run:
     broken: tuple[str, ...] = ()
     filling: Filling | None = None
     words: WordsFound | None = None
+    left_out: int = 0
+    pile: Mapping[str, Any] | None = None
 
     @property
     def is_as_asked(self) -> bool:
@@ -131,7 +137,10 @@ class Run:
     @property
     def asked_for(self) -> int:
         """Items that were to be placed; words that no font could draw are among them."""
-        return max([len(self.layout.items), *(one.index + 1 for one in self.unplaced)])
+        placed = len(self.layout.items)
+        if self.left_out:
+            return placed + self.left_out
+        return max([placed, *(one.index + 1 for one in self.unplaced)])
 
     def report(self, write_seconds: float = 0.0) -> dict[str, Any]:
         """Plain values for ``--report``."""
@@ -151,6 +160,7 @@ class Run:
             "broken": list(self.broken),
             "filling": None if self.filling is None else asdict(self.filling),
             "words": None if self.words is None else asdict(self.words),
+            "pile": None if self.pile is None else dict(self.pile),
             "ending": self.ending.value,
             "seed": self.layout.manifest["seed"],
         }

@@ -3,38 +3,41 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from itertools import count
 
 import numpy as np
 
+from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
+from packwork.forces.forces import Forces
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
 from packwork.levels import refined_levels
-from packwork.metrics.certificate import Promise, broken
-from packwork.metrics.measure import measure
 from packwork.metrics.pixel import pixel_metrics
+from packwork.piles import PileOptions
 from packwork.pipeline.beginning import Beginning, begin
-from packwork.pipeline.beside import same_kind_beside
-from packwork.pipeline.dressing import dressed
 from packwork.pipeline.finishing import finished, unfinished
+from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job, read
-from packwork.pipeline.legend import legend_notes
+from packwork.pipeline.judging import Judged, judged
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
-from packwork.pipeline.outcome import Filling, Run, find_unplaced, manifest, undrawn, words_found
-from packwork.progress import Observer, Stop, never
+from packwork.pipeline.outcome import Filling, Run, find_unplaced
+from packwork.pipeline.piling import run_pile
+from packwork.pipeline.recording import Recorder
+from packwork.pipeline.staying import calmed, needs_no_levels, with_homes
+from packwork.progress import Observer, Stop, never, together
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
-from packwork.solve.solver import Outcome, solve
+from packwork.solve.solver import Ending, Outcome, solve
 from packwork.solve.stand_ins import stand_ins
 
 LEVELS_SHARE = 0.6
@@ -48,6 +51,7 @@ def fill(
     container: Container | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
+    record: bool = False,
 ) -> Run:
     """Fill a container with items.
 
@@ -61,6 +65,8 @@ def fill(
         Told of progress.
     stop
         Asked before every epoch; True ends the run with what it has.
+    record
+        Keep the way of the items, in the layout's ``track``.
 
     Raises
     ------
@@ -69,28 +75,46 @@ def fill(
     RecipeError
         If an option has no meaning for these files.
     """
-    return run(read(recipe, items, container), observer, stop)
+    return run(read(recipe, items, container), observer, stop, record)
 
 
-def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
-    """Solve and measure what was read; the second half of :func:`fill`.
+def run(
+    job: Job, observer: Observer | None = None, stop: Stop = never, record: bool = False
+) -> Run:
+    """Solve and measure what was read; the second half of :func:`fill`."""
+    if job.recipe.pile is not None:
+        return _heaped(job, job.recipe.pile, observer, stop, record)
+    placed = _placed_readably(job, observer, stop, record)
+    job, exact, recorder = placed.job, placed.exact, placed.recorder
+    start, poses = placed.start, placed.poses
+    ids: IntArray | None = None
+    filling: Filling | None = None
+    if exact is not None and job.recipe.fills_gaps:
+        with job.clock.time("gaps"):
+            filled = fill_gaps(job, start, exact, together(observer, recorder), stop)
+        job, start, exact = filled.job, filled.start, filled.exact
+        poses, filling, ids = exact.poses, filled.filling, filled.ids
+    unplaced = None if exact is None else unfinished(job, exact)
+    found = Judged(poses, start.method, start.limits, placed.outcome, unplaced, filling)
+    return _with_track(judged(job, found), recorder, ids)
 
-    Where words would come out smaller than they may be, those are left out and the others
-    are placed anew.
-    """
-    job = without_hopeless(job)
-    for attempt in count(1):
-        placed = _placed(job, observer, stop)
-        fewer = job if stop() else with_readable(job, placed.poses, attempt)
-        if fewer is job:
-            break
-        job = fewer
-    if placed.exact is None or not job.recipe.fills_gaps:
-        return _judged(job, placed.start, placed.outcome, placed.exact, placed.poses, None)
-    with job.clock.time("gaps"):
-        filled = fill_gaps(job, placed.start, placed.exact, observer, stop)
-    return _judged(
-        filled.job, filled.start, placed.outcome, filled.exact, filled.exact.poses, filled.filling
+
+def _heaped(
+    job: Job, asked: PileOptions, observer: Observer | None, stop: Stop, record: bool
+) -> Run:
+    """A pile, and the way of those that found room."""
+    recorder = Recorder() if record else None
+    done = run_pile(job, asked, together(observer, recorder), stop)
+    left = [one.index for one in done.unplaced]
+    return _with_track(done, recorder, np.setdiff1d(np.arange(len(job.items)), left))
+
+
+def _with_track(done: Run, recorder: Recorder | None, ids: IntArray | None) -> Run:
+    if recorder is None:
+        return done
+    layout = done.layout
+    return replace(
+        done, layout=replace(layout, track=recorder.track(layout.poses, ids, layout.items))
     )
 
 
@@ -98,79 +122,79 @@ def run(job: Job, observer: Observer | None = None, stop: Stop = never) -> Run:
 class _Placed:
     """What the levels gave, and the finish if one was asked for."""
 
+    job: Job
     start: Beginning
     outcome: Outcome
     exact: Finished | None
+    recorder: Recorder | None
 
     @property
     def poses(self) -> Poses:
         return self.outcome.poses if self.exact is None else self.exact.poses
 
 
-def _placed(job: Job, observer: Observer | None, stop: Stop) -> _Placed:
-    """Poses of all items, before voids are filled."""
+def _placed_readably(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _Placed:
+    """Poses of all items, before voids are filled.
+
+    Where words would come out smaller than they may be, those are left out and the others
+    are placed anew.
+    """
+    job = without_hopeless(job)
+    for attempt in count(1):
+        placed = _placed(job, observer, stop, record)
+        fewer = job if stop() else with_readable(job, placed.poses, attempt)
+        if fewer is job:
+            break
+        job = fewer
+    return placed
+
+
+def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _Placed:
+    """Poses of all items, whatever their sizes."""
     recipe, clock = job.recipe, job.clock
+    recorder = Recorder() if record else None
+    observer = together(observer, recorder)
     with clock.time("start"):
         outlines = stand_ins([item.outline for item in job.items], recipe.outline)
-        padding = recipe.padding_cu(job.container)
-        region = padded(job.container, padding)
+        region = padded(job.container, recipe.padding_cu(job.container))
         start = begin(job, region, outlines)
+    if recorder is not None:
+        recorder.keep(start.poses)
     with clock.time("levels"):
-        options = _solve_options(job, padding)
-        outcome = solve(
-            region, outlines, start.poses, start.nominal, options, observer, stop, start.limits
-        )
+        outcome = _levels(job, region, outlines, start, observer, stop)
     if recipe.finish != "exact":
-        return _Placed(start, outcome, None)
+        return _Placed(job, start, outcome, None, recorder)
     with clock.time("finish"):
         exact = finished(job, start, outcome.poses, observer, stop)
         exact = held_down(job, start, exact, observer, stop)
-    return _Placed(start, outcome, exact)
+    return _Placed(job, start, outcome, exact, recorder)
 
 
-def _judged(
+def _levels(
     job: Job,
+    region: Container,
+    outlines: Sequence[Outline],
     start: Beginning,
-    outcome: Outcome,
-    exact: Finished | None,
-    poses: Poses,
-    filling: Filling | None,
-) -> Run:
-    """The result, measured and compared with what was promised."""
-    recipe, clock = job.recipe, job.clock
-    layout = Layout(job.container, job.items, poses, job.weights)
-    with clock.time("measure"):
-        metrics = measure(layout)
-        unplaced = () if exact is None else unfinished(job, exact)
-        if not unplaced and (exact is None or not metrics.exact.is_clean):
-            unplaced = find_unplaced(layout, start.limits)
-        unplaced += undrawn(job)
-        shares = recipe.sizes == "shared" and start.limits is None
-        promise = Promise(recipe.padding_cu(job.container), shares) if exact is not None else None
-        faults = () if promise is None else broken(promise, layout, metrics.exact)
-        beside = None if start.limits is None else same_kind_beside(layout, start.limits.kinds)
-    words = words_found(job)
-    certified = promise is not None and not faults and not unplaced
-    said = manifest(job, start.method, outcome, metrics, unplaced, beside)
-    said |= {
-        "certified": certified,
-        "promised": None if promise is None else asdict(promise),
-        "filling": None if filling is None else asdict(filling),
-        "words": None if words is None else asdict(words),
-    }
-    return Run(
-        layout=replace(dressed(job, layout), manifest=said, notes=legend_notes(job, layout)),
-        metrics=metrics,
-        seconds=clock.seconds,
-        ending=outcome.ending,
-        unplaced=unplaced,
-        skipped=job.skipped,
-        beside=beside,
-        certified=certified,
-        broken=faults,
-        filling=filling,
-        words=words,
+    observer: Observer | None,
+    stop: Stop,
+) -> Outcome:
+    """What the levels make of the first poses; those themselves, where items are to stay."""
+    if needs_no_levels(job):
+        return Outcome(start.poses, Ending.DONE)
+    options = _solve_options(job, job.recipe.padding_cu(job.container))
+    forces = _forces(job)
+    if job.recipe.stay:
+        options = calmed(options)
+        forces = with_homes(job, forces, start.poses, job.container)
+    return solve(
+        region, outlines, start.poses, start.nominal, options, observer, stop, start.limits, forces
     )
+
+
+def _forces(job: Job) -> Forces | None:
+    """What pulls items about, if anything."""
+    texts = job.recipe.force
+    return forces_of(texts, job.items, job.weights, job.container) if texts else None
 
 
 def _solve_options(job: Job, padding: float) -> SolveOptions:

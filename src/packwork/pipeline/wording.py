@@ -8,6 +8,7 @@ from typing import Any
 from pydantic import ValidationError
 
 from packwork.errors import RecipeError
+from packwork.readers.quiet.container import AROUND
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.refusals import refusal
@@ -54,7 +55,7 @@ def words_recipe(
     own = {key: options.pop(key) for key in list(options) if key in WordOptions.model_fields}
     asked = _word_options({"source": _plain_source(source), **own})
     chosen = {**DEFAULTS, **{key: value for key, value in options.items() if value is not None}}
-    chosen["palette"] = _palette(chosen.get("palette"), asked)
+    chosen["palette"] = _palette(chosen.get("palette"), asked, container)
     return make_recipe(container=container, items=list(add), words=asked, **chosen)
 
 
@@ -79,13 +80,15 @@ def _plain_source(source: object) -> object:
         ) from None
 
 
-def _palette(palette: object, asked: WordOptions) -> tuple[str, ...]:
-    """Colours that can be read on the background."""
+def _palette(palette: object, asked: WordOptions, container: str) -> tuple[str, ...]:
+    """Colours that can be read on the background; a picture is one word by word, later."""
     default = PALETTE if asked.color_by is None else RAMP
     try:
         colours = palette_colours(default if palette is None else palette)
     except ValueError as error:
         raise RecipeError("palette", str(error)) from None
+    if container.startswith(AROUND):
+        return tuple(dict.fromkeys(colours))
     paper = asked.paper or PAPER
     # A ramp of the same colour again and again would tell nothing: the ends stay unlike.
     return tuple(dict.fromkeys(readable(colour, paper, asked.contrast) for colour in colours))

@@ -10,22 +10,27 @@ from packwork.readers.files import exists, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
+from packwork.readers.quiet.container import AROUND, QuietOptions, container_around
 from packwork.readers.svg.container import container_of_svg, placed_container
 from packwork.readers.text import PREFIX
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
 
-_FORMS = "a PNG or JPEG mask, an SVG, text:WORD or a built-in name such as circle or heart"
-_LATER = "around:"
+_FORMS = (
+    "a PNG or JPEG mask, an SVG, text:WORD, around:IMAGE or a built-in name such as circle or heart"
+)
 
 
 def read_container(
     source: str | Path,
     canvas: str | float | CanvasSize | None = None,
     font: str | Path | None = None,
+    quiet: QuietOptions | None = None,
 ) -> Container:
-    """Container of a mask, an SVG, ``text:WORD`` or a built-in name; a path that exists wins.
+    """Container of a mask, an SVG, ``text:WORD``, ``around:IMAGE`` or a built-in name.
+
+    A path that exists wins over a name.
 
     Parameters
     ----------
@@ -34,6 +39,8 @@ def read_container(
         else 600 px on the longer side.
     font
         Font file for ``text:WORD``; the bundled one if None.
+    quiet
+        Which part of the picture ``around:IMAGE`` is; 40 % of it if None.
 
     Raises
     ------
@@ -51,14 +58,16 @@ def read_container(
     (200.0, 150.0, 'mm', (25.0, 0.0, 175.0, 150.0))
     """
     size = canvas_size(canvas) if isinstance(canvas, str | int | float) else canvas
-    container = _container(str(source), None if size is None else size.side, font)
+    container = _container(str(source), None if size is None else size.side, font, quiet)
     if size is not None:
         return on_canvas(container, size)
     check_side(container.side, container.unit)
     return container
 
 
-def _container(text: str, side: float | None, font: str | Path | None) -> Container:
+def _container(
+    text: str, side: float | None, font: str | Path | None, quiet: QuietOptions | None
+) -> Container:
     """Container whose canvas is ``side`` long; None lets the file decide."""
     if text.startswith(BUILTIN):
         return builtin_container(text.removeprefix(BUILTIN), side or DEFAULT_SIDE)
@@ -71,7 +80,9 @@ def _container(text: str, side: float | None, font: str | Path | None) -> Contai
         from packwork.readers.text.container import container_of_words
 
         return container_of_words(text, side or DEFAULT_SIDE, font)
-    if text == "none" or text.startswith(_LATER):
+    if text.startswith(AROUND):
+        return container_around(text, side or DEFAULT_SIDE, quiet or QuietOptions(), read_container)
+    if text == "none":
         raise ReadError(text, f"this form of container is not known yet; give {_FORMS}")
     if path.suffix.lower() in {".svg", *PICTURE_ENDINGS} or len(path.parts) > 1:
         known = path.stem in container_names() and len(path.parts) == 1

@@ -8,6 +8,7 @@ from typing import Any
 
 from packwork.errors import ReadError
 from packwork.readers.files import read_text
+from packwork.readers.quiet.container import AROUND
 
 MAX_BYTES = 1_000_000
 """Largest recipe file. Chosen."""
@@ -42,14 +43,17 @@ def read_recipe(path: str | Path) -> dict[str, Any]:
     for key in ("container", "weights", "start", "font"):
         if isinstance(options.get(key), str):
             options[key] = _found(options[key], folder)
-    if isinstance(options.get("items"), list):
-        options["items"] = [
-            _found(entry, folder) if isinstance(entry, str) else entry for entry in options["items"]
-        ]
+    for key in ("items", "keep_clear"):
+        if isinstance(options.get(key), list):
+            options[key] = [
+                _found(entry, folder) if isinstance(entry, str) else entry for entry in options[key]
+            ]
     if isinstance(options.get("words"), dict):
         _find_words(options["words"], folder)
     if isinstance(options.get("chart"), dict):
         _find_chart(options["chart"], folder)
+    if isinstance(options.get("photos"), dict):
+        _find_photos(options["photos"], folder)
     rules = options.get("rules")
     for rule in rules if isinstance(rules, list) else ():
         if isinstance(rule, dict) and isinstance(rule.get("region"), str):
@@ -72,7 +76,18 @@ def _find_chart(chart: dict[str, Any], folder: Path) -> None:
         chart["mark"] = [_found(m, folder) if isinstance(m, str) else m for m in chart["mark"]]
 
 
+def _find_photos(photos: dict[str, Any], folder: Path) -> None:
+    if isinstance(photos.get("shape"), str):
+        photos["shape"] = _found(photos["shape"], folder)
+    if isinstance(photos.get("sources"), list):
+        photos["sources"] = [
+            _found(s, folder) if isinstance(s, str) else s for s in photos["sources"]
+        ]
+
+
 def _found(name: str, folder: Path) -> str:
+    if name.startswith(AROUND):
+        return AROUND + _found(name.removeprefix(AROUND), folder)
     try:
         return str(folder / name) if (folder / name).exists() else name
     except (OSError, ValueError):

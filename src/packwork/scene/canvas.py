@@ -36,8 +36,14 @@ def on_canvas(container: Container, size: CanvasSize | None) -> Container:
         width, height = size.width, size.height
         scale = min(width / container.width, height / container.height)
     x, y = (width - container.width * scale) / 2, (height - container.height * scale) / 2
-    placed = container.outline.mapped(affine.similarity(x, y, 0.0, scale))
-    return replace(container, outline=placed, width=width, height=height, unit=size.unit)
+    place = affine.similarity(x, y, 0.0, scale)
+    behind = container.backdrop
+    if behind is not None:
+        behind = replace(behind, matrix=affine.compose(place, behind.matrix))
+    return replace(
+        container, outline=container.outline.mapped(place), width=width, height=height,
+        unit=size.unit, backdrop=behind,
+    )  # fmt: skip
 
 
 def brought_over(poses: Poses, old: Container, new: Container) -> Poses:

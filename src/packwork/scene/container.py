@@ -4,8 +4,26 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.scene.item import PhotoArt
 from packwork.units import Unit
+
+
+@dataclass(frozen=True, eq=False)
+class Backdrop:
+    """A picture that is drawn under all items.
+
+    Parameters
+    ----------
+    art
+        The picture.
+    matrix
+        2 x 3 map from its own units to canvas units.
+    """
+
+    art: PhotoArt
+    matrix: FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,6 +42,8 @@ class Container:
         The canvas, in canvas units; its top left corner is the origin.
     unit
         What one canvas unit is; px are 96 to the inch.
+    backdrop
+        The picture whose quiet part this is, if it is one's.
     """
 
     name: str
@@ -32,6 +52,7 @@ class Container:
     width: float
     height: float
     unit: Unit = "px"
+    backdrop: Backdrop | None = None
 
     @property
     def canvas(self) -> dict[str, float | str]:

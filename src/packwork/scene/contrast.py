@@ -24,6 +24,7 @@ _TO_LAB = np.array(
 )
 _LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 _STEPS = 40
+_LIGHTS = 101
 
 
 def contrast(first: str, second: str) -> float:
@@ -36,6 +37,58 @@ def contrast(first: str, second: str) -> float:
     """
     bright, dark = sorted((_luminance(_linear(c)) for c in (first, second)), reverse=True)
     return (bright + 0.05) / (dark + 0.05)
+
+
+def contrast_over(colour: str, darkest: float, brightest: float) -> float:
+    """Least contrast of a colour with grounds between two luminances, as WCAG counts it.
+
+    Examples
+    --------
+    >>> round(contrast_over("white", 0.0, 0.05), 1), contrast_over("#808080", 0.0, 1.0)
+    (10.5, 1.0)
+    """
+    own = _luminance(_linear(colour))
+    if darkest <= own <= brightest:
+        return 1.0
+    near = brightest if own > brightest else darkest
+    return (max(own, near) + 0.05) / (min(own, near) + 0.05)
+
+
+def readable_over(colour: str, darkest: float, brightest: float, least: float) -> str | None:
+    """Colour of that contrast with all grounds between two luminances; None if there is none.
+
+    The colour itself if it has it, else the nearest darker or lighter one, its hue kept.
+
+    Examples
+    --------
+    >>> readable_over("#004488", 0.5, 1.0, 4.5), readable_over("#004488", 0.0, 1.0, 4.5)
+    ('#004488', None)
+    >>> contrast_over(readable_over("#004488", 0.0, 0.1, 4.5), 0.0, 0.1) >= 4.5
+    True
+    """
+    lab = _TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour))
+    lights = np.concatenate([lab[:1], np.linspace(0.0, 1.0, _LIGHTS)])
+    nearest_first = lights[np.argsort(np.abs(lights - lab[0]), kind="stable")]
+    shades = (colour if light == lab[0] else _hex(_at(lab, light)) for light in nearest_first)
+    enough = (c for c in shades if contrast_over(c, darkest, brightest) >= least)
+    return next(enough, None)
+
+
+def luminances(rgb: FloatArray) -> FloatArray:
+    """Relative luminance of colours, as WCAG defines it.
+
+    Parameters
+    ----------
+    rgb
+        ``(..., 3)``, 0..1, as screens have them.
+
+    Examples
+    --------
+    >>> luminances(np.array([[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])).round(6).tolist()
+    [1.0, 0.0]
+    """
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return np.asarray(linear @ _LUMINANCE)
 
 
 def readable(colour: str, background: str, least: float) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
@@ -59,7 +59,30 @@ class PictureArt:
     matrix: FloatArray
 
 
-Art: TypeAlias = FlatArt | VectorArt | PictureArt
+class Original(Protocol):
+    """A photograph on disk, opened anew each time it is printed."""
+
+    def printed(self, px_per_unit: float) -> VectorArt:
+        """The photograph with that many pixels per item unit, never more than it has."""
+
+
+@dataclass(frozen=True, eq=False)
+class PhotoArt:
+    """A photograph of which only a small copy is kept.
+
+    Parameters
+    ----------
+    preview
+        The small copy, for screens.
+    original
+        Where a writer gets as many pixels as the print needs.
+    """
+
+    preview: VectorArt
+    original: Original
+
+
+Art: TypeAlias = FlatArt | VectorArt | PictureArt | PhotoArt
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +106,9 @@ class Item:
         What this one is called in a file, where it links to, its tooltip.
     text
         What it says, if it is a word; its art then draws these letters and nothing else.
+    halo
+        Colour of a rim that makes it stand out from a picture behind; empty for none. It is
+        no part of the item, and is drawn under all.
     """
 
     name: str
@@ -92,3 +118,4 @@ class Item:
     art: Art
     label: Label = field(default_factory=Label)
     text: LiveText | None = None
+    halo: str = ""

@@ -16,6 +16,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.note import Note
 from packwork.scene.pose import Poses
+from packwork.scene.track import Track
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -36,6 +37,8 @@ class Layout:
         What the run did: version, recipe, seed, seconds and metrics per level.
     notes
         Letters and keys that are drawn beside the items.
+    track
+        How the items came here; None if that was not recorded.
     """
 
     container: Container
@@ -44,6 +47,7 @@ class Layout:
     weights: FloatArray
     manifest: Mapping[str, Any] = field(default_factory=dict)
     notes: tuple[Note, ...] = ()
+    track: Track | None = None
 
     def __post_init__(self) -> None:
         if not len(self.items) == len(self.poses) == len(self.weights):

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
 from packwork.losses.recall import Recall
@@ -23,6 +24,12 @@ from packwork.solve.zones import ZonePull
 RECALL_PX = 200
 """Finest image on which the way back to the container is looked up. Larger costs a
 distance transform that no item notices. Chosen."""
+
+
+FORCE_WEIGHT = 30.0
+"""Weight of a force of strength 1: an item that is drawn across the whole canvas pays for
+being covered thirty times over. Larger presses items into each other, smaller is drowned by
+the reward for filling. Tried."""
 
 
 class Level:
@@ -42,6 +49,8 @@ class Level:
         ``(n,)`` scales that were asked for; all ones if None.
     limits
         Zones that items stay in and kinds to keep apart; None for none.
+    forces
+        What pulls items about; None for nothing.
     """
 
     def __init__(
@@ -52,7 +61,9 @@ class Level:
         losses: Iterable[str | ImageLoss] = FUSED,
         nominal: FloatArray | None = None,
         limits: Limits | None = None,
+        forces: Forces | None = None,
     ) -> None:
+        self._forces, self._side = forces, container.side
         self.resolution = resolution
         self.px_per_cu = resolution / container.side
         shape = image_shape(container.width, container.height, resolution)
@@ -104,6 +115,10 @@ class Level:
         _add(by_pose, called, recall * self.px_per_cu / self.resolution)
         for zone in self.zones:
             zone.add(by_pose, poses, recall)
+        if self._forces is not None:
+            centres = np.column_stack([poses.x, poses.y])
+            pull = self._forces(centres, self.areas * poses.scale**2)
+            by_pose[:, :2] += FORCE_WEIGHT / self._side * pull.slopes
         for name, loss in self._of_poses.items():
             # Their values have no unit: weighed by the container's area, as a mean over
             # its pixels would be.

@@ -10,6 +10,7 @@ from enum import Enum
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import Observer, Step, Stop, never
 from packwork.scene.container import Container
@@ -68,6 +69,7 @@ def solve(
     observer: Observer | None = None,
     stop: Stop = never,
     limits: Limits | None = None,
+    forces: Forces | None = None,
 ) -> Outcome:
     """Move, turn and size items so that they fill the container and do not overlap.
 
@@ -92,8 +94,10 @@ def solve(
         Asked before every epoch; True ends the run.
     limits
         Bounds of single items, which the start has to keep; None for none.
+    forces
+        What pulls items about; None for nothing.
     """
-    run = _Run(container, outlines, start, nominal, options, observer, stop, limits)
+    run = _Run(container, outlines, start, nominal, options, observer, stop, limits, forces)
     reports = []
     for index in range(len(options.levels)):
         if not run.pace.has_reached(index, 1.0):
@@ -116,7 +120,9 @@ class _Run:
         observer: Observer | None,
         stop: Stop,
         limits: Limits | None,
+        forces: Forces | None,
     ) -> None:
+        self._forces = forces
         self.motion = Motion(start, nominal, container.side, options, limits)
         self.pace = pace_of(options)
         self.is_stopped = False
@@ -134,8 +140,9 @@ class _Run:
         px_per_cu = resolution / self._container.side
         seen = seen_posed(self._outlines, self.motion.poses, px_per_cu, self._options.margin)
         level = Level(
-            self._container, seen, resolution, self._options.losses, self._nominal, self._limits
-        )
+            self._container, seen, resolution, self._options.losses, self._nominal, self._limits,
+            self._forces,
+        )  # fmt: skip
         is_last = index == len(self._options.levels) - 1
         rescues: list[Rescue] | None = None if self._options.herd else []
         while not self.pace.has_reached(index, 1.0):
@@ -188,7 +195,8 @@ class _Run:
         observer.on_step(
             Step(
                 index, len(self._options.levels), level.resolution, self._done,
-                self.pace.progress(), poses, *level.shares(level.density(poses)),
+                self.pace.progress(), poses, lambda: level.shares(level.density(poses)),
+                is_last=is_end,
             )
         )  # fmt: skip
 

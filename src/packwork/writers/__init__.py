@@ -1,38 +1,79 @@
-"""Layouts to files, all through one atomic writer."""
+"""Layouts to files, all through one atomic writer.
 
-from packwork.writers.atomic import check_outputs, check_writable, write_all, write_atomic
-from packwork.writers.diagnose import diagnose_png
-from packwork.writers.geojson import geojson_text
-from packwork.writers.png import PngOptions, png_bytes
-from packwork.writers.recipe import recipe_bytes
-from packwork.writers.registry import (
-    WRITERS,
-    WriteOptions,
-    check_output,
-    encoded,
-    write,
-    write_options,
-)
-from packwork.writers.report import json_bytes
-from packwork.writers.svg import SvgOptions, svg_text
+Names load what they need when they are first used: the options of films are part of the
+command line's help, which loads nothing heavy.
+"""
+
+from __future__ import annotations
+
+import importlib
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from packwork.writers.atomic import check_outputs, check_writable, write_all, write_atomic
+    from packwork.writers.diagnose import diagnose_png
+    from packwork.writers.film.film import Film, tell_nobody
+    from packwork.writers.film.registry import FILMS, check_film, film_bytes
+    from packwork.writers.geojson import geojson_text
+    from packwork.writers.png import PngOptions, png_bytes
+    from packwork.writers.recipe import recipe_bytes
+    from packwork.writers.registry import (
+        WRITERS,
+        WriteOptions,
+        check_output,
+        encoded,
+        write,
+        write_options,
+    )
+    from packwork.writers.report import json_bytes
+    from packwork.writers.svg import SvgOptions, TextChoice, svg_text
 
 __all__ = [
+    "FILMS",
     "WRITERS",
+    "Film",
     "PngOptions",
     "SvgOptions",
+    "TextChoice",
     "WriteOptions",
+    "check_film",
     "check_output",
     "check_outputs",
     "check_writable",
     "diagnose_png",
     "encoded",
+    "film_bytes",
     "geojson_text",
     "json_bytes",
     "png_bytes",
     "recipe_bytes",
     "svg_text",
+    "tell_nobody",
     "write",
     "write_all",
     "write_atomic",
     "write_options",
 ]
+
+_HOMES = {
+    "atomic": ("check_outputs", "check_writable", "write_all", "write_atomic"),
+    "diagnose": ("diagnose_png",),
+    "film.film": ("Film", "tell_nobody"),
+    "film.registry": ("FILMS", "check_film", "film_bytes"),
+    "geojson": ("geojson_text",),
+    "png": ("PngOptions", "png_bytes"),
+    "recipe": ("recipe_bytes",),
+    "registry": (
+        "WRITERS", "WriteOptions", "check_output", "encoded", "write", "write_options",
+    ),
+    "report": ("json_bytes",),
+    "svg": ("SvgOptions", "TextChoice", "svg_text"),
+}  # fmt: skip
+
+
+def __getattr__(name: str) -> Any:
+    """Load a name when it is first used."""
+    for home, names in _HOMES.items():
+        if name in names:
+            return getattr(importlib.import_module(f"packwork.writers.{home}"), name)
+    raise AttributeError(f"module 'packwork.writers' has no attribute {name!r}")

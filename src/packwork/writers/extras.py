@@ -9,8 +9,11 @@ from types import MappingProxyType
 
 from packwork.errors import WriteError
 
-PACKAGES: Mapping[str, str] = MappingProxyType({".pdf": "typst", ".dxf": "ezdxf"})
-"""File ending to the package it needs: the extras ``pdf`` and ``dxf`` of the project."""
+PACKAGES: Mapping[str, str] = MappingProxyType(
+    {".pdf": "typst", ".dxf": "ezdxf", ".mp4": "av", ".webm": "av"}
+)
+"""File ending to the package it needs: the extras ``pdf``, ``dxf`` and ``video`` of the
+project."""
 
 
 def check_extra(path: str | Path) -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from packwork.errors import RecipeError
 from packwork.raster.pyramid import image_shape
 from packwork.scene.container import Container
+from packwork.units import convert
 
 MAX_SIDE_PX = 20_000
 """Longer side of a picture at most. Larger: no renderer at hand is tested there. Chosen."""
@@ -31,6 +32,47 @@ class Frame:
     rows: int
     columns: int
     px_per_cu: float
+
+
+def side_at(container: Container, dpi: float) -> int:
+    """Longer side, in pixels, of a picture of the canvas with that many to the inch.
+
+    Raises
+    ------
+    RecipeError
+        If no picture may be so large.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> tile = Outline.from_rings([[[0, 0], [9, 0], [9, 4]]])
+    >>> side_at(Container("tile", "tile", tile, 60.0, 40.0, "cm"), 300)
+    7087
+    """
+    side_px = max(1, round(dpi * convert(container.side, container.unit, "in")))
+    if side_px > MAX_SIDE_PX:
+        most = MAX_SIDE_PX / convert(container.side, container.unit, "in")
+        raise RecipeError(
+            "dpi",
+            f"{dpi:g} make {side_px:,} px of {container.side:g} {container.unit}, and "
+            f"{MAX_SIDE_PX:,} are the most; use {int(most)} or less",
+        )
+    return side_px
+
+
+def dots_per_inch(container: Container, longer_side_px: int) -> float | None:
+    """Pixels to the inch of paper; None of a canvas in px, which has no size on paper.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> tile = Outline.from_rings([[[0, 0], [9, 0], [9, 4]]])
+    >>> dots_per_inch(Container("tile", "tile", tile, 10.0, 4.0, "in"), 3_000)
+    300.0
+    """
+    if container.unit == "px":
+        return None
+    return longer_side_px / convert(container.side, container.unit, "in")
 
 
 def check_side(longer_side_px: int) -> None:

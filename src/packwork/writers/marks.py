@@ -12,7 +12,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.scene.colour import css_colour
-from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
+from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.writers.colours import hex_colour
 from packwork.writers.notation import attributes, matrix_text, path_data
 
@@ -78,7 +78,7 @@ def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
     >>> element(Item("tri", "", ink, ink, FlatArt()), {"id": "a"}, "scale(2)", 3)
     '<path id="a" transform="scale(2)" fill-rule="evenodd" d="M-1 -1 2 -1 -1 2Z"/>'
     """
-    art = item.art
+    art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
     if isinstance(art, VectorArt):
         told = {"data-outline": _outline(item, art.matrix, digits)} if art.is_traced else {}
         head = attributes({**own, **told, "transform": place + matrix_text(art.matrix)})

@@ -8,27 +8,18 @@ the fonts of another machine than the one on which they were measured.
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 from packwork.errors import WriteError
-from packwork.geometry import affine
-from packwork.raster.drawing import drawn_png
-from packwork.scene.item import Item, PictureArt, VectorArt
+from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
 from packwork.units import convert
-from packwork.writers.marks import element
-from packwork.writers.notation import decimals, sound_text
+from packwork.writers.notation import sound_text
+from packwork.writers.picturing import pictured
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
 
 PICTURE_DPI = 600
 """Pixels to the inch of a drawing that becomes a picture. More: larger files. Chosen."""
-
-MAX_PICTURE_PX = 4_096
-"""Longer side of such a picture at most. Chosen."""
-
-_MARGIN_PX = 2
-"""Free edge of such a picture: soft edges reach a pixel beyond the ink."""
 
 _PAGE = """\
 #set document(title: sys.inputs.title, date: none)
@@ -92,23 +83,7 @@ def without_text(layout: Layout) -> Layout:
 
 
 def _pictured(item: Item, px_per_unit: float) -> Item:
-    """Item drawn as a picture, no finer than ``MAX_PICTURE_PX`` allows."""
-    left, top, right, bottom = item.ink.bounds
-    extent = max(right - left, bottom - top)
-    scale = min(px_per_unit, (MAX_PICTURE_PX - 2 * _MARGIN_PX) / extent)
-    width, height = (
-        math.ceil(side * scale - 1e-6) + 2 * _MARGIN_PX for side in (right - left, bottom - top)
-    )
-    left, top = left - _MARGIN_PX / scale, top - _MARGIN_PX / scale
-    body = element(item, {}, "", decimals(1 / scale))
-    document = (
-        '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
-        f' width="{width}" height="{height}"'
-        f' viewBox="{left!r} {top!r} {width / scale!r} {height / scale!r}">{body}</svg>'
-    )
     try:
-        png = drawn_png(document)
+        return replace(item, art=pictured(item, px_per_unit))
     except ValueError as error:
         raise WriteError("PDF", f"an item's drawing cannot be rendered ({error})") from error
-    matrix = affine.similarity(left, top, 0.0, 1 / scale)
-    return replace(item, art=PictureArt(png, width, height, matrix))

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import struct
+import zlib
 from dataclasses import dataclass
 
 from packwork.errors import WriteError
 from packwork.raster.drawing import drawn_png
 from packwork.scene.layout import Layout
 from packwork.writers.colours import parse_colour
-from packwork.writers.frame import picture_frame
+from packwork.writers.frame import dots_per_inch, picture_frame
 from packwork.writers.svg import Sheet, SvgOptions, svg_document
+
+METRES_PER_INCH = 0.0254
+
+_AFTER_HEADER = 33
+"""Bytes of the signature and of the chunk that has to come first."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -75,7 +82,20 @@ def png_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = 
     view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
     sheet = Sheet(size=size, unit="px", view=view)
     drawn = SvgOptions(background=options.background, show_container=options.show_container)
-    return _rendered(svg_document(layout, drawn, sheet))
+    return _with_density(
+        _rendered(svg_document(layout, drawn, sheet)),
+        dots_per_inch(layout.container, longer_side_px),
+    )
+
+
+def _with_density(png: bytes, dpi: float | None) -> bytes:
+    """The same file with the size that it is to have on paper, if it has one."""
+    if dpi is None:
+        return png
+    per_metre = round(dpi / METRES_PER_INCH)
+    body = b"pHYs" + struct.pack(">IIB", per_metre, per_metre, 1)
+    chunk = struct.pack(">I", len(body) - 4) + body + struct.pack(">I", zlib.crc32(body))
+    return png[:_AFTER_HEADER] + chunk + png[_AFTER_HEADER:]
 
 
 def _rendered(text: str) -> bytes:

@@ -6,6 +6,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+_AROUND = "around:"
+"""Before a picture whose quiet part is the container."""
+
 
 def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
     """TOML of a recipe's plain options, files named as seen from ``folder``.
@@ -23,12 +26,15 @@ def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
     for key in ("container", "weights", "start", "font"):
         if isinstance(kept.get(key), str):
             kept[key] = _seen_from(folder, kept[key])
-    if "items" in kept:
-        kept["items"] = [_seen_from(folder, name) for name in kept["items"]]
+    for key in ("items", "keep_clear"):
+        if key in kept:
+            kept[key] = [_seen_from(folder, name) for name in kept[key]]
     if "words" in kept:
         kept["words"] = _words_seen_from(folder, kept["words"])
     if "chart" in kept:
         kept["chart"] = _chart_seen_from(folder, kept["chart"])
+    if "photos" in kept:
+        kept["photos"] = _photos_seen_from(folder, kept["photos"])
     rules = [
         {**rule, "region": _seen_from(folder, rule["region"])}
         if isinstance(rule.get("region"), str)
@@ -56,8 +62,17 @@ def _chart_seen_from(folder: Path, chart: Mapping[str, Any]) -> dict[str, Any]:
     return {**seen, "mark": [_seen_from(folder, mark) for mark in seen.get("mark", ())]}
 
 
+def _photos_seen_from(folder: Path, photos: Mapping[str, Any]) -> dict[str, Any]:
+    seen = {key: value for key, value in photos.items() if value is not None}
+    if "shape" in seen:
+        seen["shape"] = _seen_from(folder, seen["shape"])
+    return {**seen, "sources": [_seen_from(folder, source) for source in seen["sources"]]}
+
+
 def _seen_from(folder: Path, name: str) -> str:
     """A file's path relative to ``folder`` where that is possible, else absolute."""
+    if name.startswith(_AROUND):
+        return _AROUND + _seen_from(folder, name.removeprefix(_AROUND))
     path = Path(name)
     try:
         if not path.exists():

@@ -13,7 +13,7 @@ from defusedxml.ElementTree import fromstring
 from PIL import Image, UnidentifiedImageError
 
 from packwork.scene.colour import ABSENT, css_colour
-from packwork.scene.item import Art, FlatArt, Item, PictureArt, VectorArt
+from packwork.scene.item import Art, FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.writers.colours import hex_colour
 from packwork.writers.marks import with_fresh_ids
 
@@ -57,6 +57,8 @@ def has_one_colour(art: Art) -> bool:
     """
     if isinstance(art, FlatArt):
         return True
+    if isinstance(art, PhotoArt):
+        return False
     if isinstance(art, PictureArt):
         return _is_flat_picture(art)
     root = _tree(art.markup)

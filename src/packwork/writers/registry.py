@@ -8,16 +8,21 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TypeAlias
 
-from packwork.errors import WriteError
+from packwork.errors import RecipeError, WriteError
 from packwork.scene.layout import Layout
 from packwork.writers.atomic import check_writable, write_atomic
 from packwork.writers.dxf import dxf_bytes
 from packwork.writers.extras import check_extra
-from packwork.writers.frame import check_side
+from packwork.writers.frame import check_side, side_at
 from packwork.writers.geojson import geojson_text
+from packwork.writers.jpeg import jpeg_bytes
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.printing import DPI, SPARE, printed, printed_on_paper
 from packwork.writers.svg import SvgOptions, TextChoice, svg_text
+
+MOST_DPI = 2_400
+"""Pixels to the inch at most: what the finest printers set. Chosen."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,12 +34,15 @@ class WriteOptions:
     svg, png
         How the layout is drawn; ``svg`` holds for PDF too.
     png_side_px
-        Longer side of a PNG.
+        Longer side of a PNG or JPEG.
+    dpi
+        Pixels to the inch, for photos in SVG and PDF and, if given, for PNG and JPEG in
+        place of their side. None: 300 for photos.
 
     Raises
     ------
     RecipeError
-        If ``png_side_px`` is out of bounds.
+        If ``png_side_px`` or ``dpi`` is out of bounds.
 
     Examples
     --------
@@ -45,24 +53,43 @@ class WriteOptions:
     svg: SvgOptions = field(default_factory=SvgOptions)
     png: PngOptions = field(default_factory=PngOptions)
     png_side_px: int = 1600
+    dpi: float | None = None
 
     def __post_init__(self) -> None:
         check_side(self.png_side_px)
+        if self.dpi is not None and not 1 <= self.dpi <= MOST_DPI:
+            raise RecipeError("dpi", f"use 1 to {MOST_DPI}, not {self.dpi:g}")
+
+    def side_px(self, layout: Layout) -> int:
+        """Longer side of a PNG or JPEG of a layout."""
+        return self.png_side_px if self.dpi is None else side_at(layout.container, self.dpi)
+
+    def on_paper(self, layout: Layout) -> Layout:
+        """Layout whose photos are as fine as paper needs."""
+        return printed_on_paper(layout, self.dpi or DPI)
+
+    def on_screen(self, layout: Layout) -> Layout:
+        """Layout whose photos are as fine as a PNG or JPEG needs."""
+        return printed(layout, SPARE * self.side_px(layout) / layout.container.side)
 
 
 Encoder: TypeAlias = Callable[[Layout, WriteOptions], bytes]
 
 
 def _svg(layout: Layout, options: WriteOptions) -> bytes:
-    return svg_text(layout, options.svg).encode()
+    return svg_text(options.on_paper(layout), options.svg).encode()
 
 
 def _png(layout: Layout, options: WriteOptions) -> bytes:
-    return png_bytes(layout, options.png_side_px, options.png)
+    return png_bytes(options.on_screen(layout), options.side_px(layout), options.png)
+
+
+def _jpeg(layout: Layout, options: WriteOptions) -> bytes:
+    return jpeg_bytes(options.on_screen(layout), options.side_px(layout), options.png)
 
 
 def _pdf(layout: Layout, options: WriteOptions) -> bytes:
-    return pdf_bytes(layout, options.svg)
+    return pdf_bytes(options.on_paper(layout), options.svg)
 
 
 def _dxf(layout: Layout, _: WriteOptions) -> bytes:
@@ -77,6 +104,8 @@ WRITERS: Mapping[str, Encoder] = MappingProxyType(
     {
         ".svg": _svg,
         ".png": _png,
+        ".jpg": _jpeg,
+        ".jpeg": _jpeg,
         ".pdf": _pdf,
         ".dxf": _dxf,
         ".geojson": _geojson,
@@ -84,6 +113,9 @@ WRITERS: Mapping[str, Encoder] = MappingProxyType(
     }
 )
 """File ending, in lower case, to the function that makes the file's bytes."""
+
+ONLY_FILMS = frozenset({".gif", ".apng", ".webp", ".mp4", ".webm"})
+"""Endings of pictures that move, which a layout alone is not."""
 
 
 def check_output(path: str | Path) -> None:
@@ -164,6 +196,8 @@ def _encoder(path: str | Path) -> Encoder:
     ending = Path(path).suffix.lower()
     if ending not in WRITERS:
         known = ", ".join(WRITERS)
+        if ending in ONLY_FILMS:
+            raise WriteError(path, "is a film; give it to --film (in Python to save_film)")
         met = f"the ending {ending!r} is not known" if ending else "the name has no ending"
         raise WriteError(path, f"{met}; use one of {known}")
     check_extra(path)
@@ -173,6 +207,7 @@ def _encoder(path: str | Path) -> Encoder:
 def write_options(
     *,
     pixels: int = 1_600,
+    dpi: float | None = None,
     background: str | None = None,
     show_container: bool = False,
     flatten: bool = False,
@@ -183,7 +218,9 @@ def write_options(
     Parameters
     ----------
     pixels
-        Longer side of a PNG.
+        Longer side of a PNG or JPEG.
+    dpi
+        Pixels to the inch of paper, of photos and, in place of ``pixels``, of PNG and JPEG.
     background
         Any CSS colour, or ``none``. None: none in SVG and PDF, white in PNG.
     show_container
@@ -211,4 +248,5 @@ def write_options(
         ),
         png=png if background is None else replace(png, background=colour),
         png_side_px=pixels,
+        dpi=dpi,
     )

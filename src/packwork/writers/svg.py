@@ -15,6 +15,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from typing import Literal, TypeAlias
 
+from packwork.geometry import affine
+from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
 from packwork.units import Unit
@@ -38,8 +40,14 @@ path and the place, 2.4 half steps in all. Derived."""
 NAME_LENGTH = 80
 """Characters of a name that are kept: it is repeated on every copy. Chosen."""
 
-_CONTAINER_STROKE = "#1a202c"
-_CONTAINER_STROKE_SHARE = 1 / 500
+HALO_SHARE = 0.004
+"""How far a halo reaches beyond its item, as a share of the canvas. Larger ones run into each
+other, smaller ones are lost on busy ground. Chosen by eye."""
+
+CONTAINER_STROKE = "#1a202c"
+"""Colour of the container's drawn line. Chosen by eye."""
+
+CONTAINER_STROKE_SHARE = 1 / 500
 """Width of the container's drawn line, as a share of the canvas. Chosen by eye."""
 
 
@@ -158,6 +166,8 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
         *live.style(),
         *([] if options.flatten else _definitions(shapes.values(), live)),
         *_background(options.background),
+        *_backdrop(layout.container.backdrop),
+        *_halos(layout, digits),
         *_container(layout, options.show_container, digits),
         f'<g id="items"{attributes(_said(layout))}>',
         *_copies(layout, shapes, digits, live, flatten=options.flatten),
@@ -233,6 +243,28 @@ def _background(colour: str | None) -> list[str]:
     return [f'<rect id="background" width="100%" height="100%"{head}/>']
 
 
+def _backdrop(backdrop: Backdrop | None) -> list[str]:
+    """The picture behind; as fine as it was printed, else its small copy."""
+    if backdrop is None:
+        return []
+    art = backdrop.art.preview
+    place = matrix_text(affine.compose(backdrop.matrix, art.matrix))
+    return [f'<g id="backdrop" transform="{place}">{art.markup}</g>']
+
+
+def _halos(layout: Layout, digits: int) -> list[str]:
+    """What makes items stand out from a picture behind, under all of them."""
+    width = f"{2 * HALO_SHARE * layout.container.side:.6g}"
+    drawn = []
+    for item, ink in zip(layout.items, layout.inks, strict=True):
+        if item.halo:
+            head = attributes({"fill": item.halo, "stroke": item.halo})
+            drawn.append(f'<path{head} d="{path_data(ink, digits)}"/>')
+    if not drawn:
+        return []
+    return [f'<g id="halos" stroke-width="{width}" stroke-linejoin="round">', *drawn, "</g>"]
+
+
 def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
     container = layout.container
     head = attributes(
@@ -240,8 +272,8 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
             "id": "container",
             "data-name": container.name[:NAME_LENGTH],
             "fill": "none",
-            "stroke": _CONTAINER_STROKE,
-            "stroke-width": f"{container.side * _CONTAINER_STROKE_SHARE:.6g}",
+            "stroke": CONTAINER_STROKE,
+            "stroke-width": f"{container.side * CONTAINER_STROKE_SHARE:.6g}",
             "display": "" if shown else "none",
         }
     )

@@ -12,7 +12,7 @@ from PIL import Image, UnidentifiedImageError
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
 from packwork.scene.colour import ABSENT, css_colour
-from packwork.scene.item import FlatArt, Item, VectorArt
+from packwork.scene.item import FlatArt, Item, PhotoArt, VectorArt
 from packwork.writers.colours import hex_colour
 from packwork.writers.notation import attributes, matrix_text
 
@@ -48,7 +48,7 @@ def representative_colour(item: Item) -> str:
     >>> representative_colour(Item("tri", "", ink, ink, FlatArt("teal")))
     '#008080'
     """
-    art = item.art
+    art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
     if isinstance(art, FlatArt):
         return _solid(art.fill) or NEUTRAL
     if isinstance(art, VectorArt):

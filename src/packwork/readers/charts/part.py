@@ -58,8 +58,8 @@ def _left(region: Region, at: float) -> Region:
 def _cut_art(item: Item, at: float, x: float, y: float) -> FlatArt | VectorArt:
     """Drawing behind a window, in units that begin at the part's own centroid."""
     art = item.art
-    if isinstance(art, FlatArt):
-        return art
+    if not isinstance(art, VectorArt | PictureArt):
+        return art if isinstance(art, FlatArt) else FlatArt()
     inner = _markup(art)
     left, top, _, bottom = item.ink.bounds
     # The line of the cut is sharp; on all other sides the window is wider than the drawing.

@@ -5,6 +5,8 @@ from __future__ import annotations
 import struct
 import warnings
 import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from io import BytesIO
 
@@ -16,6 +18,10 @@ from packwork.readers.unfit import UnfitError
 
 MAX_PIXELS = 64_000_000
 """Pixels of a picture: four bytes each once decoded, so a quarter gigabyte. Chosen."""
+
+MAX_JPEG_PIXELS = 160_000_000
+"""The same of a JPEG that is decoded at the size that is needed: a progressive one is still
+held whole as coefficients, about 3 bytes each. Chosen."""
 
 MAX_PICTURE_BYTES = 100_000_000
 """Size of a picture file. Chosen."""
@@ -102,36 +108,73 @@ def decode_picture(data: bytes, longest_px: int) -> Picture:
     >>> picture.pixels.shape, picture.unit
     ((10, 15, 4), 2.0)
     """
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        with opened(data) as image:
+            whole = eight_bit(ImageOps.exif_transpose(image))
+            small = _shrunk(whole, longest_px)
+            return Picture(np.asarray(small), max(whole.size) / max(small.size))
+
+
+@contextmanager
+def opened(data: bytes, *, shrinking: bool = False) -> Iterator[Image.Image]:
+    """Picture of a file's bytes, not yet decoded, its size checked.
+
+    Whatever goes wrong inside the block is told as what is wrong with the file.
+
+    Parameters
+    ----------
+    shrinking
+        Whether a JPEG will be decoded no larger than it is needed, so may be larger.
+
+    Raises
+    ------
+    UnfitError
+        If it has too many pixels, is cut short or is no picture at all.
+
+    Examples
+    --------
+    >>> file = BytesIO()
+    >>> Image.new("L", (30, 20)).save(file, "PNG")
+    >>> with opened(file.getvalue()) as image:
+    ...     image.size
+    (30, 20)
+    """
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            with Image.open(BytesIO(data), formats=FORMATS) as image:
-                _check_size(image.size)
-                whole = _eight_bit(ImageOps.exif_transpose(image))
-                small = _shrunk(whole, longest_px)
-                return Picture(np.asarray(small), max(whole.size) / max(small.size))
+        with Image.open(BytesIO(data), formats=FORMATS) as image:
+            most = MAX_JPEG_PIXELS if shrinking and image.format == "JPEG" else MAX_PIXELS
+            _check_size(image.size, most)
+            yield image
     except UnidentifiedImageError:
         raise UnfitError("is not a picture that can be read; give PNG, JPEG or WebP") from None
     except Image.DecompressionBombError:
-        raise UnfitError(_too_large("far more")) from None
+        raise UnfitError(
+            _too_large("far more", MAX_JPEG_PIXELS if shrinking else MAX_PIXELS)
+        ) from None
     except _FAILURES as error:
         reason = " ".join(str(error).split())[:120] or type(error).__name__
         raise UnfitError(f"is a broken picture ({reason}); save it again") from None
 
 
-def _check_size(size: tuple[int, int]) -> None:
-    if size[0] * size[1] > MAX_PIXELS:
-        raise UnfitError(_too_large(f"{size[0]} x {size[1]}"))
+def _check_size(size: tuple[int, int], most_pixels: int) -> None:
+    if size[0] * size[1] > most_pixels:
+        raise UnfitError(_too_large(f"{size[0]} x {size[1]}", most_pixels))
 
 
-def _too_large(met: str) -> str:
-    return f"has {met} pixels; {MAX_PIXELS // 1_000_000} million are the most, so scale it down"
+def _too_large(met: str, most_pixels: int) -> str:
+    return f"has {met} pixels; {most_pixels // 1_000_000} million are the most, so scale it down"
 
 
-def _eight_bit(image: Image.Image) -> Image.Image:
-    """RGBA of a picture; grey of one with deep numbers."""
+def eight_bit(image: Image.Image, mode: str = "RGBA") -> Image.Image:
+    """Picture in a mode; grey of one with deep numbers.
+
+    Examples
+    --------
+    >>> eight_bit(Image.new("1", (2, 2))).mode, eight_bit(Image.new("I;16", (2, 2))).mode
+    ('RGBA', 'L')
+    """
     if not image.mode.startswith(("I", "F")):
-        return image.convert("RGBA")
+        return image.convert(mode)
     scale = 255.0 / (_DEEP_GREY if image.mode.startswith("I") else 1.0)
     grey = np.empty(image.size[::-1], dtype=np.uint8)
     # In bands: eight bytes for each pixel at once would be half a gigabyte.

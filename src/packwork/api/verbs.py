@@ -3,153 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields
-from functools import cached_property
 from pathlib import Path
 from typing import Any, Literal
 
-from packwork import pipeline, writers
+from packwork import pipeline
+from packwork.api.layout import Layout, public
 from packwork.display.bar import bar_for, shown
-from packwork.display.picture import notebook_png, notebook_svg
-from packwork.metrics.measure import measure
 from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
-from packwork.readers.layout import read_layout
 from packwork.recipe import Recipe, make_recipe
-from packwork.scene import layout as scene
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-
-
-@dataclass(frozen=True, eq=False, repr=False)
-class Layout(scene.Layout):
-    """Container + items + poses: what :func:`fill` returns, what is saved and shown.
-
-    It shows itself in a notebook, and may be copied and pickled. It never changes:
-    ``dataclasses.replace(layout, poses=...)`` gives another one.
-
-    Parameters
-    ----------
-    container
-        The region that was filled.
-    items
-        One entry per placed item; copies repeat the same :class:`Item`.
-    poses
-        Where they are: arrays ``x``, ``y`` (canvas units, y down), ``angle`` (radians,
-        clockwise on screen), ``scale`` and ``stretch``, one number per item.
-    weights
-        ``(n,)`` share of area asked for each item; all ones if none were given.
-    manifest
-        What the run did: version, recipe, seed, seconds and metrics per level.
-
-    Examples
-    --------
-    >>> layout = fill("heart", ["circle", "star"], count=4, effort="draft", levels="50")
-    >>> layout
-    <Layout: 4 items in heart>
-    >>> [item.name for item in layout.items]
-    ['circle', 'star', 'circle', 'star']
-    >>> layout.poses.x.shape, layout.container.width
-    ((4,), 600.0)
-    >>> layout.manifest["recipe"]["effort"]
-    'draft'
-    """
-
-    @classmethod
-    def load(cls, path: str | Path) -> Layout:
-        """Layout from a file that was saved as ``.geojson``.
-
-        The items come back as flat shapes in their mean colour: pictures and drawings stay in
-        their files.
-
-        Raises
-        ------
-        ReadError
-            If the file is missing or is not such a layout.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     layout.save(f"{folder}/stars.geojson")
-        ...     again = Layout.load(f"{folder}/stars.geojson")
-        >>> bool(abs(again.poses.angle - layout.poses.angle).max() < 1e-9)
-        True
-        """
-        return _public(read_layout(Path(path)))
-
-    def save(
-        self,
-        path: str | Path,
-        *,
-        pixels: int = 1_600,
-        background: str | None = None,
-        show_container: bool = False,
-        flatten: bool = False,
-        text: Literal["outlines", "live"] = "outlines",
-    ) -> None:
-        """Write the layout; the ending (.svg, .png, .pdf, .dxf, .geojson) picks the format.
-
-        Parameters
-        ----------
-        path
-            Where to; an older file is replaced only when the new one is complete.
-        pixels
-            Longer side of a PNG.
-        background
-            Any CSS colour, or ``none``. Default: none in SVG and PDF, white in PNG.
-        show_container
-            Draw the container's line.
-        flatten
-            In SVG, repeat each drawing in place, for tools that choke on ``use``.
-        text
-            ``live``: words in SVG are text, to be selected and found, in parts of their
-            fonts that the file carries; ``outlines``: they are curves.
-
-        Raises
-        ------
-        WriteError
-            If the ending is unknown or the file cannot be written.
-
-        Examples
-        --------
-        >>> import tempfile
-        >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
-        ...     Path(folder, "stars.png").read_bytes()[1:4]
-        b'PNG'
-        """
-        options = writers.write_options(
-            pixels=pixels,
-            background=background,
-            show_container=show_container,
-            flatten=flatten,
-            text=text,
-        )
-        writers.write(self, path, options)
-
-    @cached_property
-    def metrics(self) -> Mapping[str, Any]:
-        """Measures by name: LC, LC_ratio, OO, EA, LnU, LC_ink and a table ``exact``.
-
-        Shares are of the container's area; docs/conventions.md says what each means.
-
-        Examples
-        --------
-        >>> layout = fill("circle", "hexagon", count=7, effort="draft", levels="50")
-        >>> 0.5 < layout.metrics["LC"] < 1, sorted(layout.metrics["exact"])[-3:]
-        (True, ['min_gap', 'outside_area', 'overlap_area'])
-        """
-        return measure(self).as_dict()
-
-    def _repr_svg_(self) -> str | None:
-        return notebook_svg(self)
-
-    def _repr_png_(self) -> tuple[bytes, dict[str, int]] | None:
-        return notebook_png(self)
 
 
 def fill(
@@ -159,6 +24,7 @@ def fill(
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
+    record: bool = False,
     **options: Any,
 ) -> Layout:
     """Fill a container with items.
@@ -166,8 +32,8 @@ def fill(
     Parameters
     ----------
     container
-        A mask (PNG, JPEG), an SVG, words to fill such as ``"text:HELLO"`` (a ``|``
-        begins a new line), a built-in name such as ``"heart"``, or a :class:`Container`.
+        A mask (PNG, JPEG), an SVG, ``"text:HELLO"``, ``"around:IMAGE"``, a built-in name such
+        as ``"heart"``, or a :class:`Container`.
     items
         SVGs, pictures, folders, built-in names, or what :func:`read_items` returned.
     observer
@@ -175,7 +41,9 @@ def fill(
     stop
         Asked before every epoch; True ends the run with what it has.
     progress
-        True shows a bar, False none; None shows one in a notebook only.
+        True shows a bar, False none; None one in a notebook only.
+    record
+        Keep the way of the items, for :meth:`Layout.save_film`.
     options
         As on the command line: ``count``, ``font``, ``canvas``, ``seed``, ``sizes``,
         ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``, ``holes``,
@@ -203,10 +71,7 @@ def fill(
         items=[entry.source if isinstance(entry, Item) else str(entry) for entry in given],
         **options,
     )
-    chosen: list[Item] | None = None
-    if any(isinstance(entry, Item) for entry in given):
-        chosen = _as_items(given, recipe.holes, recipe.strict)
-    return _run(recipe, chosen, whole, observer, stop, progress)
+    return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
 
 
 def words(
@@ -217,6 +82,7 @@ def words(
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
+    record: bool = False,
     **options: Any,
 ) -> Layout:
     """Fill a container with words.
@@ -230,7 +96,7 @@ def words(
         weights by word: a dict, a ``Counter``, a pandas Series.
     add
         Items that are placed among the words: files, folders or built-in names.
-    observer, stop, progress
+    observer, stop, progress, record
         As for :func:`fill`.
     options
         As on the command line: ``count``, ``min_count``, ``language``, ``stopwords``,
@@ -263,7 +129,53 @@ def words(
         add=[str(item) for item in mixed_in],
         **options,
     )
-    return _run(recipe, None, whole, observer, stop, progress)
+    return _run(recipe, None, whole, observer, stop, progress, record)
+
+
+def pile(
+    container: str | Path | Container,
+    items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
+    *,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    record: bool = False,
+    **options: Any,
+) -> Layout:
+    """Heap items of given sizes, under forces, until they are at rest.
+
+    Parameters
+    ----------
+    container
+        As for :func:`fill`; an SVG of open paths is open where they are, and ``"none"``
+        lets items lie anywhere.
+    items, observer, stop, progress, record
+        As for :func:`fill`.
+    options
+        As on the command line: ``force`` (one or several), ``open``, ``size``, ``emit``,
+        ``release``, ``compact``, and those of :func:`fill` about items, canvas and seed.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If an option has no meaning, or no item fits.
+
+    Examples
+    --------
+    >>> layout = pile("square", "circle", count=3, size="30%", seed=1)
+    >>> layout.metrics["exact"]["OO"], bool(layout.poses.y.mean() > 400)
+    (0.0, True)
+    """
+    given = [items] if isinstance(items, str | Path | Item) else list(items)
+    whole = container if isinstance(container, Container) else None
+    recipe = pipeline.pile_recipe(
+        whole.source if whole else str(container),
+        [entry.source if isinstance(entry, Item) else str(entry) for entry in given],
+        **options,
+    )
+    return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
 
 
 def chart(
@@ -273,13 +185,14 @@ def chart(
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
+    record: bool = False,
     **options: Any,
 ) -> Layout:
     """Show a table's rows, a mark for each, sizes in proportion to numbers.
 
     Parameters
     ----------
-    container, observer, stop, progress
+    container, observer, stop, progress, record
         As for :func:`fill`.
     data
         A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
@@ -301,7 +214,7 @@ def chart(
     """
     whole = container if isinstance(container, Container) else None
     recipe = pipeline.chart_recipe(whole.source if whole else str(container), data, **options)
-    return _run(recipe, None, whole, observer, stop, progress)
+    return _run(recipe, None, whole, observer, stop, progress, record)
 
 
 def read_items(
@@ -374,26 +287,25 @@ def _run(
     observer: Observer | None,
     stop: Stop,
     progress: bool | None,
+    record: bool,
 ) -> Layout:
     bar = bar_for(progress, observer)
     with shown(bar):
-        run = pipeline.fill(recipe, items, container, bar or observer, stop)
-    layout = _public(run.layout)
+        run = pipeline.fill(recipe, items, container, bar or observer, stop, record)
+    layout = public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = run.metrics.as_dict()
     return layout
 
 
-def _as_items(
-    given: Sequence[str | Path | Item], holes: Literal["fill", "keep"], strict: bool
-) -> list[Item]:
+def _as_items(given: Sequence[str | Path | Item], recipe: Recipe) -> list[Item] | None:
+    """Items where some are given as such; None if all are names for the recipe."""
+    if not any(isinstance(entry, Item) for entry in given):
+        return None
     chosen: list[Item] = []
     for entry in given:
-        chosen += (
-            [entry] if isinstance(entry, Item) else read_items(entry, holes=holes, strict=strict)
-        )
+        if isinstance(entry, Item):
+            chosen.append(entry)
+        else:
+            chosen += read_items(entry, holes=recipe.holes, strict=recipe.strict)
     return chosen
-
-
-def _public(layout: scene.Layout) -> Layout:
-    return Layout(**{field.name: getattr(layout, field.name) for field in fields(layout)})

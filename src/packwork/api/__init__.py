@@ -1,0 +1,1 @@
+"""The Python face: the verbs of the command line, on plain values."""

@@ -1,0 +1,192 @@
+"""The layout that the verbs return: it saves, shows and measures itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields
+from functools import cached_property, partial
+from pathlib import Path
+from typing import Any
+
+from packwork import writers
+from packwork.display.bar import bar_for, shown
+from packwork.display.picture import notebook_png, notebook_svg
+from packwork.metrics.measure import measure
+from packwork.pipeline.filming import film_options
+from packwork.readers.layout import read_layout
+from packwork.scene import layout as scene
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class Layout(scene.Layout):
+    """Container + items + poses: what :func:`fill` returns, what is saved and shown.
+
+    It shows itself in a notebook and never changes: ``dataclasses.replace`` gives another.
+
+    Parameters
+    ----------
+    container
+        The region that was filled.
+    items
+        One entry per placed item; copies repeat the same :class:`Item`.
+    poses
+        Where they are: arrays ``x``, ``y`` (canvas units, y down), ``angle`` (radians,
+        clockwise on screen), ``scale`` and ``stretch``, one number per item.
+    weights
+        ``(n,)`` share of area asked for each item; all ones if none were given.
+    manifest
+        What the run did: version, recipe, seed, seconds and metrics per level.
+    track
+        How the items came here, if that was recorded: :meth:`save_film` shows it.
+
+    Examples
+    --------
+    >>> from packwork import fill
+    >>> layout = fill("heart", ["circle", "star"], count=4, effort="draft", levels="50")
+    >>> layout
+    <Layout: 4 items in heart>
+    >>> [item.name for item in layout.items]
+    ['circle', 'star', 'circle', 'star']
+    >>> layout.poses.x.shape, layout.manifest["recipe"]["effort"]
+    ((4,), 'draft')
+    """
+
+    @classmethod
+    def load(cls, path: str | Path) -> Layout:
+        """Layout from a file that was saved as ``.geojson``.
+
+        The items come back as flat shapes in their mean colour: pictures and drawings stay in
+        their files.
+
+        Raises
+        ------
+        ReadError
+            If the file is missing or is not such a layout.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> import tempfile
+        >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     layout.save(f"{folder}/stars.geojson")
+        ...     again = Layout.load(f"{folder}/stars.geojson")
+        >>> bool(abs(again.poses.angle - layout.poses.angle).max() < 1e-9)
+        True
+        """
+        return public(read_layout(Path(path)))
+
+    def save(
+        self,
+        path: str | Path,
+        *,
+        pixels: int = 1_600,
+        dpi: float | None = None,
+        background: str | None = None,
+        show_container: bool = False,
+        flatten: bool = False,
+        text: writers.TextChoice = "outlines",
+    ) -> None:
+        """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
+
+        Parameters
+        ----------
+        path
+            Where to; an older file is replaced only when the new one is complete.
+        pixels
+            Longer side of a PNG or JPEG.
+        dpi
+            Pixels to the inch: of photos (300 if None), and of PNG and JPEG, not ``pixels``.
+        background
+            Any CSS colour, or ``none``. Default: none in SVG and PDF, white in PNG.
+        show_container
+            Draw the container's line.
+        flatten
+            In SVG, repeat each drawing in place, for tools that choke on ``use``.
+        text
+            ``live``: words in SVG are text; ``outlines``: they are curves.
+
+        Raises
+        ------
+        WriteError
+            If the ending is unknown or the file cannot be written.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> import tempfile
+        >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
+        """
+        options = writers.write_options(
+            pixels=pixels, dpi=dpi, background=background, show_container=show_container,
+            flatten=flatten, text=text,
+        )  # fmt: skip
+        writers.write(self, path, options)
+
+    def save_film(
+        self,
+        path: str | Path,
+        *,
+        background: str = "white",
+        show_container: bool = False,
+        progress: bool | None = None,
+        **options: Any,
+    ) -> None:
+        """Write a film of how the items came here, if the layout was made with ``record=True``.
+
+        Parameters
+        ----------
+        path
+            Its ending picks the format: .svg, .gif, .apng, .webp, .mp4, .webm, .json (Lottie).
+        background, show_container, progress
+            As for :meth:`save` and :func:`fill`.
+        options
+            As on the command line: ``fps``, ``seconds``, ``hold``, ``loop``, ``easing`` ...
+
+        Raises
+        ------
+        WriteError
+            If nothing was recorded, or for what :meth:`save` raises it.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> import tempfile
+        >>> layout = fill("circle", "star", count=3, epochs=9, levels="50", record=True)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     layout.save_film(f"{folder}/stars.gif", fps=10, seconds=1, film_pixels=100)
+        """
+        writers.check_film(path)
+        film = writers.Film(self, film_options(**options), background, show_container)
+        bar = bar_for(progress)
+        with shown(bar):
+            told = writers.tell_nobody if bar is None else partial(bar.tell, text="film")
+            writers.write_atomic(path, writers.film_bytes(film, path, told))
+
+    @cached_property
+    def metrics(self) -> Mapping[str, Any]:
+        """Measures by name: LC, LC_ratio, OO, EA, LnU, LC_ink and a table ``exact``.
+
+        Shares are of the container's area; docs/conventions.md says what each means.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> layout = fill("circle", "hexagon", count=7, effort="draft", levels="50")
+        >>> 0.5 < layout.metrics["LC"] < 1, sorted(layout.metrics["exact"])[-3:]
+        (True, ['min_gap', 'outside_area', 'overlap_area'])
+        """
+        return measure(self).as_dict()
+
+    def _repr_svg_(self) -> str | None:
+        return notebook_svg(self)
+
+    def _repr_png_(self) -> tuple[bytes, dict[str, int]] | None:
+        return notebook_png(self)
+
+
+def public(layout: scene.Layout) -> Layout:
+    """The same layout with the methods that users know."""
+    return Layout(**{field.name: getattr(layout, field.name) for field in fields(layout)})

@@ -1,0 +1,54 @@
+"""What stands out of a picture, and the part of it that is filled."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+from PIL import Image, ImageDraw
+
+from packwork.readers.container import read_container
+from packwork.readers.files import read_bytes
+from packwork.readers.photos.developing import developed, inspected
+from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
+from packwork.readers.quiet.container import AROUND, QuietOptions
+from packwork.readers.quiet.region import saliency_map
+
+SIDE_PX = 1_000
+"""Longer side of the picture. Chosen."""
+
+_PALE = 0.6
+_LINE_PX = 4
+_RED = np.array([220.0, 30.0, 30.0])
+
+
+def saliency_png(source: str, quiet: QuietOptions) -> bytes:
+    """PNG of the picture in grey, what stands out red, a line round what is filled.
+
+    Parameters
+    ----------
+    source
+        ``around:IMAGE``.
+
+    Raises
+    ------
+    ReadError
+        If the picture cannot be used.
+    """
+    container = read_container(source, float(SIDE_PX), quiet=quiet)
+    data = read_bytes(source.removeprefix(AROUND), MAX_PICTURE_BYTES)
+    negative = inspected(data)
+    size = max(1, round(container.width)), max(1, round(container.height))
+    full = (0.0, 0.0, float(negative.width), float(negative.height))
+    grey = np.asarray(developed(data, full, size).convert("L"), dtype=np.float64)[:, :, None]
+    heat = Image.fromarray(saliency_map(data, negative).astype(np.float32)).resize(size)
+    share = np.clip(np.asarray(heat, dtype=np.float64), 0.0, 1.0)[:, :, None]
+    mixed = (1 - share) * (_PALE * grey + 255 * (1 - _PALE)) + share * _RED
+    picture = Image.fromarray(np.clip(mixed, 0, 255).astype(np.uint8))
+    draw = ImageDraw.Draw(picture)
+    for ring in container.outline.rings:
+        closed = np.vstack([ring, ring[:1]])
+        draw.line([(float(x), float(y)) for x, y in closed], fill="#003f88", width=_LINE_PX)
+    file = io.BytesIO()
+    picture.save(file, "PNG")
+    return file.getvalue()

@@ -1,0 +1,1 @@
+"""Items of fixed sizes that go down a potential until they are at rest."""

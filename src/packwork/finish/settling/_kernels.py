@@ -1,0 +1,110 @@
+"""One step down a potential: contacts, the linear programme over them, the exact check.
+
+Sizes stay as they are. What the programme took for straight and was not is kept out by a
+condition that bends keep away from; items that meet all the same stay where they were.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numba import njit
+
+from packwork.finish import _kernels as rounds
+from packwork.finish.contact import _kernels as contact
+from packwork.finish.programme import _kernels as programme
+
+ACCURACY = 0.05
+"""Share of the way down that a programme may miss. Smaller costs time; larger leaves items
+hanging in the middle of their room. Tried."""
+
+ASIDE = 0.5
+"""Bound of a move across the slope, trust regions, where an item goes straight along an axis.
+Larger lets items slide off farther, and those on the diagonals outrun all others; smaller
+jams. Tried."""
+
+CUTS = 3
+"""Halvings of the step of an item in conflict before it stays where it was: what bends costs
+a quarter at half the way. Tried."""
+
+CHECKS = 30
+"""Checks of one step before it is halved for all. As of the finish, but here those behind an
+item that goes back follow one by one. Chosen."""
+
+HALVINGS = 4
+"""Halvings before the whole step is given up. Chosen."""
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def best_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair):
+    """Change of place of ``items`` that goes down most and keeps the contacts apart, nearly.
+
+    ``slope``: ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each of
+    ``items``; ``backmost``, ``foremost``: bounds of the turn of every solid.
+    """
+    n = items.shape[0]
+    who, numbers, where, kept = rounds.near_contacts(board, items, pairs, trust, gap, hair)
+    rows = rounds.conditions(board, pairs, who, numbers, where, trust, kept)
+    gain, low, high = np.zeros(4 * n), np.zeros(4 * n) - 1.0, np.zeros(4 * n) + 1.0
+    for k in range(n):
+        i = items[k]
+        most = trust / contact.arm(board, i)
+        steepness = max(np.hypot(slope[k, 0], slope[k, 1]), 1e-300)
+        for c in range(2):
+            gain[4 * k + c] = -slope[k, c]
+            # As far down in all directions: a box alone would favour the diagonals.
+            high[4 * k + c] = max(abs(slope[k, c]) / steepness, ASIDE)
+            low[4 * k + c] = -high[4 * k + c]
+        turn = board.places[i, 2]
+        low[4 * k + 2] = min(max((backmost[i] - turn) / most, -1.0), 0.0)
+        high[4 * k + 2] = max(min((foremost[i] - turn) / most, 1.0), 0.0)
+        low[4 * k + 3] = high[4 * k + 3] = 0.0
+    z = programme.maximise(rows, gain, low, high, ACCURACY)
+    step = np.zeros((n, 4))
+    for k in range(n):
+        for c in range(3):
+            # An interior point is a little off its bounds: what may not turn would.
+            share = min(max(z[4 * k + c], low[4 * k + c]), high[4 * k + c])
+            step[k, c] = share * trust / (contact.arm(board, items[k]) if c > 1 else 1.0)
+    return step
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _move_share(board, items, before, step, share, pairs, gap):
+    """Move by a share of a step; items in conflict go half as far, then back.
+
+    False if some stay in conflict.
+    """
+    hits = np.zeros(board.starts.shape[0] - 1, np.int64)
+    changed, struck = hits == 0, hits > 0
+    room = np.empty((2, contact.most_points(board.starts)), np.int64)
+    place = np.empty((1, 4))
+    for _ in range(CHECKS):
+        for k in range(items.shape[0]):
+            i = items[k]
+            if not changed[i]:
+                continue
+            factor = share * 0.5 ** hits[i] if hits[i] <= CUTS else 0.0
+            for c in range(4):
+                place[0, c] = before[k, c] + factor * step[k, c]
+            contact.put(board, items[k : k + 1], place)
+        if rounds.strike(board, pairs, gap, changed, struck, room) == 0:
+            return True
+        for i in range(hits.shape[0]):
+            hits[i] += struck[i]
+            changed[i] = struck[i]
+    return False
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def move(board, items, step, pairs, gap):
+    """Move ``items`` by as much of ``step`` as leaves no conflict; False if nobody moved."""
+    n = items.shape[0]
+    before = np.empty((n, 4))
+    for k in range(n):
+        for c in range(4):
+            before[k, c] = board.places[items[k], c]
+    for halving in range(HALVINGS):
+        if _move_share(board, items, before, step, 0.5**halving, pairs, gap):
+            return True
+    contact.put(board, items, before)
+    return False

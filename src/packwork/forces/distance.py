@@ -1,0 +1,67 @@
+"""Distances from points, lines and curves, with the way that leads off."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+
+AT_ONCE = 2**22
+"""Products of points and pieces that are looked at together. Larger takes more memory for
+no speed. Chosen."""
+
+NOWHERE = 1e-12
+"""Distance below which there is no direction. Derived: far below any canvas' rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class Distance:
+    """Distance from the nearest of some straight pieces; a point is a piece of no length.
+
+    Parameters
+    ----------
+    begins, ends
+        ``(m, 2)`` ends of the pieces, canvas units.
+
+    Examples
+    --------
+    >>> line = Distance.from_line(np.array([[0.0, 0], [10, 0]]))
+    >>> heights, slopes = line(np.array([[5.0, 3.0], [13.0, 4.0]]))
+    >>> heights.tolist(), slopes.tolist()
+    ([3.0, 5.0], [[0.0, 1.0], [0.6, 0.8]])
+    """
+
+    begins: FloatArray
+    ends: FloatArray
+
+    @classmethod
+    def from_points(cls, points: FloatArray) -> Distance:
+        """From the nearest of several points ``(m, 2)``."""
+        return cls(points, points)
+
+    @classmethod
+    def from_line(cls, line: FloatArray) -> Distance:
+        """From a line through points ``(m, 2)``."""
+        return cls(line[:-1], line[1:])
+
+    def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Distance and the unit vectors that lead off; zero where there is none."""
+        off = np.empty_like(points)
+        step = max(AT_ONCE // max(len(self.begins), 1), 1)
+        for first in range(0, len(points), step):
+            some = slice(first, first + step)
+            off[some] = points[some] - self.nearest(points[some])
+        heights = np.hypot(off[:, 0], off[:, 1])
+        return heights, off / np.maximum(heights, NOWHERE)[:, None]
+
+    def nearest(self, points: FloatArray) -> FloatArray:
+        """``(n, 2)`` nearest point of the pieces to each point."""
+        along = self.ends - self.begins
+        square = np.maximum((along**2).sum(axis=1), NOWHERE**2)
+        since = points[:, None] - self.begins
+        share = np.clip((since * along).sum(axis=2) / square, 0.0, 1.0)
+        off = since - share[..., None] * along
+        best = np.argmin((off**2).sum(axis=2), axis=1)
+        return np.asarray(points - off[np.arange(len(points)), best])

@@ -1,0 +1,75 @@
+"""What a run is asked about photographs and pictures behind: a part of the recipe."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Annotated
+
+from pydantic import BaseModel, Field, field_validator
+
+from packwork.errors import RecipeError
+from packwork.readers.photos.options import PhotoOptions
+
+_EXAMPLE = "use shares such as words=50%,photos=30%,items=20%"
+
+KINDS = ("words", "photos", "items")
+"""What can be mixed in one layout."""
+
+
+def share_of_kinds(value: object) -> dict[str, float]:
+    """Shares by kind, of ``words=50%,items=50%`` or a table of numbers.
+
+    Raises
+    ------
+    RecipeError
+        If a kind is unknown, or a share no positive number.
+
+    Examples
+    --------
+    >>> share_of_kinds("words=70%, items=30%"), share_of_kinds({"photos": 2, "items": 1})
+    ({'words': 70.0, 'items': 30.0}, {'photos': 2.0, 'items': 1.0})
+    """
+    if isinstance(value, str):
+        value = dict(part.strip().partition("=")[::2] for part in value.split(","))
+    if not isinstance(value, Mapping) or not value:
+        raise RecipeError("share", f"{_EXAMPLE}, not {str(value)[:40]!r}")
+    shares: dict[str, float] = {}
+    for kind, text in value.items():
+        try:
+            part = float(str(text).strip().removesuffix("%"))
+        except ValueError:
+            part = math.nan
+        if kind not in KINDS or not 0 < part < math.inf:
+            raise RecipeError("share", f"{_EXAMPLE}, not {f'{kind}={text}'[:40]!r}")
+        shares[kind] = part
+    return shares
+
+
+class Pictured(BaseModel, use_attribute_docstrings=True):
+    """Photographs that are placed, and the picture round which items are."""
+
+    photos: PhotoOptions | None = None
+    """Photographs to place: which, and what becomes of their edges (``packwork photos``)."""
+
+    quiet_share: Annotated[float, Field(ge=0.02, le=0.98)] = 0.4
+    """Of a container around:IMAGE: the share of the picture that is filled, that in which least
+    is to be seen."""
+
+    keep_clear: tuple[str, ...] | None = None
+    """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or
+    a box left,top,width,height such as 10%,20%,30%,30%."""
+
+    share: dict[str, float] | None = None
+    """Shares of the area where words, photos and other items are mixed:
+    words=50%,photos=30%,items=20%."""
+
+    @field_validator("share", mode="before")
+    @classmethod
+    def _shares_are_of_kinds(cls, value: object) -> object:
+        return None if value is None else share_of_kinds(value)
+
+    @field_validator("keep_clear", mode="before")
+    @classmethod
+    def _one_is_enough(cls, value: object) -> object:
+        return (value,) if isinstance(value, str) else value

@@ -1,0 +1,136 @@
+"""What a run is asked about moving items: forces, piles, staying near an earlier layout."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Literal, TypeAlias, get_args
+
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
+
+from packwork.errors import RecipeError
+from packwork.forces.spec import ForceTexts, is_pair
+from packwork.refusals import length_asked
+
+Side: TypeAlias = Literal["top", "bottom", "left", "right"]
+"""Where a container is open."""
+
+
+def _one_or_more(value: object) -> object:
+    """Let one side be a text."""
+    if isinstance(value, str):
+        return (value,)
+    return () if value is None else value
+
+
+@dataclass(frozen=True)
+class Emitter:
+    """Where items come from, as it was written.
+
+    Parameters
+    ----------
+    side
+        An edge of the canvas; None for none.
+    points
+        Pairs ``X,Y`` of lengths: a point, or the corners of a line.
+    file
+        Of a drawn curve; None for none.
+    region
+        File or built-in name; None for none.
+    """
+
+    side: Side | None = None
+    points: tuple[str, ...] = ()
+    file: str | None = None
+    region: str | None = None
+
+
+def parse_emitter(text: str) -> Emitter:
+    """Emitter of its text.
+
+    Raises
+    ------
+    RecipeError
+        About ``emit``.
+
+    Examples
+    --------
+    >>> parse_emitter("top").side, parse_emitter("10%,0 90%,0").points
+    ('top', ('10%,0', '90%,0'))
+    """
+    words = text.split()
+    side = next((side for side in get_args(Side) if words == [side]), None)
+    if side is not None:
+        return Emitter(side=side)
+    if len(words) == 2 and words[0] == "in":
+        return Emitter(region=words[1])
+    if len(words) == 1 and words[0].lower().endswith(".svg"):
+        return Emitter(file=words[0])
+    if words and all(map(is_pair, words)):
+        return Emitter(points=tuple(words))
+    raise RecipeError(
+        "emit",
+        f"use top, bottom, left, right, X,Y, X,Y X,Y, FILE.svg or in NAME, not {text[:60]!r}",
+    )
+
+
+class PileOptions(BaseModel):
+    """How items of given sizes are heaped."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    open: Annotated[tuple[Side, ...], BeforeValidator(_one_or_more)] = ()
+    """Take the lid off on that side (top, bottom, left or right): items come in through it and
+    may heap up beyond it, to the canvas' edge. May be given several times."""
+
+    size: str | float | None = None
+    """Longer side of each item, a length as for the padding; with weights, of one of weight 1.
+    Default: as large as in their files."""
+
+    emit: str | None = None
+    """Where items come from: top, bottom, left, right (that edge of the canvas), X,Y (a point),
+    X,Y X,Y (a line), FILE.svg (a drawn curve) or in NAME (a region: a file or a built-in
+    name). Default: each begins at its lowest free place."""
+
+    release: Annotated[int, Field(ge=0, le=1_000)] = 0
+    """With --emit: rounds between one item and the next, so that they pour; 0 lets all begin
+    at once."""
+
+    compact: bool = False
+    """Report how tight the pile is: shares of its hull, its smallest circle and its box."""
+
+    @field_validator("emit")
+    @classmethod
+    def _emitter_is_known(cls, text: str | None) -> str | None:
+        if text is not None:
+            parse_emitter(text)
+        return text
+
+    @model_validator(mode="after")
+    def _released_from_somewhere(self) -> PileOptions:
+        if self.release and self.emit is None:
+            raise RecipeError("release", "says when items come, so --emit must say from where")
+        return self
+
+    @field_validator("size")
+    @classmethod
+    def _size_is_a_length(cls, value: str | float | None) -> str | float | None:
+        if value is not None and length_asked("size", value, "px", 1.0) <= 0:
+            raise RecipeError("size", f"must be more than nothing, not {value}")
+        return value
+
+
+class Moving(BaseModel):
+    """The part of a recipe that says how items move."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    force: ForceTexts = None
+    """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
+    balance or together; docs/forces.md has all. May be given several times."""
+
+    pile: PileOptions | None = None
+    """Items of given sizes, heaped by forces (``packwork pile``)."""
+
+    stay: bool = False
+    """With --start LAYOUT: items stay as near to where they were as the result allows. They are
+    told by their names; new ones go into voids, and those no longer asked for leave."""

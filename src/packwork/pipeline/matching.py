@@ -1,0 +1,33 @@
+"""Items of an earlier layout in a run of now, by their names."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import IntArray
+
+
+def matched(now: Sequence[str], then: Sequence[str]) -> IntArray:
+    """``(n,)`` which item of then each item of now is; -1 for one that is new.
+
+    Copies of one name are taken in turn: the first for the first.
+
+    Examples
+    --------
+    >>> matched(["owl", "bear", "owl", "fox"], ["bear", "owl", "cat"]).tolist()
+    [1, 0, -1, -1]
+    """
+    places: dict[tuple[str, int], int] = {}
+    seen: Counter[str] = Counter()
+    for k, name in enumerate(then):
+        places[name, seen[name]] = k
+        seen[name] += 1
+    seen.clear()
+    found = []
+    for name in now:
+        found.append(places.get((name, seen[name]), -1))
+        seen[name] += 1
+    return np.array(found, dtype=np.int64)

@@ -1,0 +1,167 @@
+"""Containers with a side taken off, and where there is none at all."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region, oriented_rings, polygon_parts
+from packwork.piles import Side
+from packwork.scene.container import Container
+from packwork.units import CanvasSize
+
+LID = 0.1
+"""Depth of the lid that is taken off, as a share of the container's height or width on that
+side. Larger opens round containers wider, smaller leaves jars a narrow neck. Chosen by eye."""
+
+WAYS: dict[Side, tuple[float, float]] = {
+    "top": (0.0, -1.0), "bottom": (0.0, 1.0), "left": (-1.0, 0.0), "right": (1.0, 0.0),
+}  # fmt: skip
+
+LOOSE = 0.5
+"""Share of the room above an opening that items take on their way in, each as the disc that
+holds it. Larger may leave some without a first place, smaller is slower. Chosen."""
+
+AROUND = 0.4
+"""Share of a canvas without container that items cover, as the discs that hold them. Larger
+leaves less paper about a pack, smaller more. Chosen by eye."""
+
+
+@dataclass(frozen=True, eq=False)
+class Opened:
+    """A container that items come into.
+
+    Parameters
+    ----------
+    container
+        With what lies beyond its openings, up to the canvas' edge.
+    basin
+        The same and more room beyond; None if it has no opening.
+    """
+
+    container: Container
+    basin: Outline | None
+
+
+def opened(
+    container: Container, sides: Sequence[Side], mouths: FloatArray | None, discs_cu2: float
+) -> Opened:
+    """Container without its lids.
+
+    Parameters
+    ----------
+    sides
+        Whose lids to take off.
+    mouths
+        ``(m, 2, 2)`` ends of openings that are drawn; None for none.
+    discs_cu2
+        Area of all items as discs: how much room they need on their way in.
+
+    Examples
+    --------
+    >>> tile = Outline.from_rings([np.array([[2.0, 5], [8, 5], [8, 10], [2, 10]])])
+    >>> jar = opened(Container("", "", tile, 10.0, 10.0), ["top"], None, 6.0)
+    >>> jar.container.outline.bounds, jar.basin.bounds[3]
+    ((2.0, 0.0, 8.0, 10.0), 10.0)
+    """
+    region = container.outline.region
+    gates: list[tuple[Region, FloatArray]] = []
+    gates += [(_lid(region, side), np.array(WAYS[side])) for side in sides]
+    for mouth in () if mouths is None else mouths:
+        gates.append((shapely.LineString(mouth), _outward(region, mouth)))
+    if not gates:
+        return Opened(container, None)
+    canvas = math.hypot(container.width, container.height)
+    beyond = [region, *(_swept(gate, way * canvas) for gate, way in gates)]
+    sheet = shapely.box(0, 0, container.width, container.height)
+    whole = shapely.union_all([region, *(shapely.intersection(b, sheet) for b in beyond[1:])])
+    needed = discs_cu2 / LOOSE / len(gates)
+    far = [
+        _swept(gate, way * (canvas + needed / max(_breadth(gate, way), 1e-9 * canvas)))
+        for gate, way in gates
+    ]
+    inside = replace(container, outline=Outline.from_region(_solid(whole)))
+    return Opened(inside, Outline.from_region(_solid(shapely.union_all([whole, *far]))))
+
+
+def nowhere(size: CanvasSize | None, radii_cu: FloatArray) -> Container:
+    """Sheet that stands for no container at all; items may lie anywhere on it.
+
+    Parameters
+    ----------
+    size
+        Of the sheet; None for one on which discs of these radii lie in its middle.
+    """
+    width = math.sqrt(math.pi * float((radii_cu**2).sum()) / AROUND)
+    width = max(width, 4 * float(radii_cu.max()))
+    if size is not None:
+        width = size.width
+    height = width if size is None or size.height is None else size.height
+    corners = np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
+    unit = "px" if size is None else size.unit
+    return Container("none", "none", Outline.from_rings([corners]), width, height, unit)
+
+
+def _lid(region: Region, side: Side) -> Region:
+    """The part of a region within the lid's depth of one side."""
+    left, top, right, bottom = region.bounds
+    deep, wide = LID * (bottom - top), LID * (right - left)
+    boxes = {
+        "top": (left, top, right, top + deep),
+        "bottom": (left, bottom - deep, right, bottom),
+        "left": (left, top, left + wide, bottom),
+        "right": (right - wide, top, right, bottom),
+    }
+    return shapely.intersection(region, shapely.box(*boxes[side]))
+
+
+def _outward(region: Region, mouth: FloatArray) -> FloatArray:
+    """Unit normal of an opening that leads out of the region."""
+    along = mouth[1] - mouth[0]
+    normal = np.array([along[1], -along[0]]) / max(float(np.hypot(*along)), 1e-300)
+    middle, length = mouth.mean(axis=0), float(np.hypot(*along))
+    strips = [
+        shapely.Polygon([mouth[0], mouth[1], mouth[1] + way, mouth[0] + way])
+        for way in (LID * length * normal, -LID * length * normal)
+    ]
+    # The side on which less of the container lies.
+    inner = [shapely.intersection(region, strip).area for strip in strips]
+    if inner[0] == inner[1]:
+        return (
+            normal
+            if (middle - shapely.get_coordinates(region.centroid)[0]) @ normal > 0
+            else -normal
+        )
+    return normal if inner[0] < inner[1] else -normal
+
+
+def _swept(gate: Region, way: FloatArray) -> Region:
+    """All that a gate passes over on a straight way."""
+    if isinstance(gate, shapely.LineString):
+        lines = [shapely.get_coordinates(gate)]
+    else:
+        lines = [np.vstack([ring, ring[:1]]) for ring in oriented_rings(gate)]
+    quads = []
+    for line in lines:
+        a, b = line[:-1], line[1:]
+        corners = np.stack([a, b, b + way, a + way, a], axis=1)
+        quads += [q for q in shapely.polygons(corners) if q.area > 0]
+    return shapely.union_all([*polygon_parts(gate), *quads])
+
+
+def _breadth(gate: Region, way: FloatArray) -> float:
+    """Extent of a gate across a way."""
+    across = shapely.get_coordinates(gate) @ np.array([-way[1], way[0]])
+    return float(np.ptp(across))
+
+
+def _solid(region: Region) -> Region:
+    """The same without slits that rounding leaves between parts."""
+    parts = polygon_parts(region)
+    return shapely.union_all([shapely.Polygon(part.exterior, part.interiors) for part in parts])

@@ -1,0 +1,69 @@
+"""Options of ``photos`` to the recipe of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from pydantic import ValidationError
+
+from packwork.readers.photos.options import PhotoOptions
+from packwork.recipe import Recipe, make_recipe
+from packwork.refusals import refusal
+
+DEFAULTS: Mapping[str, Any] = {"rotate": "15"}
+"""What is another choice than that of other items: photos lie as if strewn on a table, and
+none is upside down."""
+
+
+def photos_recipe(
+    container: str, sources: object, *, add: Sequence[str] = (), **options: Any
+) -> Recipe:
+    """Recipe that places photographs, from the options of ``photos`` and of all runs alike.
+
+    Parameters
+    ----------
+    container
+        As of any recipe.
+    sources
+        As :class:`PhotoOptions` has them.
+    add
+        Items that are mixed in.
+
+    Raises
+    ------
+    RecipeError
+        Naming the option, what was met and what would do.
+
+    Examples
+    --------
+    >>> recipe = photos_recipe("heart", ["holidays/"], border="4%")
+    >>> recipe.photos.sources, recipe.photos.border_share, recipe.rotate
+    (('holidays/',), 0.04, '15')
+    """
+    return make_recipe(container=container, items=list(add), **photo_choices(sources, **options))
+
+
+def photo_choices(sources: object, **options: Any) -> dict[str, Any]:
+    """The same as options of a recipe, those of photos apart; what is None is not asked.
+
+    Raises
+    ------
+    RecipeError
+        Naming the option, what was met and what would do.
+
+    Examples
+    --------
+    >>> sorted(photo_choices("holidays/", border="4%", seed=1, count=None))
+    ['photos', 'rotate', 'seed']
+    """
+    said = {key: value for key, value in options.items() if value is not None}
+    own = {key: said.pop(key) for key in list(said) if key in PhotoOptions.model_fields}
+    return {**DEFAULTS, **said, "photos": _photo_options({"sources": sources, **own})}
+
+
+def _photo_options(values: Mapping[str, Any]) -> PhotoOptions:
+    try:
+        return PhotoOptions.model_validate(values)
+    except ValidationError as error:
+        raise refusal(error, PhotoOptions) from error

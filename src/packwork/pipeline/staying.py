@@ -1,0 +1,56 @@
+"""Runs that begin from an earlier layout and keep near it."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from packwork.forces.bonds import Home
+from packwork.forces.forces import BondForce, Forces
+from packwork.pipeline.beginning import new_items
+from packwork.pipeline.job import Job
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.solve.options import SolveOptions
+
+SAME = 1e-3
+"""Share of the container's area by which another one may differ and count as the same. Larger
+leaves more to the finish, which moves items little. Chosen."""
+
+HOME_STRENGTH = 3.0
+"""How strongly items are held near home where the container has changed. Larger keeps them
+nearer and fills less. Tried."""
+
+CALM = 0.2
+"""Factor on the longest moves of such a run. Larger mixes items more, smaller may leave some
+outside. Tried."""
+
+
+def needs_no_levels(job: Job) -> bool:
+    """Whether the exact finish alone can bring an earlier layout to what is asked now."""
+    if not job.recipe.stay or job.earlier is None or len(new_items(job)):
+        # What is new needs room that only the levels can make.
+        return False
+    before, now = job.earlier.container, job.container
+    if before.canvas != now.canvas:
+        return False
+    changed = shapely.symmetric_difference(before.outline.region, now.outline.region).area
+    return bool(changed < SAME * now.outline.area)
+
+
+def with_homes(job: Job, forces: Forces | None, poses: Poses, container: Container) -> Forces:
+    """The forces, and one that holds each item near where it begins."""
+    homes = np.column_stack([poses.x, poses.y])
+    homes[new_items(job)] = np.nan
+    strengths = np.full(len(poses), HOME_STRENGTH)
+    held = BondForce(Home(homes), strengths)
+    if forces is None:
+        kinds = np.zeros(len(poses), dtype=np.int64)
+        return Forces([], [held], kinds, container.side)
+    return Forces(forces.fields, [*forces.bonds, held], forces.kinds, forces.side)
+
+
+def calmed(options: SolveOptions) -> SolveOptions:
+    """Options of a solve that moves items no farther than it has to."""
+    rates = {name: CALM * getattr(options, name) for name in ("position_rate", "turn_rate")}
+    return options.model_copy(update=rates)

@@ -1,0 +1,1 @@
+"""Photographs to items: read small, opened again when they are printed."""

@@ -1,0 +1,132 @@
+"""Photographs from disk at the size that is needed, upright and in the colours of screens."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from io import BytesIO
+from typing import TypeAlias
+
+from PIL import ExifTags, Image, ImageCms, ImageOps
+
+from packwork.readers.pictures.decode import eight_bit, opened
+
+REDUCING_GAP = 2.0
+"""How much larger than asked for a picture is when the good filter takes over from the quick
+one. Larger is slower, smaller a little softer. Chosen, after Pillow's own advice."""
+
+Window: TypeAlias = tuple[float, float, float, float]
+"""Left, top, right, bottom, in pixels of the upright photo."""
+
+_SIDEWAYS = frozenset({5, 6, 7, 8})
+_CLEAR = ("RGBA", "LA", "PA", "La", "RGBa")
+
+
+@dataclass(frozen=True)
+class Negative:
+    """What the header of a photo says.
+
+    Parameters
+    ----------
+    width, height
+        Pixels of the upright photo.
+    has_alpha
+        Whether it may be clear in places.
+    """
+
+    width: int
+    height: int
+    has_alpha: bool
+
+
+def inspected(data: bytes) -> Negative:
+    """Size, as it is seen upright, and kind of a photo, without decoding it.
+
+    Raises
+    ------
+    UnfitError
+        If it is no picture, or too large.
+
+    Examples
+    --------
+    >>> file = BytesIO()
+    >>> exif = Image.Exif(); exif[ExifTags.Base.Orientation] = 6
+    >>> Image.new("RGB", (30, 20)).save(file, "JPEG", exif=exif)
+    >>> inspected(file.getvalue())
+    Negative(width=20, height=30, has_alpha=False)
+    """
+    with opened(data, shrinking=True) as image:
+        width, height = image.size
+        if image.getexif().get(ExifTags.Base.Orientation) in _SIDEWAYS:
+            width, height = height, width
+        return Negative(width, height, image.mode in _CLEAR or "transparency" in image.info)
+
+
+def developed(data: bytes, window: Window, size: tuple[int, int]) -> Image.Image:
+    """Part of a photo, upright, in sRGB, re-sampled once.
+
+    Parameters
+    ----------
+    window
+        The part; sides need not be whole.
+    size
+        Width and height of the result; no JPEG is decoded much finer than that.
+
+    Returns
+    -------
+    Image
+        RGB, or RGBA of a photo that may be clear.
+
+    Raises
+    ------
+    UnfitError
+        If the file is cut short or broken.
+
+    Examples
+    --------
+    >>> file = BytesIO()
+    >>> Image.new("RGB", (300, 200), "teal").save(file, "JPEG")
+    >>> print_ = developed(file.getvalue(), (0, 0, 150, 200), (15, 20))
+    >>> print_.size, print_.mode
+    ((15, 20), 'RGB')
+    """
+    with opened(data, shrinking=True) as image:
+        before = image.size
+        image.draft(None, _draft_size(image, window, size))
+        upright = ImageOps.exif_transpose(image)
+        shrunk = max(upright.size) / max(before)
+        left, top, right, bottom = (side * shrunk for side in window)
+        box = (left, top, min(right, upright.width), min(bottom, upright.height))
+        plain = _resizable(upright)
+        small = plain.resize(size, Image.Resampling.LANCZOS, box, REDUCING_GAP)
+        return _in_screen_colours(small, image.info.get("icc_profile"))
+
+
+def _draft_size(image: Image.Image, window: Window, size: tuple[int, int]) -> tuple[int, int]:
+    """Least size of the whole picture, as it lies in the file, that gives so large a part."""
+    left, top, right, bottom = window
+    share = max(size[0] / (right - left), size[1] / (bottom - top))
+    return max(1, int(image.width * share)), max(1, int(image.height * share))
+
+
+def _resizable(image: Image.Image) -> Image.Image:
+    """The same picture in a mode whose values may be averaged."""
+    if image.mode in _CLEAR or "transparency" in image.info:
+        # Pillow weighs colours by alpha only in this mode: else edges darken.
+        return image.convert("RGBA").convert("RGBa")
+    if image.mode in ("RGB", "CMYK"):
+        return image
+    return eight_bit(image, "RGB")
+
+
+def _in_screen_colours(image: Image.Image, profile: bytes | None) -> Image.Image:
+    """Picture in sRGB; one whose profile cannot be used is taken for that already."""
+    mode = "RGBA" if image.mode == "RGBa" else "RGB"
+    plain = image.convert("RGBA") if mode == "RGBA" else image
+    if profile:
+        try:
+            own = ImageCms.ImageCmsProfile(BytesIO(profile))
+            target = ImageCms.createProfile("sRGB")
+            return ImageCms.profileToProfile(plain, own, target, outputMode=mode) or plain
+        except (ImageCms.PyCMSError, OSError, ValueError, TypeError):
+            pass
+    return plain.convert(mode)

@@ -1,0 +1,118 @@
+"""What of a photo is shown: the part that is cut out, and its region."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from packwork.geometry import affine
+from packwork.geometry.polygon import Region
+from packwork.readers.photos.developing import Negative, Window, developed
+from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.pictures.silhouette import outline_of_cut_out
+
+CUT_OUT_PX = 800
+"""Longer side at which the outline of a cut-out is traced. Larger traces finer and gives the
+outline more points. Chosen."""
+
+CORNER_SEGMENTS = 16
+"""Chords of a quarter circle, of borders and rounded corners. More: longer runs; these lie
+within a thousandth of the radius. Chosen."""
+
+MITRE = 10.0
+"""How far a border reaches beyond a sharp corner, in widths. Larger than that of any
+right angle, so that prints keep their corners."""
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """What of a photo is shown, in its upright pixels.
+
+    Parameters
+    ----------
+    window
+        The part of the photo.
+    picture
+        What is seen of the photo.
+    whole
+        The same with its border.
+    is_cut
+        Whether the picture is less than its window: shaped, or clear in places.
+    """
+
+    window: Window
+    picture: Region
+    whole: Region
+    is_cut: bool
+
+
+def framed(data: bytes, negative: Negative, options: PhotoOptions) -> Frame:
+    """Frame of a photo: its rectangle, its cut-out, or the largest shape in its middle.
+
+    Raises
+    ------
+    ReadError
+        If the shape cannot be read.
+    UnfitError
+        If a cut-out shows nothing.
+    """
+    width, height = negative.width, negative.height
+    full = (0.0, 0.0, float(width), float(height))
+    shorter = min(width, height)
+    if options.rounding:
+        window, picture = full, _rounded(full, options.rounding * shorter)
+    elif options.shape is not None and options.rounding is None:
+        window, picture = _shaped(options.shape, full)
+    elif negative.has_alpha:
+        window, picture = full, _cut_out(data, negative)
+    else:
+        window, picture = full, shapely.box(*full)
+    is_cut = picture.area < (1 - 1e-9) * shapely.box(*window).area
+    return Frame(window, picture, _bordered(picture, options.border_share * shorter), is_cut)
+
+
+def _rounded(full: Window, radius: float) -> Region:
+    """A rectangle with round corners; half the shorter side as radius makes a pill."""
+    left, top, right, bottom = full
+    xs, ys = (left + radius, right - radius), (top + radius, bottom - radius)
+    middles = shapely.multipoints([(x, y) for x in xs for y in ys])
+    return shapely.buffer(middles.convex_hull, radius, quad_segs=CORNER_SEGMENTS)
+
+
+def _shaped(shape: str, full: Window) -> tuple[Window, Region]:
+    """The largest copy of a shape in the middle of a photo, and the box about it."""
+    # Containers may be parts of photos: they know this module.
+    from packwork.readers.container import read_container
+
+    region = read_container(shape).outline.region
+    left, top, right, bottom = region.bounds
+    scale = min(full[2] / (right - left), full[3] / (bottom - top))
+    middle = full[2] / 2 - scale * (left + right) / 2, full[3] / 2 - scale * (top + bottom) / 2
+    place = affine.similarity(*middle, 0.0, scale)
+    placed = shapely.transform(region, lambda points: affine.apply(place, points))
+    x0, y0, x1, y1 = placed.bounds
+    return (max(x0, 0.0), max(y0, 0.0), min(x1, full[2]), min(y1, full[3])), placed
+
+
+def _cut_out(data: bytes, negative: Negative) -> Region:
+    """What is not clear of a photo."""
+    scale = min(1.0, CUT_OUT_PX / max(negative.width, negative.height))
+    size = max(1, round(negative.width * scale)), max(1, round(negative.height * scale))
+    full = (0.0, 0.0, float(negative.width), float(negative.height))
+    pixels = np.asarray(developed(data, full, size))
+    traced = outline_of_cut_out(pixels)
+    ratio = np.array([negative.width / size[0], negative.height / size[1]])
+    return shapely.transform(traced, lambda points: points * ratio)
+
+
+def _bordered(picture: Region, width: float) -> Region:
+    """Region with a border round it; corners stay corners, as those of prints do."""
+    if width == 0:
+        return picture
+    is_box = picture.area > (1 - 1e-9) * shapely.box(*picture.bounds).area
+    join = "mitre" if is_box else "round"
+    return shapely.buffer(
+        picture, width, quad_segs=CORNER_SEGMENTS, join_style=join, mitre_limit=MITRE
+    )

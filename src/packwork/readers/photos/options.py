@@ -1,0 +1,99 @@
+"""What photographs are placed and what becomes of their edges."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator
+
+from packwork.errors import RecipeError
+
+ROUNDED = "rounded"
+"""Shape of a photo that keeps its proportions and loses its corners."""
+
+DEFAULT_ROUNDING = 10.0
+"""Radius of rounded corners, in percent of the shorter side. Chosen by eye."""
+
+_ROUNDED = re.compile(rf"{ROUNDED}(?::(\d+(?:\.\d+)?)%)?")
+_SHARE = re.compile(r"(\d+(?:\.\d+)?)\s*%")
+_WIDEST = 50.0
+
+
+class PhotoOptions(BaseModel):
+    """Photographs, and what becomes of their edges."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    sources: tuple[str, ...] = Field(min_length=1)
+    """Photos (JPEG, PNG, WebP), folders of them, or patterns such as *.jpg."""
+
+    shape: str | None = None
+    """Cut photos to a shape: rounded, rounded:20% (radius as a share of the shorter side), or
+    whatever can be a container, such as circle, heart or a mask. Default: none."""
+
+    border: str = "0%"
+    """Width of a border around each photo, as a share of its shorter side, such as 4%: it lies
+    outside the photo and hides nothing of it."""
+
+    border_color: str = "white"
+    """Colour of the border."""
+
+    @property
+    def border_share(self) -> float:
+        """Width of the border over the photo's shorter side."""
+        return _share("border", self.border)
+
+    @property
+    def rounding(self) -> float | None:
+        """Radius of corners over the shorter side; None where they are not rounded."""
+        match = _ROUNDED.fullmatch(self.shape or "")
+        return None if match is None else float(match[1] or DEFAULT_ROUNDING) / 100
+
+    @field_validator("sources", mode="before")
+    @classmethod
+    def _one_source_is_enough(cls, sources: Any) -> Any:
+        if isinstance(sources, str | Path):
+            return (str(sources),)
+        return tuple(map(str, sources)) if isinstance(sources, Iterable) else sources
+
+    @field_validator("shape")
+    @classmethod
+    def _rounding_has_a_meaning(cls, shape: str | None) -> str | None:
+        if shape is None or not shape.startswith(f"{ROUNDED}:"):
+            return shape
+        match = _ROUNDED.fullmatch(shape)
+        if match is None or float(match[1]) > _WIDEST:
+            raise RecipeError("shape", f"use rounded:1% to rounded:50%, not {shape[:40]!r}")
+        return shape
+
+    @field_validator("border")
+    @classmethod
+    def _border_is_a_share(cls, border: str) -> str:
+        _share("border", border)
+        return border
+
+    @field_validator("border_color")
+    @classmethod
+    def _border_has_a_colour(cls, text: str) -> str:
+        # Loads the picture library, which the command line's help can do without.
+        from packwork.scene.colour import css_colour
+
+        try:
+            css_colour(text)
+        except ValueError:
+            raise RecipeError(
+                "border_color", f"{text[:40]!r} is no colour; use one such as ivory or #102030"
+            ) from None
+        return text
+
+
+def _share(key: str, text: str) -> float:
+    match = _SHARE.fullmatch(text.strip())
+    if match is None or float(match[1]) > _WIDEST:
+        raise RecipeError(
+            key, f"use a share of the photo's shorter side, 0% to 50%, not {text[:40]!r}"
+        )
+    return float(match[1]) / 100

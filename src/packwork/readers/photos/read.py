@@ -1,0 +1,120 @@
+"""Files, folders and patterns to photographs, several decoded at a time."""
+
+from __future__ import annotations
+
+import glob
+import logging
+import os
+import warnings
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+from packwork.errors import ReadError
+from packwork.readers.files import exists
+from packwork.readers.items import ItemsRead
+from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.photos.photo import read_photo
+from packwork.readers.pictures.decode import PICTURE_ENDINGS
+from packwork.scene.item import Item
+
+MOST_AT_ONCE = 4
+"""Photos decoded at a time. More need more memory: a broken header's worth of pixels each.
+Chosen."""
+
+UNREAD = (".heic", ".heif", ".avif", ".cr2", ".cr3", ".nef", ".arw", ".dng")
+"""Endings of photos that no library at hand reads."""
+
+_LOG = logging.getLogger("packwork")
+
+
+@dataclass(frozen=True)
+class _Named:
+    """A file, and whether it was named by itself: then it must be usable."""
+
+    file: str
+    by_itself: bool
+
+
+def read_photos(options: PhotoOptions, *, strict: bool = False) -> ItemsRead:
+    """Items of all photos, in the order of the sources, files of a folder by name.
+
+    A file named by itself must be usable; one among many of a folder or a pattern is left
+    out with a notice if it is not.
+
+    Parameters
+    ----------
+    strict
+        Whether an unusable file among many is an error too.
+
+    Raises
+    ------
+    ReadError
+        If a source does not exist or gives no photo at all.
+
+    Examples
+    --------
+    >>> read_photos(PhotoOptions(sources="no such file.jpg"))
+    Traceback (most recent call last):
+    packwork.errors.ReadError: no such file.jpg: there is no such file
+    """
+    named = [one for source in options.sources for one in _files(source)]
+    # Pillow's own notices are of no use to whoever only wants a collage; and threads may
+    # not set aside warnings each for itself.
+    with warnings.catch_warnings(), ThreadPoolExecutor(_threads()) as threads:
+        warnings.simplefilter("ignore")
+        results = list(threads.map(_reading(options), named, range(1, len(named) + 1)))
+    items: list[Item] = []
+    skipped: list[ReadError] = []
+    for one, result in zip(named, results, strict=True):
+        if isinstance(result, Item):
+            items.append(result)
+        elif one.by_itself or strict:
+            raise result
+        else:
+            skipped.append(result)
+    if not items:
+        raise skipped[0]
+    for refusal in skipped:
+        _LOG.warning("left out %s", refusal)
+    return ItemsRead(tuple(items), tuple(skipped))
+
+
+def _reading(options: PhotoOptions) -> Callable[[_Named, int], Item | ReadError]:
+    def read(one: _Named, number: int) -> Item | ReadError:
+        try:
+            return read_photo(one.file, options, number)
+        except ReadError as error:
+            return error
+
+    return read
+
+
+def _threads() -> int:
+    return min(MOST_AT_ONCE, os.cpu_count() or 1)
+
+
+def _files(source: str) -> list[_Named]:
+    path = Path(source)
+    if path.is_dir():
+        found = sorted(str(file) for file in path.iterdir() if _is_photo(file))
+        return _several(source, found)
+    if glob.has_magic(source) and not exists(path):
+        return _several(source, sorted(f for f in glob.glob(source) if _is_photo(Path(f))))  # noqa: PTH207
+    if path.suffix.lower() in UNREAD:
+        raise ReadError(
+            source, f"photos that end in {path.suffix} are not read; save it as JPEG first"
+        )
+    return [_Named(source, by_itself=True)]
+
+
+def _several(source: str, files: list[str]) -> list[_Named]:
+    if not files:
+        raise ReadError(source, f"holds no photo; those end in {', '.join(PICTURE_ENDINGS)}")
+    return [_Named(file, by_itself=False) for file in files]
+
+
+def _is_photo(path: Path) -> bool:
+    is_shown = not path.name.startswith(".")
+    return is_shown and path.suffix.lower() in PICTURE_ENDINGS and path.is_file()

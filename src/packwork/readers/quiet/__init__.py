@@ -1,0 +1,1 @@
+"""Pictures to containers: the part of them in which little is to be seen."""

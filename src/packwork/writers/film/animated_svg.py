@@ -1,0 +1,82 @@
+"""Films as one SVG that moves by itself: no script, every browser, in pages and pictures.
+
+Each item has its own keyframes in CSS, between which browsers interpolate place, turn and
+size as we do. Programs that know no CSS animation show the end, and so do browsers of
+people who asked their system for less motion.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import replace
+
+from packwork.arrays import FloatArray
+from packwork.scene.track import COLUMNS, poses_of
+from packwork.writers.film.film import Film, Tell, tell_nobody
+from packwork.writers.film.knots import item_knots
+from packwork.writers.frame import picture_frame
+from packwork.writers.labels import item_ids
+from packwork.writers.notation import decimals, number
+from packwork.writers.svg import Sheet, SvgOptions, svg_document
+
+TOLERANCE = 1 / 4_000
+"""Largest way of an item from where a film's frames have it, as a share of the canvas: a
+fifth of a pixel of 800. Smaller: longer files that look the same. Chosen."""
+
+_PERCENT_DIGITS = 3
+_STRETCH = COLUMNS.index("stretch")
+
+
+def animated_svg_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
+    """SVG file of a film: the layout's own, and how its items move."""
+    frame = picture_frame(film.layout.container, film.options.film_pixels)
+    size = (float(frame.columns), float(frame.rows))
+    view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
+    options = SvgOptions(background=film.background, show_container=film.show_container)
+    # Halos lie under all items, in one group: they would stay behind.
+    bare = tuple(replace(item, halo="") for item in film.layout.items)
+    still = svg_document(
+        replace(film.layout, items=bare), options, Sheet(size=size, unit="px", view=view)
+    )
+    head, end_of_title, rest = still.partition("</title>")
+    return (head + end_of_title + "\n" + _style(film, tell) + rest).encode()
+
+
+def _style(film: Film, tell: Tell) -> str:
+    ids, items = item_ids(film.layout.items), film.layout.items
+    # Several films may stand in one page, whose keyframes have one namespace.
+    name = "way-" + hashlib.sha256(film.frames.tobytes()).hexdigest()[:8]
+    count = "infinite" if film.options.loop else "1"
+    timing = f"{film.options.total:g}s linear {count} both"
+    lines = []
+    for k, (item, own) in enumerate(zip(items, ids, strict=True)):
+        frames = film.frames[:, k]
+        lines.append(f'[id="{own}"]{{animation:{name}-{k + 1} {timing}}}')
+        lines.append(f"@keyframes {name}-{k + 1}{{{_keyframes(film, frames, item.ink.radius)}}}")
+        tell((k + 1) / len(items))
+    still = "@media (prefers-reduced-motion:reduce){#items *{animation:none!important}}"
+    return "\n".join(["<style>", *lines, still, "</style>"])
+
+
+def _keyframes(film: Film, frames: FloatArray, radius: float) -> str:
+    step = TOLERANCE * film.layout.container.side
+    chosen = item_knots(frames, radius, step)
+    poses = poses_of(frames[chosen])
+    reach = max(radius * float(poses.scale.max()), step)
+    place, turn = decimals(step / 4), decimals(math.degrees(step / 4 / reach))
+    size = decimals(step / 4 / radius)
+    is_stretched = bool((frames[:, _STRETCH] != 1).any())
+    parts = []
+    for k, at in enumerate(chosen.tolist()):
+        share = 100 * at / film.options.fps / film.options.total
+        wide, high = (number(float(v), size) for v in poses.axis_scales[k])
+        scale = f"{wide},{high}" if is_stretched else wide
+        parts.append(
+            f"{number(share, _PERCENT_DIGITS)}%{{transform:"
+            f"translate({number(float(poses.x[k]), place)}px,{number(float(poses.y[k]), place)}px)"
+            f"rotate({number(math.degrees(float(poses.angle[k])), turn)}deg)scale({scale})}}"
+        )
+    # What comes last holds to the end.
+    _, _, last = parts[-1].partition("%")
+    return "".join([*parts, "100%" + last])

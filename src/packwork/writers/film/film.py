@@ -1,0 +1,112 @@
+"""A film before it is drawn: whose, how long, and where everything is in each frame."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeAlias
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.errors import WriteError
+from packwork.scene.layout import Layout
+from packwork.scene.track import Track
+from packwork.writers.colours import parse_colour
+from packwork.writers.film.options import FilmOptions
+
+PAPER = "#ffffff"
+"""Behind the items of a film unless something else is asked for, as in a PNG."""
+
+SOFT_SECONDS = 0.6
+"""Time over which items set off and stop, and over which a leap from one place to another is
+drawn out. Longer blurs the small moves of the end, shorter lets items flit. Chosen by eye."""
+
+SOFT_SHARE = 0.2
+"""The same as a share of the film at most, for films of a second. Chosen."""
+
+Tell: TypeAlias = Callable[[float], None]
+"""Told how much of a film has been encoded, 0 to 1."""
+
+
+def tell_nobody(_: float) -> None:
+    """Encode in silence."""
+
+
+@dataclass(frozen=True, eq=False)
+class Film:
+    """What every format of a film is made from.
+
+    Parameters
+    ----------
+    layout
+        With a track of its items.
+    options
+        Pace, length, size.
+    background
+        CSS colour behind everything; ``"none"`` leaves it clear where a format can.
+    show_container
+        Draw the container's line.
+
+    Raises
+    ------
+    WriteError
+        If the layout has no track, or one of other items.
+    RecipeError
+        If ``background`` is not a colour.
+    """
+
+    layout: Layout
+    options: FilmOptions = field(default_factory=FilmOptions)
+    background: str = PAPER
+    show_container: bool = False
+
+    def __post_init__(self) -> None:
+        if self.track.count != len(self.layout.items):
+            raise WriteError(
+                "film", f"the track is of {self.track.count} items, not {len(self.layout.items)}"
+            )
+        parse_colour("background", self.background)
+
+    @property
+    def track(self) -> Track:
+        """The way of the items."""
+        track = self.layout.track
+        if track is None:
+            raise WriteError("film", "the run was not recorded; give record=True to fill or words")
+        return track
+
+    @property
+    def is_opaque(self) -> bool:
+        """Whether nothing shines through the background."""
+        return parse_colour("background", self.background)[3] == 255
+
+    @cached_property
+    def frames(self) -> FloatArray:
+        """``(frames, n, 5)`` numbers of a track, frame by frame, eased as asked."""
+        options = self.options
+        if options.easing == "linear":
+            return self.track.sampled(np.linspace(0.0, 1.0, options.frames))
+        reach = round(min(SOFT_SECONDS * options.fps, SOFT_SHARE * options.frames) / 2)
+        return _softened(self.track, options.frames, reach)
+
+
+def _softened(track: Track, count: int, reach: int) -> FloatArray:
+    """Frames that are weighed means of those ``reach`` before and after them.
+
+    The first and the last are the track's own: it begins ``reach`` frames late, ends as many
+    early, and stands still before and after.
+    """
+    # A window of 2 * reach + 1 frames about each frame sees those beyond the film's ends too.
+    span = max(count - 1 - 2 * reach, 1)
+    places = (np.arange(-reach, count + reach) - reach) / span
+    path = track.sampled(places)
+    window = np.hanning(2 * reach + 3)[1:-1]
+    window /= window.sum()
+    frames = np.zeros((count, *path.shape[1:]))
+    for offset, weight in enumerate(window):
+        frames += weight * path[offset : offset + count]
+    # Means of equal numbers are off by rounding: what ends a film is the layout itself.
+    frames[0], frames[-1] = track.numbers[0], track.numbers[-1]
+    return frames

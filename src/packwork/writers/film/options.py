@@ -1,0 +1,74 @@
+"""How a film of a run is made."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+from packwork.errors import RecipeError
+
+Easing: TypeAlias = Literal["smooth", "linear"]
+
+MIN_SIDE_PX, MAX_SIDE_PX = 16, 4_096
+"""Longer side of a film: smaller shows nothing, larger no encoder at hand is tested with.
+Chosen."""
+
+MAX_FPS = 120.0
+"""Pictures a second at most: no screen shows more. Chosen."""
+
+MAX_SECONDS = 600.0
+"""Longest film. Chosen."""
+
+MAX_FRAMES = 20_000
+"""Pictures of one film at most: half an hour of encoding. Chosen."""
+
+
+class FilmOptions(BaseModel):
+    """How a film of a run is made."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    fps: Annotated[float, Field(ge=1, le=MAX_FPS, allow_inf_nan=False)] = 30.0
+    """Pictures a second of a film. Any number: they are drawn between what was recorded."""
+
+    seconds: Annotated[float, Field(gt=0, le=MAX_SECONDS, allow_inf_nan=False)] = 5.0
+    """How long the items of a film move."""
+
+    hold: Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)] = 1.0
+    """Seconds for which the last picture of a film stays after that."""
+
+    loop: bool = True
+    """Whether a film begins again at its end; in MP4 and WebM the player decides."""
+
+    easing: Easing = "smooth"
+    """smooth: items of a film set off and stop softly; linear: straight from one recorded
+    place to the next."""
+
+    film_pixels: Annotated[int, Field(ge=MIN_SIDE_PX, le=MAX_SIDE_PX)] = 800
+    """Longer side of a film; MP4 and WebM need an even one."""
+
+    @model_validator(mode="after")
+    def _frames_can_be_drawn(self) -> Self:
+        if self.frames > MAX_FRAMES:
+            raise RecipeError(
+                "seconds",
+                f"{self.seconds:g} at {self.fps:g} pictures a second are {self.frames}; "
+                f"a film may have {MAX_FRAMES}",
+            )
+        return self
+
+    @property
+    def frames(self) -> int:
+        """Pictures in which the items move, the first and the last among them."""
+        return max(round(self.seconds * self.fps), 2)
+
+    @property
+    def moving(self) -> float:
+        """Seconds from the first of them to the last."""
+        return (self.frames - 1) / self.fps
+
+    @property
+    def total(self) -> float:
+        """Seconds of the whole film."""
+        return self.frames / self.fps + self.hold

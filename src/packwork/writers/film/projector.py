@@ -1,0 +1,128 @@
+"""Frames of a film as pictures: each drawing rendered once, then laid down frame by frame."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+from PIL import Image
+
+from packwork.arrays import FloatArray
+from packwork.errors import WriteError
+from packwork.geometry import affine
+from packwork.raster.drawing import drawn_png
+from packwork.raster.overlay import FINENESS, Picture, Texture, premultiplied, straight, texture_of
+from packwork.scene.item import Item
+from packwork.scene.pose import Poses
+from packwork.scene.track import poses_of
+from packwork.writers.film.film import Film, Tell, tell_nobody
+from packwork.writers.frame import Frame, picture_frame
+from packwork.writers.marks import paint, shape_key
+from packwork.writers.picturing import pictured
+from packwork.writers.svg import Sheet, SvgOptions, svg_document
+
+_SMALLEST_PX = 1.0
+"""Longer side of a drawing that is shown smaller than that, when it is rendered."""
+
+_NOWHERE = np.zeros(0)
+
+
+class Projector:
+    """Draws the frames of a film.
+
+    Parameters
+    ----------
+    film
+        What is shown.
+    is_even
+        Let both sides have an even number of pixels, as video needs: a row or a column of
+        background may come in at the far end.
+
+    Raises
+    ------
+    WriteError
+        If an item's drawing cannot be rendered.
+    """
+
+    def __init__(self, film: Film, is_even: bool = False) -> None:
+        self._film = film
+        self.frame = _frame(film, is_even)
+        self._keys = [_key(item) for item in film.layout.items]
+        try:
+            self._sheet = _sheet(film, self.frame)
+            self._textures = self._rendered()
+        except ValueError as error:
+            raise WriteError("film", f"an item's drawing cannot be rendered ({error})") from error
+
+    def pictures(self, tell: Tell = tell_nobody) -> Iterator[Picture]:
+        """All frames one after another, ``(rows, columns, 4)``, alpha not premultiplied."""
+        numbers = self._film.frames
+        for k, now in enumerate(numbers):
+            yield self.picture(now)
+            tell((k + 1) / len(numbers))
+
+    def picture(self, numbers: FloatArray) -> Picture:
+        """One frame, of the ``(n, 5)`` numbers of a track."""
+        image, poses = self._sheet.copy(), poses_of(numbers)
+        to_px = affine.similarity(0.0, 0.0, 0.0, self.frame.px_per_cu)
+        for k, key in enumerate(self._keys):
+            if poses.scale[k] > 0:
+                self._textures[key].lay(image, affine.compose(to_px, poses.matrix(k)))
+        return image if self._film.is_opaque else straight(image)
+
+    def _rendered(self) -> dict[tuple[int, str], Texture]:
+        """Each drawing as fine as it is ever shown."""
+        largest: dict[tuple[int, str], float] = {}
+        drawings: dict[tuple[int, str], Item] = {}
+        for key, item, scale in zip(
+            self._keys, self._film.layout.items, self._scales(), strict=True
+        ):
+            drawings.setdefault(key, item)
+            largest[key] = max(largest.get(key, 0.0), scale)
+        return {key: _texture(item, largest[key]) for key, item in drawings.items()}
+
+    def _scales(self) -> list[float]:
+        """Largest scale at which each item is ever shown, pixels per unit of its own."""
+        numbers = self._film.frames
+        flat = poses_of(numbers.reshape(-1, numbers.shape[-1]))
+        scales = flat.axis_scales.max(axis=1).reshape(numbers.shape[:2]).max(axis=0)
+        return [float(scale) * self.frame.px_per_cu for scale in scales]
+
+
+def _key(item: Item) -> tuple[int, str]:
+    """Same for items that look the same."""
+    return shape_key(item), " ".join(paint(item).values())
+
+
+def _texture(item: Item, px_per_unit: float) -> Texture:
+    left, top, right, bottom = item.ink.bounds
+    least = _SMALLEST_PX / max(right - left, bottom - top)
+    art = pictured(item, FINENESS * max(px_per_unit, least))
+    return texture_of(_pixels(art.png), affine.inverse(art.matrix))
+
+
+def _frame(film: Film, is_even: bool) -> Frame:
+    frame = picture_frame(film.layout.container, film.options.film_pixels)
+    if not is_even:
+        return frame
+    return replace(
+        frame, rows=frame.rows + frame.rows % 2, columns=frame.columns + frame.columns % 2
+    )
+
+
+def _sheet(film: Film, frame: Frame) -> Picture:
+    """What lies under the items in every frame, premultiplied."""
+    none = Poses(_NOWHERE, _NOWHERE, _NOWHERE, _NOWHERE)
+    bare = replace(film.layout, items=(), poses=none, weights=_NOWHERE, track=None)
+    size = (float(frame.columns), float(frame.rows))
+    view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
+    drawn = SvgOptions(background=film.background, show_container=film.show_container)
+    document = svg_document(bare, drawn, Sheet(size=size, unit="px", view=view))
+    return premultiplied(_pixels(drawn_png(document)))
+
+
+def _pixels(png: bytes) -> Picture:
+    with Image.open(io.BytesIO(png)) as picture:
+        return np.asarray(picture.convert("RGBA"))

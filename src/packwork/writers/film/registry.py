@@ -1,0 +1,74 @@
+"""Which ending of a film is written how. A new format is one file and one line of ``FILMS``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import MappingProxyType
+from typing import TypeAlias
+
+from packwork.errors import WriteError
+from packwork.writers.atomic import check_writable
+from packwork.writers.extras import check_extra
+from packwork.writers.film.animated_svg import animated_svg_bytes
+from packwork.writers.film.apng import apng_bytes
+from packwork.writers.film.film import Film, Tell, tell_nobody
+from packwork.writers.film.gif import gif_bytes
+from packwork.writers.film.lottie import lottie_bytes
+from packwork.writers.film.video import mp4_bytes, webm_bytes
+from packwork.writers.film.webp import webp_bytes
+
+FilmEncoder: TypeAlias = Callable[[Film, Tell], bytes]
+
+FILMS: Mapping[str, FilmEncoder] = MappingProxyType(
+    {
+        ".svg": animated_svg_bytes,
+        ".gif": gif_bytes,
+        ".apng": apng_bytes,
+        ".webp": webp_bytes,
+        ".mp4": mp4_bytes,
+        ".webm": webm_bytes,
+        ".json": lottie_bytes,
+    }
+)
+"""File ending, in lower case, to the function that makes the film's bytes."""
+
+
+def check_film(path: str | Path) -> None:
+    """Refuse, before a run, a path that no film could be written to after it.
+
+    Raises
+    ------
+    WriteError
+        If the ending is unknown, its format needs a package that is missing, or nothing can
+        be written there.
+
+    Examples
+    --------
+    >>> check_film("way.png")
+    Traceback (most recent call last):
+    packwork.errors.WriteError: way.png: the ending '.png' is none of a film; use one of .svg,
+    .gif, .apng, .webp, .mp4, .webm, .json
+    """
+    _encoder(path)
+    check_writable(path)
+
+
+def film_bytes(film: Film, path: str | Path, tell: Tell = tell_nobody) -> bytes:
+    """Bytes of a film in the format that a path's ending names.
+
+    Raises
+    ------
+    WriteError
+        If the ending is unknown or the film cannot be drawn.
+    """
+    return _encoder(path)(film, tell)
+
+
+def _encoder(path: str | Path) -> FilmEncoder:
+    ending = Path(path).suffix.lower()
+    if ending not in FILMS:
+        met = f"the ending {ending!r} is none of a film" if ending else "the name has no ending"
+        raise WriteError(path, f"{met}; use one of {', '.join(FILMS)}")
+    check_extra(path)
+    return FILMS[ending]

@@ -1,0 +1,117 @@
+"""Emitters: where items come from, at once or one after another."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+
+from packwork import pipeline
+from packwork.arrays import IntArray
+from packwork.errors import ReadError, RecipeError
+from packwork.progress import Step
+from packwork.scene.pose import Poses
+
+CURVE = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">'
+    '<path d="M10 30H90" fill="none" stroke="#000"/></svg>'
+)
+
+
+class Film:
+    """Keeps the poses of every step."""
+
+    every = 1
+
+    def __init__(self) -> None:
+        self.frames: list[Poses] = []
+
+    def on_step(self, step: Step) -> None:
+        self.frames.append(step.poses)
+
+
+def _film(**options: object) -> tuple[pipeline.Run, Film]:
+    film = Film()
+    recipe = pipeline.pile_recipe("square", ["circle", "star"], count=10, size="12%", **options)
+    return pipeline.fill(recipe, observer=film), film
+
+
+def _inside(poses: Poses) -> IntArray:
+    return np.flatnonzero((poses.x > -300) & (poses.x < 900))
+
+
+def test_items_pour_from_a_point_one_after_another() -> None:
+    run, film = _film(emit="50%,15%", release=3)
+    assert run.certified
+    counts = [len(_inside(frame)) for frame in film.frames]
+    assert counts[0] == 1
+    assert counts[-1] == 10
+    assert set(np.diff(counts)) == {0, 1}
+    # The first frame that shows an item shows it near the emitter, a round on its way.
+    for before, after in zip(film.frames[:-1], film.frames[1:], strict=True):
+        for k in np.setdiff1d(_inside(after), _inside(before)):
+            assert abs(after.x[k] - 300) < 30
+            assert abs(after.y[k] - 90) < 30
+
+
+def test_nothing_meets_while_items_pour() -> None:
+    run, film = _film(emit="top", release=2)
+    for frame in film.frames[::7]:
+        regions = [
+            run.layout.items[k].outline.mapped(frame.matrix(k)).region for k in _inside(frame)
+        ]
+        tree = shapely.STRtree(regions)
+        first, second = tree.query(regions, predicate="intersects")
+        assert (first == second).all()
+
+
+def test_the_same_seed_pours_the_same() -> None:
+    first, second = (_film(emit="left", release=2)[0] for _ in range(2))
+    assert first.layout.poses.x.tolist() == second.layout.poses.x.tolist()
+
+
+def test_all_at_once_begin_about_the_emitter() -> None:
+    run, film = _film(emit="50%,50%", force="right")
+    assert run.certified
+    first = film.frames[0]
+    assert np.hypot(first.x - 300, first.y - 300).max() < 200
+
+
+def test_an_open_lid_lets_items_in_from_beyond_the_canvas() -> None:
+    run, film = _film(emit="top", release=4, open="top")
+    assert run.certified
+    assert min(frame.y[_inside(frame)].min() for frame in film.frames) < 0
+
+
+@pytest.mark.parametrize("emit", ["10%,20% 90%,20%", "curve.svg", "in heart"])
+def test_items_come_from_lines_curves_and_regions(
+    emit: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("curve.svg").write_text(CURVE)
+    assert _film(emit=emit, release=2)[0].certified
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"emit": "-50%,20%"}, "lies outside the container"),
+        ({"emit": "tap"}, "emit: use top"),
+        ({"emit": "5%,5% 5%,5%"}, "has no length"),
+        ({"emit": "1parsec,2"}, "emit: use a length"),
+        ({"release": 3}, "release: says when"),
+        ({"emit": "top", "release": -1}, "release: must be at least 0"),
+    ],
+)
+def test_bad_emitters_are_refused_in_one_line(options: dict[str, object], message: str) -> None:
+    with pytest.raises(RecipeError) as caught:
+        _film(**options)
+    assert message in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_an_emitter_that_is_no_file_is_refused() -> None:
+    with pytest.raises(ReadError):
+        _film(emit="tap.svg")

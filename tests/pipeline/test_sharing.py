@@ -1,0 +1,65 @@
+"""Words, photos and icons in one layout, each kind with its share of the area."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.pictures import share_of_kinds
+from packwork.pipeline.sharing import kind
+
+WORDS = {"honey": 3, "bear": 2, "bee": 1}
+QUICK = {"effort": "draft", "levels": "50", "seed": 0}
+
+
+@pytest.fixture
+def album(tmp_path: Path) -> Path:
+    for name, size in (("sea", (90, 60)), ("sky", (60, 90))):
+        Image.new("RGB", size, "teal").save(tmp_path / f"{name}.jpg")
+    return tmp_path
+
+
+def areas_by_kind(layout: pw.Layout) -> dict[str, float]:
+    kinds = np.array([kind(item, WORDS) for item in layout.items])
+    return {name: float(layout.areas[kinds == name].sum()) for name in ("words", "photos", "items")}
+
+
+def test_areas_are_in_the_shares_asked_for(album: Path) -> None:
+    layout = pw.words(
+        "circle", WORDS, add=["star", "moon"], photos={"sources": [str(album)]},
+        share="words=50%,photos=30%,items=20%", **QUICK,
+    )  # fmt: skip
+    areas = areas_by_kind(layout)
+    total = sum(areas.values())
+    found = {name: area / total for name, area in areas.items()}
+    assert found == pytest.approx({"words": 0.5, "photos": 0.3, "items": 0.2}, rel=1e-6)
+    heights = {item.name: layout.poses.scale[k] for k, item in enumerate(layout.items)}
+    assert heights["honey"] / heights["bee"] == pytest.approx(3)
+
+
+def test_items_that_were_read_are_mixed_in_with_photos(album: Path) -> None:
+    layout = pw.fill("circle", pw.read_items(["star"]), photos={"sources": [str(album)]}, **QUICK)
+    assert sorted(item.name for item in layout.items) == ["sea", "sky", "star"]
+
+
+@pytest.mark.parametrize(
+    ("share", "reason"),
+    [
+        ({"words": 1}, "says nothing of photos; give shares of photos, words"),
+        ({"words": 1, "photos": 1, "items": 1}, "there are no items here"),
+    ],
+)
+def test_shares_are_of_what_is_there(album: Path, share: dict[str, float], reason: str) -> None:
+    with pytest.raises(RecipeError, match=reason):
+        pw.words("circle", WORDS, photos={"sources": [str(album)]}, share=share, **QUICK)
+
+
+@pytest.mark.parametrize("text", ["", "words", "words=0", "words=-3%", "trees=50%", "words=inf"])
+def test_shares_without_a_meaning_are_refused(text: str) -> None:
+    with pytest.raises(RecipeError, match="use shares such as"):
+        share_of_kinds(text)
