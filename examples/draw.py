@@ -27,6 +27,7 @@ MOST_BYTES = 150_000
 STARTS = (
     "packwork fill ",
     "packwork words ",
+    "packwork chart ",
     "packwork photos ",
     "packwork pile ",
     "packwork run ",

@@ -17,6 +17,7 @@ from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
 from packwork.metrics.pixel import PixelMetrics
+from packwork.readers.charts.options import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
@@ -37,7 +38,7 @@ WRITING_OPTIONS = {
     "save_recipe", "quiet", "loss", "show_saliency", "film", *FilmOptions.model_fields,
 }  # fmt: skip
 
-ELSEWHERE = {"losses", "rules", "words", "photos", "share", "pile", "film"}
+ELSEWHERE = {"losses", "rules", "words", "chart", "photos", "share", "pile", "film"}
 """Fields that ``fill`` does not offer: rules stand in files only, words, photos
 and piles are commands, a film's table is several flags."""
 
@@ -101,6 +102,15 @@ def test_words_offer_every_option_of_theirs_with_its_help_and_default(name: str)
     if name not in Recipe.model_fields and name not in WRITING_OPTIONS:
         assert option.help == field.description
         assert option.default == field.default
+    assert f"`--{name.replace('_', '-')}" in DOCS
+
+
+@pytest.mark.parametrize("name", sorted(set(ChartOptions.model_fields) - {"data", "paper"}))
+def test_charts_offer_every_option_of_theirs_with_its_help_and_default(name: str) -> None:
+    (option,) = (p for p in COMMANDS["chart"].params if p.name == name)
+    field = ChartOptions.model_fields[name]
+    assert option.help == field.description
+    assert (option.default or None) == (field.default or None)
     assert f"`--{name.replace('_', '-')}" in DOCS
 
 

@@ -25,6 +25,7 @@ BAD: dict[str, list[Any]] = {
     "font": [3, "bold.ttf"],
     "items": [7, ["star", 3]],
     "words": [3, "bear", {}, {"source": 3}, {"source": "a b", "cuont": 3}],
+    "chart": [3, "a.csv", {}, {"data": 3}, {"data": "a.csv", "unit": 0}],
     "photos": {"sources": []},
     "share": [3, "words", "trees=3", {"words": -1}],
     "quiet_share": [0, 1, "much"],

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from packwork.api.albums import photos
     from packwork.api.layout import Layout
-    from packwork.api.verbs import fill, pile, read_container, read_items, words
+    from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.losses.term import ImageLoss, Term
@@ -37,6 +37,7 @@ __all__ = [
     "Step",
     "Term",
     "WriteError",
+    "chart",
     "fill",
     "fit_outline",
     "photos",
@@ -61,6 +62,7 @@ _HOMES = {
     "Step": "packwork.progress:Step",
     "Term": "packwork.losses.term:Term",
     "WriteError": "packwork.errors:WriteError",
+    "chart": "packwork.api.verbs:chart",
     "fill": "packwork.api.verbs:fill",
     "fit_outline": "packwork.fit.fitted:fit_outline",
     "photos": "packwork.api.albums:photos",

@@ -22,6 +22,7 @@ from packwork.levels import checked_levels, parse_levels
 from packwork.pictures import Pictured
 from packwork.piles import Moving
 from packwork.presets import PRESETS
+from packwork.readers.charts.options import ChartOptions
 from packwork.readers.words.options import WordOptions
 from packwork.refusals import length_asked, refusal
 from packwork.rules import MAX_COUNT, Rotation, Rule, as_text, hero_rule, rotation_text
@@ -42,12 +43,10 @@ if TYPE_CHECKING:
 Effort: TypeAlias = Literal["draft", "normal", "best"]
 
 EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
-"""Epochs per effort. Effort bounds iterations and never seconds, so that one seed gives
-one result on any machine. Measured in docs/benchmarks.md."""
+"""Iterations, never seconds, so that one seed gives one result. Measured (benchmarks.md)."""
 
 APART = 0.5
-"""Weight of the loss that keeps kinds apart. Larger leaves fewer side by side and a little
-more room between them. Tried."""
+"""Weight of the loss that keeps kinds apart. Larger parts more and fills less. Tried."""
 
 MAX_SECONDS = 86_400.0
 """Longest time for one run. Chosen."""
@@ -74,6 +73,8 @@ class Recipe(Pictured, Moving):
     words: WordOptions | None = None
     """Words to place: what they are and how they are set (``packwork words``)."""
 
+    chart: ChartOptions | None = None
+    """Rows of a table, a mark for each (``packwork chart``)."""
     count: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
     """How many items in all; the given ones are repeated in turn. Default: one of each.
     Of words: how many at most, those of the largest weights; default 100."""
@@ -194,7 +195,6 @@ class Recipe(Pictured, Moving):
     @field_validator("rotate", mode="before")
     @classmethod
     def _rotation_is_known(cls, value: object) -> object:
-        """Let Python say ``rotate=30`` and ``rotate=(0, 90)``."""
         text = rotation_text(value)
         if isinstance(text, str):
             Rotation.parse(text)
@@ -243,9 +243,9 @@ class Recipe(Pictured, Moving):
     @field_validator("smallest")
     @classmethod
     def _smallest_is_a_size(cls, value: str | float | None) -> str | float | None:
-        if value is not None and length_asked("smallest", value, "px", 1.0) <= 0:
-            raise RecipeError("smallest", f"must be more than nothing, not {value}")
-        return value
+        if value is None or length_asked("smallest", value, "px", 1.0) > 0:
+            return value
+        raise RecipeError("smallest", f"must be more than nothing, not {value}")
 
     @field_validator("losses")
     @classmethod

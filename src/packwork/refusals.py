@@ -56,7 +56,7 @@ def refusal(
     key = (names or {}).get(str(key), str(key))
     if first["type"] == "extra_forbidden":
         return RecipeError(key, _unknown(within, key, _keys_at(model, first["loc"][:-1])))
-    where = _where(within) if key in {"rules", "words", "film"} else ""
+    where = _where(within) if key in {"rules", "words", "chart", "film"} else ""
     if first["type"] == "missing":
         return RecipeError(key, f"{where}must be given")
     message = re.sub(r"^(Value error, |Input )", "", first["msg"])

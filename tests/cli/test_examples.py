@@ -18,11 +18,15 @@ Command = Callable[..., Result]
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 PAGES = sorted(EXAMPLES.glob("*/README.md"))
-QUICK = "-n 6 --epochs 3 --levels 16,32 --effort draft --pixels 64 -q --fps 5 --seconds 0.5"
-QUICK_PILE = "-n 6 --pixels 64 -q"
+VERBS = {"fill", "words", "chart", "photos", "pile"}
+QUICK = "--epochs 3 --levels 16,32 --effort draft --pixels 64 -q"
+QUICK_PILE = "--pixels 64 -q"
 """A pile has no levels."""
 FEW = "--max-items 9"
 """Where voids are filled: that many are enough."""
+COUNT = "-n 6"
+FILM = "--fps 5 --seconds 0.5"
+"""Charts count for themselves and, as piles, take no film's options."""
 MOST_BYTES = 150_000
 MOST_FILM_BYTES = 1_000_000
 
@@ -39,7 +43,7 @@ FILLS = [
     pytest.param(page.parent, arguments, id=f"{page.parent.name}-{number}")
     for page in PAGES
     for number, arguments in enumerate(commands(page))
-    if arguments[0] in {"fill", "words", "photos", "pile"}
+    if arguments[0] in VERBS
 ]
 
 
@@ -73,8 +77,10 @@ def test_the_command_of_an_example_writes_what_it_names(
     monkeypatch.chdir(copy)
     monkeypatch.syspath_prepend(str(copy))
     few = FEW.split() if "--target-coverage" in arguments else []
+    count = [] if arguments[0] == "chart" else COUNT.split()
+    few += [] if arguments[0] in {"chart", "pile"} else FILM.split()
     quick = QUICK_PILE if arguments[0] == "pile" else QUICK
-    result = packwork("", *arguments, *quick.split(), *few)
+    result = packwork("", *arguments, *quick.split(), *count, *few)
     assert result.exit_code in {0, 1}, result.output
     written = files_named_in(arguments)
     assert written
@@ -106,5 +112,5 @@ def test_drawing_the_gallery_runs_the_same_commands() -> None:
     draw = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(draw)
     for page in PAGES:
-        ours = [c for c in commands(page) if c[0] in {"fill", "words", "photos", "pile", "run"}]
+        ours = [c for c in commands(page) if c[0] in VERBS | {"run"}]
         assert draw.commands(page.parent) == ours

@@ -19,6 +19,7 @@ PHRASES = {
         "What is placed", "How it is solved", "What is written", "all built-in icons",
     ],
     "words": ["packwork words heart speech.txt", "SOURCE", "How words are set", "--weight-is"],
+    "chart": ["packwork chart circle coffee.csv", "DATA", "What marks say", "--size-by"],
     "photos": ["packwork photos heart holidays/", "PHOTO", "What becomes of edges", "--dpi 300"],
     "pile": ["packwork pile square icons", "--open", "--size", "open path"],
     "measure": ["packwork measure bear.geojson", "LAYOUT", "--diagnose"],

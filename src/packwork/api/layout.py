@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
@@ -189,6 +189,4 @@ class Layout(scene.Layout):
 
 def public(layout: scene.Layout) -> Layout:
     """The same layout with the methods that users know."""
-    return Layout(
-        layout.container, layout.items, layout.poses, layout.weights, layout.manifest, layout.track
-    )
+    return Layout(**{field.name: getattr(layout, field.name) for field in fields(layout)})

@@ -178,6 +178,45 @@ def pile(
     return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
 
 
+def chart(
+    container: str | Path | Container,
+    data: Any,
+    *,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    record: bool = False,
+    **options: Any,
+) -> Layout:
+    """Show a table's rows, a mark for each, sizes in proportion to numbers.
+
+    Parameters
+    ----------
+    container, observer, stop, progress, record
+        As for :func:`fill`.
+    data
+        A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
+        dict of columns.
+    options
+        As on the command line: ``size_by``, ``size_is``, ``unit``, ``color_by``, ``mark``,
+        ``mark_by``, ``label_by``, ``title``, ``legend``, ``background``; those of :func:`fill`.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        If a file, a column or an option cannot be used.
+
+    Examples
+    --------
+    >>> layout = chart("heart", {"kg": [4, 1]}, size_by="kg", effort="draft", levels="50")
+    >>> round(float(layout.areas[0] / layout.areas[1]), 6)
+    4.0
+    """
+    whole = container if isinstance(container, Container) else None
+    recipe = pipeline.chart_recipe(whole.source if whole else str(container), data, **options)
+    return _run(recipe, None, whole, observer, stop, progress, record)
+
+
 def read_items(
     sources: str | Path | Sequence[str | Path],
     *,

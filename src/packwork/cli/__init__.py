@@ -10,6 +10,7 @@ import logging
 import typer
 
 from packwork.cli.bench import bench
+from packwork.cli.chart import chart
 from packwork.cli.demo import demo
 from packwork.cli.fill import fill
 from packwork.cli.measure import measure
@@ -62,6 +63,7 @@ def _main(
 
 app.command()(fill)
 app.command()(words)
+app.command()(chart)
 app.command()(photos)
 app.command()(pile)
 app.command()(run)

@@ -96,6 +96,8 @@ class Outputs:
         if recipe.words is not None and isinstance(recipe.words.source, str):
             # A text itself is no file; nor could so long a name be one.
             named.append(recipe.words.source[:LONGEST_NAME])
+        if recipe.chart is not None:
+            named += [*recipe.chart.mark, *([d] if isinstance(d := recipe.chart.data, str) else [])]
         read = {Path(name).resolve() for name in named if "\0" not in name}
         for path in self.every:
             if path.resolve() in read:

@@ -1,6 +1,7 @@
 """The one place that knows every stage: from a recipe to a measured layout."""
 
 from packwork.pipeline.casting import item_weights
+from packwork.pipeline.charting import chart_recipe
 from packwork.pipeline.job import Clock, Job, Letters, read
 from packwork.pipeline.outcome import Run, Unplaced, find_unplaced
 from packwork.pipeline.photographing import photos_recipe
@@ -14,6 +15,7 @@ __all__ = [
     "Letters",
     "Run",
     "Unplaced",
+    "chart_recipe",
     "fill",
     "find_unplaced",
     "item_weights",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.asking import Asked, Voice, named, voices
+from packwork.readers.charts.chart import ChartRead
 from packwork.readers.weights import read_weights
 from packwork.readers.words.items import WordsRead
 from packwork.recipe import Recipe
@@ -86,6 +87,27 @@ def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item] | None) -
     pairs = zip(words.items, words.areas.tolist(), strict=True)
     areas |= {item.name: area for item, area in pairs}
     return cast(recipe.model_copy(update={"weights": areas}), (*words.items, *others))
+
+
+def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:
+    """Marks of a chart, each once, as large as its data say.
+
+    Raises
+    ------
+    RecipeError
+        As for :func:`cast`, and if a rule would make sizes or numbers of marks untrue.
+    """
+    chosen = cast(recipe, chart.items)
+    for one in chosen.asked:
+        untrue = [key for key in ("weight", "scale") if key in one.values]
+        untrue += ["size"] if "size" in one.pin else []
+        if untrue:
+            key = untrue[0]
+            voice = one.voices.get(key) or one.voices["pin.size"]
+            raise voice.error(f"sets a {key}, but the data say how large marks are")
+    if [id(item) for item in chosen.items] != [id(item) for item in chart.items]:
+        raise RecipeError("rules", "count marks, but the data say how many there are")
+    return replace(chosen, weights=chart.areas)
 
 
 def turns(counts: Sequence[int | None], total: int | None) -> IntArray:

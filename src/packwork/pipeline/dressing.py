@@ -9,11 +9,12 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.beside import beside
+from packwork.pipeline.chart_colours import chart_colours
 from packwork.pipeline.job import Job
 from packwork.pipeline.legible import legible
 from packwork.pipeline.word_colours import word_colours
 from packwork.rules import OWN_COLOURS
-from packwork.scene.item import Item
+from packwork.scene.item import Art, Item
 from packwork.scene.label import Label
 from packwork.scene.layout import Layout
 from packwork.scene.mixing import mixed
@@ -32,23 +33,38 @@ def _as_asked(job: Job, layout: Layout) -> Layout:
     Colours of a palette are given out in the order of the items, as many of each; then
     neighbours of one colour exchange theirs with others.
     """
-    coloured = word_colours(job, layout)
+    coloured = _chart_colours(job) if job.chart is not None else word_colours(job, layout)
     palettes: list[tuple[str, ...]] = [] if coloured else _palettes(job)
     if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
         return layout
     colours = _colours(palettes, layout) if coloured is None else coloured
     known: dict[tuple[int, str | None, Label | None], Item] = {}
+    arts: dict[tuple[int, int, str], Art] = {}
     items = []
     for item, one, colour in zip(layout.items, job.asked, colours, strict=True):
         key = (id(item), colour, _label(one))
         if key not in known:
-            known[key] = _dressed(item, colour, key[2])
+            known[key] = _dressed(item, colour, key[2], arts)
         items.append(known[key])
     return replace(layout, items=tuple(items))
 
 
-def _dressed(item: Item, colour: str | None, label: Label | None) -> Item:
-    item = item if colour is None else recoloured(item, colour)
+def _chart_colours(job: Job) -> list[str | None] | None:
+    """Colours of a chart's marks; None if they keep their own."""
+    assert job.chart is not None  # noqa: S101 - who asks has a chart
+    colours = chart_colours(job.recipe, job.chart).marks
+    return list(colours) if any(colours) else None
+
+
+def _dressed(
+    item: Item, colour: str | None, label: Label | None, arts: dict[tuple[int, int, str], Art]
+) -> Item:
+    """Item in its colour; items that share a drawing share it in each colour too."""
+    if colour is not None:
+        key = (id(item.art), id(item.ink), colour)
+        if key not in arts:
+            arts[key] = recoloured(item, colour).art
+        item = replace(item, art=arts[key])
     return item if label is None else replace(item, label=label)
 
 

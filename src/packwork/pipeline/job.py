@@ -11,15 +11,18 @@ from pathlib import Path
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.errors import PackworkError, RecipeError
+from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
-from packwork.pipeline.casting import cast, cast_words
+from packwork.pipeline.casting import cast, cast_chart, cast_words
+from packwork.pipeline.chart_colours import chart_colours
 from packwork.pipeline.forcing import forces_of
+from packwork.pipeline.framing import Frame, framed
 from packwork.pipeline.given import no_container
 from packwork.pipeline.regions import Region, read_regions
 from packwork.pipeline.sharing import shared_out
 from packwork.pipeline.word_colours import check_colours
+from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layout import read_layout
@@ -91,6 +94,10 @@ class Job:
         The words among the items, if any.
     letters
         How large words may be; None if as it comes.
+    chart
+        What the items stand for, if they are marks of a chart.
+    frame
+        Where that chart's title and legend go.
     mouths
         ``(m, 2, 2)`` ends of the openings that a container of open paths has; None if none.
     """
@@ -107,6 +114,8 @@ class Job:
     fillers: tuple[Item, ...] = ()
     words: WordsRead | None = None
     letters: Letters | None = None
+    chart: ChartRead | None = None
+    frame: Frame | None = None
     mouths: FloatArray | None = None
 
     @property
@@ -131,9 +140,19 @@ def read(
         room, mouths = _container(recipe, container)
         words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)
         check_colours(recipe, () if words is None else words.words)
-        items, skipped = _items(recipe, items)
-        chosen = cast(recipe, items or ()) if words is None else cast_words(recipe, words, items)
+        chart = None if recipe.chart is None else _chart(recipe)
+        items, skipped = (None, ()) if chart is not None else _items(recipe, items)
+        if chart is not None:
+            chosen = cast_chart(recipe, chart)
+            skipped += tuple(ReadError(chart.table.name, notice) for notice in chart.notices)
+        elif words is not None:
+            chosen = cast_words(recipe, words, items)
+        else:
+            chosen = cast(recipe, items or ())
         region = no_container(recipe, chosen) if room is None else room
+        frame = None
+        if chart is not None and recipe.chart is not None:
+            region, frame = framed(region, recipe.chart, chart, recipe.canvas_size)
         names = () if words is None else {item.name for item in words.items}
         weights = shared_out(chosen.items, chosen.weights, names, recipe.share)
         forces_of(recipe.force or (), chosen.items, weights, region)
@@ -158,8 +177,18 @@ def read(
         fillers,
         words,
         _letters(recipe, region),
+        chart,
+        frame,
         mouths,
     )
+
+
+def _chart(recipe: Recipe) -> ChartRead:
+    """Marks of the recipe's chart, whose colours are known to be enough."""
+    assert recipe.chart is not None  # noqa: S101 - who asks has a chart
+    chart = read_chart(recipe.chart, recipe.holes)
+    chart_colours(recipe, chart)
+    return chart
 
 
 def _items(

@@ -11,6 +11,7 @@ from packwork.metrics.measure import measure
 from packwork.pipeline.beside import same_kind_beside
 from packwork.pipeline.dressing import dressed
 from packwork.pipeline.job import Job
+from packwork.pipeline.legend import legend_notes
 from packwork.pipeline.outcome import (
     Filling,
     Run,
@@ -91,7 +92,7 @@ def judged(job: Job, found: Judged) -> Run:
     if found.pile is not None:
         said["pile"] = dict(found.pile)
     return Run(
-        layout=replace(dressed(job, layout), manifest=said),
+        layout=replace(dressed(job, layout), manifest=said, notes=legend_notes(job, layout)),
         metrics=metrics,
         seconds=clock.seconds,
         ending=found.outcome.ending,

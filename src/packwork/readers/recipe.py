@@ -50,6 +50,8 @@ def read_recipe(path: str | Path) -> dict[str, Any]:
             ]
     if isinstance(options.get("words"), dict):
         _find_words(options["words"], folder)
+    if isinstance(options.get("chart"), dict):
+        _find_chart(options["chart"], folder)
     if isinstance(options.get("photos"), dict):
         _find_photos(options["photos"], folder)
     rules = options.get("rules")
@@ -65,6 +67,13 @@ def _find_words(words: dict[str, Any], folder: Path) -> None:
             words[key] = _found(words[key], folder)
     if isinstance(words.get("fonts"), list):
         words["fonts"] = [_found(f, folder) if isinstance(f, str) else f for f in words["fonts"]]
+
+
+def _find_chart(chart: dict[str, Any], folder: Path) -> None:
+    if isinstance(chart.get("data"), str):
+        chart["data"] = _found(chart["data"], folder)
+    if isinstance(chart.get("mark"), list):
+        chart["mark"] = [_found(m, folder) if isinstance(m, str) else m for m in chart["mark"]]
 
 
 def _find_photos(photos: dict[str, Any], folder: Path) -> None:

@@ -14,6 +14,7 @@ from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.scene.note import Note
 from packwork.scene.pose import Poses
 from packwork.scene.track import Track
 
@@ -34,6 +35,8 @@ class Layout:
         ``(n,)`` share of area asked for each item; all ones if none were given.
     manifest
         What the run did: version, recipe, seed, seconds and metrics per level.
+    notes
+        Letters and keys that are drawn beside the items.
     track
         How the items came here; None if that was not recorded.
     """
@@ -43,6 +46,7 @@ class Layout:
     poses: Poses
     weights: FloatArray
     manifest: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[Note, ...] = ()
     track: Track | None = None
 
     def __post_init__(self) -> None:

@@ -31,6 +31,8 @@ def recipe_bytes(options: Mapping[str, Any], folder: Path) -> bytes:
             kept[key] = [_seen_from(folder, name) for name in kept[key]]
     if "words" in kept:
         kept["words"] = _words_seen_from(folder, kept["words"])
+    if "chart" in kept:
+        kept["chart"] = _chart_seen_from(folder, kept["chart"])
     if "photos" in kept:
         kept["photos"] = _photos_seen_from(folder, kept["photos"])
     rules = [
@@ -48,6 +50,16 @@ def _words_seen_from(folder: Path, words: Mapping[str, Any]) -> dict[str, Any]:
         if isinstance(seen.get(key), str):
             seen[key] = _seen_from(folder, seen[key])
     return {**seen, "fonts": [_seen_from(folder, font) for font in seen.get("fonts", ())]}
+
+
+def _chart_seen_from(folder: Path, chart: Mapping[str, Any]) -> dict[str, Any]:
+    seen = {key: value for key, value in chart.items() if value is not None}
+    if isinstance(seen["data"], str):
+        seen["data"] = _seen_from(folder, seen["data"])
+    else:
+        rows = seen["data"]
+        seen["data"] = [{k: cell for k, cell in row.items() if cell is not None} for row in rows]
+    return {**seen, "mark": [_seen_from(folder, mark) for mark in seen.get("mark", ())]}
 
 
 def _photos_seen_from(folder: Path, photos: Mapping[str, Any]) -> dict[str, Any]:

@@ -172,6 +172,7 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
         f'<g id="items"{attributes(_said(layout))}>',
         *_copies(layout, shapes, digits, live, flatten=options.flatten),
         "</g>",
+        *_notes(layout),
         "</svg>",
         "",
     ]
@@ -277,6 +278,17 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
         }
     )
     return [f"<g{head}>", f'<path d="{path_data(container.outline, digits)}"/>', "</g>"]
+
+
+def _notes(layout: Layout) -> list[str]:
+    """Letters and keys beside the items."""
+    drawn = []
+    for note in layout.notes:
+        place = {"transform": matrix_text(note.matrix), "fill": note.fill}
+        title = f"<title>{xml_text(note.says)}</title>" if note.says else ""
+        path = f'<path{attributes(place)} fill-rule="evenodd" d="{note.path}"/>'
+        drawn.append(f"<g>{title}{path}</g>" if title else path)
+    return ['<g id="legend">', *drawn, "</g>"] if drawn else []
 
 
 def _said(layout: Layout) -> dict[str, str]:

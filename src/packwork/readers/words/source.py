@@ -10,6 +10,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.readers.files import exists, read_bytes
+from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.words.counting import (
     count_forms,
     folded,
@@ -24,7 +25,7 @@ from packwork.readers.words.stop_words import (
     own_stop_words,
     stop_words,
 )
-from packwork.readers.words.table import ENDINGS, rows_of_csv, rows_of_json
+from packwork.readers.words.table import rows_of_csv, rows_of_json
 from packwork.readers.words.tokens import matches, sentences
 from packwork.readers.words.word import Word, sound
 

@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import json
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from packwork.errors import ReadError
+from packwork.readers.tables.delimited import check_rows, lines_of_cells
 from packwork.readers.words.word import Word
-
-ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t"}
-"""What parts the cells of a line, by the file's ending."""
-
-MOST_ROWS = 1_000_000
-"""Rows of one table. Chosen."""
 
 WORD_COLUMNS = ("word", "text", "name", "term", "label", "key")
 WEIGHT_COLUMNS = ("weight", "count", "frequency", "freq", "value", "size", "n")
@@ -38,23 +31,14 @@ def rows_of_csv(text: str, file: str, separator: str) -> list[Word]:
     >>> rows_of_csv("bear\t2\n", "t.tsv", "\t")[0].weight
     2.0
     """
-    reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     words: list[Word] = []
     names: Sequence[str] | None = None
-    try:
-        for cells in reader:
-            row = [cell.strip() for cell in cells]
-            if not any(row):
+    for line, row in lines_of_cells(text, file, separator):
+        if names is None:
+            names = row if _is_header(row) else ["word", "weight"]
+            if names is row:
                 continue
-            if names is None:
-                names = row if _is_header(row) else ["word", "weight"]
-                if names is row:
-                    continue
-            where = f"line {reader.line_num}"
-            words.append(_word(dict(zip(names, row, strict=False)), file, where))
-            _check_rows(words, file)
-    except csv.Error as error:
-        raise ReadError(file, f"line {reader.line_num}: is not CSV ({error})") from None
+        words.append(_word(dict(zip(names, row, strict=False)), file, f"line {line}"))
     return words
 
 
@@ -78,7 +62,7 @@ def rows_of_json(text: str, file: str) -> list[Word]:
     words: list[Word] = []
     for number, entry in enumerate(_entries(data, file), start=1):
         words.append(_word(entry, file, f"entry {number}"))
-        _check_rows(words, file)
+        check_rows(len(words), file)
     return words
 
 
@@ -126,8 +110,3 @@ def _word(row: Mapping[str, Any], file: str, where: str) -> Word:
         raise ReadError(file, f"{where}: a weight must be a positive number, not {met}")
     others = {key: str(row[key]) for key in rest if key != second}
     return Word(text.strip(), value, others)
-
-
-def _check_rows(words: Sequence[Word], file: str) -> None:
-    if len(words) > MOST_ROWS:
-        raise ReadError(file, f"has more than {MOST_ROWS:,} rows; give fewer")

@@ -1,0 +1,124 @@
+"""``packwork chart``: a unit chart."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import typer
+
+from packwork.cli import options as shared
+from packwork.cli.failure import clear_errors
+from packwork.readers.charts.options import ChartOptions
+
+DEFAULT_OUTPUT = Path("chart.svg")
+SHOWN = "What marks say"
+
+
+def _flag(field: str) -> Any:
+    described = ChartOptions.model_fields[field].description or ""
+    return typer.Option(f"--{field.replace('_', '-')}", help=described, rich_help_panel=SHOWN)
+
+
+def chart(
+    container: Annotated[
+        str,
+        typer.Argument(
+            metavar="CONTAINER",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, or a built-in name such "
+            "as heart.",
+        ),
+    ],
+    data: Annotated[
+        str,
+        typer.Argument(
+            metavar="DATA", help="A table: .csv, .tsv, .json, or (with pandas) .parquet."
+        ),
+    ],
+    output: shared.Output = None,
+    size_by: Annotated[str | None, _flag("size_by")] = None,
+    size_is: Annotated[Literal["area", "height", "width"], _flag("size_is")] = "area",
+    unit: Annotated[float | None, _flag("unit")] = None,
+    color_by: Annotated[str | None, _flag("color_by")] = None,
+    mark: Annotated[list[str] | None, _flag("mark")] = None,
+    mark_by: Annotated[str | None, _flag("mark_by")] = None,
+    label_by: Annotated[str | None, _flag("label_by")] = None,
+    title: Annotated[str | None, _flag("title")] = None,
+    legend: Annotated[
+        bool,
+        typer.Option(
+            "--legend/--no-legend",
+            help=ChartOptions.model_fields["legend"].description or "",
+            rich_help_panel=SHOWN,
+        ),
+    ] = True,
+    palette: shared.Palette = None,
+    canvas: shared.Canvas = None,
+    rotate: shared.Rotate = "none",
+    padding: shared.Padding = "0.2%",
+    holes: shared.Holes = "fill",
+    seed: shared.Seed = 0,
+    finish: shared.Finish = "exact",
+    effort: shared.Effort = "normal",
+    epochs: shared.Epochs = None,
+    time: shared.Time = None,
+    levels: shared.Levels = None,
+    start: shared.Start = "distance-field",
+    loss: shared.Loss = None,
+    pixels: shared.Pixels = 1_600,
+    background: shared.Background = None,
+    show_container: shared.ShowContainer = False,
+    flatten: shared.Flatten = False,
+    report: shared.Report = None,
+    diagnose: shared.Diagnose = None,
+    save_recipe: shared.SaveRecipe = None,
+    quiet: shared.Quiet = False,
+) -> None:
+    """Show a table's rows, a mark for each, sizes in proportion to numbers.
+
+    [bold]packwork chart circle coffee.csv --size-by kg --label-by country[/]
+
+    [bold]packwork chart heart prizes.csv --color-by category -o prizes.png[/]
+
+    [bold]packwork chart square people.csv --size-by people --unit 1000[/]
+    """
+    with clear_errors():
+        from packwork.cli.running import Outputs, run_and_write
+        from packwork.pipeline import chart_recipe
+        from packwork.writers import write_options
+
+        recipe = chart_recipe(
+            container,
+            data,
+            size_by=size_by,
+            size_is=size_is,
+            unit=unit,
+            color_by=color_by,
+            mark=mark,
+            mark_by=mark_by,
+            label_by=label_by,
+            title=title,
+            legend=legend,
+            palette=palette,
+            background=background,
+            canvas=canvas,
+            rotate=rotate,
+            padding=padding,
+            holes=holes,
+            seed=seed,
+            finish=finish,
+            effort=effort,
+            epochs=epochs,
+            time=time,
+            levels=levels,
+            start=start,
+            losses=shared.loss_weights(loss),
+        )
+        drawn = write_options(
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten
+        )
+        outputs = Outputs(
+            files=output or [DEFAULT_OUTPUT], options=drawn, report=report, diagnose=diagnose,
+            recipe=save_recipe,
+        )  # fmt: skip
+        raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -1,0 +1,56 @@
+"""Options of ``chart`` to the recipe of a run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from pydantic import ValidationError
+
+from packwork.errors import RecipeError
+from packwork.readers.charts.options import ChartOptions
+from packwork.recipe import Recipe, make_recipe
+from packwork.refusals import refusal
+
+DEFAULTS: Mapping[str, Any] = {"sizes": "shared", "rotate": "none", "padding": "0.2%"}
+"""What is another choice than that of other items: sizes say numbers, marks stand upright and
+just apart. Chosen by eye."""
+
+NOT_OURS = ("sizes", "weights", "count", "size_ratio", "stretch", "target_coverage")
+"""Options that would let sizes say something else than the data."""
+
+
+def chart_recipe(container: str, data: object, **options: Any) -> Recipe:
+    """Recipe of a unit chart, from the options of ``chart`` and of all runs alike.
+
+    Parameters
+    ----------
+    data
+        As :class:`ChartOptions` has it.
+
+    Raises
+    ------
+    RecipeError
+        Naming the option, what was met and what would do.
+
+    Examples
+    --------
+    >>> recipe = chart_recipe("circle", [{"kg": 2}, {"kg": 1}], size_by="kg", seed=3)
+    >>> recipe.chart.size_by, recipe.sizes, recipe.seed
+    ('kg', 'shared', 3)
+    """
+    for key in NOT_OURS:
+        if key in options:
+            raise RecipeError(key, "is no option of a chart: its data say how large marks are")
+    background = options.pop("background", None)
+    # What no run knows is meant for the chart, which says what it may have meant.
+    own = {key: options.pop(key) for key in list(options) if key not in Recipe.model_fields}
+    if background not in (None, "none", "transparent"):
+        own["paper"] = background
+    given = {key: value for key, value in own.items() if value is not None}
+    try:
+        asked = ChartOptions.model_validate({"data": data, **given})
+    except ValidationError as error:
+        raise refusal(error, ChartOptions) from error
+    chosen = {**DEFAULTS, **{key: value for key, value in options.items() if value is not None}}
+    return make_recipe(container=container, items=[], chart=asked, **chosen)

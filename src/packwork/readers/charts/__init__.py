@@ -1,0 +1,1 @@
+"""Rows of a table to the marks of a unit chart."""

@@ -1,0 +1,288 @@
+"""A table to marks: what each is, what it stands for, how large it is."""
+
+from __future__ import annotations
+
+import logging
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.errors import ReadError, RecipeError
+from packwork.readers.charts.columns import categories, is_numeric, shown, sizes
+from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts.part import part_of
+from packwork.readers.items import read_items
+from packwork.readers.regions import Holes
+from packwork.readers.tables.table import Row, Table, read_table
+from packwork.scene.item import Item
+from packwork.scene.label import MAX_LENGTH, Label
+
+_LOG = logging.getLogger("packwork")
+
+MOST_MARKS = 5_000
+"""Marks of one chart: on a canvas of 600 px each would be 5 px wide. More could not be told
+apart. Derived."""
+
+SPECK = 1e-3
+"""Share of a mark below which a remainder is rounding of the numbers, not a part. Chosen."""
+
+WIDEST = 1e6
+"""Largest area over the smallest; the smallest could not be seen. Chosen."""
+
+SHAPES = ("circle", "square", "triangle", "diamond", "star", "cross", "hexagon", "drop")
+"""Marks of categories that were given none."""
+
+
+@dataclass(frozen=True, eq=False)
+class ChartRead:
+    """Marks of a chart and what they stand for.
+
+    Parameters
+    ----------
+    items
+        One per mark, in the order of the table.
+    areas
+        ``(n,)`` share of area of each.
+    values
+        ``(n,)`` what each stands for: in the unit of the size column, or a number of rows.
+    rows
+        Row of each; marks of one row share it.
+    marks
+        Drawing of each category that has its own; under an empty name if all have one.
+    colour_of
+        Category that each mark's colour says; None if colours are numbers or not asked for.
+    is_ramp
+        Whether colours go by numbers.
+    table
+        Where rows come from.
+    notices
+        What was left out or put together, a sentence each.
+    """
+
+    items: tuple[Item, ...]
+    areas: FloatArray
+    values: FloatArray
+    rows: tuple[Row, ...]
+    marks: Mapping[str, Item]
+    colour_of: tuple[str, ...] | None
+    is_ramp: bool
+    table: Table
+    notices: tuple[str, ...]
+
+
+def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
+    """Marks of a chart.
+
+    Raises
+    ------
+    ReadError
+        If the table or a mark cannot be read.
+    RecipeError
+        If a column is not there, or cannot be shown.
+
+    Examples
+    --------
+    >>> rows = ({"land": "Peru", "t": 25}, {"land": "Kenya", "t": 10}, {"land": "Fiji", "t": 0})
+    >>> chart = read_chart(ChartOptions(data=rows, size_by="t", label_by="land", unit=10))
+    >>> [item.name for item in chart.items], chart.areas.tolist()
+    (['Peru', 'Peru', 'Peru', 'Kenya'], [1.0, 1.0, 0.5, 1.0])
+    >>> chart.notices
+    ('left out 1 row of 3 whose t is 0: Fiji',)
+    """
+    table = read_table(options.data)
+    for key in ("size_by", "color_by", "mark_by", "label_by"):
+        column = getattr(options, key)
+        if column is not None:
+            table.check_column(key, column)
+    rows, amounts, notices = _amounts(table, options)
+    owner, shares = _marks_of(amounts, options)
+    kinds, more = _categories(rows, options.mark_by)
+    marks = _drawings(options, kinds, holes)
+    is_ramp = options.color_by is not None and is_numeric(rows, options.color_by)
+    colours, told = _categories(rows, None if is_ramp else options.color_by)
+    items = _items(
+        rows, owner, shares, [marks[kind] for kind in kinds or [""] * len(rows)], options
+    )
+    everything = tuple(dict.fromkeys((*notices, *more, *told)))
+    for notice in everything:
+        _LOG.warning("%s", notice)
+    values = amounts[owner] if options.unit is None else options.unit * shares
+    return ChartRead(
+        items=items,
+        areas=_areas(items, values, shares, options),
+        values=values,
+        rows=tuple(rows[k] for k in owner),
+        marks=marks,
+        colour_of=_per_mark(colours, owner),
+        is_ramp=is_ramp,
+        table=table,
+        notices=everything,
+    )
+
+
+def _per_mark(names: Sequence[str] | None, owner: Sequence[int]) -> tuple[str, ...] | None:
+    return None if names is None else tuple(names[k] for k in owner)
+
+
+def _categories(rows: Sequence[Row], column: str | None) -> tuple[list[str] | None, Sequence[str]]:
+    return (None, ()) if column is None else categories(rows, column)
+
+
+def _amounts(table: Table, options: ChartOptions) -> tuple[list[Row], FloatArray, Sequence[str]]:
+    """Rows that are shown, and how much each stands for."""
+    if options.size_by is not None:
+        found, said = sizes(table, options.size_by, options.label_by)
+        return [table.rows[k] for k in found], np.array(list(found.values())), said
+    if options.unit is None:
+        return list(table.rows), np.ones(len(table.rows)), ()
+    # What is not shown of rows tells none apart: they are counted.
+    shown_of = (options.color_by, options.mark_by, options.label_by)
+    columns = [column for column in shown_of if column is not None]
+    counts: dict[tuple[str, ...], int] = {}
+    for row in table.rows:
+        key = tuple(shown(row.get(column)) for column in columns)
+        counts[key] = counts.get(key, 0) + 1
+    rows = [dict(zip(columns, key, strict=True)) | {"rows": n} for key, n in counts.items()]
+    return rows, np.array(list(counts.values()), dtype=np.float64), ()
+
+
+def _marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], FloatArray]:
+    """Row of each mark, and its share of a whole one.
+
+    Raises
+    ------
+    RecipeError
+        If there are too many to be told apart.
+    """
+    unit = options.unit
+    total = len(amounts) if unit is None else float(np.ceil(amounts / unit - SPECK).sum())
+    if total > MOST_MARKS:
+        least = _round_up((total if unit is None else float(amounts.sum())) / MOST_MARKS)
+        raise RecipeError(
+            "unit",
+            f"there would be {total:,.0f} marks; at most {MOST_MARKS:,} can be told apart: "
+            f"use --unit {_least_unit(amounts, least, options):.12g} or more",
+        )
+    if unit is None:
+        return list(range(len(amounts))), np.ones(len(amounts))
+    owner: list[int] = []
+    shares: list[float] = []
+    for k, amount in enumerate((amounts / unit).tolist()):
+        whole = math.floor(amount + SPECK)
+        rest = amount - whole
+        parts = [1.0] * whole + ([rest] if rest > SPECK else [])
+        # A row that is less than a speck of a mark is still a row.
+        parts = parts or [amount]
+        owner += [k] * len(parts)
+        shares += parts
+    return owner, np.array(shares)
+
+
+def _round_up(value: float) -> float:
+    """The next of 1, 2, 5, 10, 20 ...
+
+    Examples
+    --------
+    >>> _round_up(21.0), _round_up(0.7)
+    (50.0, 1.0)
+    """
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * 0.999999)
+
+
+def _least_unit(amounts: FloatArray, first: float, options: ChartOptions) -> float:
+    """A round unit that makes few enough marks, remainders counted."""
+    counted = amounts if options.size_by or options.unit else np.array([float(len(amounts))])
+    unit = first
+    while len(counted) <= MOST_MARKS and np.ceil(counted / unit - SPECK).sum() > MOST_MARKS:
+        unit = _round_up(unit * 1.5)
+    return unit
+
+
+def _drawings(options: ChartOptions, kinds: Sequence[str] | None, holes: Holes) -> dict[str, Item]:
+    """Mark of each category: that of its name, the others in turn."""
+    given = read_items(options.mark or SHAPES, holes=holes).items if kinds or options.mark else ()
+    if kinds is None:
+        if len(given) > 1:
+            raise RecipeError("mark", f"gives {len(given)} marks; say which row has which: mark_by")
+        return {"": given[0] if given else read_items("circle").items[0]}
+    names = sorted(dict.fromkeys(kinds), key=lambda name: -list(kinds).count(name))
+    if options.mark and len(names) > len(given):
+        raise RecipeError(
+            "mark_by", f"has {len(names)} values for {len(given)} marks; give a --mark for each"
+        )
+    if len(names) > len(given):
+        raise RecipeError(
+            "mark_by",
+            f"has {len(names)} values; at most {len(SHAPES)} shapes can be told apart: "
+            "give a --mark for each",
+        )
+    named = {item.name.casefold(): item for item in given}
+    own = {name: named[name.casefold()] for name in names if name.casefold() in named}
+    left = iter(item for item in given if item not in own.values())
+    return {name: own[name] if name in own else next(left) for name in names}
+
+
+def _items(
+    rows: Sequence[Row],
+    owner: Sequence[int],
+    shares: FloatArray,
+    drawings: Sequence[Item],
+    options: ChartOptions,
+) -> tuple[Item, ...]:
+    """One item per mark; whole ones of one drawing share its art."""
+    parts: dict[tuple[int, float], Item] = {}
+    items = []
+    for k, share in zip(owner, shares.tolist(), strict=True):
+        drawn = drawings[k]
+        key = (id(drawn), share)
+        if key not in parts:
+            parts[key] = drawn if share == 1.0 else part_of(drawn, share)
+        name, label = _said(rows[k], drawn, options)
+        items.append(replace(parts[key], name=name, label=label))
+    return tuple(items)
+
+
+def _said(row: Row, drawn: Item, options: ChartOptions) -> tuple[str, Label]:
+    """Name and label of a row's mark; its tooltip holds the row."""
+    name = drawn.name if options.label_by is None else shown(row.get(options.label_by))
+    title = "; ".join(f"{column}: {shown(cell)}" for column, cell in row.items())
+    own = name[:MAX_LENGTH] if options.label_by is not None else ""
+    return name[:MAX_LENGTH], Label(name=own, title=title[:MAX_LENGTH])
+
+
+def _areas(
+    items: Sequence[Item], values: FloatArray, shares: FloatArray, options: ChartOptions
+) -> FloatArray:
+    """``(n,)`` areas in shares, such that what sizes are meant to say is in proportion.
+
+    Raises
+    ------
+    ReadError
+        If the smallest could not be seen.
+    """
+    if options.unit is not None:
+        wholes = shares
+    elif options.size_by is None:
+        wholes = np.ones(len(items))
+    elif options.size_is == "area":
+        wholes = values
+    else:
+        wholes = np.array([_area_over_side(item, options.size_is) for item in items]) * values**2
+    wholes = wholes / wholes.max()
+    if wholes.min() < 1 / WIDEST:
+        raise ReadError(
+            options.size_by or "data",
+            f"the largest mark would be {1 / wholes.min():.2g} times the smallest; at most "
+            f"{WIDEST:g} can be shown: leave out the smallest rows, or use --unit",
+        )
+    return np.asarray(wholes)
+
+
+def _area_over_side(item: Item, side: str) -> float:
+    left, top, right, bottom = item.outline.bounds
+    length = bottom - top if side == "height" else right - left
+    return item.outline.area / length**2

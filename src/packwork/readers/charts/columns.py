@@ -1,0 +1,166 @@
+"""Cells of a column as sizes or as categories; what cannot be shown is told by name."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from packwork.errors import RecipeError
+from packwork.readers.tables.table import Row, Table
+
+MOST_NAMED = 6
+"""Rows that a notice names. Chosen."""
+
+MISSING = "missing"
+"""Category of cells that hold nothing."""
+
+
+def is_missing(cell: Any) -> bool:
+    """Whether a cell holds nothing.
+
+    Examples
+    --------
+    >>> [is_missing(cell) for cell in (None, "", " NA ", float("nan"), 0, "0")]
+    [True, True, True, True, False, False]
+    """
+    if isinstance(cell, float):
+        return math.isnan(cell)
+    return cell is None or (isinstance(cell, str) and cell.strip() in {"", "NA", "N/A", "NaN"})
+
+
+def as_number(cell: Any) -> float:
+    """Number in a cell; NaN if it is none.
+
+    Examples
+    --------
+    >>> as_number("3.5"), as_number("many"), as_number(True)
+    (3.5, nan, nan)
+    """
+    if isinstance(cell, bool):
+        return math.nan
+    try:
+        value = float(cell)
+    except (TypeError, ValueError):
+        return math.nan
+    return value if math.isfinite(value) else math.nan
+
+
+def is_numeric(rows: Sequence[Row], column: str) -> bool:
+    """Whether all cells of a column that hold something are numbers.
+
+    Examples
+    --------
+    >>> is_numeric([{"a": "1"}, {"a": ""}], "a"), is_numeric([{"a": "x"}], "a")
+    (True, False)
+    """
+    cells = [row.get(column) for row in rows]
+    held = [cell for cell in cells if not is_missing(cell)]
+    return bool(held) and not any(math.isnan(as_number(cell)) for cell in held)
+
+
+def shown(cell: Any) -> str:
+    """Text of a cell, in one line.
+
+    Examples
+    --------
+    >>> shown("a  b"), shown(2.0), shown(None)
+    ('a b', '2', 'missing')
+    """
+    if is_missing(cell):
+        return MISSING
+    if isinstance(cell, float) and cell.is_integer():
+        return str(int(cell))
+    return " ".join(str(cell).split())
+
+
+def categories(rows: Sequence[Row], column: str) -> tuple[list[str], list[str]]:
+    """Category of each row; those that differ in case alone are one, and told.
+
+    Returns
+    -------
+    tuple
+        One per row, and a sentence about each spelling that counts as another.
+
+    Examples
+    --------
+    >>> categories([{"k": "Red"}, {"k": "red"}, {"k": "Red"}], "k")
+    (['Red', 'Red', 'Red'], ["k: 'red' (1 row) counts as 'Red'"])
+    """
+    written = Counter(shown(row.get(column)) for row in rows)
+    common: dict[str, str] = {}
+    told = []
+    for text, count in written.most_common():
+        first = common.setdefault(text.casefold(), text)
+        if first != text:
+            rows_said = "1 row" if count == 1 else f"{count} rows"
+            told.append(f"{column}: {text[:40]!r} ({rows_said}) counts as {first[:40]!r}")
+    return [common[shown(row.get(column)).casefold()] for row in rows], told
+
+
+def sizes(table: Table, column: str, label_by: str | None) -> tuple[dict[int, float], list[str]]:
+    """Positive number of each row that has one, and a sentence about each sort of the others.
+
+    Raises
+    ------
+    RecipeError
+        If no row has one.
+
+    Examples
+    --------
+    >>> rows = ({"a": 2}, {"a": 0}, {"a": -1}, {"a": "n"})
+    >>> sizes(Table("data", ("a",), rows), "a", None)[1][0]
+    'left out 1 row of 4 whose a is 0: row 2'
+    """
+    found: dict[int, float] = {}
+    odd: dict[str, list[int]] = {}
+    for k, row in enumerate(table.rows):
+        why, value = _size(row.get(column))
+        if why:
+            odd.setdefault(why, []).append(k)
+        else:
+            found[k] = value
+    if not found:
+        raise RecipeError("size_by", _why_none(table, column, odd))
+    said = [
+        f"left out {_rows(len(which))} of {len(table.rows)} whose {column} {why}: "
+        + _names(table, which, label_by)
+        for why, which in odd.items()
+    ]
+    return found, said
+
+
+def _size(cell: Any) -> tuple[str, float]:
+    """Why a cell gives no size, empty if it does; and the size."""
+    if is_missing(cell):
+        return "is missing", math.nan
+    value = as_number(cell)
+    if math.isnan(value):
+        return "is no number", value
+    if value == 0:
+        return "is 0", value
+    return ("is negative", value) if value < 0 else ("", value)
+
+
+def _why_none(table: Table, column: str, odd: Mapping[str, Sequence[int]]) -> str:
+    if set(odd) <= {"is no number", "is missing"} and "is no number" in odd:
+        met = shown(table.rows[odd["is no number"][0]].get(column))[:30]
+        numeric = [name for name in table.columns if is_numeric(table.rows, name)]
+        hint = f"those of numbers are {', '.join(numeric[:12])}" if numeric else "none has numbers"
+        return f"column {column!r} holds text such as {met!r}, no numbers; {hint}"
+    return f"no row can be shown: {column!r} " + ", ".join(
+        f"{why} in {_rows(len(which))}" for why, which in odd.items()
+    )
+
+
+def _rows(count: int) -> str:
+    return "1 row" if count == 1 else f"{count} rows"
+
+
+def _names(table: Table, which: Sequence[int], label_by: str | None) -> str:
+    def name(k: int) -> str:
+        return f"row {k + 1}" if label_by is None else shown(table.rows[k].get(label_by))[:40]
+
+    more = f" and {len(which) - MOST_NAMED} more" if len(which) > MOST_NAMED else ""
+    return ", ".join(map(name, which[:MOST_NAMED])) + more

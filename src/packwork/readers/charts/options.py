@@ -1,0 +1,76 @@
+"""What a unit chart shows, and how."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import BaseModel, ConfigDict, Field, field_validator
+
+from packwork.errors import RecipeError
+
+SizeIs: TypeAlias = Literal["area", "height", "width"]
+
+
+class ChartOptions(BaseModel):
+    """Where rows come from and what of a mark says what of them."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
+
+    data: str | tuple[dict[str, Any], ...]
+    """A table: .csv, .tsv, .json or (with pandas) .parquet; in Python also a data frame, rows
+    as dicts, or a dict of columns."""
+
+    size_by: str | None = None
+    """Column of numbers that sizes are in proportion to. Default: all marks are alike."""
+
+    size_is: SizeIs = "area"
+    """What of a mark is in that proportion: its area, height or width."""
+
+    unit: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
+    """One mark for each so many of --size-by (without it: so many rows that are alike in
+    what is shown of them); what is left over is a part of a mark."""
+
+    color_by: str | None = None
+    """Column that colours come from: of numbers, from small to large along the palette; of
+    anything else, a colour for each value."""
+
+    mark: tuple[str, ...] = ()
+    """What stands for a row: an SVG, a picture, a folder or a built-in name. May be given
+    several times, with --mark-by. Default: circle."""
+
+    mark_by: str | None = None
+    """Column whose values have marks of their own: that of the same name, else in turn."""
+
+    label_by: str | None = None
+    """Column that names marks: in files, tooltips and messages."""
+
+    title: str | None = None
+    """Line over the chart."""
+
+    legend: bool = True
+    """Keys to sizes, colours and marks under the chart."""
+
+    paper: str = "white"
+    """What is behind the chart: colours are made to be seen on it."""
+
+    @field_validator("data", mode="before")
+    @classmethod
+    def _data_are_rows(cls, data: Any) -> Any:
+        if isinstance(data, str | Path):
+            return str(data)
+        # What turns frames into rows is not needed for the command line's help.
+        from packwork.readers.tables.frames import rows_of_frame
+
+        try:
+            return tuple(rows_of_frame(data))
+        except RecipeError as error:
+            raise ValueError(error.problem) from None
+
+    @field_validator("mark", mode="before")
+    @classmethod
+    def _one_mark_is_enough(cls, mark: Any) -> Any:
+        if mark is None:
+            return ()
+        several = [mark] if isinstance(mark, str | Path) else mark
+        return tuple(str(one) for one in several)

@@ -1,0 +1,29 @@
+"""What is drawn beside items and is none: letters and keys of a legend."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from packwork.arrays import FloatArray
+
+
+@dataclass(frozen=True, eq=False)
+class Note:
+    """One filled path; never packed, never measured.
+
+    Parameters
+    ----------
+    path
+        SVG path data, filled by the even-odd rule.
+    matrix
+        2 x 3 map from the path's units to canvas units.
+    fill
+        Any CSS colour.
+    says
+        What it says, for those who do not see it; may be empty.
+    """
+
+    path: str
+    matrix: FloatArray
+    fill: str
+    says: str = ""

@@ -1,0 +1,121 @@
+"""Charts from data to files: areas that are read back say what the data say."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.readers.written.read import read_written
+
+QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
+NUMBERS = [3.7, 12.0, 0.9, 5.5, 1.3]
+ROWS = {"name": list("abcde"), "number": NUMBERS, "kind": ["x", "y", "x", "", "y"]}
+TRUE = 1e-3
+
+
+@pytest.mark.parametrize("mark", ["circle", "heart", "builtin:leaf"])
+@pytest.mark.parametrize("ending", [".svg", ".geojson"])
+def test_areas_in_the_file_are_in_the_proportion_of_the_numbers(
+    mark: str, ending: str, tmp_path: Path
+) -> None:
+    layout = pw.chart("circle", ROWS, size_by="number", mark=mark, label_by="name", **QUICK)
+    file = tmp_path / f"chart{ending}"
+    layout.save(file)
+    again = read_written(file)
+    per_number = again.areas / np.array(NUMBERS)
+    assert per_number / per_number.mean() == pytest.approx(np.ones(5), rel=TRUE)
+
+
+def test_parts_of_marks_are_true_in_the_file(tmp_path: Path) -> None:
+    layout = pw.chart("square", ROWS, size_by="number", unit=1, mark="builtin:fish", **QUICK)
+    layout.save(tmp_path / "chart.svg")
+    areas = read_written(tmp_path / "chart.svg").areas
+    assert areas.sum() / areas.max() == pytest.approx(sum(NUMBERS), rel=TRUE)
+
+
+def test_a_mark_of_a_file_tells_its_row_when_pointed_at(tmp_path: Path) -> None:
+    layout = pw.chart("circle", ROWS, size_by="number", label_by="name", **QUICK)
+    layout.save(tmp_path / "chart.svg")
+    text = (tmp_path / "chart.svg").read_text(encoding="utf-8")
+    assert "<title>name: a; number: 3.7; kind: x</title>" in text
+
+
+def test_each_category_has_its_colour_and_nothing_is_grey() -> None:
+    layout = pw.chart("circle", ROWS, color_by="kind", **QUICK)
+    fills = [item.art.fill for item in layout.items]
+    assert fills[0] == fills[2] != fills[1] == fills[4]
+    assert fills[3] == "#9aa0a6"
+
+
+def test_numbers_run_along_the_ramp() -> None:
+    layout = pw.chart("circle", ROWS, color_by="number", palette="#000000,#ffffff", **QUICK)
+    fills = [item.art.fill for item in layout.items]
+    assert (fills[2], fills[1]) == ("#000000", "#ffffff")
+
+
+def test_marks_of_one_drawing_share_it_in_each_colour(tmp_path: Path) -> None:
+    rows = {"kind": ["x", "y"] * 4}
+    pw.chart("circle", rows, color_by="kind", mark="builtin:anchor", **QUICK).save(
+        tmp_path / "chart.svg"
+    )
+    text = (tmp_path / "chart.svg").read_text(encoding="utf-8")
+    assert text.count('id="shape-') <= 2
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"weights": {"a": 1}}, "weights: is no option of a chart"),
+        ({"rules": [{"items": "a", "weight": 2}], "label_by": "name"}, "the data say how large"),
+        ({"rules": [{"items": "a", "count": 2}], "label_by": "name"}, "the data say how many"),
+        ({"color_by": "name", "palette": "red,blue"}, "5 values, the palette 2 colours"),
+        ({"sise_by": "number"}, "no such option; did you mean"),
+    ],
+)
+def test_what_would_make_it_untrue_is_refused(options: dict[str, Any], message: str) -> None:
+    with pytest.raises(pw.PackworkError, match=message):
+        pw.chart("circle", ROWS, **{**QUICK, **options})
+
+
+def test_the_legend_shows_sizes_at_the_scale_of_the_chart() -> None:
+    layout = pw.chart("circle", ROWS, size_by="number", color_by="kind", title="Five", **QUICK)
+    said = [note.says for note in layout.notes if note.says]
+    assert said[:2] == ["Five", "number"]
+    assert {"x", "y", "missing"} <= set(said)
+    per_number = layout.areas[0] / NUMBERS[0]
+    keys = zip(layout.notes, layout.notes[1:], strict=False)
+    sizes = {b.says: a for a, b in keys if not a.says and b.says in {"10", "5", "1", "0.5"}}
+    assert sizes
+    circle = layout.items[0].outline.area
+    for number, note in sizes.items():
+        area = circle * note.matrix[0, 0] ** 2
+        assert area == pytest.approx(float(number) * per_number, rel=TRUE)
+
+
+def test_title_and_legend_have_room_of_their_own_on_the_canvas() -> None:
+    layout = pw.chart("square", ROWS, size_by="number", title="Five", canvas="A4", **QUICK)
+    left, top, right, bottom = layout.container.outline.bounds
+    assert (layout.container.width, layout.container.height) == (210.0, 297.0)
+    title, heading = (note for note in layout.notes if note.says in {"Five", "number"})
+    assert title.matrix[1, 2] < top < bottom < heading.matrix[1, 2]
+    assert left > 0
+    assert right < 210
+
+
+def test_without_legend_and_title_the_canvas_is_the_containers() -> None:
+    layout = pw.chart("square", ROWS, size_by="number", legend=False, **QUICK)
+    assert layout.notes == ()
+    assert layout.container.height == layout.container.width
+
+
+@pytest.mark.parametrize("options", [{"color_by": "number"}, {"unit": 1, "mark_by": "kind"}])
+def test_every_sort_of_key_is_drawn_and_is_no_item(options: Any, tmp_path: Path) -> None:
+    layout = pw.chart("square", ROWS, size_by="number", **options, **QUICK)
+    for ending in (".svg", ".png"):
+        layout.save(tmp_path / f"chart{ending}", pixels=100)
+    assert 'id="legend"' in (tmp_path / "chart.svg").read_text(encoding="utf-8")
+    assert len(read_written(tmp_path / "chart.svg").items) == len(layout.items)

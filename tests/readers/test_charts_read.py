@@ -1,0 +1,144 @@
+"""Tables to marks: what is shown, what is left out and told, what is refused."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from packwork.errors import PackworkError, ReadError
+from packwork.readers.charts.chart import ChartRead, read_chart
+from packwork.readers.charts.options import ChartOptions
+from packwork.readers.tables.table import read_table
+
+LANDS = ({"land": "Peru", "kg": 25, "kind": "Red"}, {"land": "Kenya", "kg": 10, "kind": "blue"})
+
+
+def chart(rows: Any = LANDS, **options: Any) -> ChartRead:
+    return read_chart(ChartOptions(data=rows, **options))
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("t.csv", "land,kg\nPeru,2\nKenya,1\n"),
+        ("t.tsv", "land\tkg\nPeru\t2\nKenya\t1\n"),
+        ("t.json", json.dumps([{"land": "Peru", "kg": 2}, {"land": "Kenya", "kg": 1}])),
+        ("t.json", json.dumps({"land": ["Peru", "Kenya"], "kg": [2, 1]})),
+    ],
+)
+def test_all_tables_give_the_same_marks(name: str, text: str, tmp_path) -> None:
+    file = tmp_path / name
+    file.write_text(text, encoding="utf-8")
+    read = chart(str(file), size_by="kg", label_by="land")
+    assert [item.name for item in read.items] == ["Peru", "Kenya"]
+    assert read.areas.tolist() == [1.0, 0.5]
+
+
+def test_a_frame_is_taken_by_what_it_can_do() -> None:
+    class Frame:
+        columns = ("kg",)
+
+        def to_dict(self, orient: str) -> list[dict[str, Any]]:
+            assert orient == "records"
+            return [{"kg": np.float64(2)}, {"kg": float("nan")}, {"kg": np.int64(4)}]
+
+    read = chart(Frame(), size_by="kg")
+    assert read.values.tolist() == [2.0, 4.0]
+    assert read.notices == ("left out 1 row of 3 whose kg is missing: row 2",)
+
+
+def test_a_unit_has_whole_marks_and_a_part_of_that_area() -> None:
+    read = chart(size_by="kg", unit=10)
+    areas = [item.outline.area for item in read.items]
+    assert read.values.tolist() == [10, 10, 5, 10]
+    assert areas[2] / areas[0] == pytest.approx(0.5, rel=1e-9)
+    assert read.values.sum() == 35
+
+
+def test_rows_that_are_shown_alike_are_counted() -> None:
+    read = chart([{"kind": "a"}] * 25 + [{"kind": "b"}] * 10, unit=10, color_by="kind")
+    assert read.colour_of == ("a", "a", "a", "b")
+    assert read.values.tolist() == [10, 10, 5, 10]
+
+
+@pytest.mark.parametrize("side", ["height", "width"])
+def test_a_side_is_in_proportion(side: str) -> None:
+    read = chart(size_by="kg", size_is=side, mark=("circle", "heart"), mark_by="land")
+    sides = []
+    for item, area in zip(read.items, read.areas, strict=True):
+        left, top, right, bottom = item.outline.bounds
+        scale = np.sqrt(area / item.outline.area)
+        sides.append(scale * (bottom - top if side == "height" else right - left))
+    assert sides[0] / sides[1] == pytest.approx(2.5, rel=1e-9)
+
+
+def test_what_cannot_be_shown_is_told_by_name() -> None:
+    rows = [
+        {"land": land, "kg": kg} for land, kg in zip("abcde", [1, 0, -2, "many", ""], strict=True)
+    ]
+    read = chart(rows, size_by="kg", label_by="land")
+    assert [item.name for item in read.items] == ["a"]
+    assert [notice.split("whose kg ")[1] for notice in read.notices] == [
+        "is 0: b", "is negative: c", "is no number: d", "is missing: e",
+    ]  # fmt: skip
+
+
+def test_categories_in_odd_case_are_one_and_told() -> None:
+    read = chart([{"k": "Red"}, {"k": "red"}, {"k": "Red"}], color_by="k")
+    assert read.colour_of == ("Red",) * 3
+    assert read.notices == ("k: 'red' (1 row) counts as 'Red'",)
+
+
+def test_marks_go_to_the_values_of_their_names() -> None:
+    rows = [{"k": "star"}, {"k": "other"}, {"k": "other"}]
+    read = chart(rows, mark=("circle", "star"), mark_by="k")
+    assert {name: mark.name for name, mark in read.marks.items()} == {
+        "star": "star", "other": "circle",
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("rows", "options", "message"),
+    [
+        (LANDS, {"size_by": "mass"}, "no column 'mass'; there are land, kg, kind"),
+        (LANDS, {"color_by": "mass"}, "color_by: there is no column"),
+        (LANDS, {"size_by": "land"}, "holds text such as 'Peru', no numbers; those of numbers"),
+        ([{"a": 0}, {"a": 0}], {"size_by": "a"}, "no row can be shown: 'a' is 0 in 2 rows"),
+        ([{"a": 1}] * 100_000, {}, r"100,000 marks; at most 5,000 .* --unit 20 or more"),
+        ([{"a": 1}, {"a": 1e9}], {"size_by": "a"}, "at most 1e\\+06 can be shown"),
+        (LANDS, {"mark": ("circle", "star")}, "say which row has which"),
+        (LANDS, {"mark": ("star",), "mark_by": "land"}, "2 values for 1 marks"),
+        ([], {}, "has no rows"),
+    ],
+)
+def test_bad_data_are_one_clear_line(rows: Any, options: dict[str, Any], message: str) -> None:
+    with pytest.raises(PackworkError, match=message) as caught:
+        chart(rows, **options)
+    assert "\n" not in str(caught.value)
+
+
+def test_the_unit_that_is_offered_is_enough() -> None:
+    rows = [{"a": 1}] * 100_000
+    assert len(chart(rows, unit=20).items) == 5_000
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("t.csv", "a,a\n1,2\n", "names the column 'a' twice"),
+        ("t.csv", "a,b\n1,2,3\n", "line 2: has 3 cells"),
+        ("t.csv", "", "has no rows"),
+        ("t.json", "{", "is not JSON"),
+        ("t.json", "[1]", "holds no rows"),
+        ("t.txt", "a", "is no table"),
+        ("t.parquet", "a", "parquet: (needs pandas|is not Parquet)"),
+    ],
+)
+def test_bad_tables_are_one_clear_line(name: str, text: str, message: str, tmp_path) -> None:
+    file = tmp_path / name
+    file.write_text(text, encoding="utf-8")
+    with pytest.raises(ReadError, match=message):
+        read_table(str(file))
