@@ -40,7 +40,8 @@ class Step:
         Whether it is the last one of its level; all are told of that.
     ids
         ``(n,)`` what each item is called by, from 0, where fillers have joined the run and some
-        of them have left it; None: their places in ``poses``.
+        of them have left it, or some of a pile are yet to come; None: their places in
+        ``poses``.
     """
 
     level: int

@@ -263,6 +263,42 @@ def test_every_demo_is_a_recipe() -> None:
         make_recipe(container=name, **options).solve_options()
 
 
+def test_the_teaser_lays_letters_beside_each_other(
+    folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from packwork.cli import teaser
+
+    few = {"count": 3, "seed": 1}
+    letters = (
+        teaser.Letter("I-plain", ["star"], {**few, "epochs": 20, "levels": "32"}),
+        teaser.Letter("L-heaped", ["circle"], {**few, "size": "8%", "open": "top"}, is_pile=True),
+    )
+    monkeypatch.setattr(teaser.make_teaser, "__defaults__", (letters,))
+    assert packwork("demo teaser --folder pictures -q").exit_code == 0
+    assert sorted(file.name for file in (folder / "pictures").iterdir()) == [
+        "teaser-1-I-plain.png",
+        "teaser-1-I-plain.svg",
+        "teaser-2-L-heaped.png",
+        "teaser-2-L-heaped.svg",
+        "teaser.png",
+    ]
+    with Image.open(folder / "pictures" / "teaser.png") as sheet:
+        height = teaser.LETTER_PX + 2 * teaser.SPACE_PX
+        assert sheet.height == height
+        # Something is drawn in both halves, and nothing in the margin.
+        grey = np.asarray(sheet.convert("L"))
+    assert (grey[:, : grey.shape[1] // 3].min(), grey[:, -grey.shape[1] // 3 :].min()) < (200, 200)
+    assert np.ptp(grey[: teaser.SPACE_PX]) == 0
+
+
+def test_every_letter_of_the_teaser_is_a_recipe() -> None:
+    from packwork.cli.teaser import LETTERS
+
+    assert "".join(letter.name[0] for letter in LETTERS) == "SIGGRAPH"
+    for letter in LETTERS:
+        assert letter.recipe.container == f"text:{letter.name[0]}"
+
+
 def test_bench_runs_a_script_of_the_checkout(folder: Path, packwork: Command) -> None:
     (folder / "src" / "packwork").mkdir(parents=True)
     (folder / "benchmarks").mkdir()

@@ -25,8 +25,8 @@ QUICK_PILE = "--pixels 64 -q"
 FEW = "--max-items 9"
 """Where voids are filled: that many are enough."""
 COUNT = "-n 6"
+"""Charts count for themselves."""
 FILM = "--fps 5 --seconds 0.5"
-"""Charts count for themselves and, as piles, take no film's options."""
 MOST_BYTES = 150_000
 MOST_FILM_BYTES = 1_000_000
 
@@ -40,7 +40,7 @@ def commands(page: Path) -> list[list[str]]:
 
 
 FILLS = [
-    pytest.param(page.parent, arguments, id=f"{page.parent.name}-{number}")
+    pytest.param(page.parent, number, id=f"{page.parent.name}-{number}")
     for page in PAGES
     for number, arguments in enumerate(commands(page))
     if arguments[0] in VERBS
@@ -63,24 +63,34 @@ def test_the_gallery_is_found() -> None:
         "usa-axis",
         "jar",
         "round-pack",
+        "morph",
     } <= {page.parent.name for page in PAGES}
     assert len(FILLS) >= 6
 
 
-@pytest.mark.parametrize(("example", "arguments"), FILLS)
+def quickly(arguments: list[str]) -> list[str]:
+    """A command with few items, small."""
+    few = FEW.split() if "--target-coverage" in arguments else []
+    count = [] if arguments[0] == "chart" else COUNT.split()
+    quick = QUICK_PILE if arguments[0] == "pile" else QUICK
+    return [*arguments, *quick.split(), *count, *FILM.split(), *few]
+
+
+@pytest.mark.parametrize(("example", "number"), FILLS)
 def test_the_command_of_an_example_writes_what_it_names(
-    example: Path, arguments: list[str], folder: Path, packwork: Command, monkeypatch
+    example: Path, number: int, folder: Path, packwork: Command, monkeypatch
 ) -> None:
     if "[torch]" in (example / "README.md").read_text(encoding="utf-8"):
         pytest.importorskip("torch")
     copy = shutil.copytree(example, folder / example.name)
     monkeypatch.chdir(copy)
     monkeypatch.syspath_prepend(str(copy))
-    few = FEW.split() if "--target-coverage" in arguments else []
-    count = [] if arguments[0] == "chart" else COUNT.split()
-    few += [] if arguments[0] in {"chart", "pile"} else FILM.split()
-    quick = QUICK_PILE if arguments[0] == "pile" else QUICK
-    result = packwork("", *arguments, *quick.split(), *count, *few)
+    *earlier, arguments = commands(example / "README.md")[: number + 1]
+    for one in earlier:
+        if set(files_named_in(one)) & set(arguments):
+            # This command goes on from what that one wrote.
+            packwork("", *quickly(one))
+    result = packwork("", *quickly(arguments))
     assert result.exit_code in {0, 1}, result.output
     written = files_named_in(arguments)
     assert written

@@ -23,7 +23,7 @@ PHRASES = {
     "photos": ["packwork photos heart holidays/", "PHOTO", "What becomes of edges", "--dpi 300"],
     "pile": ["packwork pile square icons", "--open", "--size", "open path"],
     "measure": ["packwork measure bear.geojson", "LAYOUT", "--diagnose"],
-    "demo": ["packwork demo", "bear", "dragon", "--folder"],
+    "demo": ["packwork demo", "bear", "dragon", "teaser", "--folder"],
     "bench": ["packwork bench engine", "NAME"],
 }  # fmt: skip
 

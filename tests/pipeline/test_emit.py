@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -21,15 +22,16 @@ CURVE = (
 
 
 class Film:
-    """Keeps the poses of every step."""
+    """Keeps the poses of every step, and whose they are."""
 
     every = 1
 
     def __init__(self) -> None:
-        self.frames: list[Poses] = []
+        self.frames: list[tuple[IntArray, Poses]] = []
 
     def on_step(self, step: Step) -> None:
-        self.frames.append(step.poses)
+        assert step.ids is not None
+        self.frames.append((step.ids, step.poses))
 
 
 def _film(**options: object) -> tuple[pipeline.Run, Film]:
@@ -38,29 +40,40 @@ def _film(**options: object) -> tuple[pipeline.Run, Film]:
     return pipeline.fill(recipe, observer=film), film
 
 
-def _inside(poses: Poses) -> IntArray:
-    return np.flatnonzero((poses.x > -300) & (poses.x < 900))
-
-
 def test_items_pour_from_a_point_one_after_another() -> None:
     run, film = _film(emit="50%,15%", release=3)
     assert run.certified
-    counts = [len(_inside(frame)) for frame in film.frames]
+    counts = [len(ids) for ids, _ in film.frames]
     assert counts[0] == 1
     assert counts[-1] == 10
     assert set(np.diff(counts)) == {0, 1}
     # The first frame that shows an item shows it near the emitter, a round on its way.
-    for before, after in zip(film.frames[:-1], film.frames[1:], strict=True):
-        for k in np.setdiff1d(_inside(after), _inside(before)):
-            assert abs(after.x[k] - 300) < 30
-            assert abs(after.y[k] - 90) < 30
+    for (before, _), (after, poses) in pairwise(film.frames):
+        new = ~np.isin(after, before)
+        assert (np.abs(poses.x[new] - 300) < 30).all()
+        assert (np.abs(poses.y[new] - 90) < 30).all()
+
+
+def test_who_waits_is_not_there_on_the_way_and_grows_where_it_comes_in() -> None:
+    recipe = pipeline.pile_recipe(
+        "square", ["circle", "star"], count=10, size="12%", emit="top", release=9
+    )
+    layout = pipeline.fill(recipe, record=True).layout
+    assert layout.track is not None
+    numbers = layout.track.numbers
+    assert (numbers[:, :, 0] > -100).all()
+    assert (numbers[:, :, 0] < 700).all()
+    there = numbers[:, :, 3] > 0
+    assert 1 <= there[0].sum() < there[len(there) // 4].sum() < 10
+    assert there[-1].all()
 
 
 def test_nothing_meets_while_items_pour() -> None:
     run, film = _film(emit="top", release=2)
-    for frame in film.frames[::7]:
+    for ids, frame in film.frames[::7]:
         regions = [
-            run.layout.items[k].outline.mapped(frame.matrix(k)).region for k in _inside(frame)
+            run.layout.items[k].outline.mapped(frame.matrix(row)).region
+            for row, k in enumerate(ids)
         ]
         tree = shapely.STRtree(regions)
         first, second = tree.query(regions, predicate="intersects")
@@ -75,14 +88,14 @@ def test_the_same_seed_pours_the_same() -> None:
 def test_all_at_once_begin_about_the_emitter() -> None:
     run, film = _film(emit="50%,50%", force="right")
     assert run.certified
-    first = film.frames[0]
+    _, first = film.frames[0]
     assert np.hypot(first.x - 300, first.y - 300).max() < 200
 
 
 def test_an_open_lid_lets_items_in_from_beyond_the_canvas() -> None:
     run, film = _film(emit="top", release=4, open="top")
     assert run.certified
-    assert min(frame.y[_inside(frame)].min() for frame in film.frames) < 0
+    assert min(frame.y.min() for _, frame in film.frames) < 0
 
 
 @pytest.mark.parametrize("emit", ["10%,20% 90%,20%", "curve.svg", "in heart"])

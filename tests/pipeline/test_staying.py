@@ -74,6 +74,22 @@ def test_items_follow_to_another_container(earlier: tuple[pw.Layout, str]) -> No
     assert np.mean([*_moved(before, stayed).values()]) < np.mean([*_moved(before, fresh).values()])
 
 
+@pytest.mark.parametrize("container", ["circle", "square"])
+def test_the_way_of_items_begins_at_the_earlier_layout(
+    container: str, earlier: tuple[pw.Layout, str]
+) -> None:
+    before, file = earlier
+    after = pw.words(container, WEIGHTS, start=file, stay=True, record=True, **QUICK)
+    assert after.track is not None
+    then = {item.name: k for k, item in enumerate(before.items)}
+    order = [then[item.name] for item in after.items]
+    first, last = after.track.at(0.0), after.track.at(1.0)
+    np.testing.assert_allclose(first.x, before.poses.x[order], atol=1e-3)
+    np.testing.assert_allclose(first.y, before.poses.y[order], atol=1e-3)
+    np.testing.assert_allclose(first.scale, before.poses.scale[order], rtol=1e-3)
+    np.testing.assert_array_equal(last.x, after.poses.x)
+
+
 def test_a_pile_goes_on_from_where_it_was(tmp_path: Path) -> None:
     first = pw.pile("square", ["circle", "star"], count=8, size="12%", force="down")
     first.save(tmp_path / "pile.geojson")

@@ -69,6 +69,13 @@ def chart(
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
+    film: shared.Film = None,
+    fps: shared.Fps = None,
+    seconds: shared.Seconds = None,
+    hold: shared.Hold = None,
+    loop: shared.Loop = None,
+    easing: shared.Easing = None,
+    film_pixels: shared.FilmPixels = None,
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
@@ -83,9 +90,8 @@ def chart(
     [bold]packwork chart square people.csv --size-by people --unit 1000[/]
     """
     with clear_errors():
-        from packwork.cli.running import Outputs, run_and_write
+        from packwork.cli.running import outputs_asked, run_and_write
         from packwork.pipeline import chart_recipe
-        from packwork.writers import write_options
 
         recipe = chart_recipe(
             container,
@@ -114,11 +120,10 @@ def chart(
             start=start,
             losses=shared.loss_weights(loss),
         )
-        drawn = write_options(
-            pixels=pixels, background=background, show_container=show_container, flatten=flatten
-        )
-        outputs = Outputs(
-            files=output or [DEFAULT_OUTPUT], options=drawn, report=report, diagnose=diagnose,
-            recipe=save_recipe,
+        outputs = outputs_asked(
+            output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
+            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
+            film_pixels=film_pixels, recipes=recipe.film,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

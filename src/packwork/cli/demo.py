@@ -19,7 +19,10 @@ DEMOS: dict[str, dict[str, object]] = {
 }
 """Demos with options of their own; every other built-in container is filled with 100."""
 
-NAMES = f"{', '.join(DEMOS)} or another built-in container."
+TEASER = "teaser"
+"""The demo of many ways: letters beside each other."""
+
+NAMES = f"{', '.join(DEMOS)}, {TEASER} or another built-in container."
 
 
 def demo(
@@ -35,8 +38,14 @@ def demo(
     [bold]packwork demo[/]  a bear
 
     [bold]packwork demo dragon --folder pictures[/]
+
+    [bold]packwork demo teaser[/]  a word, each letter in a way of its own
     """
     with clear_errors():
+        if name == TEASER:
+            from packwork.cli.teaser import make_teaser
+
+            raise typer.Exit(make_teaser(folder, quiet))
         from packwork.cli.running import Outputs, run_and_write
         from packwork.writers import write_options
 

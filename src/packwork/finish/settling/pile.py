@@ -207,7 +207,10 @@ class _Pile:
         else:
             spout = Spout(source, room.region, self._gap, rng)
             settling = self._settling(arrangement, everyone)
-            tell = partial(self._tell, self._poses, everyone)
+
+            def tell(places: FloatArray) -> None:
+                self._tell(settling.active, places[settling.active])
+
             left, rounds = pour(settling, spout, queue, source.every, tell, self._stop)
             self._rounds += rounds
         self._take_over(arrangement, everyone)
@@ -236,7 +239,7 @@ class _Pile:
             settling = self._settling(arrangement, self._items)
             # Those that were given a place keep it as well as they can.
             settling.is_swaying = not self._is_given
-            tell = partial(self._tell, self._poses, self._items)
+            tell = partial(self._tell, self._items)
             self._rounds += settling.settle(tell, self._stop, trusts)
             self._height = settling.mean_height()
             self._take_over(arrangement, self._items)
@@ -288,16 +291,18 @@ class _Pile:
     def _take_over(self, arrangement: Arrangement, items: IntArray) -> None:
         self._poses = _moved(self._poses, items, arrangement.places)
 
-    def _tell(self, poses: Poses, items: IntArray, places: FloatArray) -> None:
+    def _tell(self, items: IntArray, places: FloatArray) -> None:
+        """Tell of those items that are there: who waits lies anywhere."""
         if self._observer is None:
             return
         covered = float(self._areas[items].sum() / self._container.outline.area)
-        now = _moved(poses, items, places)
+        now = _moved(self._poses, items, places).some(items)
         self._told += 1
         # How many rounds it will take nobody knows: the bar comes ever nearer to its end.
         progress = self._told / (self._told + USUAL_ROUNDS)
+        shares = (covered, 0.0, 0.0)
         self._observer.on_step(
-            Step(0, 1, 0, self._told, progress, now, lambda: (covered, 0.0, 0.0), is_finish=True)
+            Step(0, 1, 0, self._told, progress, now, lambda: shares, is_finish=True, ids=items)
         )
 
 
