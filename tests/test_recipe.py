@@ -207,13 +207,13 @@ def test_effort_bounds_epochs_and_a_number_of_epochs_wins() -> None:
 
 @pytest.mark.parametrize("start", ["earlier.geojson", "EARLIER.GEOJSON", "folder/a.json"])
 def test_a_start_with_the_ending_of_a_layout_is_a_file(start: str) -> None:
-    assert make_recipe(container="heart", start=start).starts_from_layout
+    assert make_recipe(container="heart", start=start).layout_file == start
 
 
 @pytest.mark.parametrize("method", ["distance-field", "scatter"])
 def test_a_start_is_a_method_else(method: str) -> None:
     recipe = make_recipe(container="heart", start=method)
-    assert not recipe.starts_from_layout
+    assert recipe.layout_file is None
     assert recipe.start_options().method == method
 
 

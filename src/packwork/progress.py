@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -134,3 +135,11 @@ Stop: TypeAlias = Callable[[], bool]
 def never() -> bool:
     """Let the run go to its end."""
     return False
+
+
+def until_over(stop: Stop, seconds: float | None) -> Stop:
+    """Stop when asked to, or when the time is over."""
+    if seconds is None:
+        return stop
+    ends = time.perf_counter() + seconds
+    return lambda: stop() or time.perf_counter() >= ends

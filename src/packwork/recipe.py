@@ -134,10 +134,10 @@ class Recipe(Pictured, Moving):
     strict: bool = False
     """Refuse a folder with an unusable file instead of leaving that file out."""
 
-    start: str = "distance-field"
-    """How the first places are found: distance-field (one after another into the largest
-    room), medial-axis (along the container's middle line first), auto (one of these two, by
-    the container's form), scatter (at random), or a layout file (.geojson) to start from."""
+    start: str | None = None
+    """How the first places are found: distance-field (into the largest room), medial-axis (along
+    the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;
+    for words and shared sizes), or a layout file (.geojson). Default: what suits the sizes."""
 
     finish: Literal["exact", "none"] = "exact"
     """exact: after the levels, items are moved, turned and sized in exact geometry until
@@ -270,8 +270,8 @@ class Recipe(Pictured, Moving):
 
     @model_validator(mode="after")
     def _stays_somewhere(self) -> Recipe:
-        if self.stay and not self.starts_from_layout:
-            raise RecipeError("stay", f"needs an earlier layout as --start, not {self.start}")
+        if self.stay and not self.layout_file:
+            raise RecipeError("stay", "needs an earlier layout (.geojson) as --start")
         return self
 
     @model_validator(mode="after")
@@ -312,9 +312,10 @@ class Recipe(Pictured, Moving):
         return self.apart or bool(self.losses.get("apart"))
 
     @property
-    def starts_from_layout(self) -> bool:
-        """True if ``start`` names a layout file and no method."""
-        return Path(self.start).suffix.lower() in {".geojson", ".json"}
+    def layout_file(self) -> str | None:
+        """The earlier layout that ``start`` names; None if it names a method."""
+        start = self.start or ""
+        return start if Path(start).suffix.lower() in {".geojson", ".json"} else None
 
     def padding_cu(self, container: Container) -> float:
         """Gap asked for, in units of the container's canvas."""
@@ -332,17 +333,15 @@ class Recipe(Pictured, Moving):
         return length_asked("smallest", asked, container.unit, container.side)
 
     def may_press(self, padding_cu: float) -> bool:
-        """Whether items may be pressed together for even gaps.
-
-        Where sizes cannot yield, or a gap must be kept, pressing them costs overlap.
-        """
+        """Whether items may be pressed together for even gaps: else it would cost overlap."""
         return self.sizes == "free" and padding_cu == 0
 
     def start_options(self) -> StartOptions:
         """Options of the start stage."""
-        if self.starts_from_layout:
+        if self.layout_file:
             return StartOptions()
-        asked = {"method": self.start, "coverage": PRESETS[self.preset].coverage}
+        method = "distance-field" if self.start is None else self.start
+        asked = {"method": method, "coverage": PRESETS[self.preset].coverage}
         try:
             return StartOptions.model_validate(asked)
         except ValidationError as error:

@@ -64,7 +64,7 @@ def fill(
     time: shared.Time = None,
     preset: shared.Preset = "default",
     levels: shared.Levels = None,
-    start: shared.Start = "distance-field",
+    start: shared.Start = None,
     stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,

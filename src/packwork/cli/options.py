@@ -96,7 +96,7 @@ Epochs = Annotated[int | None, flag("epochs", panel=SOLVING)]
 Time = Annotated[float | None, flag("time", panel=SOLVING)]
 Preset = Annotated[Literal["default", "paper"], flag("preset", panel=SOLVING)]
 Levels = Annotated[str | None, flag("levels", panel=SOLVING)]
-Start = Annotated[str, flag("start", panel=SOLVING)]
+Start = Annotated[str | None, flag("start", panel=SOLVING)]
 Stay = Annotated[bool, flag("stay", "--stay", panel=SOLVING)]
 Loss = Annotated[
     list[str] | None,

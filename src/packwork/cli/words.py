@@ -91,7 +91,7 @@ def words(
     epochs: shared.Epochs = None,
     time: shared.Time = None,
     levels: shared.Levels = None,
-    start: shared.Start = "distance-field",
+    start: shared.Start = None,
     stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,

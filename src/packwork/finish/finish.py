@@ -228,7 +228,7 @@ class _Run:
             relocate(self.arrangement, laggards, self.gap)
             part(self.arrangement, self.gap)
             self._compact(range(count // 2, count))
-        if self._is_shared:
+        if self._is_shared and self._options.relieving:
             self._relieve(range(count // 2, count))
 
     def _relieve(self, rounds: range) -> None:

@@ -51,5 +51,9 @@ class FinishOptions(BaseModel):
     trials: Annotated[int, Field(ge=0, le=1_000_000)] = 0
     """Turns and exchanges of items that are tried after the first compaction."""
 
+    relieving: bool = True
+    """Where sizes are shared: try whether all can grow once those that hold them back lie in
+    voids."""
+
     seed: Annotated[int, Field(ge=0)] = 0
     """Of the trials."""

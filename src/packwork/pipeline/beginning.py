@@ -15,6 +15,8 @@ from packwork.pipeline.given import given_scales
 from packwork.pipeline.job import Job
 from packwork.pipeline.limiting import check_poses, held_to, item_limits, pinned_scales
 from packwork.pipeline.matching import matched
+from packwork.pipeline.placing import first_places
+from packwork.progress import Stop, never
 from packwork.rules import Rotation
 from packwork.scene.canvas import brought_over
 from packwork.scene.container import Container
@@ -28,7 +30,7 @@ from packwork.solve.level import Level
 from packwork.solve.shaped import seen_posed
 from packwork.solve.solver import scale_bounds
 from packwork.start.angles import nearest_allowed, start_angles
-from packwork.start.first_poses import disc_radii, first_poses
+from packwork.start.first_poses import disc_radii
 from packwork.start.relocate import relocated
 from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
 
@@ -70,7 +72,9 @@ class Beginning:
     limits: Limits | None
 
 
-def begin(job: Job, container: Container, outlines: Sequence[Outline]) -> Beginning:
+def begin(
+    job: Job, container: Container, outlines: Sequence[Outline], stop: Stop = never
+) -> Beginning:
     """First poses in the padded container, of the outlines that the solver will see.
 
     Raises
@@ -90,8 +94,7 @@ def begin(job: Job, container: Container, outlines: Sequence[Outline]) -> Beginn
         poses, method = replace(earlier, angle=angles), "layout"
         poses = poses if limits is None else held_to(limits, poses)
     else:
-        options = recipe.start_options()
-        first = first_poses(container, outlines, scales, angles, options, rng, limits)
+        first = first_places(job, container, outlines, scales, angles, limits, rng, stop)
         poses, method = first.poses, str(first.method)
     if limits is not None:
         check_poses(job, container, poses, limits)

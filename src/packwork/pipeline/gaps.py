@@ -20,12 +20,11 @@ from packwork.pipeline.finishing import (
     gap_with_bulge,
     scale_ranges,
     solid_outlines,
-    until_over,
     without,
 )
 from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Filling
-from packwork.progress import Observer, Stop
+from packwork.progress import Observer, Stop, until_over
 from packwork.readers.words.items import EM_PX
 from packwork.scene.item import Item
 from packwork.start.angles import nearest_allowed

@@ -157,7 +157,7 @@ def read(
         weights = shared_out(chosen.items, chosen.weights, names, recipe.share)
         forces_of(recipe.force or (), chosen.items, weights, region)
         regions = read_regions(chosen.asked, region)
-        earlier = read_layout(recipe.start) if recipe.starts_from_layout else None
+        earlier = None if recipe.layout_file is None else read_layout(recipe.layout_file)
         fillers, more = _fillers(recipe, items or () if words is None else words.items)
         skipped += more
         recipe.start_options()

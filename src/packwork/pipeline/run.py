@@ -157,7 +157,7 @@ def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _P
     with clock.time("start"):
         outlines = stand_ins([item.outline for item in job.items], recipe.outline)
         region = padded(job.container, recipe.padding_cu(job.container))
-        start = begin(job, region, outlines)
+        start = begin(job, region, outlines, stop)
     if recorder is not None:
         recorder.keep(start.poses)
     with clock.time("levels"):
@@ -178,8 +178,8 @@ def _levels(
     observer: Observer | None,
     stop: Stop,
 ) -> Outcome:
-    """What the levels make of the first poses; those themselves, where items are to stay."""
-    if needs_no_levels(job):
+    """What the levels make of the first poses; those themselves, where they are as good."""
+    if needs_no_levels(job) or start.method == "first-fit":
         return Outcome(start.poses, Ending.DONE)
     options = _solve_options(job, job.recipe.padding_cu(job.container))
     forces = _forces(job)

@@ -33,6 +33,24 @@ def start_angles(
     return rng.uniform(-largest, largest, size=count) + 0.0
 
 
+def spread_angles(count: int, limit_rad: float | None, rng: np.random.Generator) -> FloatArray:
+    """``(count,)`` angles spread over what is allowed, each at random in its part of it.
+
+    Parameters
+    ----------
+    limit_rad
+        Largest turn from upright; None for any.
+
+    Examples
+    --------
+    >>> angles = spread_angles(4, 1.0, np.random.default_rng(0))
+    >>> np.floor(angles * 2).tolist()
+    [-2.0, -1.0, 0.0, 1.0]
+    """
+    largest = np.pi if limit_rad is None else limit_rad
+    return (2 * (np.arange(count) + rng.random(count)) / count - 1) * largest
+
+
 def nearest_allowed(
     angles_rad: FloatArray, limit_rad: float | None, choices_rad: tuple[float, ...] | None
 ) -> FloatArray:

@@ -118,9 +118,9 @@ def _places(
 ) -> tuple[FloatArray, FloatArray, Placing]:
     """Places for discs, and how they were found."""
     method: Placing = "distance-field"
-    if options.method != "auto":
+    if options.method in {"medial-axis", "scatter"}:
         method = options.method
-    elif len(radii):
+    elif options.method == "auto" and len(radii):
         method = suitable(image, px_per_cu, radii)
     if method == "scatter":
         return *scatter(image, px_per_cu, len(radii), rng, own), method

@@ -6,7 +6,7 @@ from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Field
 
-Placing: TypeAlias = Literal["distance-field", "medial-axis", "scatter"]
+Placing: TypeAlias = Literal["distance-field", "medial-axis", "scatter", "first-fit"]
 """Ways to find first places."""
 
 
@@ -15,10 +15,13 @@ class StartOptions(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid")
 
-    method: Literal["auto", "distance-field", "medial-axis", "scatter"] = "distance-field"
+    method: Literal["auto", "distance-field", "medial-axis", "scatter", "first-fit"] = (
+        "distance-field"
+    )
     """distance-field: one after another into the largest room; medial-axis: along the
-    container's middle line first; scatter: at random; auto: as the container's form
-    suggests."""
+    container's middle line first; scatter: at random; auto: one of the first two, as the
+    container's form suggests; first-fit: where they touch most, at the largest common size (the
+    distance field where none is found)."""
 
     coverage: Annotated[float, Field(gt=0, le=1)] = 0.64
     """Share of the container that the items cover at the start, were they not to

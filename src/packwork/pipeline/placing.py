@@ -1,0 +1,107 @@
+"""Which way of finding first places suits a run, and the places that it finds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
+from packwork.pipeline.job import Job
+from packwork.progress import Stop, never, until_over
+from packwork.scene.container import Container
+from packwork.scene.limits import Limits
+from packwork.start.angles import spread_angles
+from packwork.start.first_fit.first_fit import first_fit
+from packwork.start.first_poses import FirstPoses, first_poses
+
+ATTEMPTS = {"draft": 1, "normal": 4, "best": 24}
+"""Orders tried for each size, by effort. More find a little more, ever less so. Tried."""
+
+ANGLES, ANY_ANGLES = 5, 8
+"""Angles tried for an item that may turn within a limit, and for one that may turn any way."""
+
+MOST_ITEMS = 1_500
+"""Items at most that are put one after another unless asked: it takes 3 s for so many. Measured."""
+
+TIME_SHARE = 0.3
+"""Share of the time left that it may take, where one was given. Chosen."""
+
+
+def first_places(
+    job: Job,
+    container: Container,
+    outlines: Sequence[Outline],
+    scales: FloatArray,
+    angles: FloatArray,
+    limits: Limits | None,
+    rng: np.random.Generator,
+    stop: Stop = never,
+) -> FirstPoses:
+    """Poses by the method asked for, or else by the one that suits.
+
+    Raises
+    ------
+    RecipeError
+        If that method was asked for where it cannot be.
+    """
+    recipe = job.recipe
+    asked = recipe.start == "first-fit"
+    if asked and recipe.sizes != "shared":
+        raise RecipeError(
+            "start",
+            f"first-fit seeks one size for all; use it with sizes shared, not {recipe.sizes}",
+        )
+    if asked or (recipe.start is None and is_tight(job)):
+        is_over = until_over(stop, job.seconds_left(TIME_SHARE))
+        poses = first_fit(
+            container,
+            outlines,
+            scales,
+            _angles(job, angles, limits),
+            np.random.default_rng(recipe.seed),
+            margin_cu=recipe.padding_cu(job.container) / 2,
+            attempts=ATTEMPTS[recipe.effort],
+            limits=limits,
+            stop=is_over,
+        )
+        if poses is not None:
+            return FirstPoses(poses, "first-fit")
+    return first_poses(container, outlines, scales, angles, recipe.start_options(), rng, limits)
+
+
+def is_tight(job: Job) -> bool:
+    """Whether putting items one after another leaves less room than the levels would.
+
+    So it does where all have one size and cannot turn as they like, unless something is asked
+    that only the levels know.
+    """
+    recipe = job.recipe
+    is_turning = recipe.rotation.limit is None and recipe.rotation.choices is None
+    levels_asked = bool(recipe.levels or recipe.epochs or recipe.losses or recipe.force)
+    return (
+        recipe.sizes == "shared"
+        and recipe.preset == "default"
+        and recipe.finish == "exact"
+        and recipe.stretch == 1.0
+        and not (levels_asked or recipe.keeps_apart)
+        and (recipe.words is not None or not is_turning)
+        and len(job.items) <= MOST_ITEMS
+    )
+
+
+def _angles(job: Job, first: FloatArray, limits: Limits | None) -> list[FloatArray]:
+    """For each item the angles to try; the first alone where it must be kept."""
+    rng = np.random.default_rng(job.recipe.seed)
+    found = []
+    for k, one in enumerate(job.asked):
+        rotation = one.rotation or job.recipe.rotation
+        is_given = limits is not None and bool(limits.held[k, 2])
+        if is_given or rotation.is_still or rotation.choices is not None:
+            found.append(first[k : k + 1])
+        else:
+            number = ANY_ANGLES if rotation.limit is None else ANGLES
+            found.append(spread_angles(number, rotation.limit, rng))
+    return found

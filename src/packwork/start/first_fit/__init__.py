@@ -1,0 +1,1 @@
+"""Items put one after another, the largest first, where they touch most."""

@@ -1,0 +1,222 @@
+"""The largest common size at which items, put one after another, all find a place.
+
+First-fit decreasing, on pixels; among free places the one that touches most of what is
+there already, be it an item or the edge ("touching perimeter": Lodi, Martello and Vigo 1999,
+"Heuristic and metaheuristic approaches for a class of two-dimensional bin packing problems").
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.geometry.affine import similarity
+from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import grown
+from packwork.progress import Stop, never
+from packwork.scene.container import Container
+from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
+from packwork.start.first_fit.sheet import Sheet
+from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all
+from packwork.start.first_poses import container_image
+from packwork.start.homes import homes
+
+Key: TypeAlias = tuple[int, float, float]
+"""Which outline, its scale, its angle."""
+
+PIXELS_EACH = 28
+"""Pixels of the sheet's side for each item of a row of them. More waste less room at the
+edges of pixels and take longer. Tried."""
+
+LEAST_PX, MOST_PX = 280, 600
+"""Sides of the sheet at least and at most. As above."""
+
+REACH = 3
+"""Width of the ring, pixels, in which taken pixels are counted; 5 and 8 are no better. Tried."""
+
+FIRST_SHARE = 0.45
+"""Share of the container that the first try's items cover. Any other takes more tries."""
+
+STRIDE, CLOSE = 1.12, 1.02
+"""Factor between sizes tried until one fits and one does not, and the factor between those
+two at which the search ends. Smaller finds more, which the finish would find as well. Chosen."""
+
+MOST_SIZES = 24
+"""Sizes tried at most: should nothing fit at a tenth of the first, nothing will. Chosen."""
+
+URGENCY = 2.0
+"""Factor on the area by which items are ordered, for one that found no place. Chosen."""
+
+NOISE = 0.01
+"""Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
+
+
+def first_fit(
+    container: Container,
+    outlines: Sequence[Outline],
+    scales: FloatArray,
+    angles: Sequence[FloatArray],
+    rng: np.random.Generator,
+    *,
+    margin_cu: float = 0.0,
+    attempts: int = 1,
+    limits: Limits | None = None,
+    stop: Stop = never,
+) -> Poses | None:
+    """Poses at which nothing overlaps, all items in proportion; None if none were found.
+
+    Parameters
+    ----------
+    container
+        The region to fill.
+    outlines
+        One per item, item units.
+    scales
+        ``(n,)``; all but those that limits hold are multiplied by one factor.
+    angles
+        For each item the angles that it may have, radians.
+    rng
+        The only source of randomness.
+    margin_cu
+        Room that every item keeps round itself, canvas units.
+    attempts
+        Orders tried for each size: the item that found no place comes earlier the next time.
+    limits
+        Which items have to lie where; None if all may lie anywhere.
+    stop
+        Asked before each attempt; True ends the search with the best found so far.
+
+    Examples
+    --------
+    >>> tile = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = tile.mapped(similarity(50.0, 50.0, 0.0, 50.0))
+    >>> container = Container("", "", wall, 100.0, 100.0)
+    >>> upright = [np.zeros(1)] * 4
+    >>> poses = first_fit(container, [tile] * 4, np.ones(4), upright, np.random.default_rng(0))
+    >>> bool(48 < 2 * poses.scale[0] <= 50), len(set(zip(poses.x, poses.y)))
+    (True, 4)
+    """
+    own = np.array([outline.area for outline in outlines])
+    share = float((own * scales**2).sum()) / container.outline.area
+    fitting = _Fitting(container, outlines, scales, angles, rng, margin_cu, limits)
+    return fitting.largest(math.sqrt(FIRST_SHARE / share), attempts, stop)
+
+
+class _Fitting:
+    """What stays the same for all sizes that are tried."""
+
+    def __init__(
+        self,
+        container: Container,
+        outlines: Sequence[Outline],
+        scales: FloatArray,
+        angles: Sequence[FloatArray],
+        rng: np.random.Generator,
+        margin_cu: float,
+        limits: Limits | None,
+    ) -> None:
+        count = len(outlines)
+        side = int(np.clip(round(PIXELS_EACH * math.sqrt(count)), LEAST_PX, MOST_PX))
+        image, self._px_per_cu = container_image(container, side)
+        self._inside: BoolArray = image > 1 - TOUCHED
+        self._noise = NOISE * rng.random(image.shape)
+        self._outlines, self._scales, self._angles = outlines, scales, angles
+        self._margin_cu = margin_cu
+        self._urgency = np.array([outline.area for outline in outlines]) * scales**2
+        limits = Limits.free(count) if limits is None else limits
+        self._is_sized = limits.held[:, 3]
+        self._pins = np.column_stack([limits.x, limits.y])
+        self._allowed: list[BoolArray | None] = [
+            None if pixels is None else _mask(pixels, image.shape)
+            for pixels in homes(limits, image, self._px_per_cu)
+        ]
+
+    def largest(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
+        """Poses at the largest factor found, beginning with one."""
+        low, high = 0.0, math.inf
+        found: Poses | None = None
+        for _ in range(MOST_SIZES):
+            if stop() or high <= low * CLOSE:
+                break
+            poses = self._put_all(factor, attempts, stop)
+            if poses is None:
+                high = factor
+            else:
+                low, found = factor, poses
+            if found is None:
+                factor = high / STRIDE
+            elif high == math.inf:
+                factor = low * STRIDE
+            else:
+                factor = math.sqrt(low * high)
+        return found
+
+    def _put_all(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
+        """Poses of all items at one size; None if not all found a place."""
+        scales = np.where(self._is_sized, self._scales, self._scales * factor)
+        stencils = self._stencils(scales)
+        urgency = self._urgency.copy()
+        for attempt in range(attempts):
+            if attempt and stop():
+                break
+            found = self._put_in_order(np.argsort(-urgency, kind="stable"), scales, stencils)
+            if isinstance(found, Poses):
+                # What made these fit will help larger ones, too.
+                self._urgency = urgency
+                return found
+            urgency[found] *= URGENCY
+        return None
+
+    def _put_in_order(
+        self, order: IntArray, scales: FloatArray, stencils: dict[Key, Stencil]
+    ) -> Poses | int:
+        """Poses of all items, or the first that found no place."""
+        sheet = Sheet(self._inside, REACH)
+        x, y, angle = np.zeros((3, len(scales)))
+        poses = Poses(x, y, angle, scales)
+        is_pinned: BoolArray = np.logical_not(np.isnan(self._pins).any(axis=1))
+        for k in [*np.flatnonzero(is_pinned), *order[~is_pinned[order]]]:
+            own = [(turn, stencils[self._key(k, scales[k], turn)]) for turn in self._angles[k]]
+            if is_pinned[k]:
+                turn, stencil = own[0]
+                corner = np.rint(self._pins[k, ::-1] * self._px_per_cu) - stencil.origin
+                row, column = int(corner[0]), int(corner[1])
+            else:
+                tried = [sheet.best_place(s, self._noise, self._allowed[k]) for _, s in own]
+                best = max(range(len(own)), key=lambda i: tried[i][0])
+                score, row, column = tried[best]
+                turn, stencil = own[best]
+                if score < 0:
+                    return int(k)
+            sheet.take(stencil, row, column)
+            poses.x[k] = (column + stencil.origin[1]) / self._px_per_cu
+            poses.y[k] = (row + stencil.origin[0]) / self._px_per_cu
+            poses.angle[k] = turn
+        poses.x[is_pinned], poses.y[is_pinned] = self._pins[is_pinned].T
+        return poses
+
+    def _stencils(self, scales: FloatArray) -> dict[Key, Stencil]:
+        """Stencils of all items at all their angles; equal ones are cut once."""
+        wanted: dict[Key, Outline] = {}
+        for k, outline in enumerate(self._outlines):
+            scale = scales[k]
+            for turn in self._angles[k]:
+                key = self._key(k, scale, turn)
+                if key not in wanted:
+                    wide = grown(outline, self._margin_cu / scale) if self._margin_cu else outline
+                    wanted[key] = wide.mapped(similarity(0.0, 0.0, turn, scale * self._px_per_cu))
+        return cut_all(wanted, REACH)
+
+    def _key(self, item: int, scale: float, turn: float) -> Key:
+        return id(self._outlines[item]), float(scale), float(turn)
+
+
+def _mask(pixels: IntArray, shape: tuple[int, ...]) -> BoolArray:
+    mask = np.zeros(shape, dtype=np.bool_)
+    mask.ravel()[pixels] = True
+    return mask

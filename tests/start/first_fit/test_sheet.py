@@ -1,0 +1,115 @@
+"""Places found by bits are those that a look at every pixel finds."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from packwork.arrays import BoolArray
+from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.sheet import Sheet
+from packwork.start.first_fit.stencil import Stencil
+
+REACH = 2
+
+
+def _stencil(mask: BoolArray) -> Stencil:
+    return Stencil(mask, (0, 0), _kernels.runs_of(mask), _kernels.ring_of(mask, REACH))
+
+
+def _touching(mask: BoolArray, free: BoolArray, row: int, column: int) -> float | None:
+    """Share of the ring's pixels that are taken; None if the mask meets a taken pixel."""
+    taken = np.pad(~free, REACH, constant_values=True)
+    here = np.zeros_like(taken)
+    height, width = mask.shape
+    top, left = row + REACH, column + REACH
+    if row + height > free.shape[0] or column + width > free.shape[1]:
+        return None
+    here[top : top + height, left : left + width] = mask
+    if (here & taken).any():
+        return None
+    away = np.linalg.norm(np.mgrid[-REACH : REACH + 1, -REACH : REACH + 1], axis=0)
+    steps = np.argwhere(away**2 <= REACH**2 + REACH) - REACH
+    ring = np.zeros_like(here)
+    for y, x in np.argwhere(here):
+        for dy, dx in steps:
+            if 0 <= y + dy < ring.shape[0] and 0 <= x + dx < ring.shape[1]:
+                ring[y + dy, x + dx] = True
+    ring &= ~here
+    return float(taken[ring].mean())
+
+
+def _random(seed: int, width: int) -> tuple[BoolArray, BoolArray]:
+    rng = np.random.default_rng(seed)
+    free = rng.random((24, width)) < 0.97
+    mask = rng.random((rng.integers(1, 6), rng.integers(1, 12))) < 0.8
+    mask[0, 0] = mask[-1, -1] = True
+    return free, mask
+
+
+@pytest.mark.parametrize("width", [20, 64, 70, 130])
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_the_best_place_is_that_of_a_look_at_all(seed: int, width: int) -> None:
+    free, mask = _random(seed, width)
+    score, row, column = Sheet(free, REACH).best_place(_stencil(mask), np.zeros(free.shape))
+    scores = {
+        (y, x): found
+        for y in range(free.shape[0])
+        for x in range(width)
+        if (found := _touching(mask, free, y, x)) is not None
+    }
+    assert scores, "a case without a place says nothing"
+    assert score == pytest.approx(max(scores.values()))
+    assert scores[row, column] == pytest.approx(score)
+
+
+def test_what_is_put_meets_nothing_until_nothing_fits() -> None:
+    free, mask = _random(5, 70)
+    sheet, left, count = Sheet(free, REACH), free.copy(), 0
+    while True:
+        score, row, column = sheet.best_place(_stencil(mask), np.zeros(free.shape))
+        if score < 0:
+            break
+        here = left[row : row + mask.shape[0], column : column + mask.shape[1]]
+        assert here[mask].all()
+        here[mask] = False
+        sheet.take(_stencil(mask), row, column)
+        count += 1
+    assert count > 10
+    assert all(_touching(mask, left, y, x) is None for y in range(24) for x in range(70))
+
+
+def test_an_origin_comes_only_where_it_may() -> None:
+    free = np.ones((20, 70), dtype=bool)
+    allowed = np.zeros_like(free)
+    allowed[9, 65] = True
+    mask = np.ones((3, 4), dtype=bool)
+    stencil = Stencil(mask, (1, 2), _kernels.runs_of(mask), _kernels.ring_of(mask, REACH))
+    sheet = Sheet(free, REACH)
+    _, row, column = sheet.best_place(stencil, np.zeros(free.shape), allowed)
+    assert (row, column) == (8, 63)
+    sheet.take(stencil, row, column)
+    assert sheet.best_place(stencil, np.zeros(free.shape), allowed)[0] == -1
+
+
+def test_what_lies_off_the_sheet_is_not_kept() -> None:
+    sheet = Sheet(np.ones((5, 5), dtype=bool), REACH)
+    before = int(sheet.taken.sum())
+    sheet.take(_stencil(np.ones((3, 3), dtype=bool)), -2, 4)
+    assert int(sheet.taken.sum()) == before + 1
+    sheet.take(_stencil(np.ones((3, 3), dtype=bool)), 9, 9)
+    assert int(sheet.taken.sum()) == before + 1
+
+
+@given(st.integers(0, 2**32), st.integers(1, 200))
+def test_smeared_rows_tell_of_any_pixel_within_their_length(seed: int, width: int) -> None:
+    rng = np.random.default_rng(seed)
+    taken = rng.random(width) < 0.1
+    sheet = Sheet(~taken[None, :], 1)
+    beyond = np.concatenate([taken, np.ones(600, dtype=bool)])
+    bits = np.unpackbits(sheet._rows[0].view(np.uint8), axis=1, bitorder="little")
+    for level, row in enumerate(bits):
+        want = [beyond[x : x + 2**level].any() for x in range(width)]
+        assert row[:width].astype(bool).tolist() == want
