@@ -9,6 +9,8 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
+from packwork.forces.exchanges import exchanged
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.given import given_scales
@@ -47,6 +49,10 @@ ALIKE = 1.3
 """Factor in radius between two items that may change places to come apart from others of
 their kind. Larger finds more partners and upsets the start more. Chosen."""
 
+FORCED_ALIKE = 2.0
+"""The same between two that may change places for a force's sake, before all others: what is too
+large or too small there the levels still mend. Larger leaves them more to mend. Tried."""
+
 
 @dataclass(frozen=True, eq=False)
 class Beginning:
@@ -70,7 +76,9 @@ class Beginning:
     limits: Limits | None
 
 
-def begin(job: Job, container: Container, outlines: Sequence[Outline]) -> Beginning:
+def begin(
+    job: Job, container: Container, outlines: Sequence[Outline], forces: Forces | None = None
+) -> Beginning:
     """First poses in the padded container, of the outlines that the solver will see.
 
     Raises
@@ -93,6 +101,8 @@ def begin(job: Job, container: Container, outlines: Sequence[Outline]) -> Beginn
         options = recipe.start_options()
         first = first_poses(container, outlines, scales, angles, options, rng, limits)
         poses, method = first.poses, str(first.method)
+        if forces is not None:
+            poses = _by_forces(outlines, poses, limits, forces)
     if limits is not None:
         check_poses(job, container, poses, limits)
     if recipe.stay:
@@ -200,6 +210,20 @@ def _kinds_apart(
     """Poses in which items of about one size have changed places, away from their kind."""
     sizes = np.log(disc_radii(outlines, poses.scale)) / np.log(ALIKE)
     order = mixed(kinds, neighbour_pairs(poses.x, poses.y), limits.groups, sizes)
+    x, y = poses.x.copy(), poses.y.copy()
+    x[order], y[order] = poses.x, poses.y
+    return replace(poses, x=x, y=y)
+
+
+def _by_forces(
+    outlines: Sequence[Outline], poses: Poses, limits: Limits | None, forces: Forces
+) -> Poses:
+    """Poses in which items have changed places to where forces would have them."""
+    radii = disc_radii(outlines, poses.scale)
+    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
+    places = np.column_stack([poses.x, poses.y])
+    areas = np.array([outline.area for outline in outlines]) * poses.scale**2
+    order = exchanged(forces, places, areas, np.log(radii) / np.log(FORCED_ALIKE), groups)
     x, y = poses.x.copy(), poses.y.copy()
     x[order], y[order] = poses.x, poses.y
     return replace(poses, x=x, y=y)
