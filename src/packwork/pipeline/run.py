@@ -166,8 +166,10 @@ def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _P
     if recipe.finish != "exact":
         return _Placed(job, start, outcome, None, recorder)
     with clock.time("finish"):
-        exact = finished(job, start, outcome.poses, observer, stop, forces)
-        exact = held_down(job, start, exact, observer, stop)
+        # What is to stay where it was is not pushed on.
+        kept = None if recipe.stay else forces
+        exact = finished(job, start, outcome.poses, observer, stop, kept)
+        exact = held_down(job, start, exact, observer, stop, kept)
     return _Placed(job, start, outcome, exact, recorder)
 
 
