@@ -91,12 +91,16 @@ def test_what_one_item_elsewhere_changes_is_foretold(
 
 
 def test_where_all_is_full_the_light_give_way_to_the_heavy() -> None:
-    pulls = np.array([3.0, 1.0, 1.0, 0.0])
-    full = Forces([FieldForce(POINTS, pulls)], [], np.zeros(4, int), SIDE).buoyant(np.ones(4))
-    (lifted,) = (force.strengths for force in full.fields)
-    np.testing.assert_allclose(lifted, [4 / 3, -2 / 3, -2 / 3, 0.0])
-    even = Forces([FieldForce(POINTS, np.ones(4))], [], np.zeros(4, int), SIDE)
-    assert even.buoyant(np.ones(4)).fields[0].strengths.tolist() == [1.0] * 4
+    def lifted(pulls: list[float]) -> FloatArray:
+        kinds, areas = np.zeros(len(pulls), dtype=np.int64), np.ones(len(pulls))
+        forces = Forces([FieldForce(POINTS, np.array(pulls))], [], kinds, SIDE)
+        return forces.buoyant(areas).fields[0].strengths
+
+    heavy, *light = lifted([3.0, 1.0, 1.0, 1.0])
+    assert heavy > 1 > 0 > max(light)
+    assert 0 < lifted([2.0, 2.0])[0] < 0.5
+    # Those that it does not act on make room by themselves.
+    assert lifted([3.0, 1.0, 0.0]).tolist() == [3.0, 1.0, 0.0]
 
 
 def test_bonds_have_a_height_about_an_anchor() -> None:

@@ -15,6 +15,10 @@ FORCE_WEIGHT = 30.0
 being covered thirty times over. Larger presses items into each other, smaller is drowned by
 the reward for filling. Tried."""
 
+PRESSURE = 0.1
+"""Share of a pull on all items alike that is felt where they fill a container. Larger presses them
+together more and covers less. Tried."""
+
 
 @dataclass(frozen=True, eq=False)
 class Pull:
@@ -150,8 +154,8 @@ class Forces:
     def buoyant(self, areas: FloatArray) -> Forces:
         """The same where a container is full: what is drawn less than others gives way.
 
-        Of fields that draw some items more than others only the difference from the mean is
-        left: the mean would press all together, and make all smaller.
+        Of fields that draw everyone, little of the mean is left: it would press all together
+        and make all smaller.
 
         Parameters
         ----------
@@ -160,12 +164,10 @@ class Forces:
         """
         fields = []
         for force in self.fields:
-            acted = force.strengths != 0
-            own = force.strengths[acted]
-            lifted = force.strengths.copy()
-            if len(own) and np.ptp(own) > 0:
-                lifted[acted] -= np.average(own, weights=areas[acted])
-            fields.append(FieldForce(force.field, lifted))
+            pull = force.strengths
+            if len(pull) and pull.all():
+                pull = pull - (1 - PRESSURE) * np.average(pull, weights=areas)
+            fields.append(FieldForce(force.field, pull))
         return Forces(fields, self.bonds, self.kinds, self.side)
 
     def some(self, items: IntArray) -> Forces:
