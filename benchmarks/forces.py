@@ -34,7 +34,7 @@ SPREAD = 0.5
 """Of the logarithms of the mixed radii."""
 
 PAIR = ("star", "heart")
-MIXED = {"cat": 6.0, "owl": 4.0}
+MIXED = {"cat": 6.0, "owl": 4.0, "fish": 5.0}
 STRENGTHS = (0.0, 1.0, 10.0)
 
 PAGE = """# Forces
@@ -194,9 +194,9 @@ CROWDS: dict[str, tuple[str, Callable[..., pw.Layout], Callable[[pw.Layout], flo
         lambda **how: pw.fill("heart", "icons", count=100, **how),
         lambda layout: float(np.hypot(*(_hearts(layout, ("apple", "owl"))[:, :2] - 0.5).T).mean()),
     ),
-    "centre of mass from the centre, mixed weights: 60 icons in a heart": (
+    "centre of mass from the centre, mixed weights, shared sizes: 40 icons in a disc": (
         "balance centre",
-        lambda **how: pw.fill("heart", "icons", count=60, weights=MIXED, **how),
+        lambda **how: pw.fill("circle", "icons", count=40, weights=MIXED, sizes="shared", **how),
         lambda layout: float(np.hypot(*(_mass(layout, ()) - 0.5))),
     ),
     "rank correlation of weight and distance: 100 words in a disc": (
