@@ -1,4 +1,4 @@
-"""Piles, round packs and stable words: ``packwork bench forces [short]``.
+"""Piles, round packs, forces in a crowd, stable words: ``packwork bench forces [short|crowd]``.
 
 Peers: ``packcircles`` (front chain) on the same radii, ``wordcloud`` on the same words. Both
 are left out where they are not installed (``pip install packcircles wordcloud``).
@@ -9,7 +9,7 @@ from __future__ import annotations
 import importlib.util
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -33,6 +33,10 @@ FAR = 1 / 30
 SPREAD = 0.5
 """Of the logarithms of the mixed radii."""
 
+PAIR = ("star", "heart")
+MIXED = {"cat": 6.0, "owl": 4.0, "fish": 5.0}
+STRENGTHS = (0.0, 1.0, 10.0)
+
 PAGE = """# Forces
 
 Made by `packwork bench forces` on {date}.
@@ -53,6 +57,15 @@ Share of the smallest enclosing circle that is covered, median and range over th
 packcircles is a front-chain packer.
 
 {circles}
+
+## Forces in a full container
+
+What a force asks for, in a run without it and at two strengths; median and range over seeds 0
+to 2, and below it the share of the container that is covered. Centres of mass and distances are
+shares of the canvas' height; the rank correlation is between a word's weight and its distance
+from the centre. Seconds are those of all three runs of a seed.
+
+{crowd}
 
 ## 100 words, one weight up by 5 %
 
@@ -110,7 +123,7 @@ def circles(seeds: Sequence[int]) -> str:
 
 def words(places: Sequence[int]) -> str:
     """Table of re-runs with one weight changed."""
-    weights = {name: 100.0 * (k + 1) ** -0.6 for k, name in enumerate(_names())}
+    weights = _weights()
     first = pw.words("circle", weights)
     fresh = 100 * pw.words("circle", _raised(weights, places[0])).metrics["LC_ink"]
     rows = []
@@ -137,6 +150,86 @@ def words(places: Sequence[int]) -> str:
     table = markdown_table(["word", "moved", "sizes off by", "certified", "ink", "s"], rows)
     said = f"Ink of the earlier layout: {ink:.2f} %; of a fresh run: {fresh:.2f} %."
     return f"{table}\n\n{said}{_peer_words(weights, places)}"
+
+
+def _hearts(layout: pw.Layout, names: Sequence[str]) -> FloatArray:
+    """``(m, 3)`` x, y and area of the items of some names, in shares of the canvas' height."""
+    own = [k for k, item in enumerate(layout.items) if not names or item.name in names]
+    areas = [layout.outlines[k].area for k in own]
+    high = layout.container.height
+    poses = layout.poses
+    return np.column_stack([poses.x[own] / high, poses.y[own] / high, np.array(areas) / high**2])
+
+
+def _mass(layout: pw.Layout, names: Sequence[str]) -> FloatArray:
+    found = _hearts(layout, names)
+    return np.asarray(np.average(found[:, :2], axis=0, weights=found[:, 2]))
+
+
+def _rank(layout: pw.Layout) -> float:
+    from scipy.stats import spearmanr
+
+    far = np.hypot(*(_hearts(layout, ())[:, :2] - 0.5).T)
+    return float(spearmanr(layout.weights, far).statistic)
+
+
+CROWDS: dict[str, tuple[str, Callable[..., pw.Layout], Callable[[pw.Layout], float]]] = {
+    "centre of mass of the hearts, from the top: 15 and 15 stars in a disc": (
+        "balance 50%,80% items=heart",
+        lambda **how: pw.fill("circle", PAIR, count=30, **how),
+        lambda layout: float(_mass(layout, ("heart",))[1]),
+    ),
+    "standard deviation of the hearts' height, the same": (
+        "align horizontal items=heart",
+        lambda **how: pw.fill("circle", PAIR, count=30, **how),
+        lambda layout: float(_hearts(layout, ("heart",))[:, 1].std()),
+    ),
+    "standard deviation of x of the apples, owls and leaves: 100 icons in a square": (
+        "align vertical items=apple,owl,leaf",
+        lambda **how: pw.fill("square", "icons", count=100, **how),
+        lambda layout: float(_hearts(layout, ("apple", "owl", "leaf"))[:, 0].std()),
+    ),
+    "mean distance of apples and owls from the centre: 100 icons in a heart": (
+        "towards centre items=apple,owl",
+        lambda **how: pw.fill("heart", "icons", count=100, **how),
+        lambda layout: float(np.hypot(*(_hearts(layout, ("apple", "owl"))[:, :2] - 0.5).T).mean()),
+    ),
+    "centre of mass from the centre, mixed weights, shared sizes: 40 icons in a disc": (
+        "balance centre",
+        lambda **how: pw.fill("circle", "icons", count=40, weights=MIXED, sizes="shared", **how),
+        lambda layout: float(np.hypot(*(_mass(layout, ()) - 0.5))),
+    ),
+    "rank correlation of weight and distance: 100 words in a disc": (
+        "towards centre by=weight",
+        lambda **how: pw.words("circle", _weights(), **how),
+        _rank,
+    ),
+}
+"""Force, run and measure, by what is measured."""
+
+
+def crowd(seeds: Sequence[int]) -> str:
+    """Table of what forces reach where all is full."""
+    rows = []
+    for title, (force, run, measure) in CROWDS.items():
+        began = time.process_time()
+        cells = []
+        for strength in STRENGTHS:
+            asked = f"{force} strength={strength:g}" if strength else None
+            layouts = [run(force=asked, seed=seed) for seed in seeds]
+            assert all(layout.manifest["certified"] for layout in layouts)
+            found = ranged([measure(layout) for layout in layouts], ".3f")
+            covered = ranged([layout.metrics["LC"] for layout in layouts], ".3f")
+            cells.append(f"{found}<br>LC {covered}")
+        seconds = (time.process_time() - began) / len(seeds)
+        rows.append([title, f"`{force}`", *cells, f"{seconds:.1f}"])
+        print(rows[-1], flush=True)
+    header = ["measure", "force", "without", *(f"strength={s:g}" for s in STRENGTHS[1:]), "s"]
+    return markdown_table(header, rows)
+
+
+def _weights() -> dict[str, float]:
+    return {name: 100.0 * (k + 1) ** -0.6 for k, name in enumerate(_names())}
 
 
 def _raised(weights: dict[str, float], place: int) -> dict[str, float]:
@@ -228,11 +321,15 @@ def _front_chain(radii: FloatArray) -> list[float]:
 def main(arguments: Sequence[str]) -> None:
     """Measure all, print, and write the page unless asked to be short."""
     is_short = "short" in arguments
+    if "crowd" in arguments:
+        print(crowd([0, 1, 2]))
+        return
     seeds = [0] if is_short else [0, 1, 2]
     pw.pile("square", "star", count=2, size="20%")
     parts = {
         "circles": circles(seeds if is_short else range(5)),
         "piles": piles(seeds),
+        "crowd": crowd(seeds),
         "words": words([9] if is_short else [0, 9, 49, 89]),
     }
     for part in parts.values():

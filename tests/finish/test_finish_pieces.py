@@ -224,7 +224,7 @@ def test_an_item_moves_house_to_where_it_grows_most() -> None:
     walls = Outline.from_region(shapely.union(box(0, 0, 4, 4).region, box(3.9, 0, 30, 2).region))
     arrangement = Arrangement([bar], walls, np.array([[2.0, 2.0, 0.0, -0.8]]))
     free, still = np.full(1, 9.0), np.zeros(1)
-    wishes = Wishes(-free, free, still, still, np.full(1, 8.0), 2.0)
+    wishes = Wishes(-free, free, still, still, np.full(1, 8.0), 2.0, np.zeros((1, 2)))
     room = Room(10.0, GAP, GAP)
     assert rehouse(arrangement, 0, wishes, room, np.random.default_rng(0))
     assert is_clean(arrangement)

@@ -75,6 +75,44 @@ def test_no_slope_is_steeper_than_one(name: str, rng: np.random.Generator) -> No
     assert np.hypot(*slopes.T).max() <= 1 + 1e-12
 
 
+@pytest.mark.parametrize("name", [*FIELDS, *BONDS])
+def test_what_one_item_elsewhere_changes_is_foretold(
+    name: str, centres: FloatArray, rng: np.random.Generator
+) -> None:
+    forces = _forces(rng, FIELDS.get(name), BONDS.get(name))
+    areas, places = rng.uniform(1, 5, len(centres)), rng.uniform(0, SIDE, (4, 2))
+    foretold = forces.cost_changes(centres, areas, places)
+    before, true = forces.cost(centres, areas).value, np.empty((12, 4))
+    for item, place in np.ndindex(12, 4):
+        moved = centres.copy()
+        moved[item] = places[place]
+        true[item, place] = forces.cost(moved, areas).value - before
+    np.testing.assert_allclose(foretold, true, atol=1e-9 * SIDE)
+
+
+def test_where_all_is_full_the_light_give_way_to_the_heavy() -> None:
+    def lifted(pulls: list[float]) -> FloatArray:
+        kinds, areas = np.zeros(len(pulls), dtype=np.int64), np.ones(len(pulls))
+        forces = Forces([FieldForce(POINTS, np.array(pulls))], [], kinds, SIDE)
+        return forces.buoyant(areas).fields[0].strengths
+
+    heavy, *light = lifted([3.0, 1.0, 1.0, 1.0])
+    assert heavy > 1 > 0 > max(light)
+    assert 0 < lifted([2.0, 2.0])[0] < 0.5
+    # Those that it does not act on make room by themselves.
+    assert lifted([3.0, 1.0, 0.0]).tolist() == [3.0, 1.0, 0.0]
+
+
+def test_bonds_have_a_height_about_an_anchor() -> None:
+    row = BondForce(BONDS["row"], np.array([2.0, 0.0]))
+    forces = Forces([], [row], np.zeros(2, int), SIDE)
+    points, anchor = np.array([[10.0, 50.0], [10.0, 60.0]]), np.array([90.0, 50.0])
+    assert forces.heights(points, 0).tolist() == [0.0, 0.0]
+    flat, off = forces.heights(points, 0, anchor)
+    assert flat == 0 < off
+    assert forces.heights(points, 1, anchor).tolist() == [0.0, 0.0]
+
+
 def test_forces_add_up(centres: FloatArray) -> None:
     one = FieldForce(FIELDS["points"], np.ones(12))
     other = FieldForce(FIELDS["direction"], np.full(12, 2.0))

@@ -71,7 +71,8 @@ class Wishes(NamedTuple):
     """Bounds of growth and turn of each item, and what growth is worth.
 
     An item of growth g is worth ``weights * exp(power * g) / power``: its area with power
-    2; with a large negative power, the smallest items count most.
+    2; with a large negative power, the smallest items count most. ``push``: ``(n, 2)`` what
+    a move by one canvas unit is worth, by x and y.
     """
 
     smallest: np.ndarray
@@ -80,6 +81,7 @@ class Wishes(NamedTuple):
     foremost: np.ndarray
     weights: np.ndarray
     power: float
+    push: np.ndarray
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -149,6 +151,7 @@ def freedoms(board, wishes, items, trust):
         i = items[k]
         turn, growth = board.places[i, 2], board.places[i, 3]
         most = trust / contact.arm(board, i)
+        gain[4 * k], gain[4 * k + 1] = wishes.push[i, 0] * trust, wishes.push[i, 1] * trust
         low[4 * k + 2] = max((wishes.backmost[i] - turn) / most, -1.0)
         high[4 * k + 2] = min((wishes.foremost[i] - turn) / most, 1.0)
         worth = wishes.weights[i] * np.exp(wishes.power * growth) * most

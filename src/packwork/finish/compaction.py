@@ -53,7 +53,7 @@ def worth(arrangement: Arrangement, wishes: Wishes, items: IntArray) -> float:
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> one = Arrangement([box], box, np.zeros((1, 4)))
     >>> free = np.full(1, 9.0)
-    >>> areas = Wishes(-free, free, -free, free, 2 * np.full(1, box.area), 2.0)
+    >>> areas = Wishes(-free, free, -free, free, 2 * np.full(1, box.area), 2.0, np.zeros((1, 2)))
     >>> worth(one, areas, np.array([0]))
     4.0
     """

@@ -17,6 +17,7 @@ from packwork.finish.detail import Detail
 from packwork.finish.offenders import Offender, find_offenders
 from packwork.finish.options import HAIR, FinishOptions
 from packwork.finish.part import part, part_evenly
+from packwork.finish.pulling import pulling_of
 from packwork.finish.relief import (
     NEARLY,
     PROBE,
@@ -29,7 +30,8 @@ from packwork.finish.relief import (
 )
 from packwork.finish.relocate import relocate
 from packwork.finish.search import Room, search
-from packwork.finish.sizing import FixedSize, FreeSizes, SharedSize, Sizing, turn_ranges
+from packwork.finish.sizing import FreeSizes, SharedSize, sizing_of, turn_ranges
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import Observer, Step, Stop, never
 from packwork.scene.container import Container
@@ -131,6 +133,7 @@ def finish(
     observer: Observer | None = None,
     stop: Stop = never,
     is_enough: Stop = never,
+    forces: Forces | None = None,
 ) -> Finished:
     """Poses near the given ones at which nothing meets, grown into the room that is left.
 
@@ -152,6 +155,8 @@ def finish(
         Asked before each round; True ends with what there is, which is clean as well.
     is_enough
         Asked before each trial; True ends the trials, so that the last rounds have time.
+    forces
+        What pulls items about, weighed against area as in the levels; None for nothing.
 
     Examples
     --------
@@ -165,7 +170,7 @@ def finish(
     began = time.perf_counter()
     if len(outlines) == 0:
         return Finished(poses, True, (), (), 0, 0.0)
-    run = _Run(container, outlines, poses, options, observer, stop, is_enough)
+    run = _Run(container, outlines, poses, options, observer, stop, is_enough, forces)
     if options.refining:
         run.refine()
         if options.staying:
@@ -194,6 +199,7 @@ class _Run:
         observer: Observer | None,
         stop: Stop,
         is_enough: Stop,
+        forces: Forces | None,
     ) -> None:
         self._poses, self._options, self._observer, self._stop = poses, options, observer, stop
         self._is_enough = is_enough
@@ -205,7 +211,8 @@ class _Run:
         self._planned = options.rounds * (1 if options.sizes == "free" else COMMON_ROUNDS)
         self._spacing = float(np.sqrt(self._area / len(poses)))
         own = np.array([outline.area for outline in outlines])
-        self._sizing = _sizing(poses, own * poses.scale**2, options)
+        self._sizing = sizing_of(poses, own * poses.scale**2, options)
+        self._pulling = pulling_of(forces, self._sizing)
         self._is_shared = isinstance(self._sizing, SharedSize)
         exact = Detail(outlines, container.outline, poses)
         self._fine = exact.covers(FINE)
@@ -225,9 +232,13 @@ class _Run:
             laggards = self._sizing.laggards(self.arrangement.places[:, 3])
             if len(laggards) == 0 or self._stop():
                 break
+            before = self.arrangement.places.copy()
             relocate(self.arrangement, laggards, self.gap)
             part(self.arrangement, self.gap)
             self._compact(range(count // 2, count))
+            if self._is_shared and self.arrangement.places[:, 3].min() < before[:, 3].min():
+                self.arrangement.put(np.arange(len(before)), before)
+                break
         if self._is_shared and self._options.relieving:
             self._relieve(range(count // 2, count))
 
@@ -249,7 +260,7 @@ class _Run:
         arrangement, everyone = self.arrangement, np.arange(self.arrangement.count)
         before = arrangement.places.copy()
         least = before[:, 3].min()
-        wishes = self._sizing.wishes(before[:, 3], VOID_SPREAD)
+        wishes = self._wishes(before, VOID_SPREAD)
         rng = np.random.default_rng(item)
         fits = rehouse(arrangement, item, wishes, self._room, rng)
         if fits and arrangement.places[item, 3] > least - NEARLY:
@@ -271,7 +282,7 @@ class _Run:
     def search(self) -> None:
         """Turn and exchange items where that gains."""
         rng = np.random.default_rng(self._options.seed)
-        wish = partial(self._sizing.wishes, spread=SEARCH_SPREAD)
+        wish = partial(self._wishes, spread=SEARCH_SPREAD)
         trials = round(self._options.trials * min(1.0, EASY_POINTS / self._points_each()))
         every = max(self.arrangement.count // TOLD, 1)
 
@@ -279,7 +290,9 @@ class _Run:
             if trial % every == 0:
                 self._tell(COARSE_SHARE)
 
-        search(self.arrangement, wish, trials, self._room, rng, self._is_enough, tell)
+        search(
+            self.arrangement, wish, trials, self._room, rng, self._is_enough, tell, self._pulling
+        )
 
     def _points_each(self) -> float:
         return float(self.arrangement.board.starts[-2]) / self.arrangement.count
@@ -303,8 +316,11 @@ class _Run:
     def _round(self, trust: float) -> None:
         arrangement = self.arrangement
         spread = min(trust / float(np.median(arrangement.radii)), MOST_GROWTH)
-        wishes = self._sizing.wishes(arrangement.places[:, 3], spread)
-        self._blocks(wishes, trust)
+        self._blocks(self._wishes(arrangement.places, spread), trust)
+
+    def _wishes(self, places: FloatArray, spread: float) -> Wishes:
+        wishes = self._sizing.wishes(places[:, 3], spread)
+        return wishes if self._pulling is None else self._pulling.pushed(wishes, self.arrangement)
 
     def _blocks(self, wishes: Wishes, trust: float) -> None:
         for block in blocks(self.arrangement.places[:, :2], self.rounds):
@@ -382,14 +398,3 @@ class _Run:
         )  # fmt: skip
         shares = (covered, 0.0, 0.0)
         self._observer.on_step(Step(0, 1, 0, self.rounds, done, poses, lambda: shares))
-
-
-def _sizing(poses: Poses, areas: FloatArray, options: FinishOptions) -> Sizing:
-    turns = turn_ranges(poses.angle, options)
-    if options.sizes == "free":
-        smallest = poses.scale / 2 if options.smallest is None else np.array(options.smallest)
-        largest = poses.scale * 2 if options.largest is None else np.array(options.largest)
-        return FreeSizes(
-            areas, turns, np.log(smallest / poses.scale), np.log(largest / poses.scale)
-        )
-    return (FixedSize if options.sizes == "fixed" else SharedSize)(areas, turns)

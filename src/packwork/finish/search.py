@@ -14,6 +14,7 @@ from packwork.finish.arrangement import Arrangement
 from packwork.finish.blocks import blocks
 from packwork.finish.compaction import compact, worth
 from packwork.finish.contact import _kernels as contact
+from packwork.finish.pulling import Pulling
 from packwork.finish.sizing import AREA_POWER
 from packwork.progress import Stop, never
 
@@ -40,6 +41,9 @@ EXCHANGES = 0.5
 
 ALIKE = 24
 """How many items nearest in size are considered for an exchange. Tried."""
+
+WITH_FORCES = 0.5
+"""Share of exchanges with whom forces like best, where there are some. Tried."""
 
 BEHIND, BEHIND_SHARE = 0.125, 0.7
 """Where the smallest is worth most: which share of the items are the smallest, and share
@@ -97,6 +101,7 @@ def search(
     rng: np.random.Generator,
     stop: Stop = never,
     tell: Callable[[int], None] | None = None,
+    pulling: Pulling | None = None,
 ) -> int:
     """Try to turn or exchange items; how many trials were kept.
 
@@ -119,8 +124,10 @@ def search(
         Asked before each trial; True ends the search.
     tell
         Called with the number of each trial, once it has been kept or undone.
+    pulling
+        What else counts beside sizes; None for nothing.
     """
-    wishes = wish(arrangement.places[:, 3])
+    wishes = wish(arrangement.places)
     can_turn = bool((wishes.backmost < wishes.foremost).any())
     if arrangement.count < 2 and not can_turn:
         return 0
@@ -130,19 +137,19 @@ def search(
             break
         exchange = arrangement.count > 1 and (not can_turn or rng.random() < EXCHANGES)
         if exchange:
-            moved, places = _exchanged(arrangement, rng)
+            moved, places = _exchanged(arrangement, rng, pulling)
         else:
             moved, places = _turned(arrangement, wishes.power < 0, rng)
         items = _about(arrangement, moved)
         before = arrangement.places[items]
-        target = worth(arrangement, wishes, items)
+        target = _value(arrangement, wishes, items, pulling)
         if wishes.power == AREA_POWER:
             heat = HEAT * room.spacing**2 * (1 - trial / trials)
             target -= heat * rng.exponential()
         candidates = at_angles(places, moved, wishes, rng)
         least, short = arrangement.places[:, 3].min(), _shortfall(arrangement, wishes, items)
         gains = put_best(arrangement, wishes, moved, candidates, room) and _grow(
-            arrangement, wishes, items, room, target
+            arrangement, wishes, items, room, target, pulling
         )
         # Where the smallest counts, what all the others gain does not make up for it; nor
         # for an item below the size that it should have at least.
@@ -156,8 +163,16 @@ def search(
         if (trial + 1) % arrangement.count == 0:
             _sweep(arrangement, wishes, room, trial)
         # How far an item may grow depends on how large the smallest is now.
-        wishes = wish(arrangement.places[:, 3])
+        wishes = wish(arrangement.places)
     return kept
+
+
+def _value(
+    arrangement: Arrangement, wishes: Wishes, items: IntArray, pulling: Pulling | None
+) -> float:
+    """What some items are worth together, less what forces charge for all."""
+    cost = 0.0 if pulling is None else pulling.cost(arrangement.places)
+    return worth(arrangement, wishes, items) - cost
 
 
 def _shortfall(arrangement: Arrangement, wishes: Wishes, items: IntArray) -> float:
@@ -197,16 +212,21 @@ def put_best(
 
 
 def _grow(
-    arrangement: Arrangement, wishes: Wishes, items: IntArray, room: Room, target: float
+    arrangement: Arrangement,
+    wishes: Wishes,
+    items: IntArray,
+    room: Room,
+    target: float,
+    pulling: Pulling | None,
 ) -> bool:
-    """Let ``items`` grow, while that may lead to a worth above ``target``."""
+    """Let ``items`` grow, while that may lead to a value above ``target``."""
     for index, trust in enumerate(np.geomspace(*TRUST, ROUNDS)):
-        missing = target - worth(arrangement, wishes, items)
+        missing = target - _value(arrangement, wishes, items, pulling)
         patience = PATIENCE * room.spacing**2 * HASTE**index
         if wishes.power == AREA_POWER and missing > patience:
             return False
         compact(arrangement, wishes, items, trust * room.spacing, room.gap, room.hair)
-    return worth(arrangement, wishes, items) > target
+    return _value(arrangement, wishes, items, pulling) > target
 
 
 def _turned(
@@ -221,12 +241,18 @@ def _turned(
     return k, arrangement.places[k] - np.array([0.0, 0.0, 0.0, LOSS])
 
 
-def _exchanged(arrangement: Arrangement, rng: np.random.Generator) -> tuple[IntArray, FloatArray]:
+def _exchanged(
+    arrangement: Arrangement, rng: np.random.Generator, pulling: Pulling | None
+) -> tuple[IntArray, FloatArray]:
     """Two items of like size, each where the other was and as large."""
     radii = arrangement.radii
     i = int(rng.integers(arrangement.count))
     alike = np.argsort(np.abs(np.log(radii / radii[i])), kind="stable")[: ALIKE + 1]
-    pair = np.array([i, int(rng.choice(alike[alike != i]))])
+    alike = alike[alike != i]
+    j = int(rng.choice(alike))
+    if pulling is not None and rng.random() < WITH_FORCES:
+        j = int(alike[np.argmax(pulling.gains(arrangement.places, i, alike))])
+    pair = np.array([i, j])
     places = arrangement.places[pair[::-1]]
     places[:, 2] = arrangement.places[pair, 2]
     places[:, 3] = np.log(radii[pair[::-1]] / arrangement.board.arms[pair]) - LOSS

@@ -11,6 +11,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.finish._kernels import LEAST_GROWTH, Wishes
 from packwork.finish.options import FinishOptions
+from packwork.scene.pose import Poses
 
 LAGGARD = 0.05
 """Logarithm of size by which an item must stay behind what was asked to be moved to a
@@ -86,7 +87,9 @@ class FreeSizes(Sizing):
 
     def wishes(self, growth: FloatArray, spread: float) -> Wishes:
         """Bounds and worths, the same in all rounds."""
-        return Wishes(self.smallest, self.largest, *self.turns, AREA_POWER * self.areas, AREA_POWER)
+        worths = AREA_POWER * self.areas
+        still = np.zeros((len(growth), 2))
+        return Wishes(self.smallest, self.largest, *self.turns, worths, AREA_POWER, still)
 
     def laggards(self, growth: FloatArray) -> IntArray:
         """Items below their smallest size."""
@@ -107,7 +110,8 @@ class CommonSize(Sizing):
         behind = power * (growth - np.median(growth))
         value = np.exp(np.clip(behind, -MOST_URGENT, MOST_URGENT))
         smallest = np.full_like(growth, LEAST_GROWTH)
-        return Wishes(smallest, largest, *self.turns, value * np.exp(-power * growth), power)
+        worths, still = value * np.exp(-power * growth), np.zeros((len(growth), 2))
+        return Wishes(smallest, largest, *self.turns, worths, power, still)
 
 
 @final
@@ -122,7 +126,7 @@ class SharedSize(CommonSize):
     def levelling(self, growth: FloatArray, back: float) -> Wishes:
         """All smaller than the smallest by ``back``, a logarithm, and no more."""
         aim = np.full_like(growth, growth.min() - back)
-        return Wishes(aim, aim, *self.turns, np.exp(-growth), 1.0)
+        return Wishes(aim, aim, *self.turns, np.exp(-growth), 1.0, np.zeros((len(growth), 2)))
 
     def laggards(self, growth: FloatArray) -> IntArray:
         """Items far smaller than most."""
@@ -166,3 +170,15 @@ def turn_ranges(angle: FloatArray, options: FinishOptions) -> tuple[FloatArray, 
     upright = np.remainder(angle + math.pi, 2 * math.pi) - math.pi
     back, on = -options.turn_limit - upright, options.turn_limit - upright
     return np.minimum(back, 0.0), np.maximum(on, 0.0)
+
+
+def sizing_of(poses: Poses, areas: FloatArray, options: FinishOptions) -> Sizing:
+    """Size mode that the options ask for; ``areas``: ``(n,)`` of the items at these poses."""
+    turns = turn_ranges(poses.angle, options)
+    if options.sizes == "free":
+        smallest = poses.scale / 2 if options.smallest is None else np.array(options.smallest)
+        largest = poses.scale * 2 if options.largest is None else np.array(options.largest)
+        return FreeSizes(
+            areas, turns, np.log(smallest / poses.scale), np.log(largest / poses.scale)
+        )
+    return (FixedSize if options.sizes == "fixed" else SharedSize)(areas, turns)

@@ -9,12 +9,38 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.forces.field import Group
 
+NARROW = 0.1
+"""Share of the canvas' side by which an item has to lie off the line of an alignment to be drawn
+to it as strongly as by a direction. Smaller aligns better and covers less. Tried."""
+
 
 def _about(points: FloatArray, areas: FloatArray, side: float) -> tuple[FloatArray, FloatArray]:
     """Area times squared distance from the centre of mass over twice the side."""
     off = points - np.average(points, axis=0, weights=areas)
     # The centre moves too, but its part of the slope sums up to nothing.
     return areas * (off**2).sum(axis=1) / (2 * side), areas[:, None] * off / side
+
+
+def _about_elsewhere(
+    points: FloatArray, areas: FloatArray, side: float, places: FloatArray
+) -> FloatArray:
+    """Change of the sum of :func:`_about` if one item lay elsewhere, ``(n, m)``."""
+    centre = np.average(points, axis=0, weights=areas)
+    before, after = ((at - centre) for at in (points, places))
+    change = (after**2).sum(axis=1) - (before**2).sum(axis=1)[:, None]
+    # The centre follows, by the item's share of all area.
+    follows = areas[:, None] / areas.sum() * _squares(points, places)
+    return np.asarray(areas[:, None] * (change - follows) / (2 * side))
+
+
+def _alone(off: FloatArray, side: float) -> FloatArray:
+    """Squared distance over twice the side."""
+    return np.asarray((off**2).sum(axis=1) / (2 * side))
+
+
+def _squares(points: FloatArray, places: FloatArray) -> FloatArray:
+    """``(n, m)`` squared distances."""
+    return np.asarray(((places - points[:, None]) ** 2).sum(axis=2))
 
 
 @dataclass(frozen=True)
@@ -31,7 +57,7 @@ class Alignment:
     >>> two = Group(np.array([[0.0, 0], [4, 2]]), np.ones(2), np.zeros(2, int), 10.0)
     >>> parts, slopes = Alignment(1)(two)
     >>> parts.tolist(), slopes.tolist()
-    ([0.05, 0.05], [[0.0, -0.1], [0.0, 0.1]])
+    ([0.5, 0.5], [[0.0, -1.0], [0.0, 1.0]])
     """
 
     axis: int
@@ -39,7 +65,16 @@ class Alignment:
     def __call__(self, group: Group) -> tuple[FloatArray, FloatArray]:
         """Spread across the line."""
         across = group.points * (np.arange(2) == self.axis)
-        return _about(across, group.areas, group.side)
+        return _about(across, group.areas, NARROW * group.side)
+
+    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+        """As each lay nearer to the line of all, or farther from it."""
+        across, there = (at * (np.arange(2) == self.axis) for at in (group.points, places))
+        return _about_elsewhere(across, group.areas, NARROW * group.side, there)
+
+    def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
+        """Distance from the line through the others."""
+        return _alone((points - anchor) * (np.arange(2) == self.axis), NARROW * side)
 
 
 @dataclass(frozen=True)
@@ -69,6 +104,19 @@ class Together:
             parts[own], slopes[own] = _about(group.points[own], group.areas[own], group.side)
         return parts, slopes
 
+    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+        """As each lay nearer to its kind, or farther from it."""
+        kinds: IntArray = np.zeros_like(group.kinds) if self.is_one else group.kinds
+        found = np.zeros((len(kinds), len(places)))
+        for kind in np.unique(kinds):
+            own = kinds == kind
+            found[own] = _about_elsewhere(group.points[own], group.areas[own], group.side, places)
+        return found
+
+    def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
+        """Distance from the others."""
+        return _alone(points - anchor, side)
+
 
 @dataclass(frozen=True, eq=False)
 class Home:
@@ -93,6 +141,16 @@ class Home:
         off = np.nan_to_num(group.points - self.places)
         parts = group.areas * (off**2).sum(axis=1) / (2 * group.side)
         return parts, group.areas[:, None] * off / group.side
+
+    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+        """As each lay nearer to its home, or farther from it."""
+        before = (np.nan_to_num(group.points - self.places) ** 2).sum(axis=1)
+        after = np.nan_to_num(_squares(self.places, places))
+        return np.asarray(group.areas[:, None] * (after - before[:, None]) / (2 * group.side))
+
+    def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
+        """None: each has a home of its own."""
+        return np.zeros(len(points))
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,3 +177,16 @@ class Balance:
         # A moment is shared by all that make it, by their areas.
         parts = group.areas * (off @ off) / (2 * group.side)
         return parts, group.areas[:, None] * off / group.side
+
+    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+        """As the centre of mass came nearer to the point or the axis, or went farther off."""
+        whole = group.areas.sum()
+        off = np.nan_to_num(np.average(group.points, axis=0, weights=group.areas) - self.point)
+        counts = np.logical_not(np.isnan(self.point))
+        shift = (group.areas / whole)[:, None, None] * (places - group.points[:, None]) * counts
+        after = ((off + shift) ** 2).sum(axis=2)
+        return np.asarray(whole * (after - off @ off) / (2 * group.side))
+
+    def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
+        """Distance from the point or the axis."""
+        return _alone(np.nan_to_num(points - self.point), side)

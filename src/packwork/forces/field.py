@@ -50,3 +50,14 @@ class Bond(Protocol):
         Slopes ``(n, 2)`` are those of the sum of all parts.
         """
         ...
+
+    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+        """How the height would change if one item lay elsewhere and the others as they do.
+
+        ``(n, m)``, area times canvas units: item by item for each of the places ``(m, 2)``.
+        """
+        ...
+
+    def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
+        """``(m,)`` heights at points of an item whose others all lie about ``anchor``."""
+        ...

@@ -10,6 +10,15 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.forces.field import Bond, Field, Group
 
+FORCE_WEIGHT = 30.0
+"""Weight of a force of strength 1: an item that is drawn across the whole canvas pays for
+being covered thirty times over. Larger presses items into each other, smaller is drowned by
+the reward for filling. Tried."""
+
+PRESSURE = 0.1
+"""Share of a pull on all items alike that is felt where they fill a container. Larger presses them
+together more and covers less. Tried."""
+
 
 @dataclass(frozen=True, eq=False)
 class Pull:
@@ -114,6 +123,53 @@ class Forces:
                 slopes[own] += strength * slope
         return Pull(parts, slopes)
 
+    def cost(self, points: FloatArray, areas: FloatArray) -> Pull:
+        """What it costs that items lie where they do, in areas covered; and its slope."""
+        pull, weight = self(points, areas), FORCE_WEIGHT / self.side
+        return Pull(weight * pull.parts, weight * pull.slopes)
+
+    def cost_changes(self, points: FloatArray, areas: FloatArray, places: FloatArray) -> FloatArray:
+        """``(n, m)`` change of the whole cost if one item lay at another place.
+
+        Examples
+        --------
+        >>> from packwork.forces.direction import Direction
+        >>> down = FieldForce(Direction(np.pi / 2), np.array([1.0, 2.0]))
+        >>> forces = Forces([down], [], np.zeros(2, int), FORCE_WEIGHT)
+        >>> points = np.array([[1.0, 3], [2, 4]])
+        >>> forces.cost_changes(points, np.ones(2), points).round(9).tolist()
+        [[0.0, -1.0], [2.0, 0.0]]
+        """
+        found = np.zeros((len(points), len(places)))
+        for force in self.fields:
+            change = force.field(places)[0] - force.field(points)[0][:, None]
+            found += (force.strengths * areas)[:, None] * change
+        for bond in self.bonds:
+            own = bond.strengths != 0
+            group = Group(points[own], areas[own], self.kinds[own], self.side)
+            if own.any():
+                found[own] += bond.strengths[own].mean() * bond.bond.changes(group, places)
+        return np.asarray(FORCE_WEIGHT / self.side * found)
+
+    def buoyant(self, areas: FloatArray) -> Forces:
+        """The same where a container is full: what is drawn less than others gives way.
+
+        Of fields that draw everyone, little of the mean is left: it would press all together
+        and make all smaller.
+
+        Parameters
+        ----------
+        areas
+            ``(n,)`` how much each counts.
+        """
+        fields = []
+        for force in self.fields:
+            pull = force.strengths
+            if len(pull) and pull.all():
+                pull = pull - (1 - PRESSURE) * np.average(pull, weights=areas)
+            fields.append(FieldForce(force.field, pull))
+        return Forces(fields, self.bonds, self.kinds, self.side)
+
     def some(self, items: IntArray) -> Forces:
         """The same on some of the items."""
         return Forces(
@@ -123,10 +179,19 @@ class Forces:
             self.side,
         )
 
-    def heights(self, points: FloatArray, item: int) -> FloatArray:
-        """``(m,)`` height of one item at many points, of the fields alone."""
+    def heights(
+        self, points: FloatArray, item: int, anchor: FloatArray | None = None
+    ) -> FloatArray:
+        """``(m,)`` height of one item at many points.
+
+        Of the fields alone; with an ``anchor``, also of the bonds with others that lie about it.
+        """
         total = np.zeros(len(points))
         for force in self.fields:
             if force.strengths[item]:
                 total += force.strengths[item] * force.field(points)[0]
+        if anchor is not None:
+            for bond in self.bonds:
+                if bond.strengths[item]:
+                    total += bond.strengths[item] * bond.bond.alone(points, anchor, self.side)
         return total

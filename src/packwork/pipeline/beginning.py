@@ -9,6 +9,8 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
+from packwork.forces.exchanges import exchanged
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.given import given_scales
@@ -49,6 +51,10 @@ ALIKE = 1.3
 """Factor in radius between two items that may change places to come apart from others of
 their kind. Larger finds more partners and upsets the start more. Chosen."""
 
+FORCED_ALIKE = 2.0
+"""The same between two that may change places for a force's sake, before all others: what is too
+large or too small there the levels still mend. Larger leaves them more to mend. Tried."""
+
 
 @dataclass(frozen=True, eq=False)
 class Beginning:
@@ -73,7 +79,11 @@ class Beginning:
 
 
 def begin(
-    job: Job, container: Container, outlines: Sequence[Outline], stop: Stop = never
+    job: Job,
+    container: Container,
+    outlines: Sequence[Outline],
+    forces: Forces | None = None,
+    stop: Stop = never,
 ) -> Beginning:
     """First poses in the padded container, of the outlines that the solver will see.
 
@@ -94,8 +104,10 @@ def begin(
         poses, method = replace(earlier, angle=angles), "layout"
         poses = poses if limits is None else held_to(limits, poses)
     else:
-        first = first_places(job, container, outlines, scales, angles, limits, rng, stop)
+        first = first_places(job, container, outlines, scales, angles, limits, rng, forces, stop)
         poses, method = first.poses, str(first.method)
+        if forces is not None and method != "first-fit":
+            poses = _by_forces(outlines, poses, limits, forces)
     if limits is not None:
         check_poses(job, container, poses, limits)
     if recipe.stay:
@@ -203,6 +215,20 @@ def _kinds_apart(
     """Poses in which items of about one size have changed places, away from their kind."""
     sizes = np.log(disc_radii(outlines, poses.scale)) / np.log(ALIKE)
     order = mixed(kinds, neighbour_pairs(poses.x, poses.y), limits.groups, sizes)
+    x, y = poses.x.copy(), poses.y.copy()
+    x[order], y[order] = poses.x, poses.y
+    return replace(poses, x=x, y=y)
+
+
+def _by_forces(
+    outlines: Sequence[Outline], poses: Poses, limits: Limits | None, forces: Forces
+) -> Poses:
+    """Poses in which items have changed places to where forces would have them."""
+    radii = disc_radii(outlines, poses.scale)
+    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
+    places = np.column_stack([poses.x, poses.y])
+    areas = np.array([outline.area for outline in outlines]) * poses.scale**2
+    order = exchanged(forces, places, areas, np.log(radii) / np.log(FORCED_ALIKE), groups)
     x, y = poses.x.copy(), poses.y.copy()
     x[order], y[order] = poses.x, poses.y
     return replace(poses, x=x, y=y)

@@ -13,6 +13,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ShapeError
 from packwork.finish.finish import Finished, finish
 from packwork.finish.options import HAIR, FinishOptions
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.job import Job
@@ -68,7 +69,12 @@ PRESSING = frozenset(
 
 
 def finished(
-    job: Job, start: Beginning, poses: Poses, observer: Observer | None, stop: Stop
+    job: Job,
+    start: Beginning,
+    poses: Poses,
+    observer: Observer | None,
+    stop: Stop,
+    forces: Forces | None = None,
 ) -> Finished:
     """Exact poses near the solver's, of the true outlines.
 
@@ -104,6 +110,7 @@ def finished(
             None if observer is None else Closing(observer, poses, items),
             until,
             is_enough,
+            None if forces is None else forces.some(items),
         )
         poses = poses.with_some(items, result.poses)
         results.append((items, result))

@@ -14,6 +14,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.finish.finish import Finished
+from packwork.forces.forces import Forces
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.casting import cast_words
 from packwork.pipeline.finishing import finished
@@ -88,7 +89,12 @@ def with_readable(job: Job, poses: Poses, attempt: int) -> Job:
 
 
 def held_down(
-    job: Job, start: Beginning, exact: Finished, observer: Observer | None, stop: Stop
+    job: Job,
+    start: Beginning,
+    exact: Finished,
+    observer: Observer | None,
+    stop: Stop,
+    forces: Forces | None = None,
 ) -> Finished:
     """Exact poses whose largest letters are as large as they may be, all others in proportion."""
     if job.letters is None or job.letters.largest is None:
@@ -99,7 +105,7 @@ def held_down(
     smaller = replace(exact.poses, scale=exact.poses.scale * (job.letters.largest / most))
     # A smaller copy may meet others, where letters stand in each other's bays.
     fixed = replace(job, recipe=job.recipe.model_copy(update={"sizes": "fixed"}))
-    return finished(fixed, start, smaller, observer, stop)
+    return finished(fixed, start, smaller, observer, stop, forces)
 
 
 def _with_first(job: Job, count: int, sizes: FloatArray) -> Job:

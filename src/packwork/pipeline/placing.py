@@ -8,6 +8,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
 from packwork.progress import Stop, never, until_over
@@ -38,6 +39,7 @@ def first_places(
     angles: FloatArray,
     limits: Limits | None,
     rng: np.random.Generator,
+    forces: Forces | None = None,
     stop: Stop = never,
 ) -> FirstPoses:
     """Poses by the method asked for, or else by the one that suits.
@@ -54,7 +56,7 @@ def first_places(
             "start",
             f"first-fit seeks one size for all; use it with sizes shared, not {recipe.sizes}",
         )
-    if asked or (recipe.start is None and is_tight(job)):
+    if asked or (recipe.start is None and is_tight(job, forces)):
         is_over = until_over(stop, job.seconds_left(TIME_SHARE))
         poses = first_fit(
             container,
@@ -65,6 +67,7 @@ def first_places(
             margin_cu=recipe.padding_cu(job.container) / 2,
             attempts=ATTEMPTS[recipe.effort],
             limits=limits,
+            fields=() if forces is None else forces.fields,
             stop=is_over,
         )
         if poses is not None:
@@ -72,7 +75,7 @@ def first_places(
     return first_poses(container, outlines, scales, angles, recipe.start_options(), rng, limits)
 
 
-def is_tight(job: Job) -> bool:
+def is_tight(job: Job, forces: Forces | None) -> bool:
     """Whether putting items one after another leaves less room than the levels would.
 
     So it does where all have one size and cannot turn as they like, unless something is asked
@@ -80,13 +83,14 @@ def is_tight(job: Job) -> bool:
     """
     recipe = job.recipe
     is_turning = recipe.rotation.limit is None and recipe.rotation.choices is None
-    levels_asked = bool(recipe.levels or recipe.epochs or recipe.losses or recipe.force)
+    levels_asked = bool(recipe.levels or recipe.epochs or recipe.losses)
+    has_bonds = forces is not None and bool(forces.bonds)
     return (
         recipe.sizes == "shared"
         and recipe.preset == "default"
         and recipe.finish == "exact"
         and recipe.stretch == 1.0
-        and not (levels_asked or recipe.keeps_apart)
+        and not (levels_asked or has_bonds or recipe.keeps_apart)
         and (recipe.words is not None or not is_turning)
         and len(job.items) <= MOST_ITEMS
     )

@@ -157,16 +157,19 @@ def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _P
     with clock.time("start"):
         outlines = stand_ins([item.outline for item in job.items], recipe.outline)
         region = padded(job.container, recipe.padding_cu(job.container))
-        start = begin(job, region, outlines, stop)
+        forces = _forces(job)
+        start = begin(job, region, outlines, forces, stop)
     if recorder is not None:
         recorder.keep(start.poses)
     with clock.time("levels"):
-        outcome = _levels(job, region, outlines, start, observer, stop)
+        outcome = _levels(job, region, outlines, start, forces, observer, stop)
     if recipe.finish != "exact":
         return _Placed(job, start, outcome, None, recorder)
     with clock.time("finish"):
-        exact = finished(job, start, outcome.poses, observer, stop)
-        exact = held_down(job, start, exact, observer, stop)
+        # What is to stay where it was is not pushed on.
+        kept = None if recipe.stay else forces
+        exact = finished(job, start, outcome.poses, observer, stop, kept)
+        exact = held_down(job, start, exact, observer, stop, kept)
     return _Placed(job, start, outcome, exact, recorder)
 
 
@@ -175,6 +178,7 @@ def _levels(
     region: Container,
     outlines: Sequence[Outline],
     start: Beginning,
+    forces: Forces | None,
     observer: Observer | None,
     stop: Stop,
 ) -> Outcome:
@@ -182,7 +186,6 @@ def _levels(
     if needs_no_levels(job) or start.method == "first-fit":
         return Outcome(start.poses, Ending.DONE)
     options = _solve_options(job, job.recipe.padding_cu(job.container))
-    forces = _forces(job)
     if job.recipe.stay:
         options = calmed(options)
         forces = with_homes(job, forces, start.poses, job.container)
@@ -194,7 +197,9 @@ def _levels(
 def _forces(job: Job) -> Forces | None:
     """What pulls items about, if anything."""
     texts = job.recipe.force
-    return forces_of(texts, job.items, job.weights, job.container) if texts else None
+    if not texts:
+        return None
+    return forces_of(texts, job.items, job.weights, job.container).buoyant(job.weights)
 
 
 def _solve_options(job: Job, padding: float) -> SolveOptions:

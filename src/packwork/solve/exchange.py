@@ -9,6 +9,8 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.forces.exchanges import exchanged
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.scene.balance import balanced, parts_of
@@ -21,6 +23,10 @@ ALIKE = 1.3
 """Factor in the size of the hull, as a length, between items that change places among
 parts. Larger finds more partners and upsets the layout more. Chosen."""
 
+FREELY_ALIKE = 4.0
+"""The same where forces ask for it and sizes may change: as far apart as two items of one weight
+may come. Chosen."""
+
 
 def exchange(
     container: Outline,
@@ -29,12 +35,14 @@ def exchange(
     limits: Limits | None,
     smallest: FloatArray,
     largest: FloatArray,
+    forces: Forces | None = None,
 ) -> tuple[Poses, list[int]]:
     """Poses in which items have changed places where that is wanted, and who was moved.
 
     Among the parts of a container, where sizes may change, until all parts can fill
-    alike; then, where kinds matter, until few items lie beside their kind. An item takes
-    the place and, within its bounds, the size of hull of the one that lay there.
+    alike; then down what forces ask for; then, where kinds matter, until few items lie beside
+    their kind. An item takes the place and, within its bounds, the size of hull of the one
+    that lay there.
     """
     groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
     hulls = hull_areas(outlines)
@@ -47,6 +55,8 @@ def exchange(
 
     if shapely.get_num_geometries(container.region) > 1 and (smallest < largest).any():
         poses = change(_order_among_parts(container, outlines, poses, groups))
+    if forces is not None:
+        poses = change(_order_by_forces(forces, outlines, poses, groups, smallest, largest))
     if limits is not None and limits.kinds is not None:
         poses = change(_order_apart(outlines, poses, limits.kinds, groups))
     return poses, sorted(moved)
@@ -58,6 +68,26 @@ def _order_apart(
     """Order in which few items lie beside one of their kind; see ``scene.mixing``."""
     placed = [outline.mapped(poses.matrix(k)) for k, outline in enumerate(outlines)]
     return mixed(kinds, side_by_side(placed, poses.x, poses.y), groups)
+
+
+def _order_by_forces(
+    forces: Forces,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    groups: IntArray,
+    smallest: FloatArray,
+    largest: FloatArray,
+) -> IntArray:
+    """Order in which items lie where forces cost least; see ``forces.exchanges``."""
+    areas = np.array([outline.area for outline in outlines]) * poses.scale**2
+    places = np.column_stack([poses.x, poses.y])
+    lengths = np.sqrt(hull_areas(outlines))
+    sizes = np.log(lengths * poses.scale)
+    # Who may grow and shrink fits into the places of more.
+    is_free = bool((smallest < largest).any())
+    factor = np.log(FREELY_ALIKE if is_free else ALIKE)
+    kinds = forces.kinds if is_free else None
+    return exchanged(forces, places, areas, sizes / factor, groups, kinds)
 
 
 def _order_among_parts(

@@ -26,12 +26,6 @@ RECALL_PX = 200
 distance transform that no item notices. Chosen."""
 
 
-FORCE_WEIGHT = 30.0
-"""Weight of a force of strength 1: an item that is drawn across the whole canvas pays for
-being covered thirty times over. Larger presses items into each other, smaller is drowned by
-the reward for filling. Tried."""
-
-
 class Level:
     """Renders all items at one resolution and reads the losses' pose gradients.
 
@@ -63,7 +57,7 @@ class Level:
         limits: Limits | None = None,
         forces: Forces | None = None,
     ) -> None:
-        self._forces, self._side = forces, container.side
+        self._forces = forces
         self.resolution = resolution
         self.px_per_cu = resolution / container.side
         shape = image_shape(container.width, container.height, resolution)
@@ -88,7 +82,11 @@ class Level:
                 self._further[loss] = find_loss(loss)
 
     def gradient(
-        self, poses: Poses, weights: Mapping[str | ImageLoss, float], recall: float = 0.0
+        self,
+        poses: Poses,
+        weights: Mapping[str | ImageLoss, float],
+        recall: float = 0.0,
+        force: float = 1.0,
     ) -> FloatArray:
         """Derivative of the losses by x, y, angle, log scale and log stretch, ``(n, 5)``.
 
@@ -104,6 +102,8 @@ class Level:
         recall
             Weight of the pull on items whose centre is outside the container or their
             zone, and price of a pixel's area beyond the image or outside a zone.
+        force
+            Factor on the slopes of the forces.
         """
         points = self.ensemble.place(poses, self.px_per_cu)
         self.rasteriser.sweep(points, self.ensemble.ring_starts)
@@ -117,8 +117,8 @@ class Level:
             zone.add(by_pose, poses, recall)
         if self._forces is not None:
             centres = np.column_stack([poses.x, poses.y])
-            pull = self._forces(centres, self.areas * poses.scale**2)
-            by_pose[:, :2] += FORCE_WEIGHT / self._side * pull.slopes
+            cost = self._forces.cost(centres, self.areas * poses.scale**2)
+            by_pose[:, :2] += force * cost.slopes
         for name, loss in self._of_poses.items():
             # Their values have no unit: weighed by the container's area, as a mean over
             # its pixels would be.

@@ -48,6 +48,8 @@ class Motion:
         self._growth_range: tuple[FloatArray | float, FloatArray | float] = (-bound, bound)
         self._turn_limit: FloatArray | float | None = options.turn_limit
         self._free: FloatArray | None = None
+        self.floor: FloatArray | None = None
+        """``(n,)`` logarithms of growth that shared sizes do not fall below; None for any."""
         if limits is not None:
             self._bound_items(limits)
         decay = (options.momentum, options.memory)
@@ -92,6 +94,8 @@ class Motion:
             total = gradient.sum(axis=0, keepdims=True)
             step = self._sizes.step(total, rate)[0, 0]
             self._growth += step if self._free is None else step * self._free[:, 3]
+            if self.floor is not None:
+                np.maximum(self._growth, self.floor, out=self._growth)
 
     def _reshape(self, gradient: FloatArray, rate: float) -> None:
         bound = np.log(self._options.stretch)

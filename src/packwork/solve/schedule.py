@@ -15,6 +15,11 @@ one's own is drowned at the end, where it is needed. Tried."""
 REWARDS = frozenset({"filling", "evenness"})
 """Losses that draw items into contact, cut while a run settles."""
 
+FADING = 20.0
+"""By how much forces fade over the run. They lead while items still pass through each other; what
+presses on at the end makes items smaller. Larger ends fuller and keeps less of what was asked.
+Tried."""
+
 
 def epochs_per_level(epochs: int, shares: Sequence[float]) -> list[int]:
     """Whole epochs in the proportion of ``shares``, rounded so that none is lost.
@@ -66,3 +71,14 @@ def weights_at(options: SolveOptions, progress: float) -> dict[str | ImageLossFu
         name: weight * (1.0 if name in STEADY else grown) * (reward if name in REWARDS else 1.0)
         for name, weight in options.losses.items()
     }
+
+
+def force_factor(progress: float) -> float:
+    """Factor on forces at ``progress`` (0..1) through the run: they lead at first.
+
+    Examples
+    --------
+    >>> force_factor(0.0), force_factor(1.0) == 1 / FADING
+    (1.0, True)
+    """
+    return float(FADING**-progress)

@@ -22,13 +22,20 @@ from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
 from packwork.solve.pace import pace_of
-from packwork.solve.schedule import growth, rate_factor, weights_at
+from packwork.solve.schedule import force_factor, growth, rate_factor, weights_at
 from packwork.solve.shaped import seen_posed
 
 EXCHANGES = (0.15, 0.3, 0.45)
 """When, as shares of the run, items leave the side of their kind, or a part of the container
 with too many of their sort. Later ones leave fewer together and less time to settle: a part
 of the coverage. Tried."""
+
+FORCED_EXCHANGES = tuple(np.arange(0.05, 0.61, 0.05).round(2).tolist())
+"""The same where forces act: in a crowd there is no other way past each other. Chosen."""
+
+SHRINKING = 0.3
+"""Logarithm of size by which shared sizes may fall below those of the start where forces act: all
+that press on one point would else shrink into it. Larger covers less. Tried."""
 
 
 class Ending(Enum):
@@ -124,6 +131,8 @@ class _Run:
     ) -> None:
         self._forces = forces
         self.motion = Motion(start, nominal, container.side, options, limits)
+        if forces is not None:
+            self.motion.floor = np.log(start.scale / nominal) - SHRINKING
         self.pace = pace_of(options)
         self.is_stopped = False
         self._container, self._outlines, self._nominal = container, outlines, nominal
@@ -131,7 +140,7 @@ class _Run:
         self._options, self._observer, self._stop = options, observer, stop
         self._limits = None if limits is None else limits.widened(options.margin)
         self._done = 0
-        self._exchanges = list(EXCHANGES)
+        self._exchanges = list(EXCHANGES if forces is None else FORCED_EXCHANGES)
 
     def level(self, index: int) -> LevelReport:
         """Run one level, and the herder when it is due."""
@@ -151,6 +160,7 @@ class _Run:
                 break
             self._epoch(level)
             if self._exchanges and self.pace.progress() >= self._exchanges[0]:
+                self._exchanges.pop(0)
                 self._exchange()
             if rescues is None and self.pace.has_reached(index, 0.5 if is_last else 1.0):
                 rescues = self._herd(level)
@@ -164,7 +174,8 @@ class _Run:
     def _epoch(self, level: Level) -> None:
         options, progress = self._options, self.pace.progress()
         recall = options.recall * growth(options, progress)
-        gradient = level.gradient(self.motion.poses, weights_at(options, progress), recall)
+        weights, force = weights_at(options, progress), force_factor(progress)
+        gradient = level.gradient(self.motion.poses, weights, recall, force)
         self.motion.follow(gradient, rate_factor(options, progress))
         self.pace.advance()
         self._done += 1
@@ -174,15 +185,19 @@ class _Run:
         bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
         moved, rescues = herd(level, poses, self._areas, *bounds, self._limits)
         self.motion.replace(moved, [rescue.item for rescue in rescues])
+        if self._forces is not None and rescues:
+            # The largest void may be where forces would not have them.
+            self._exchange()
         return rescues
 
     def _exchange(self) -> None:
         """Let items change places."""
-        self._exchanges.pop(0)
         poses = self.motion.poses
         bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
         region = self._container.outline
-        changed, items = exchange(region, self._outlines, poses, self._limits, *bounds)
+        changed, items = exchange(
+            region, self._outlines, poses, self._limits, *bounds, self._forces
+        )
         if items:
             self.motion.replace(changed, items)
 

@@ -9,7 +9,8 @@ import pytest
 import shapely
 
 from packwork.arrays import FloatArray
-from packwork.geometry.affine import similarity
+from packwork.forces.direction import Direction
+from packwork.forces.forces import FieldForce
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits, Zone
@@ -119,3 +120,13 @@ def test_a_stop_ends_the_search_at_once() -> None:
     rng = np.random.default_rng(0)
     angles = [UPRIGHT] * 3
     assert first_fit(_disc(), [BOX] * 3, np.ones(3), angles, rng, stop=lambda: True) is None
+
+
+def test_a_field_draws_to_its_low_those_that_it_acts_on() -> None:
+    outlines, scales = [BOX] * 30, np.ones(30)
+    strengths = np.where(np.arange(30) < 6, 3.0, 0.0)
+    to_left = FieldForce(Direction(np.pi), strengths)
+    without = _fit(outlines, scales)
+    drawn = _fit(outlines, scales, fields=[to_left])
+    assert drawn.x[:6].mean() < without.x[:6].mean() - 20
+    assert drawn.scale[0] > 0.8 * without.scale[0]

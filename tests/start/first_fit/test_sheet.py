@@ -53,7 +53,9 @@ def _random(seed: int, width: int) -> tuple[BoolArray, BoolArray]:
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_the_best_place_is_that_of_a_look_at_all(seed: int, width: int) -> None:
     free, mask = _random(seed, width)
-    score, row, column = Sheet(free, REACH).best_place(_stencil(mask), np.zeros(free.shape))
+    place = Sheet(free, REACH).best_place(_stencil(mask), np.zeros(free.shape))
+    assert place is not None
+    score, row, column = place
     scores = {
         (y, x): found
         for y in range(free.shape[0])
@@ -68,10 +70,8 @@ def test_the_best_place_is_that_of_a_look_at_all(seed: int, width: int) -> None:
 def test_what_is_put_meets_nothing_until_nothing_fits() -> None:
     free, mask = _random(5, 70)
     sheet, left, count = Sheet(free, REACH), free.copy(), 0
-    while True:
-        score, row, column = sheet.best_place(_stencil(mask), np.zeros(free.shape))
-        if score < 0:
-            break
+    while (place := sheet.best_place(_stencil(mask), np.zeros(free.shape))) is not None:
+        _, row, column = place
         here = left[row : row + mask.shape[0], column : column + mask.shape[1]]
         assert here[mask].all()
         here[mask] = False
@@ -81,17 +81,20 @@ def test_what_is_put_meets_nothing_until_nothing_fits() -> None:
     assert all(_touching(mask, left, y, x) is None for y in range(24) for x in range(70))
 
 
-def test_an_origin_comes_only_where_it_may() -> None:
+@pytest.mark.parametrize("is_everywhere", [False, True])
+def test_an_origin_comes_only_where_it_may(is_everywhere: bool) -> None:
     free = np.ones((20, 70), dtype=bool)
-    allowed = np.zeros_like(free)
-    allowed[9, 65] = True
+    worth = np.full(free.shape, -np.inf)
+    worth[9, 65] = worth[1, 30] = 0.0
     mask = np.ones((3, 4), dtype=bool)
     stencil = Stencil(mask, (1, 2), _kernels.runs_of(mask), _kernels.ring_of(mask, REACH))
     sheet = Sheet(free, REACH)
-    _, row, column = sheet.best_place(stencil, np.zeros(free.shape), allowed)
-    assert (row, column) == (8, 63)
-    sheet.take(stencil, row, column)
-    assert sheet.best_place(stencil, np.zeros(free.shape), allowed)[0] == -1
+    found = []
+    while (place := sheet.best_place(stencil, worth, is_everywhere)) is not None:
+        found.append(place[1:])
+        sheet.take(stencil, *place[1:])
+    # What touches nothing is looked at only if asked.
+    assert found == ([(0, 28), (8, 63)] if is_everywhere else [(0, 28)])
 
 
 def test_what_lies_off_the_sheet_is_not_kept() -> None:

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
+import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.finish.arrangement import Arrangement
@@ -36,6 +37,9 @@ longer, smaller leaves more way to the fine ones. Tried."""
 
 USUAL_ROUNDS = 60
 """Rounds at which the progress told is a half. Chosen."""
+
+GRID = 65
+"""Points along each side of the room among which bonds look for their middle. Chosen."""
 
 TRIES = 3
 """Times that items which found no room are tried again once the others lie closer. Chosen."""
@@ -164,10 +168,9 @@ class _Pile:
         self._is_given = False
         self._details: dict[tuple[Outline, float], Detail] = {}
         self._height = 0.0
-        _, self._kinds = np.unique(
-            np.column_stack([np.zeros(len(poses)), *(f.strengths for f in forces.fields)]),
-            axis=0, return_inverse=True,
-        )  # fmt: skip
+        strengths = [f.strengths for f in forces.fields] + [b.strengths for b in forces.bonds]
+        columns = np.column_stack([np.zeros(len(poses)), *strengths])
+        _, self._kinds = np.unique(columns, axis=0, return_inverse=True)
         self._kinds = self._kinds.ravel()
 
     def gather(self, room: Outline, known: IntArray) -> None:
@@ -271,7 +274,28 @@ class _Pile:
         return Piled(self._poses, self._items, self._rounds, self._height)
 
     def _nestle(self, arrangement: Arrangement, items: IntArray, standing: IntArray) -> IntArray:
-        return nestle(arrangement, items, standing, self._forces.heights, self._kinds, self._gap)
+        anchors = self._anchors(arrangement)
+
+        def heights(points: FloatArray, item: int) -> FloatArray:
+            return self._forces.heights(points, item, anchors[self._kinds[item]])
+
+        return nestle(arrangement, items, standing, heights, self._kinds, self._gap)
+
+    def _anchors(self, arrangement: Arrangement) -> dict[int, FloatArray]:
+        """Where each kind of items would lie lowest, were there no others."""
+        left, top, right, bottom = arrangement.container.bounds
+        middle = np.array([(left + right) / 2, (top + bottom) / 2])
+        if not self._forces.bonds:
+            return dict.fromkeys(range(len(self._kinds)), middle)
+        across, down = np.meshgrid(*np.linspace((left, top), (right, bottom), GRID).T)
+        points = np.column_stack([across.ravel(), down.ravel()])
+        points = points[shapely.contains_xy(arrangement.container.region, *points.T)]
+        found = {}
+        for kind, item in zip(*np.unique(self._kinds, return_index=True), strict=True):
+            heights = self._forces.heights(points, int(item))
+            is_flat = len(points) == 0 or np.ptp(heights) == 0
+            found[int(kind)] = middle if is_flat else points[np.argmin(heights)]
+        return found
 
     def _order_sizes(self, arrangement: Arrangement) -> FloatArray:
         rng = np.random.default_rng(self._options.seed)

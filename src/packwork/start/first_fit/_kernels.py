@@ -62,13 +62,14 @@ def find_free(rows, runs, height, free):
 
 
 @njit(cache=True, nogil=True)
-def best_touching(free, taken, margin, ring, noise, allowed, origin):
-    """Return score, row and column of the free place whose ring is taken most; -1 if none.
+def best_touching(free, taken, margin, ring, worth, origin, is_everywhere):
+    """Return score, row and column of the free place whose ring is taken most; rows of -1 if none.
 
-    Only places beside one that is not free come into question, unless there are none.
-    ``allowed`` is empty, or holds the pixels that the stencil's origin may come to.
+    ``worth`` is added for the pixel that the stencil's origin comes to; minus infinity
+    forbids it. Unless ``is_everywhere``, only places beside one that is not free come into
+    question.
     """
-    best, best_y, best_x = -1.0, -1, -1
+    best, best_y, best_x = -np.inf, -1, -1
     height, words = free.shape
     width = taken.shape[1]
     flat = taken.ravel()
@@ -83,7 +84,7 @@ def best_touching(free, taken, margin, ring, noise, allowed, origin):
             above = free[y - 1, i] if y > 0 else zero
             below = free[y + 1, i] if y + 1 < height else zero
             edge = word & ~(left & right & above & below)
-            if len(allowed) > 0:
+            if is_everywhere:
                 edge = word
             bit = 0
             while edge != zero:
@@ -93,21 +94,19 @@ def best_touching(free, taken, margin, ring, noise, allowed, origin):
                 x = 64 * i + bit
                 edge >>= ONE
                 bit += 1
-                if len(allowed) > 0 and not _holds(allowed, y + origin[0], x + origin[1]):
+                row = min(max(y + origin[0], 0), height - 1)
+                column = min(max(x + origin[1], 0), worth.shape[1] - 1)
+                more = worth[row, column]
+                if more == -np.inf:
                     continue
                 base = (y + margin) * width + x + margin
                 touched = 0
                 for k in range(len(ring)):
                     touched += flat[base + ring[k]]
-                score = touched / len(ring) + noise[y, x]
-                if score > best:
+                score = touched / len(ring) + more
+                if best_y < 0 or score > best:
                     best, best_y, best_x = score, y, x
     return best, best_y, best_x
-
-
-@njit(cache=True, nogil=True)
-def _holds(allowed, y, x):
-    return 0 <= y < allowed.shape[0] and 0 <= x < allowed.shape[1] and allowed[y, x]
 
 
 @njit(cache=True, nogil=True)

@@ -14,6 +14,7 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.forces.forces import FieldForce
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
@@ -52,6 +53,10 @@ MOST_SIZES = 24
 URGENCY = 2.0
 """Factor on the area by which items are ordered, for one that found no place. Chosen."""
 
+PULL = 2.0
+"""Score that an item gives for coming the canvas' side lower, at a strength of 1. Larger leaves
+more room, smaller does not show. Tried."""
+
 NOISE = 0.01
 """Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
 
@@ -66,6 +71,7 @@ def first_fit(
     margin_cu: float = 0.0,
     attempts: int = 1,
     limits: Limits | None = None,
+    fields: Sequence[FieldForce] = (),
     stop: Stop = never,
 ) -> Poses | None:
     """Poses at which nothing overlaps, all items in proportion; None if none were found.
@@ -88,6 +94,8 @@ def first_fit(
         Orders tried for each size: the item that found no place comes earlier the next time.
     limits
         Which items have to lie where; None if all may lie anywhere.
+    fields
+        Forces that say where an item had better lie.
     stop
         Asked before each attempt; True ends the search with the best found so far.
 
@@ -103,7 +111,7 @@ def first_fit(
     """
     own = np.array([outline.area for outline in outlines])
     share = float((own * scales**2).sum()) / container.outline.area
-    fitting = _Fitting(container, outlines, scales, angles, rng, margin_cu, limits)
+    fitting = _Fitting(container, outlines, scales, angles, rng, margin_cu, limits, fields)
     return fitting.largest(math.sqrt(FIRST_SHARE / share), attempts, stop)
 
 
@@ -119,22 +127,25 @@ class _Fitting:
         rng: np.random.Generator,
         margin_cu: float,
         limits: Limits | None,
+        fields: Sequence[FieldForce],
     ) -> None:
         count = len(outlines)
         side = int(np.clip(round(PIXELS_EACH * math.sqrt(count)), LEAST_PX, MOST_PX))
         image, self._px_per_cu = container_image(container, side)
         self._inside: BoolArray = image > 1 - TOUCHED
-        self._noise = NOISE * rng.random(image.shape)
         self._outlines, self._scales, self._angles = outlines, scales, angles
         self._margin_cu = margin_cu
         self._urgency = np.array([outline.area for outline in outlines]) * scales**2
         limits = Limits.free(count) if limits is None else limits
         self._is_sized = limits.held[:, 3]
         self._pins = np.column_stack([limits.x, limits.y])
-        self._allowed: list[BoolArray | None] = [
-            None if pixels is None else _mask(pixels, image.shape)
-            for pixels in homes(limits, image, self._px_per_cu)
+        noise = NOISE * rng.random(image.shape)
+        heights = _heights(fields, image.shape, self._px_per_cu)
+        self._homes = homes(limits, image, self._px_per_cu)
+        self._worth = [
+            _worth(noise, fields, heights, k, pixels) for k, pixels in enumerate(self._homes)
         ]
+        self._is_anywhere = not fields
 
     def largest(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
         """Poses at the largest factor found, beginning with one."""
@@ -187,18 +198,29 @@ class _Fitting:
                 corner = np.rint(self._pins[k, ::-1] * self._px_per_cu) - stencil.origin
                 row, column = int(corner[0]), int(corner[1])
             else:
-                tried = [sheet.best_place(s, self._noise, self._allowed[k]) for _, s in own]
-                best = max(range(len(own)), key=lambda i: tried[i][0])
-                score, row, column = tried[best]
-                turn, stencil = own[best]
-                if score < 0:
+                best = self._best(sheet, int(k), [stencil for _, stencil in own])
+                if best is None:
                     return int(k)
+                which, row, column = best
+                turn, stencil = own[which]
             sheet.take(stencil, row, column)
             poses.x[k] = (column + stencil.origin[1]) / self._px_per_cu
             poses.y[k] = (row + stencil.origin[0]) / self._px_per_cu
             poses.angle[k] = turn
         poses.x[is_pinned], poses.y[is_pinned] = self._pins[is_pinned].T
         return poses
+
+    def _best(
+        self, sheet: Sheet, item: int, stencils: Sequence[Stencil]
+    ) -> tuple[int, int, int] | None:
+        """Which stencil of an item is to be put, and at what row and column."""
+        is_everywhere = self._homes[item] is not None or not self._is_anywhere
+        tried = [sheet.best_place(s, self._worth[item], is_everywhere) for s in stencils]
+        found = [(*place, which) for which, place in enumerate(tried) if place is not None]
+        if not found:
+            return None
+        _, row, column, which = max(found)
+        return which, row, column
 
     def _stencils(self, scales: FloatArray) -> dict[Key, Stencil]:
         """Stencils of all items at all their angles; equal ones are cut once."""
@@ -216,7 +238,30 @@ class _Fitting:
         return id(self._outlines[item]), float(scale), float(turn)
 
 
-def _mask(pixels: IntArray, shape: tuple[int, ...]) -> BoolArray:
-    mask = np.zeros(shape, dtype=np.bool_)
-    mask.ravel()[pixels] = True
-    return mask
+def _heights(
+    fields: Sequence[FieldForce], shape: tuple[int, ...], px_per_cu: float
+) -> list[FloatArray]:
+    """Heights of fields at all pixels, as shares of the canvas' longer side."""
+    rows, columns = np.mgrid[: shape[0], : shape[1]]
+    points = np.column_stack([columns.ravel(), rows.ravel()]) / px_per_cu
+    side_cu = max(shape) / px_per_cu
+    return [np.asarray(one.field(points)[0]).reshape(shape) / side_cu for one in fields]
+
+
+def _worth(
+    noise: FloatArray,
+    fields: Sequence[FieldForce],
+    heights: Sequence[FloatArray],
+    item: int,
+    home: IntArray | None,
+) -> FloatArray:
+    """What is added to the score of each pixel that an item's origin may come to."""
+    worth = noise
+    for force, height in zip(fields, heights, strict=True):
+        if force.strengths[item]:
+            worth = worth - PULL * force.strengths[item] * height
+    if home is None:
+        return worth
+    held = np.full(worth.shape, -np.inf)
+    held.ravel()[home] = worth.ravel()[home]
+    return held

@@ -32,14 +32,13 @@ class Sheet:
     >>> tile = Outline.from_rings([np.array([[0.0, 0], [2, 0], [2, 2], [0, 2]])])
     >>> stencil = cut_all({"tile": tile}, 1)["tile"]
     >>> sheet = Sheet(np.ones((2, 5), dtype=bool), 1)
-    >>> noise = np.zeros((2, 5))
-    >>> for _ in range(3):
-    ...     score, row, column = sheet.best_place(stencil, noise)
+    >>> worth = np.zeros((2, 5))
+    >>> while (place := sheet.best_place(stencil, worth)) is not None:
+    ...     score, row, column = place
     ...     print(round(score, 2), row, column)
-    ...     if score > 0: sheet.take(stencil, row, column)
+    ...     sheet.take(stencil, row, column)
     0.83 0 0
     0.83 0 2
-    -1.0 -1 -1
     """
 
     def __init__(self, free: BoolArray, margin: int) -> None:
@@ -63,16 +62,17 @@ class Sheet:
         _kernels.smear(self._rows, top, bottom)
 
     def best_place(
-        self, stencil: Stencil, noise: FloatArray, allowed: BoolArray | None = None
-    ) -> tuple[float, int, int]:
-        """Score, row and column for the stencil's box where it touches most; -1 if none.
+        self, stencil: Stencil, worth: FloatArray, is_everywhere: bool = False
+    ) -> tuple[float, int, int] | None:
+        """Score, row and column for the stencil's box where it touches most; None if none.
 
         Parameters
         ----------
-        noise
-            ``(rows, columns)`` added to the scores, which are 0 to 1.
-        allowed
-            ``(rows, columns)`` where the origin may come to; None for anywhere.
+        worth
+            ``(rows, columns)`` added to the score, which is 0 to 1, where the origin comes to;
+            minus infinity where it may not.
+        is_everywhere
+            Look at places that touch nothing, too.
         """
         height = stencil.mask.shape[0]
         _kernels.find_free(self._rows, stencil.runs, height, self._free)
@@ -80,12 +80,11 @@ class Sheet:
         if len(ring) > MOST_RING:
             ring = ring[:: -(-len(ring) // MOST_RING)]
         steps = ring[:, 0] * self.taken.shape[1] + ring[:, 1]
-        allowed = np.zeros((0, 0), dtype=np.bool_) if allowed is None else allowed
         origin = np.array(stencil.origin)
         score, row, column = _kernels.best_touching(
-            self._free, self.taken, self._margin, steps, noise, allowed, origin
+            self._free, self.taken, self._margin, steps, worth, origin, is_everywhere
         )
-        return float(score), int(row), int(column)
+        return (float(score), int(row), int(column)) if row >= 0 else None
 
     def take(self, stencil: Stencil, row: int, column: int) -> None:
         """Put the stencil's box there; what of it lies off the sheet is not kept."""

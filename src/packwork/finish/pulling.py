@@ -1,0 +1,76 @@
+"""What forces ask of a finish: pushes for its programmes, and a price on what undoes them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.finish._kernels import Wishes
+from packwork.finish.arrangement import Arrangement
+from packwork.finish.sizing import FreeSizes, Sizing
+from packwork.forces.forces import Forces
+
+YIELDING = 0.2
+"""Most that a push may be worth where sizes are common, over what growing is worth to the same
+item's rim. Larger keeps forces' aims better and makes all items smaller. Tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pulling:
+    """Forces on the items of a finish, in the unit of its worths.
+
+    Parameters
+    ----------
+    forces
+        On as many items.
+    areas
+        ``(n,)`` how much each counts: its area at the begin, so that none is shrunk for
+        lying where it should not.
+    unit
+        Worth of one squared canvas unit.
+    gives_way
+        Whether no push is to count for more than an item's growth: where sizes are common, one
+        item that is pressed small makes all others small.
+    """
+
+    forces: Forces
+    areas: FloatArray
+    unit: float
+    gives_way: bool
+
+    def cost(self, places: FloatArray) -> float:
+        """What it costs that items lie at places ``(n, 4)``."""
+        return self.unit * self.forces.cost(places[:, :2], self.areas).value
+
+    def pushed(self, wishes: Wishes, arrangement: Arrangement) -> Wishes:
+        """The wishes, and where the forces push each item."""
+        places = arrangement.places
+        push = -self.unit * self.forces.cost(places[:, :2], self.areas).slopes
+        if self.gives_way:
+            growth = wishes.weights * np.exp(wishes.power * places[:, 3]) / arrangement.radii
+            steep = np.hypot(push[:, 0], push[:, 1])
+            push *= np.minimum(1.0, YIELDING * growth / np.maximum(steep, 1e-300))[:, None]
+        return wishes._replace(push=np.ascontiguousarray(push))
+
+    def gains(self, places: FloatArray, item: int, others: IntArray) -> FloatArray:
+        """``(m,)`` what it would gain, about, that an item changes places with each of others.
+
+        Nothing with copies of the same thing.
+        """
+        points = places[:, :2]
+        there = self.forces.cost_changes(points, self.areas, points[others])[item]
+        here = self.forces.cost_changes(points, self.areas, points[[item]])[others, 0]
+        differs = self.forces.kinds[others] != self.forces.kinds[item]
+        return np.asarray(-self.unit * np.where(differs, there + here, 0.0))
+
+
+def pulling_of(forces: Forces | None, sizing: Sizing) -> Pulling | None:
+    """Forces in the unit of a size mode's worths; None if there are none."""
+    if forces is None:
+        return None
+    # Growth is worth twice the area; where sizes are common, one for the typical item.
+    is_free = isinstance(sizing, FreeSizes)
+    unit = 1.0 if is_free else 1 / (2 * float(sizing.areas.mean()))
+    return Pulling(forces, sizing.areas, unit, not is_free)

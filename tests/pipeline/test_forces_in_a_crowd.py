@@ -1,0 +1,89 @@
+"""What forces ask for is seen in the result, although the container is full."""
+
+from __future__ import annotations
+
+from functools import cache
+
+import numpy as np
+import pytest
+from scipy.stats import spearmanr
+
+import packwork as pw
+
+SYLLABLES = "ri mo fo lu wi ga sto fe si ban".split()  # noqa: SIM905 - short to read
+NAMES = [
+    first + second + "n" * (k % 3) for k, first in enumerate(SYLLABLES) for second in SYLLABLES
+]
+WORDS = {name: 100 * (k + 1) ** -0.7 for k, name in enumerate(NAMES[::2])}
+
+
+@cache
+def _filled(force: str | None, sizes: str = "free") -> pw.Layout:
+    layout = pw.fill(
+        "circle", ["star", "heart"], count=30, force=force, sizes=sizes, effort="draft"
+    )
+    assert layout.manifest["certified"]
+    return layout
+
+
+def _hearts(layout: pw.Layout) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """x, y and areas."""
+    own = np.array([item.name == "heart" for item in layout.items])
+    areas = np.array([outline.area for outline in layout.outlines])
+    return layout.poses.x[own], layout.poses.y[own], areas[own]
+
+
+def _mass_y(layout: pw.Layout) -> float:
+    _, y, areas = _hearts(layout)
+    return float(np.average(y, weights=areas) / layout.container.height)
+
+
+def _spread(layout: pw.Layout) -> float:
+    return float(_hearts(layout)[1].std())
+
+
+def test_balance_brings_the_centre_of_mass_down() -> None:
+    free = _mass_y(_filled(None))
+    weak, strong = (
+        _mass_y(_filled(f"balance 50%,80% items=heart{much}")) for much in ("", " strength=10")
+    )
+    assert free < 0.55
+    assert 0.64 < weak < strong < 0.82
+
+
+def test_alignment_brings_items_into_a_row() -> None:
+    free = _spread(_filled(None))
+    weak, strong = (
+        _spread(_filled(f"align horizontal items=heart{much}")) for much in ("", " strength=10")
+    )
+    assert strong < weak < free / 3
+    assert strong < free / 4
+
+
+def test_alignment_of_one_size_costs_little_of_it() -> None:
+    free, aligned = (_filled(force, "shared") for force in (None, "align horizontal items=heart"))
+    assert _spread(aligned) < 0.5 * _spread(free)
+    assert aligned.metrics["LC"] > free.metrics["LC"] - 0.08
+
+
+def test_heavy_words_gather_at_the_centre() -> None:
+    found, inks = [], []
+    for force in (None, "towards centre by=weight"):
+        layout = pw.words("circle", WORDS, force=force, effort="draft", seed=1)
+        middle = layout.container.width / 2
+        far = np.hypot(layout.poses.x - middle, layout.poses.y - middle)
+        found.append(float(spearmanr(layout.weights, far).statistic))
+        inks.append(layout.metrics["LC_ink"])
+        assert layout.manifest["certified"]
+    assert found[1] < found[0] - 0.2
+    assert inks[1] > inks[0] - 0.05
+
+
+def test_all_of_a_pile_come_into_the_row() -> None:
+    layout = pw.pile(
+        "none", ["heart"], count=12, size="7%",
+        force=["towards centre", "align horizontal strength=20"],
+    )  # fmt: skip
+    assert len(layout.items) == 12
+    assert np.ptp(layout.poses.y) < 0.1 * np.ptp(layout.poses.x)
+    assert layout.poses.y.mean() == pytest.approx(layout.container.height / 2, rel=0.05)
