@@ -6,7 +6,6 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scipy.stats import spearmanr
 
 import packwork as pw
 
@@ -72,11 +71,11 @@ def test_heavy_words_gather_at_the_centre() -> None:
         layout = pw.words("circle", WORDS, force=force, effort="draft", seed=1)
         middle = layout.container.width / 2
         far = np.hypot(layout.poses.x - middle, layout.poses.y - middle)
-        found.append(float(spearmanr(layout.weights, far).statistic))
+        found.append(float(np.average(far, weights=layout.weights)))
         inks.append(layout.metrics["LC_ink"])
         assert layout.manifest["certified"]
-    assert found[1] < found[0] - 0.2
-    assert inks[1] > inks[0] - 0.05
+    assert found[1] < 0.9 * found[0]
+    assert inks[1] > inks[0] - 0.08
 
 
 def test_all_of_a_pile_come_into_the_row() -> None:

@@ -8,8 +8,9 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
-from packwork.forces.forces import Forces
+from packwork.forces.forces import PRESSURE, FieldForce, Forces
 from packwork.geometry.outline import Outline
+from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
 from packwork.progress import Stop, never, until_over
 from packwork.scene.container import Container
@@ -67,7 +68,7 @@ def first_places(
             margin_cu=recipe.padding_cu(job.container) / 2,
             attempts=ATTEMPTS[recipe.effort],
             limits=limits,
-            fields=() if forces is None else forces.fields,
+            fields=_fields(job),
             stop=is_over,
         )
         if poses is not None:
@@ -94,6 +95,24 @@ def is_tight(job: Job, forces: Forces | None) -> bool:
         and (recipe.words is not None or not is_turning)
         and len(job.items) <= MOST_ITEMS
     )
+
+
+def _fields(job: Job) -> Sequence[FieldForce]:
+    """What draws items to places, with little of what draws all alike.
+
+    That would only press them together. Nobody is pushed the other way, as in the levels: those
+    drawn least would fill the far ends first, and leave the near ones to the smallest.
+    """
+    texts = job.recipe.force
+    if not texts:
+        return ()
+    forces = forces_of(texts, job.items, job.weights, job.container)
+    found = []
+    for force in forces.fields:
+        pull = force.strengths
+        least = pull[np.argmin(np.abs(pull))]
+        found.append(FieldForce(force.field, pull - (1 - PRESSURE) * least))
+    return found
 
 
 def _angles(job: Job, first: FloatArray, limits: Limits | None) -> list[FloatArray]:
