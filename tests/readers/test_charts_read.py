@@ -50,6 +50,36 @@ def test_a_frame_is_taken_by_what_it_can_do() -> None:
     assert read.notices == ("left out 1 row of 3 whose kg is missing: row 2",)
 
 
+@pytest.mark.parametrize("ending", [".parquet", ".pq", ".json"])
+def test_what_pandas_writes_is_read(ending: str, tmp_path) -> None:
+    pandas = pytest.importorskip("pandas")
+    days = pandas.to_datetime(["2020-05-01", None, "2021-02-03"])
+    frame = pandas.DataFrame(
+        {"land": ["Peru", "Kenya", "Mali"], "kg": [2.5, None, 1.0], "day": days, "n": [1, 2, 3]}
+    )
+    file = tmp_path / f"t{ending}"
+    if ending == ".json":
+        frame.to_json(file, orient="records", date_format="iso")
+    else:
+        frame.to_parquet(file)
+    read = chart(str(file), size_by="kg", label_by="land")
+    assert [item.name for item in read.items] == ["Peru", "Mali"]
+    assert read.values.tolist() == [2.5, 1.0]
+    assert str(read.rows[0]["day"]).startswith("2020-05-01")
+    assert [row["n"] for row in read.rows] == [1, 3]
+    assert read.notices == ("left out 1 row of 3 whose kg is missing: Kenya",)
+    assert chart(frame, size_by="n").values.tolist() == [1.0, 2.0, 3.0]
+
+
+def test_nested_and_odd_columns_of_parquet_are_read_as_text(tmp_path) -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"a": [[1, 2], [3]], "b": pandas.Categorical(["x", "y"]), 3: [1, 2]})
+    frame.columns = frame.columns.map(str)
+    frame.to_parquet(tmp_path / "t.parquet")
+    read = chart(str(tmp_path / "t.parquet"), size_by="3", label_by="b")
+    assert [item.name for item in read.items] == ["x", "y"]
+
+
 def test_a_unit_has_whole_marks_and_a_part_of_that_area() -> None:
     read = chart(size_by="kg", unit=10)
     areas = [item.outline.area for item in read.items]

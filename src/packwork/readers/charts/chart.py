@@ -17,6 +17,7 @@ from packwork.readers.charts.part import part_of
 from packwork.readers.items import read_items
 from packwork.readers.regions import Holes
 from packwork.readers.tables.table import Row, Table, read_table
+from packwork.scene.datum import Datum
 from packwork.scene.item import Item
 from packwork.scene.label import MAX_LENGTH, Label
 
@@ -106,20 +107,32 @@ def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
     items = _items(
         rows, owner, shares, [marks[kind] for kind in kinds or [""] * len(rows)], options
     )
+    colour_of = _per_mark(colours, owner)
     everything = tuple(dict.fromkeys((*notices, *more, *told)))
     for notice in everything:
         _LOG.warning("%s", notice)
     values = amounts[owner] if options.unit is None else options.unit * shares
     return ChartRead(
-        items=items,
+        items=_standing(items, [rows[k] for k in owner], values, colour_of),
         areas=_areas(items, values, shares, options),
         values=values,
         rows=tuple(rows[k] for k in owner),
         marks=marks,
-        colour_of=_per_mark(colours, owner),
+        colour_of=colour_of,
         is_ramp=is_ramp,
         table=table,
         notices=everything,
+    )
+
+
+def _standing(
+    items: Sequence[Item], rows: Sequence[Row], values: FloatArray, categories: Sequence[str] | None
+) -> tuple[Item, ...]:
+    """Items that know what they stand for."""
+    named = categories or [""] * len(items)
+    return tuple(
+        replace(item, datum=Datum(row, value, name))
+        for item, row, value, name in zip(items, rows, values.tolist(), named, strict=True)
     )
 
 
