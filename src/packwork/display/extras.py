@@ -33,6 +33,7 @@ def found(module: str, extra: str, otherwise: str) -> Any:
     """
     package = module.partition(".")[0]
     try:
+        importlib.import_module(package)
         return importlib.import_module(module)
     except ModuleNotFoundError as error:
         if error.name != package:
