@@ -123,12 +123,34 @@ def sizes(table: Table, column: str, label_by: str | None) -> tuple[dict[int, fl
             found[k] = value
     if not found:
         raise RecipeError("size_by", _why_none(table, column, odd))
-    said = [
-        f"left out {_rows(len(which))} of {len(table.rows)} whose {column} {why}: "
-        + _names(table, which, label_by)
-        for why, which in odd.items()
-    ]
-    return found, said
+    return found, [left_out(table, column, why, which, label_by) for why, which in odd.items()]
+
+
+def left_out(
+    table: Table, column: str, why: str, which: Sequence[int], label_by: str | None
+) -> str:
+    """Sentence about rows that are not shown.
+
+    Examples
+    --------
+    >>> rows = ({"land": "Peru"}, {"land": ""})
+    >>> left_out(Table("data", ("land",), rows), "land", "is missing", [1], None)
+    'left out 1 row of 2 whose land is missing: row 2'
+    """
+    count = f"{_rows(len(which))} of {len(table.rows)}"
+    return f"left out {count} whose {column} {why}: " + _names(table, which, label_by)
+
+
+def round_up(value: float) -> float:
+    """The next of 1, 2, 5, 10, 20 ...
+
+    Examples
+    --------
+    >>> round_up(21.0), round_up(0.7)
+    (50.0, 1.0)
+    """
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * 0.999999)
 
 
 def _size(cell: Any) -> tuple[str, float]:

@@ -1,0 +1,122 @@
+"""A copy of the container for each group, filled one by one, then all at one scale."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.finish.offenders import find_offenders
+from packwork.finish.options import HAIR
+from packwork.geometry import affine
+from packwork.pipeline.chorus import Grouped, Voice, members, moved, unit_scales
+from packwork.pipeline.finishing import finished, solid_outlines, unfinished
+from packwork.pipeline.job import Job
+from packwork.pipeline.outcome import Unplaced
+from packwork.pipeline.placing import Placed, placed_readably
+from packwork.progress import Observer, Stop
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+
+
+@dataclass(frozen=True, eq=False)
+class _Filled:
+    """One group in its copy, in the units of the canvas, the copy's corner at the origin."""
+
+    own: IntArray
+    offset: FloatArray
+    placed: Placed
+    scale: float
+
+
+def fill_copies(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
+    """Marks of each group in its copy, at the largest scale at which all groups fit.
+
+    Each group is packed as tightly as it goes; the tightest gives the scale, and marks of all
+    others shrink in place.
+    """
+    assert job.cells is not None  # noqa: S101 - who asks has groups
+    single = _single(job)
+    zero = np.zeros(len(job.items))
+    poses, before = Poses(zero, zero, zero, zero), np.arange(0)
+    groups = []
+    for cell, own in zip(job.cells, members(job), strict=True):
+        if len(own) == 0:
+            continue
+        corner = np.array(cell.room.bounds[:2]) - np.array(single.outline.bounds[:2])
+        voice = None if observer is None else Voice(observer, poses, before, own, corner)
+        part = _part(job, single, own, len(job.items) - len(before))
+        placed = placed_readably(part, voice, stop, False)
+        scale = float(np.median(placed.poses.scale / unit_scales(part)))
+        groups.append(_Filled(own, corner, placed, scale))
+        poses = poses.with_some(own, moved(placed.poses, corner))
+        before = np.concatenate([before, own])
+    common = min(group.scale for group in groups)
+    unplaced: list[Unplaced] = []
+    for group in groups:
+        at_scale, faults = _at_scale(group, common, stop)
+        poses = poses.with_some(group.own, moved(at_scale, group.offset))
+        unplaced += faults
+    is_exact = job.recipe.finish == "exact"
+    method = groups[0].placed.start.method
+    everyone = np.arange(len(job.items))
+    return Grouped(poses, everyone, job.container, method, tuple(unplaced) if is_exact else None)
+
+
+def _single(job: Job) -> Container:
+    """The container as large as its copies are, on a canvas of its own."""
+    assert job.single is not None and job.cells is not None  # noqa: S101, PT018 - has copies
+    scale = job.cells[0].room.extent / job.single.outline.extent
+    return replace(
+        job.single,
+        outline=job.single.outline.mapped(affine.similarity(0.0, 0.0, 0.0, scale)),
+        width=job.single.width * scale,
+        height=job.single.height * scale,
+        unit=job.container.unit,
+    )
+
+
+def _part(job: Job, single: Container, own: Sequence[int] | IntArray, left: int) -> Job:
+    """One group as a job of its own; its padding is in units, as shares are of other canvases.
+
+    Parameters
+    ----------
+    left
+        Marks of this group and those after it: they share the time.
+    """
+    padding = job.recipe.padding_cu(job.container) + HAIR * job.container.side
+    changes: dict[str, float | None] = {"padding": padding}
+    if job.recipe.time is not None:
+        used = sum(job.clock.seconds.values())
+        changes["time"] = used + max(job.recipe.time - used, 0.0) * len(own) / left
+    return replace(
+        job,
+        recipe=job.recipe.model_copy(update=changes),
+        container=single,
+        items=tuple(job.items[k] for k in own),
+        asked=tuple(job.asked[k] for k in own),
+        weights=job.weights[np.asarray(own)],
+        cells=None,
+        single=None,
+    )
+
+
+def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Unplaced]]:
+    """Poses at the common scale, and marks that are in conflict there."""
+    placed, job = group.placed, group.placed.job
+    poses = replace(placed.poses, scale=unit_scales(job) * common)
+    exact = placed.exact
+    if exact is not None:
+        # Smaller ones stay clear of each other, but for those that lay in others' bays.
+        outlines = solid_outlines(job.recipe, job.items)
+        gap = job.recipe.padding_cu(job.container)
+        if find_offenders(job.container, outlines, poses, gap):
+            fixed = replace(job, recipe=job.recipe.model_copy(update={"sizes": "fixed"}))
+            exact = finished(fixed, placed.start, poses, None, stop)
+            poses = exact.poses
+        elif exact.offenders:
+            exact = replace(exact, offenders=())
+    faults = [] if exact is None else unfinished(job, exact)
+    return poses, [replace(fault, index=int(group.own[fault.index])) for fault in faults]
