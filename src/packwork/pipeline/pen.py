@@ -88,7 +88,7 @@ def shortened(text: str, em: float, room: float) -> str:
     Examples
     --------
     >>> shortened("Nicaragua", 10.0, 40.0), shortened("Peru", 10.0, 40.0)
-    ('Nica…', 'Peru')
+    ('Nicara…', 'Peru')
     """
     if Pen.width(text, em) <= room:
         return text

@@ -17,6 +17,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.placing import Placed, placed_readably
 from packwork.progress import Observer, Stop
+from packwork.recipe import Effort
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
@@ -41,17 +42,18 @@ def fill_copies(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
     single = _single(job)
     zero = np.zeros(len(job.items))
     poses, before = Poses(zero, zero, zero, zero), np.arange(0)
-    groups = []
-    for cell, own in zip(job.cells, members(job), strict=True):
-        if len(own) == 0:
-            continue
-        corner = np.array(cell.room.bounds[:2]) - np.array(single.outline.bounds[:2])
-        voice = None if observer is None else Voice(observer, poses, before, own, corner)
+    groups: list[_Filled] = []
+    found = zip(job.cells, members(job), strict=True)
+    corner = np.array(single.outline.bounds[:2])
+    pairs = [(np.array(cell.room.bounds[:2]) - corner, own) for cell, own in found if len(own)]
+    # The fullest first: its scale tells when others need no more effort.
+    fullest = int(np.argmax([job.weights[own].sum() for _, own in pairs]))
+    for offset, own in [pairs[fullest], *pairs[:fullest], *pairs[fullest + 1 :]]:
+        voice = None if observer is None else Voice(observer, poses, before, own, offset)
         part = _part(job, single, own, len(job.items) - len(before))
-        placed = placed_readably(part, voice, stop, False)
-        scale = float(np.median(placed.poses.scale / unit_scales(part)))
-        groups.append(_Filled(own, corner, placed, scale))
-        poses = poses.with_some(own, moved(placed.poses, corner))
+        group = _filled(part, own, offset, groups, voice, stop)
+        groups.append(group)
+        poses = poses.with_some(own, moved(group.placed.poses, offset))
         before = np.concatenate([before, own])
     common = min(group.scale for group in groups)
     unplaced: list[Unplaced] = []
@@ -63,6 +65,28 @@ def fill_copies(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
     method = groups[0].placed.start.method
     everyone = np.arange(len(job.items))
     return Grouped(poses, everyone, job.container, method, tuple(unplaced) if is_exact else None)
+
+
+def _filled(
+    part: Job,
+    own: IntArray,
+    offset: FloatArray,
+    before: Sequence[_Filled],
+    voice: Voice | None,
+    stop: Stop,
+) -> _Filled:
+    """One group, filled as hard as it takes to be no tighter than those before."""
+    efforts: list[Effort] = [part.recipe.effort]
+    if before and part.recipe.epochs is None and part.recipe.effort != "draft":
+        efforts = ["draft", part.recipe.effort]
+    for effort in efforts:
+        tried = replace(part, recipe=part.recipe.model_copy(update={"effort": effort}))
+        placed = placed_readably(tried, voice, stop, False)
+        scale = float(np.median(placed.poses.scale / unit_scales(part)))
+        is_clean = placed.exact is None or placed.exact.clean
+        if stop() or (is_clean and scale >= min((one.scale for one in before), default=np.inf)):
+            break
+    return _Filled(own, offset, placed, scale)
 
 
 def _single(job: Job) -> Container:
