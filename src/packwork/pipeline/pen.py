@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from functools import lru_cache
 
 import numpy as np
@@ -9,8 +10,12 @@ import numpy as np
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.typeface.fonts import Fonts, open_fonts
+from packwork.readers.typeface.lettering import Lettering
+from packwork.readers.unfit import UnfitError
 from packwork.scene.note import Note
 from packwork.writers.notation import path_data
+
+_LOG = logging.getLogger("packwork")
 
 WEIGHT = 500
 DIGITS = 6
@@ -45,7 +50,9 @@ class Pen:
 
     def write(self, text: str, x: float, y: float, em: float, ink: str = "") -> float:
         """Letters from ``x`` on; where they end."""
-        drawn = letters().lettering([text])
+        if not text.strip():
+            return x
+        drawn = lettering(text)
         left, right = _ends(text)
         place = affine.similarity(x - left * em, y, 0.0, em / drawn.units)
         self.notes.append(Note(drawn.path, place, ink or self.ink, text))
@@ -57,7 +64,9 @@ class Pen:
 
     def write_upwards(self, text: str, x: float, top: float, em: float) -> None:
         """Letters read from below to above, with ``x`` in the middle of their height."""
-        drawn = letters().lettering([text])
+        if not text.strip():
+            return
+        drawn = lettering(text)
         left, right = _ends(text)
         scale, foot = em / drawn.units, top + (right - left) * em
         place = affine.similarity(x + MIDDLE_EM * em, foot + left * em, -np.pi / 2, scale)
@@ -77,9 +86,39 @@ def letters() -> Fonts:
 
 @lru_cache(maxsize=4096)
 def _ends(text: str) -> tuple[float, float]:
-    """Left and right end of letters, in ems from where the first begins."""
-    left, _, right, _ = letters().lettering([text]).region.bounds
+    """Left and right end of letters, in ems from their middle."""
+    if not text.strip():
+        return 0.0, 0.0
+    left, _, right, _ = lettering(text).region.bounds
     return float(left), float(right)
+
+
+@lru_cache(maxsize=4096)
+def lettering(text: str) -> Lettering:
+    """Text as it is drawn; what no font has is a question mark, and told.
+
+    Examples
+    --------
+    >>> lettering("kg").path == lettering("kg").path
+    True
+    """
+    try:
+        return letters().lettering([text])
+    except UnfitError:
+        lacking = "".join(dict.fromkeys(one for one in text if not _is_drawn(one)))
+        _LOG.warning("no font installed has %s of %r: ? stands for it", lacking[:20], text[:40])
+        return letters().lettering(["".join("?" if one in lacking else one for one in text)])
+
+
+@lru_cache(maxsize=4096)
+def _is_drawn(character: str) -> bool:
+    if character.isspace():
+        return True
+    try:
+        letters().lettering([character])
+    except UnfitError:
+        return False
+    return True
 
 
 def shortened(text: str, em: float, room: float) -> str:

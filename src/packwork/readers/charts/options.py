@@ -43,7 +43,7 @@ class ChartOptions(BaseModel):
     """Column whose values have marks of their own: that of the same name, else in turn."""
 
     label_by: str | None = None
-    """Column that names marks: in files, tooltips and messages."""
+    """Column that names marks: in files, tooltips and messages, and on marks that have room."""
 
     by: str | None = None
     """Column that parts marks into groups: each has a container of its own or, in container none,
