@@ -8,11 +8,12 @@ import numpy as np
 
 from packwork.geometry.outline import Outline
 from packwork.pipeline.cells import Cell
+from packwork.pipeline.framing import Frame
 from packwork.pipeline.group_text import FULL, MOST_TURNED_EM, SMALLEST_EM, TURNED_EM
 from packwork.pipeline.job import Job
 from packwork.pipeline.numbers import spoken
 from packwork.pipeline.pen import Pen, shortened
-from packwork.scene.contrast import between
+from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout
 
 NUMBER_EM, NUMBER_GAP_EM = 0.8, 0.45
@@ -25,7 +26,10 @@ LINE_EM = 0.09
 """Width of the line that bars stand on. Chosen by eye."""
 
 PALE = 0.3
-"""How much paper is in the ink of what is less important. Chosen by eye: 4.5 is kept."""
+"""How much paper is in the ink of what is less important. Chosen by eye."""
+
+LEAST_CONTRAST = 4.5
+"""Of that ink and the paper: WCAG 2.2, 1.4.3, level AA."""
 
 
 def write_groups(pen: Pen, job: Job, cells: Sequence[Cell], layout: Layout) -> None:
@@ -33,7 +37,7 @@ def write_groups(pen: Pen, job: Job, cells: Sequence[Cell], layout: Layout) -> N
     frame, options = job.frame, job.recipe.chart
     assert frame is not None and options is not None  # noqa: S101, PT018 - who asks has a chart
     sums = _sums(layout)
-    pale = between((pen.ink, options.paper), PALE)
+    pale = readable(between((pen.ink, options.paper), PALE), options.paper, LEAST_CONTRAST)
     if not job.has_bars:
         _over_copies(pen, cells, sums, frame.em, pale)
         return
@@ -45,7 +49,7 @@ def write_groups(pen: Pen, job: Job, cells: Sequence[Cell], layout: Layout) -> N
             y = tops[cell.name] - NUMBER_GAP_EM * frame.em
             pen.write_about(numbers[cell.name], cell.middle, y, em, pale)
     foot = cells[0].room.bounds[3]
-    _under_bars(pen, cells, frame.em, job.chart is not None and job.chart.is_ordered)
+    _under_bars(pen, cells, frame, job.chart is not None and job.chart.is_ordered)
     low, high = frame.left, frame.left + frame.width
     corners = np.array([[low, 0.0], [high, 0.0], [high, 1.0], [low, 1.0]])
     line = Outline.from_rings([corners * [1.0, LINE_EM * frame.em]])
@@ -80,8 +84,9 @@ def _over_copies(
         pen.write(numbers[cell.name], end + GAP_EM * em, cell.line, NUMBER_EM * em, pale)
 
 
-def _under_bars(pen: Pen, cells: Sequence[Cell], largest_em: float, is_ordered: bool) -> None:
+def _under_bars(pen: Pen, cells: Sequence[Cell], frame: Frame, is_ordered: bool) -> None:
     """Names of bars, all of one size; of a scale only as many as there is room for."""
+    largest_em = frame.em
     if cells[0].is_turned:
         em = min(TURNED_EM * largest_em, cells[0].width)
         for cell in cells:
@@ -96,10 +101,14 @@ def _under_bars(pen: Pen, cells: Sequence[Cell], largest_em: float, is_ordered: 
         if is_ordered:
             widest = max(pen.width(name, em) for name in names)
             every = int(np.ceil(widest / (FULL * cells[0].width)))
+    due = 0
     for k, cell in enumerate(cells):
-        if k % every == 0:
-            room = every * FULL * cell.width
-            pen.write_about(shortened(cell.name, em, room), cell.middle, cell.line, em)
+        text = shortened(cell.name, em, every * FULL * cell.width)
+        half = pen.width(text, em) / 2
+        free = min(cell.middle - frame.left, frame.left + frame.width - cell.middle)
+        if k >= due and (every == 1 or half <= free):
+            pen.write_about(text, cell.middle, cell.line, em)
+            due = k + every
 
 
 def _fitting(text: str, width: float) -> float:

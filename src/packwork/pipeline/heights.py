@@ -7,8 +7,8 @@ import numpy as np
 from packwork.readers.charts.chart import ChartRead
 
 COVER = 0.66
-"""Share of a bar that marks are thought to cover before that is known: the least of our examples.
-Larger lets scales that are found later come out smaller than the canvas allows."""
+"""Share of a bar that marks are thought to cover before that is known. Larger lets marks come out
+smaller than the width allows, smaller leaves paper over bars. Chosen: heaps of beans have 0.74."""
 
 ROUND = 0.98
 """Share of the disc that holds it which a round mark covers at least. Chosen."""
@@ -17,7 +17,8 @@ HOLLOW = 3**0.5 / 2
 """Height of a row of discs that lies in the hollows of the one below, over their distance."""
 
 UNEVEN = 1.06
-"""Height of heaps of such rows over that of perfect ones. Measured on the laureates of the US."""
+"""Height of heaps of such rows over that of perfect ones. Measured on bars of 21 to 52 laureates,
+in docs' example: 1.01 to 1.16, the middle one 1.06."""
 
 
 def is_alike_and_round(chart: ChartRead) -> bool:
