@@ -138,11 +138,29 @@ def test_a_film_shows_group_after_group(container: str) -> None:
     assert layout.track.at(1.0).x.tolist() == layout.poses.x.tolist()
 
 
-def test_a_run_that_is_stopped_has_what_it_has() -> None:
-    recipe = pipeline.chart_recipe("none", ROWS, by="kind", **QUICK)
+@pytest.mark.parametrize("container", ["none", "circle"])
+def test_a_run_that_is_stopped_has_what_it_has(container: str) -> None:
+    recipe = pipeline.chart_recipe(container, ROWS, by="kind", **QUICK)
     done = pipeline.fill(recipe, stop=lambda: True)
-    assert done.metrics.exact.is_clean
     assert len(done.layout.items) + done.left_out == 8
+    assert done.layout.manifest["ending"] == "the run was stopped before its last epoch"
+    assert done.certified == (not done.broken and not done.unplaced)
+
+
+def test_groups_of_the_same_marks_lie_alike() -> None:
+    rows = {"land": list("abcd"), "kg": [2.0, 1.0, 4.0, 2.0], "kind": ["x", "x", "y", "y"]}
+    done = pipeline.fill(pipeline.chart_recipe("circle", rows, by="kind", size_by="kg", **QUICK))
+    x, y = done.layout.poses.x, done.layout.poses.y
+    assert done.certified
+    assert x[1] - x[0] == pytest.approx(x[3] - x[2])
+    assert y[1] - y[0] == pytest.approx(y[3] - y[2])
+    assert done.layout.areas[2] == pytest.approx(4 * done.layout.areas[1], rel=TRUE)
+
+
+def test_time_is_shared_by_the_groups() -> None:
+    done = run("circle", by="kind", size_by="number", epochs=None, effort="best", time=3.0)
+    assert len(done.layout.items) == 8
+    assert done.metrics.exact.is_clean
 
 
 @pytest.mark.parametrize(
@@ -154,6 +172,11 @@ def test_a_run_that_is_stopped_has_what_it_has() -> None:
         ("around:photo.jpg", {"by": "kind"}, "repeats the container"),
         ("none", {"by": "kind", "finish": "none"}, "bars are settled in exact geometry"),
         ("none", {"by": "kind", "padding": 500}, "padding: leaves no room"),
+        (
+            "circle",
+            {"by": "name", "padding": 150},
+            "padding: 150 px leaves nothing of the container",
+        ),
         ("none", {"by": "kind", "force": "up"}, "groups of --by have their own"),
         (
             "circle",

@@ -8,18 +8,27 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
 from packwork.finish.offenders import find_offenders
 from packwork.finish.options import HAIR
 from packwork.geometry import affine
+from packwork.geometry.simplify import grown
 from packwork.pipeline.chorus import Grouped, Voice, members, moved, unit_scales
 from packwork.pipeline.finishing import finished, solid_outlines, unfinished
 from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.placing import Placed, placed_readably
-from packwork.progress import Observer, Stop
+from packwork.progress import Observer, Step, Stop
 from packwork.recipe import Effort
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+
+ALMOST = 0.999
+"""Share of the least scale so far from which a group is not tried any harder. Larger tries groups
+of one mark twice for nothing. Chosen."""
+
+SHARE_DIGITS = 12
+"""Digits of shares that tell marks apart. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,9 +49,11 @@ def fill_copies(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
     """
     assert job.cells is not None  # noqa: S101 - who asks has groups
     single = _single(job)
+    _check_room(job, single)
     zero = np.zeros(len(job.items))
     poses, before = Poses(zero, zero, zero, zero), np.arange(0)
     groups: list[_Filled] = []
+    known: dict[tuple[tuple[int, float], ...], Placed] = {}
     found = zip(job.cells, members(job), strict=True)
     corner = np.array(single.outline.bounds[:2])
     pairs = [(np.array(cell.room.bounds[:2]) - corner, own) for cell, own in found if len(own)]
@@ -51,8 +62,13 @@ def fill_copies(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
     for offset, own in [pairs[fullest], *pairs[:fullest], *pairs[fullest + 1 :]]:
         voice = None if observer is None else Voice(observer, poses, before, own, offset)
         part = _part(job, single, own, len(job.items) - len(before))
-        group = _filled(part, own, offset, groups, voice, stop)
+        found_before = known.get(_alike(part))
+        if found_before is None:
+            group = _filled(part, own, offset, groups, voice, stop)
+        else:
+            group = _as_before(part, own, offset, found_before, voice)
         groups.append(group)
+        known[_alike(part)] = group.placed
         poses = poses.with_some(own, moved(group.placed.poses, offset))
         before = np.concatenate([before, own])
     common = min(group.scale for group in groups)
@@ -84,8 +100,27 @@ def _filled(
         placed = placed_readably(tried, voice, stop, False)
         scale = float(np.median(placed.poses.scale / unit_scales(part)))
         is_clean = placed.exact is None or placed.exact.clean
-        if stop() or (is_clean and scale >= min((one.scale for one in before), default=np.inf)):
+        least = ALMOST * min((one.scale for one in before), default=np.inf)
+        if stop() or (is_clean and scale >= least):
             break
+    return _Filled(own, offset, placed, scale)
+
+
+def _alike(part: Job) -> tuple[tuple[int, float], ...]:
+    """The same for groups of the same marks, all as large for each other."""
+    shares = (part.weights / part.weights.max()).round(SHARE_DIGITS).tolist()
+    return tuple((id(i.outline), share) for i, share in zip(part.items, shares, strict=True))
+
+
+def _as_before(
+    part: Job, own: IntArray, offset: FloatArray, before: Placed, voice: Voice | None
+) -> _Filled:
+    """A group whose marks lie as those of another, which are alike."""
+    placed = replace(before, job=part)
+    if voice is not None:
+        nothing = (0.0, 0.0, 0.0)
+        voice.on_step(Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True))
+    scale = float(np.median(placed.poses.scale / unit_scales(part)))
     return _Filled(own, offset, placed, scale)
 
 
@@ -100,6 +135,17 @@ def _single(job: Job) -> Container:
         height=job.single.height * scale,
         unit=job.container.unit,
     )
+
+
+def _check_room(job: Job, single: Container) -> None:
+    """Refuse a padding that no mark can keep."""
+    padding = job.recipe.padding_cu(job.container)
+    if padding > 0 and grown(single.outline, -padding) is single.outline:
+        raise RecipeError(
+            "padding",
+            f"{padding:g} {single.unit} leaves nothing of the container of a group; "
+            "use a smaller one, or a larger canvas",
+        )
 
 
 def _part(job: Job, single: Container, own: Sequence[int] | IntArray, left: int) -> Job:
@@ -132,7 +178,8 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
     placed, job = group.placed, group.placed.job
     poses = replace(placed.poses, scale=unit_scales(job) * common)
     exact = placed.exact
-    if exact is not None:
+    # What was in conflict at its own size is told, and not tried again.
+    if exact is not None and exact.clean:
         # Smaller ones stay clear of each other, but for those that lay in others' bays.
         outlines = solid_outlines(job.recipe, job.items)
         gap = job.recipe.padding_cu(job.container)
@@ -140,7 +187,5 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
             fixed = replace(job, recipe=job.recipe.model_copy(update={"sizes": "fixed"}))
             exact = finished(fixed, placed.start, poses, None, stop)
             poses = exact.poses
-        elif exact.offenders:
-            exact = replace(exact, offenders=())
     faults = [] if exact is None else unfinished(job, exact)
     return poses, [replace(fault, index=int(group.own[fault.index])) for fault in faults]
