@@ -100,6 +100,25 @@ def test_steps_without_rows_keep_their_place_among_bars() -> None:
     assert [name for name in said if name in {"4", "2", "0"}] == ["4", "2", "2"]
 
 
+@pytest.mark.parametrize("width", [200, 297, 331.7])
+def test_names_that_just_fit_are_written_in_full(width: float) -> None:
+    names = ["Robusta/Arabica", "Arabica", "Arabica/Robusta", "Robusta"]
+    layout = pw.chart("none", {"kind": names}, by="kind", canvas=width, **QUICK)
+    assert [note.says for note in layout.notes if note.says in names] == names
+
+
+def test_many_names_are_read_upwards_and_of_a_scale_some_are_written() -> None:
+    kinds = [f"Department {k}" for k in range(20)]
+    turned = pw.chart("none", {"kind": kinds}, by="kind", **QUICK)
+    upwards = [note for note in turned.notes if note.says in kinds]
+    assert [note.says for note in upwards] == kinds
+    assert all(abs(note.matrix[0, 0]) < 1e-9 for note in upwards)
+    scale = pw.chart("none", {"year": list(range(1900, 1950))}, by="year", **QUICK)
+    written = [int(note.says) for note in scale.notes if note.says.startswith("19")]
+    assert 5 <= len(written) < 50
+    assert len(set(np.diff(written))) == 1
+
+
 def test_one_legend_whose_sizes_are_at_the_scale_of_all() -> None:
     layout = pw.chart("circle", ROWS, size_by="number", by="kind", **QUICK)
     said = [note.says for note in layout.notes]

@@ -19,6 +19,7 @@ _LOG = logging.getLogger("packwork")
 
 WEIGHT = 500
 DIGITS = 6
+ROUNDING = 1e-9
 MIDDLE_EM = 0.35
 """From the line that letters stand on to the middle of theirs."""
 
@@ -129,7 +130,8 @@ def shortened(text: str, em: float, room: float) -> str:
     >>> shortened("Nicaragua", 10.0, 40.0), shortened("Peru", 10.0, 40.0)
     ('Nicara…', 'Peru')
     """
-    if Pen.width(text, em) <= room:
+    # An em may have been chosen by this very width.
+    if Pen.width(text, em) <= room * (1 + ROUNDING):
         return text
     for end in range(len(text) - 1, 0, -1):
         short = f"{text[:end].rstrip()}…"
