@@ -5,9 +5,12 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
-from packwork.errors import RecipeError
+from packwork.errors import PackworkError, RecipeError
 from packwork.readers.charts.chart import ChartRead, read_chart
+from packwork.readers.charts.columns import is_missing
 from packwork.readers.charts.options import ChartOptions
 
 
@@ -94,7 +97,12 @@ def test_some_marks_of_a_chart_keep_what_they_say() -> None:
     [
         ([f"n{k}" for k in range(5_000)], {}, "5,000 groups; at most 60 .* column of fewer values"),
         (list(range(3_000)), {}, "3,000 groups; .* use --by-step 100 or more"),
-        ([0, 1e300], {"by_step": 1}, "groups; at most 60 can be told apart: use --by-step 2e"),
+        ([0, 1e300], {"by_step": 1}, "by_step: 1 is too small for numbers up to 1e\\+300"),
+        (
+            [0, 1e10],
+            {"by_step": 1},
+            "1e\\+10 groups; .* use --by-step 200000000 or more",
+        ),
         (["x", "y"], {"by_step": 10}, "by_step: needs numbers; column 'g' holds 'x'"),
         (["", None], {}, "column 'g' holds nothing"),
         (["a"], {"size_by": "g"}, "no numbers"),
@@ -109,3 +117,36 @@ def test_bad_groups_are_one_clear_line(cells: list[Any], options: Any, message: 
 
 def test_the_step_that_is_offered_is_enough() -> None:
     assert 20 <= len(chart(list(range(3_000)), by_step=100).groups) <= 60
+
+
+CELLS = st.one_of(
+    st.none(),
+    st.sampled_from(["", "NA", "a", "A", "b ", "2020-01", "1e400"]),
+    st.integers(-(10**6), 10**6),
+    st.floats(),
+)
+
+
+@example(cells=[1e308, -1e308], step=1e-10)
+@example(cells=[1e308, -1e308], step=None)
+@given(
+    cells=st.lists(CELLS, min_size=1, max_size=30),
+    step=st.none() | st.floats(min_value=1e-300, max_value=1e300),
+)
+def test_any_cells_are_parted_or_refused_in_one_line(cells: list[Any], step: float | None) -> None:
+    message, read = "", None
+    try:
+        read = chart(cells, by_step=step)
+    except PackworkError as error:
+        message = str(error)
+    assert "\n" not in message
+    assert len(message) < 400
+    if read is None:
+        return
+    assert 1 <= len(read.groups) <= 60
+    assert len(set(read.groups)) == len(read.groups)
+    assert (read.group_of >= 0).all()
+    assert (read.group_of < len(read.groups)).all()
+    assert len(read.items) + sum(is_missing(cell) or step is not None for cell in cells) >= len(
+        cells
+    )

@@ -116,6 +116,13 @@ def test_what_cannot_be_shown_is_told_by_name() -> None:
     ]  # fmt: skip
 
 
+def test_numbers_that_no_computation_holds_are_left_out_and_told() -> None:
+    rows = [{"a": 1e308}, {"a": 1e-308}, {"a": 3}]
+    read = chart(rows, size_by="a", size_is="height")
+    assert read.values.tolist() == [3.0]
+    assert read.notices == ("left out 2 rows of 3 whose a is beyond 1e+60: row 1, row 2",)
+
+
 def test_categories_in_odd_case_are_one_and_told() -> None:
     read = chart([{"k": "Red"}, {"k": "red"}, {"k": "Red"}], color_by="k")
     assert read.colour_of == ("Red",) * 3
@@ -138,6 +145,7 @@ def test_marks_go_to_the_values_of_their_names() -> None:
         (LANDS, {"size_by": "land"}, "holds text such as 'Peru', no numbers; those of numbers"),
         ([{"a": 0}, {"a": 0}], {"size_by": "a"}, "no row can be shown: 'a' is 0 in 2 rows"),
         ([{"a": 1}] * 100_000, {}, r"100,000 marks; at most 5,000 .* --unit 20 or more"),
+        (LANDS, {"size_by": "kg", "unit": 5e-324}, "more than 1,000,000,000 marks; .* --unit 0.01"),
         ([{"a": 1}, {"a": 1e9}], {"size_by": "a"}, "at most 1e\\+06 can be shown"),
         (LANDS, {"mark": ("circle", "star")}, "say which row has which"),
         (LANDS, {"mark": ("star",), "mark_by": "land"}, "2 values for 1 marks"),

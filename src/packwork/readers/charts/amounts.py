@@ -19,6 +19,9 @@ MOST_MARKS = 5_000
 """Marks of one chart: on a canvas of 600 px each would be 5 px wide. More could not be told
 apart. Derived."""
 
+LARGE = 10**9
+"""Numbers of marks from which digits say nothing more. Chosen."""
+
 SPECK = 1e-3
 """Share of a mark below which a remainder is rounding of the numbers, not a part. Chosen."""
 
@@ -101,12 +104,17 @@ def marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], Flo
         If there are too many to be told apart.
     """
     unit = options.unit
-    total = len(amounts) if unit is None else float(np.ceil(amounts / unit - SPECK).sum())
+    if unit is None:
+        total = float(len(amounts))
+    else:
+        with np.errstate(over="ignore"):  # of a tiny unit: too many in any case
+            total = float(np.ceil(amounts / unit - SPECK).sum())
     if total > MOST_MARKS:
+        said = f"{total:,.0f}" if total < LARGE else f"more than {LARGE:,}"
         least = round_up((total if unit is None else float(amounts.sum())) / MOST_MARKS)
         raise RecipeError(
             "unit",
-            f"there would be {total:,.0f} marks; at most {MOST_MARKS:,} can be told apart: "
+            f"there would be {said} marks; at most {MOST_MARKS:,} can be told apart: "
             f"use --unit {_least_unit(amounts, least, options):.12g} or more",
         )
     if unit is None:

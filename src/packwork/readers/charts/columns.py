@@ -13,6 +13,10 @@ from packwork.readers.tables.table import Row, Table
 MOST_NAMED = 6
 """Rows that a notice names. Chosen."""
 
+FARTHEST = 1e60
+"""Largest number that is shown, and one over the smallest: squares of their ratios are still
+numbers. Chosen."""
+
 MISSING = "missing"
 """Category of cells that hold nothing."""
 
@@ -162,6 +166,8 @@ def _size(cell: Any) -> tuple[str, float]:
         return "is no number", value
     if value == 0:
         return "is 0", value
+    if not 1 / FARTHEST <= abs(value) <= FARTHEST:
+        return f"is beyond {FARTHEST:g}", value
     return ("is negative", value) if value < 0 else ("", value)
 
 

@@ -30,6 +30,9 @@ YEARS = (1000, 2999)
 ROUNDING = 1e-9
 """Steps by which a number may miss the edge of one: 0.3 / 0.1 is less than 3. Derived."""
 
+MOST_STEPS = 1e12
+"""Steps from 0 to a number at most: beyond, rounding decides in which one it is. Derived."""
+
 LARGE = 10**9
 """Numbers of groups from which digits say nothing more. Chosen."""
 
@@ -121,6 +124,11 @@ def _steps(table: Table, column: str, step: float, label_by: str | None) -> Grou
         raise RecipeError(
             "by_step", f"needs numbers; column {column!r} holds {met!r}: leave the step out"
         )
+    farthest = max(map(abs, held))
+    if not farthest / step < MOST_STEPS:
+        raise RecipeError(
+            "by_step", f"{step:g} is too small for numbers up to {farthest:.2g}; use a larger one"
+        )
     first, last = (math.floor(end / step + ROUNDING) for end in (min(held), max(held)))
     _check_count(last - first + 1, table, column)
     names = tuple(_step_name(k * step, step, held) for k in range(first, last + 1))
@@ -162,7 +170,7 @@ def _check_count(count: int, table: Table, column: str) -> None:
     numbers = [as_number(row.get(column)) for row in table.rows]
     held = [number for number in numbers if not math.isnan(number)]
     advice = "group by a column of fewer values"
-    if is_numeric(table.rows, column):
+    if is_numeric(table.rows, column) and math.isfinite(max(held) - min(held)):
         # A step more than divides it: the first need not begin at the smallest number.
         least = round_up((max(held) - min(held)) / (MOST_GROUPS - 1))
         advice = f"use --by-step {least:.12g} or more"
