@@ -105,6 +105,8 @@ def test_some_marks_of_a_chart_keep_what_they_say() -> None:
         ),
         (["x", "y"], {"by_step": 10}, "by_step: needs numbers; column 'g' holds 'x'"),
         (["", None], {}, "column 'g' holds nothing"),
+        (["", None], {"by_step": 10}, "column 'g' holds nothing"),
+        (["", "x"], {"by_step": 10}, "holds 'x'"),
         (["a"], {"size_by": "g"}, "no numbers"),
     ],
 )

@@ -120,7 +120,10 @@ def _steps(table: Table, column: str, step: float, label_by: str | None) -> Grou
     numbers = [as_number(row.get(column)) for row in table.rows]
     held = [number for number in numbers if not math.isnan(number)]
     if not held:
-        met = shown(table.rows[0].get(column))[:30]
+        texts = [row.get(column) for row in table.rows if not is_missing(row.get(column))]
+        if not texts:
+            raise RecipeError("by", f"column {column!r} holds nothing; group by another")
+        met = shown(texts[0])[:30]
         raise RecipeError(
             "by_step", f"needs numbers; column {column!r} holds {met!r}: leave the step out"
         )
