@@ -17,7 +17,7 @@ from packwork.pipeline.chorus import Grouped, Voice, members, moved, unit_scales
 from packwork.pipeline.finishing import finished, solid_outlines, unfinished
 from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Unplaced
-from packwork.pipeline.placing import Placed, placed_readably
+from packwork.pipeline.packing import Placed, placed_readably
 from packwork.progress import Observer, Step, Stop
 from packwork.recipe import Effort
 from packwork.scene.container import Container

@@ -20,8 +20,8 @@ from packwork.pipeline.grouping import run_groups
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.judging import Judged, judged
 from packwork.pipeline.outcome import Filling, Run, find_unplaced
+from packwork.pipeline.packing import placed_readably
 from packwork.pipeline.piling import run_pile
-from packwork.pipeline.placing import placed_readably
 from packwork.pipeline.recording import Recorder
 from packwork.progress import Observer, Stop, never, together
 from packwork.recipe import Recipe
