@@ -88,7 +88,7 @@ def test_the_legend_shows_sizes_at_the_scale_of_the_chart() -> None:
     assert {"x", "y", "missing"} <= set(said)
     per_number = layout.areas[0] / NUMBERS[0]
     keys = zip(layout.notes, layout.notes[1:], strict=False)
-    sizes = {b.says: a for a, b in keys if not a.says and b.says in {"10", "5", "1", "0.5"}}
+    sizes = {b.says: a for a, b in keys if not a.says and b.says in {"10", "5", "2", "1", "0.5"}}
     assert sizes
     circle = layout.items[0].outline.area
     for number, note in sizes.items():

@@ -50,6 +50,36 @@ def test_a_frame_is_taken_by_what_it_can_do() -> None:
     assert read.notices == ("left out 1 row of 3 whose kg is missing: row 2",)
 
 
+@pytest.mark.parametrize("ending", [".parquet", ".pq", ".json"])
+def test_what_pandas_writes_is_read(ending: str, tmp_path) -> None:
+    pandas = pytest.importorskip("pandas")
+    days = pandas.to_datetime(["2020-05-01", None, "2021-02-03"])
+    frame = pandas.DataFrame(
+        {"land": ["Peru", "Kenya", "Mali"], "kg": [2.5, None, 1.0], "day": days, "n": [1, 2, 3]}
+    )
+    file = tmp_path / f"t{ending}"
+    if ending == ".json":
+        frame.to_json(file, orient="records", date_format="iso")
+    else:
+        frame.to_parquet(file)
+    read = chart(str(file), size_by="kg", label_by="land")
+    assert [item.name for item in read.items] == ["Peru", "Mali"]
+    assert read.values.tolist() == [2.5, 1.0]
+    assert str(read.rows[0]["day"]).startswith("2020-05-01")
+    assert [row["n"] for row in read.rows] == [1, 3]
+    assert read.notices == ("left out 1 row of 3 whose kg is missing: Kenya",)
+    assert chart(frame, size_by="n").values.tolist() == [1.0, 2.0, 3.0]
+
+
+def test_nested_and_odd_columns_of_parquet_are_read_as_text(tmp_path) -> None:
+    pandas = pytest.importorskip("pandas")
+    frame = pandas.DataFrame({"a": [[1, 2], [3]], "b": pandas.Categorical(["x", "y"]), 3: [1, 2]})
+    frame.columns = frame.columns.map(str)
+    frame.to_parquet(tmp_path / "t.parquet")
+    read = chart(str(tmp_path / "t.parquet"), size_by="3", label_by="b")
+    assert [item.name for item in read.items] == ["x", "y"]
+
+
 def test_a_unit_has_whole_marks_and_a_part_of_that_area() -> None:
     read = chart(size_by="kg", unit=10)
     areas = [item.outline.area for item in read.items]
@@ -86,6 +116,13 @@ def test_what_cannot_be_shown_is_told_by_name() -> None:
     ]  # fmt: skip
 
 
+def test_numbers_that_no_computation_holds_are_left_out_and_told() -> None:
+    rows = [{"a": 1e308}, {"a": 1e-308}, {"a": 3}]
+    read = chart(rows, size_by="a", size_is="height")
+    assert read.values.tolist() == [3.0]
+    assert read.notices == ("left out 2 rows of 3 whose a is beyond 1e+60: row 1, row 2",)
+
+
 def test_categories_in_odd_case_are_one_and_told() -> None:
     read = chart([{"k": "Red"}, {"k": "red"}, {"k": "Red"}], color_by="k")
     assert read.colour_of == ("Red",) * 3
@@ -108,6 +145,7 @@ def test_marks_go_to_the_values_of_their_names() -> None:
         (LANDS, {"size_by": "land"}, "holds text such as 'Peru', no numbers; those of numbers"),
         ([{"a": 0}, {"a": 0}], {"size_by": "a"}, "no row can be shown: 'a' is 0 in 2 rows"),
         ([{"a": 1}] * 100_000, {}, r"100,000 marks; at most 5,000 .* --unit 20 or more"),
+        (LANDS, {"size_by": "kg", "unit": 5e-324}, "more than 1,000,000,000 marks; .* --unit 0.01"),
         ([{"a": 1}, {"a": 1e9}], {"size_by": "a"}, "at most 1e\\+06 can be shown"),
         (LANDS, {"mark": ("circle", "star")}, "say which row has which"),
         (LANDS, {"mark": ("star",), "mark_by": "land"}, "2 values for 1 marks"),

@@ -9,7 +9,9 @@ from pathlib import Path
 from typing import Any
 
 from packwork import writers
+from packwork.display.axes import drawn_on
 from packwork.display.bar import bar_for, shown
+from packwork.display.frame import data_frame
 from packwork.display.picture import notebook_png, notebook_svg
 from packwork.metrics.measure import measure
 from packwork.pipeline.filming import film_options
@@ -164,6 +166,57 @@ class Layout(scene.Layout):
         with shown(bar):
             told = writers.tell_nobody if bar is None else partial(bar.tell, text="film")
             writers.write_atomic(path, writers.film_bytes(film, path, told))
+
+    def to_dataframe(self) -> Any:
+        """Pandas data frame: one row per item, in the layout's order.
+
+        Of a chart, first the columns of its table, then ``value`` (what the mark stands for),
+        ``category`` and ``group``, where there are any; of all layouts ``item``, ``source``,
+        ``x``, ``y``, ``angle`` (degrees, clockwise, as in files), ``scale``, ``stretch``,
+        ``area`` (squared canvas units), ``weight`` and ``color``. Where the table has a column of
+        that name too, ours is called ``mark_x`` and so on.
+
+        Raises
+        ------
+        PackworkError
+            If pandas is not installed.
+
+        Examples
+        --------
+        >>> from packwork import chart
+        >>> sold = {"fruit": ["fig", "kiwi"], "kg": [3, 1]}
+        >>> layout = chart("circle", sold, size_by="kg", effort="draft", levels="50")
+        >>> frame = layout.to_dataframe()
+        >>> frame["fruit"].tolist(), round(float(frame["area"][0] / frame["area"][1]), 6)
+        (['fig', 'kiwi'], 3.0)
+        """
+        return data_frame(self)
+
+    def plot(self, ax: Any = None) -> Any:
+        """Draw the items on Matplotlib axes, true to scale, y down; the axes.
+
+        Each item is a ``PathPatch`` of what is drawn of it, holes and all, in its colour;
+        pictures and drawings of several colours are in their mean colour. The first mark of each
+        category of a chart is labelled with it, so ``ax.legend()`` has keys.
+
+        Parameters
+        ----------
+        ax
+            Axes to draw on; new ones without ticks and frame if None.
+
+        Raises
+        ------
+        PackworkError
+            If Matplotlib is not installed.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> layout = fill("circle", "star", count=3, effort="draft", levels="50")
+        >>> len(layout.plot().patches)
+        3
+        """
+        return drawn_on(self, ax)
 
     @cached_property
     def metrics(self) -> Mapping[str, Any]:

@@ -192,14 +192,17 @@ def chart(
 
     Parameters
     ----------
-    container, observer, stop, progress, record
+    container
+        As for :func:`fill`; ``"none"`` shows the groups of ``by`` as bars.
+    observer, stop, progress, record
         As for :func:`fill`.
     data
         A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
         dict of columns.
     options
         As on the command line: ``size_by``, ``size_is``, ``unit``, ``color_by``, ``mark``,
-        ``mark_by``, ``label_by``, ``title``, ``legend``, ``background``; those of :func:`fill`.
+        ``mark_by``, ``label_by``, ``by``, ``by_step``, ``title``, ``legend``, ``background``; those
+        of :func:`fill`.
 
     Raises
     ------

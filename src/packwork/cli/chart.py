@@ -25,8 +25,8 @@ def chart(
         str,
         typer.Argument(
             metavar="CONTAINER",
-            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, or a built-in name such "
-            "as heart.",
+            help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, a built-in name such "
+            "as heart; or none, for bars of --by.",
         ),
     ],
     data: Annotated[
@@ -43,6 +43,8 @@ def chart(
     mark: Annotated[list[str] | None, _flag("mark")] = None,
     mark_by: Annotated[str | None, _flag("mark_by")] = None,
     label_by: Annotated[str | None, _flag("label_by")] = None,
+    by: Annotated[str | None, _flag("by")] = None,
+    by_step: Annotated[float | None, _flag("by_step")] = None,
     title: Annotated[str | None, _flag("title")] = None,
     legend: Annotated[
         bool,
@@ -88,6 +90,8 @@ def chart(
     [bold]packwork chart heart prizes.csv --color-by category -o prizes.png[/]
 
     [bold]packwork chart square people.csv --size-by people --unit 1000[/]
+
+    [bold]packwork chart none prizes.csv --by year --by-step 10 --color-by category[/]
     """
     with clear_errors():
         from packwork.cli.running import outputs_asked, run_and_write
@@ -103,6 +107,8 @@ def chart(
             mark=mark,
             mark_by=mark_by,
             label_by=label_by,
+            by=by,
+            by_step=by_step,
             title=title,
             legend=legend,
             palette=palette,

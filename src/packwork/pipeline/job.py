@@ -15,12 +15,14 @@ from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.casting import cast, cast_chart, cast_words
+from packwork.pipeline.cells import Cell
 from packwork.pipeline.chart_colours import chart_colours
 from packwork.pipeline.forcing import forces_of
-from packwork.pipeline.framing import Frame, framed
+from packwork.pipeline.framing import Frame
 from packwork.pipeline.given import no_container
 from packwork.pipeline.regions import Region, read_regions
 from packwork.pipeline.sharing import shared_out
+from packwork.pipeline.spreading import spread_out
 from packwork.pipeline.word_colours import check_colours
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.container import read_container
@@ -36,6 +38,9 @@ from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+
+NO_CONTAINER = "none"
+"""Name for no container at all: a pile lies anywhere, a chart's groups are bars."""
 
 
 @dataclass
@@ -98,6 +103,10 @@ class Job:
         What the items stand for, if they are marks of a chart.
     frame
         Where that chart's title and legend go.
+    cells
+        Where its groups go, if it has some.
+    single
+        The container of which each of them has a copy; None where they are bars.
     mouths
         ``(m, 2, 2)`` ends of the openings that a container of open paths has; None if none.
     """
@@ -116,7 +125,14 @@ class Job:
     letters: Letters | None = None
     chart: ChartRead | None = None
     frame: Frame | None = None
+    cells: tuple[Cell, ...] | None = None
+    single: Container | None = None
     mouths: FloatArray | None = None
+
+    @property
+    def has_bars(self) -> bool:
+        """Whether marks lie in bars."""
+        return self.cells is not None and self.single is None
 
     @property
     def is_limited(self) -> bool:
@@ -149,10 +165,12 @@ def read(
             chosen = cast_words(recipe, words, items)
         else:
             chosen = cast(recipe, items or ())
-        region = no_container(recipe, chosen) if room is None else room
-        frame = None
-        if chart is not None and recipe.chart is not None:
-            region, frame = framed(region, recipe.chart, chart, recipe.canvas_size)
+        frame, cells, single = None, None, None
+        if chart is not None:
+            spread = spread_out(recipe, chart, room)
+            region, frame, cells, single = spread.container, spread.frame, spread.cells, room
+        else:
+            region = no_container(recipe, chosen) if room is None else room
         names = () if words is None else {item.name for item in words.items}
         weights = shared_out(chosen.items, chosen.weights, names, recipe.share)
         forces_of(recipe.force or (), chosen.items, weights, region)
@@ -179,6 +197,8 @@ def read(
         _letters(recipe, region),
         chart,
         frame,
+        cells,
+        single,
         mouths,
     )
 
@@ -249,7 +269,7 @@ def _container(
     """The container, None for none at all, and its openings if it is drawn with some."""
     if given is not None:
         return on_canvas(given, recipe.canvas_size), None
-    if recipe.pile is not None and recipe.container == "none":
+    if recipe.container == NO_CONTAINER and (recipe.pile or recipe.chart):
         return None, None
     if recipe.pile is not None and Path(recipe.container).suffix.lower() == ".svg":
         size = recipe.canvas_size

@@ -12,6 +12,7 @@ from packwork.pipeline.beside import same_kind_beside
 from packwork.pipeline.dressing import dressed
 from packwork.pipeline.job import Job
 from packwork.pipeline.legend import legend_notes
+from packwork.pipeline.mark_labels import mark_labels
 from packwork.pipeline.outcome import (
     Filling,
     Run,
@@ -91,8 +92,10 @@ def judged(job: Job, found: Judged) -> Run:
     said["words"] = None if words is None else asdict(words)
     if found.pile is not None:
         said["pile"] = dict(found.pile)
+    worn = dressed(job, layout)
+    notes = (*mark_labels(job, worn), *legend_notes(job, layout))
     return Run(
-        layout=replace(dressed(job, layout), manifest=said, notes=legend_notes(job, layout)),
+        layout=replace(worn, manifest=said, notes=notes),
         metrics=metrics,
         seconds=clock.seconds,
         ending=found.outcome.ending,

@@ -6,23 +6,35 @@ import math
 
 import numpy as np
 
-from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.pipeline.chart_colours import UNKNOWN, ChartColours, chart_colours
-from packwork.pipeline.framing import LINE_EM, RAMP_EM, SIZES_EM, TITLE_EM, Frame, has_sizes
+from packwork.pipeline.framing import (
+    EM_SHARE,
+    KEY_ROOM_EM,
+    LEAD_EM,
+    LINE_EM,
+    RAMP_EM,
+    TITLE_EM,
+    TRAIL_EM,
+    UNIT_EM,
+    Frame,
+    has_sizes,
+    in_lines,
+    key_names,
+    key_text,
+)
+from packwork.pipeline.group_notes import write_groups
 from packwork.pipeline.job import Job
-from packwork.readers.typeface.fonts import Fonts, open_fonts
+from packwork.pipeline.numbers import spoken
+from packwork.pipeline.pen import Pen
 from packwork.scene.contrast import between, readable
-from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.note import Note
-from packwork.writers.notation import path_data
 
 INK = "#2d3748"
-LEAST_CONTRAST = 4.5
-"""Of letters and what is behind them, as WCAG asks for."""
+LEAST_CONTRAST = 7.0
+"""Of letters and what is behind them: WCAG 2.2, 1.4.6, level AAA."""
 
-DIGITS = 6
 STRIPES = 48
 """Rectangles that a ramp is drawn with. Fewer show. Chosen by eye."""
 
@@ -32,48 +44,28 @@ KEYS = 3
 SMALLEST_KEY_EM = 0.2
 """Height of the smallest of them. Chosen by eye."""
 
-
-class _Pen:
-    """Collects notes; places are canvas units, letters stand on their line."""
-
-    def __init__(self, fonts: Fonts, ink: str) -> None:
-        self.fonts, self.ink = fonts, ink
-        self.notes: list[Note] = []
-
-    def width(self, text: str, em: float) -> float:
-        left, _, right, _ = self.fonts.lettering([text]).region.bounds
-        return float(right - left) * em
-
-    def write(self, text: str, x: float, y: float, em: float) -> float:
-        """Letters from ``x`` on; where they end."""
-        drawn = self.fonts.lettering([text])
-        left, _, right, _ = drawn.region.bounds
-        place = affine.similarity(x - float(left) * em, y, 0.0, em / drawn.units)
-        self.notes.append(Note(drawn.path, place, self.ink, text))
-        return x + float(right - left) * em
-
-    def shape(self, outline: Outline, x: float, y: float, scale: float, fill: str) -> None:
-        place = affine.similarity(x, y, 0.0, scale)
-        self.notes.append(Note(path_data(outline, DIGITS), place, fill))
+LARGEST_UNIT_EM = 1.3
+"""Height of the mark that is the key to a unit, at most. Chosen by eye."""
 
 
 def legend_notes(job: Job, layout: Layout) -> tuple[Note, ...]:
-    """Title and legend of a chart; nothing for other layouts."""
+    """Title, names of groups and legend of a chart; nothing for other layouts."""
     chart, frame = job.chart, job.frame
     options = job.recipe.chart
     if chart is None or frame is None or options is None:
         return ()
-    pen = _Pen(open_fonts([], 500), readable(INK, options.paper, LEAST_CONTRAST))
+    pen = Pen(readable(INK, options.paper, LEAST_CONTRAST))
     if options.title:
         em = min(1.5 * frame.em, frame.width / max(pen.width(options.title, 1.0), 1.0))
-        pen.write(options.title, frame.left, frame.top + 0.7 * TITLE_EM * frame.em, em)
+        pen.write(options.title, frame.left, frame.top + 0.75 * TITLE_EM * frame.em, em)
+    if job.cells is not None:
+        write_groups(pen, job, job.cells, layout)
     if not options.legend:
         return tuple(pen.notes)
     colours = chart_colours(job.recipe, chart)
     y = frame.below
     if has_sizes(options):
-        _sizes(pen, job, layout, frame, y)
-        y += SIZES_EM * frame.em
+        y += (_sizes if options.unit is None else _unit)(pen, job, layout, frame, y)
     if colours.ramp and options.color_by:
         _ramp(pen, colours, options.color_by, frame, y)
         y += RAMP_EM * frame.em
@@ -81,37 +73,54 @@ def legend_notes(job: Job, layout: Layout) -> tuple[Note, ...]:
     return tuple(pen.notes)
 
 
-def _sizes(pen: _Pen, job: Job, layout: Layout, frame: Frame, y: float) -> None:
-    """Marks of round numbers, at the chart's own scale."""
+def _unit(pen: Pen, job: Job, layout: Layout, frame: Frame, y: float) -> float:
+    """A mark and what it stands for; the height of that."""
     chart, options, em = job.chart, job.recipe.chart, frame.em
     assert chart is not None and options is not None  # noqa: S101, PT018 - who asks has a chart
     mark = next(iter(chart.marks.values())).outline
-    numbers = [options.unit] if options.unit else _round_numbers(float(chart.values.max()))
-    heading = options.size_by or "rows"
-    room = (SIZES_EM - 3.4) * em
-    shown = [(number, _scale(job, layout, mark, number)) for number in numbers]
-    heights = [(mark.bounds[3] - mark.bounds[1]) * scale for _, scale in shown]
+    left, top, right, bottom = mark.bounds
+    scale = min(_scale(job, layout, mark, options.unit or 1.0), LARGEST_UNIT_EM * em / mark.extent)
+    line = y + 1.2 * em
+    middle = line - 0.35 * em - (top + bottom) / 2 * scale
+    pen.shape(mark, frame.left - left * scale, middle, scale, UNKNOWN)
+    stands_for = f"= {spoken(options.unit or 1.0)} {options.size_by or 'rows'}"
+    pen.write(stands_for, frame.left + (right - left) * scale + 0.5 * em, line, em)
+    return UNIT_EM * em
+
+
+def _sizes(pen: Pen, job: Job, layout: Layout, frame: Frame, y: float) -> float:
+    """Marks of round numbers, at the chart's own scale; the height of all."""
+    chart, options, em = job.chart, job.recipe.chart, frame.em
+    assert chart is not None and options is not None  # noqa: S101, PT018 - who asks has a chart
+    mark = next(iter(chart.marks.values())).outline
+    numbers = _round_numbers(float(chart.values.max()))
+    height = mark.bounds[3] - mark.bounds[1]
+    scales = {number: _scale(job, layout, mark, number) for number in numbers}
     fitting = [
-        key
-        for key, height in zip(shown, heights, strict=True)
-        if options.unit is not None or SMALLEST_KEY_EM * em <= height <= room
-    ][:KEYS]
-    low = y + (SIZES_EM - 1.2) * em
-    tallest = max((mark.bounds[3] - mark.bounds[1]) * scale for _, scale in fitting or shown[:1])
-    pen.write(heading, frame.left, low - max(tallest, em) - 0.8 * em, em)
+        number
+        for number, scale in scales.items()
+        if SMALLEST_KEY_EM * em <= height * scale <= KEY_ROOM_EM * em
+    ]
+    # Every second of 1, 2, 5, 10 ...: sizes that are told apart at a glance.
+    chosen = fitting[::2][:KEYS]
+    tallest = max([height * scales[number] for number in chosen], default=0.0)
+    low = y + 1.9 * em + max(tallest, em)
+    pen.write(options.size_by or "rows", frame.left, y + 1.2 * em, em)
     x = frame.left
-    for number, scale in fitting:
-        left, _, right, bottom = (v * scale for v in mark.bounds)
-        pen.shape(mark, x - left, low - bottom, scale, UNKNOWN)
-        x = pen.write(_spoken(number), x + right - left + 0.4 * em, low, 0.85 * em) + 1.6 * em
+    for number in chosen:
+        left, _, right, bottom = (v * scales[number] for v in mark.bounds)
+        pen.shape(mark, x - left, low - bottom, scales[number], UNKNOWN)
+        x = pen.write(spoken(number), x + right - left + 0.4 * em, low, 0.85 * em) + 1.6 * em
+    return low - y + em
 
 
 def _scale(job: Job, layout: Layout, mark: Outline, number: float) -> float:
     """Canvas units per unit of a mark that stands for a number."""
     chart, options = job.chart, job.recipe.chart
     assert chart is not None and options is not None  # noqa: S101, PT018 - who asks has a chart
-    k = int(np.argmax(chart.values))
-    share = number / float(chart.values[k])
+    values = np.array([0.0 if item.datum is None else item.datum.value for item in layout.items])
+    k = int(np.argmax(values))
+    share = number / float(values[k])
     own = layout.items[k].outline
     if options.size_is == "area" or options.unit is not None:
         return float(np.sqrt(share * layout.areas[k] / mark.area))
@@ -121,28 +130,19 @@ def _scale(job: Job, layout: Layout, mark: Outline, number: float) -> float:
 
 
 def _round_numbers(largest: float) -> list[float]:
-    """1, 2 or 5 times a power of ten, every second of them, from the largest down."""
-    power = math.floor(math.log10(largest))
-    steps = [s * 10.0**p for p in range(power, power - 8, -1) for s in (5.0, 1.0)]
-    return [step for step in steps if step <= largest]
-
-
-def _spoken(number: float) -> str:
-    """Number as people say it.
+    """1, 2 or 5 times a power of ten, from the largest down.
 
     Examples
     --------
-    >>> _spoken(5e8), _spoken(2000), _spoken(0.5)
-    ('500 million', '2,000', '0.5')
+    >>> _round_numbers(30.0)[:4]
+    [20.0, 10.0, 5.0, 2.0]
     """
-    for name, size in (("billion", 1e9), ("million", 1e6)):
-        if abs(number) >= size:
-            return f"{number / size:,.4g} {name}"
-    # Numbers of four digits may be years.
-    return f"{number:,.6g}" if abs(number) >= 1e3 else f"{number:.4g}"
+    power = math.floor(math.log10(largest))
+    steps = [s * 10.0**p for p in range(power, power - 8, -1) for s in (5.0, 2.0, 1.0)]
+    return [step for step in steps if step <= largest]
 
 
-def _ramp(pen: _Pen, colours: ChartColours, column: str, frame: Frame, y: float) -> None:
+def _ramp(pen: Pen, colours: ChartColours, column: str, frame: Frame, y: float) -> None:
     em, low, high = frame.em, *colours.ends
     pen.write(column, frame.left, y + 1.2 * em, em)
     step = min(frame.width, 16 * em) / STRIPES
@@ -151,30 +151,25 @@ def _ramp(pen: _Pen, colours: ChartColours, column: str, frame: Frame, y: float)
     for k in range(STRIPES):
         fill = between(colours.ramp, k / (STRIPES - 1))
         pen.shape(tile, frame.left + k * step, y + 1.8 * em, 1.0, fill)
-    texts = [f"{value:.12g}" if abs(value) < 1e4 else _spoken(value) for value in (low, high)]
+    texts = [f"{value:.12g}" if abs(value) < 1e4 else spoken(value) for value in (low, high)]
     pen.write(texts[0], frame.left, y + 3.6 * em, 0.85 * em)
     right = frame.left + STRIPES * step - pen.width(texts[1], 0.85 * em)
     pen.write(texts[1], right, y + 3.6 * em, 0.85 * em)
 
 
-def _categories(pen: _Pen, job: Job, colours: ChartColours, frame: Frame, y: float) -> None:
+def _categories(pen: Pen, job: Job, colours: ChartColours, frame: Frame, y: float) -> None:
     """Names beside marks in their colours, line by line."""
-    assert job.chart is not None and job.recipe.chart is not None  # noqa: S101, PT018 - as above
-    marks, em = job.chart.marks, frame.em
+    assert job.chart is not None  # noqa: S101 - who asks has a chart
+    marks, fills, em = job.chart.marks, dict(colours.keys), frame.em
     first = next(iter(marks.values()))
-    entries: dict[str, tuple[Item, str]] = {
-        name: (marks.get(name, first), colour) for name, colour in colours.keys
-    }
-    if job.recipe.chart.mark_by is not None:
-        entries |= {name: (mark, UNKNOWN) for name, mark in marks.items() if name not in entries}
-    x, line = frame.left, y + 1.2 * em
-    for name, (mark, fill) in entries.items():
-        text = name if len(name) <= 40 else f"{name[:39]}…"
-        if x > frame.left and x + 1.5 * em + pen.width(text, em) > frame.left + frame.width:
-            x, line = frame.left, line + LINE_EM * em
-        scale = 1.1 * em / mark.outline.extent
-        left, top, _, bottom = mark.ink.bounds
-        pen.shape(
-            mark.ink, x - left * scale, line - 0.35 * em - (top + bottom) / 2 * scale, scale, fill
-        )
-        x = pen.write(text, x + 1.5 * em, line, em) + 1.6 * em
+    line = y + 1.2 * em
+    for names in in_lines(key_names(job.recipe, job.chart), 1 / EM_SHARE):
+        x = frame.left
+        for name in names:
+            ink = marks.get(name, first).ink
+            scale = 1.1 * em / ink.extent
+            left, top, _, bottom = ink.bounds
+            middle = line - 0.35 * em - (top + bottom) / 2 * scale
+            pen.shape(ink, x - left * scale, middle, scale, fills.get(name, UNKNOWN))
+            x = pen.write(key_text(name), x + LEAD_EM * em, line, em) + TRAIL_EM * em
+        line += LINE_EM * em

@@ -22,7 +22,7 @@ from packwork.pipeline.emitting import source_of
 from packwork.pipeline.finishing import gap_with_bulge, solid_outlines
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.given import given_scales
-from packwork.pipeline.job import Job
+from packwork.pipeline.job import NO_CONTAINER, Job
 from packwork.pipeline.judging import Judged, judged
 from packwork.pipeline.matching import matched
 from packwork.pipeline.opening import Opened, opened
@@ -38,7 +38,6 @@ from packwork.start.angles import nearest_allowed
 
 _LOG = logging.getLogger(__name__)
 
-NO_CONTAINER = "none"
 DEFAULT_FORCE, DEFAULT_FORCE_ALONE = "down", "towards centre"
 """What heaps items in a container, and where there is none."""
 

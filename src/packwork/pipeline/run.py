@@ -3,33 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from itertools import count
+from dataclasses import replace
 
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.errors import RecipeError
-from packwork.finish.finish import Finished, finish
+from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
-from packwork.forces.forces import Forces
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
-from packwork.geometry.simplify import grown
-from packwork.levels import refined_levels
 from packwork.metrics.pixel import pixel_metrics
 from packwork.piles import PileOptions
-from packwork.pipeline.beginning import Beginning, begin
-from packwork.pipeline.finishing import finished, unfinished
-from packwork.pipeline.forcing import forces_of
+from packwork.pipeline.finishing import unfinished
 from packwork.pipeline.gaps import fill_gaps
+from packwork.pipeline.grouping import run_groups
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.judging import Judged, judged
-from packwork.pipeline.letters import held_down, with_readable, without_hopeless
 from packwork.pipeline.outcome import Filling, Run, find_unplaced
+from packwork.pipeline.packing import placed_readably
 from packwork.pipeline.piling import run_pile
 from packwork.pipeline.recording import Recorder
-from packwork.pipeline.staying import calmed, needs_no_levels, with_homes
 from packwork.progress import Observer, Stop, never, together
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -37,12 +30,7 @@ from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
-from packwork.solve.solver import Ending, Outcome, solve
-from packwork.solve.stand_ins import stand_ins
-
-LEVELS_SHARE = 0.6
-"""Share of the time left after the start that the levels may take; the finish, measuring
-and writing need the rest. Chosen."""
+from packwork.solve.solver import solve
 
 
 def fill(
@@ -84,7 +72,9 @@ def run(
     """Solve and measure what was read; the second half of :func:`fill`."""
     if job.recipe.pile is not None:
         return _heaped(job, job.recipe.pile, observer, stop, record)
-    placed = _placed_readably(job, observer, stop, record)
+    if job.cells is not None:
+        return _grouped(job, observer, stop, record)
+    placed = placed_readably(job, observer, stop, record)
     job, exact, recorder = placed.job, placed.exact, placed.recorder
     start, poses = placed.start, placed.poses
     ids: IntArray | None = None
@@ -109,6 +99,13 @@ def _heaped(
     return _with_track(done, recorder, np.setdiff1d(np.arange(len(job.items)), left))
 
 
+def _grouped(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    """Groups of a chart, and the way of their marks."""
+    recorder = Recorder() if record else None
+    done, ids = run_groups(job, together(observer, recorder), stop)
+    return _with_track(done, recorder, ids)
+
+
 def _with_track(done: Run, recorder: Recorder | None, ids: IntArray | None) -> Run:
     if recorder is None:
         return done
@@ -116,117 +113,6 @@ def _with_track(done: Run, recorder: Recorder | None, ids: IntArray | None) -> R
     return replace(
         done, layout=replace(layout, track=recorder.track(layout.poses, ids, layout.items))
     )
-
-
-@dataclass(frozen=True, eq=False)
-class _Placed:
-    """What the levels gave, and the finish if one was asked for."""
-
-    job: Job
-    start: Beginning
-    outcome: Outcome
-    exact: Finished | None
-    recorder: Recorder | None
-
-    @property
-    def poses(self) -> Poses:
-        return self.outcome.poses if self.exact is None else self.exact.poses
-
-
-def _placed_readably(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _Placed:
-    """Poses of all items, before voids are filled.
-
-    Where words would come out smaller than they may be, those are left out and the others
-    are placed anew.
-    """
-    job = without_hopeless(job)
-    for attempt in count(1):
-        placed = _placed(job, observer, stop, record)
-        fewer = job if stop() else with_readable(job, placed.poses, attempt)
-        if fewer is job:
-            break
-        job = fewer
-    return placed
-
-
-def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _Placed:
-    """Poses of all items, whatever their sizes."""
-    recipe, clock = job.recipe, job.clock
-    recorder = Recorder() if record else None
-    observer = together(observer, recorder)
-    with clock.time("start"):
-        outlines = stand_ins([item.outline for item in job.items], recipe.outline)
-        region = padded(job.container, recipe.padding_cu(job.container))
-        forces = _forces(job)
-        start = begin(job, region, outlines, forces, stop)
-    if recorder is not None:
-        recorder.keep(start.poses)
-    with clock.time("levels"):
-        outcome = _levels(job, region, outlines, start, forces, observer, stop)
-    if recipe.finish != "exact":
-        return _Placed(job, start, outcome, None, recorder)
-    with clock.time("finish"):
-        # What is to stay where it was is not pushed on.
-        kept = None if recipe.stay else forces
-        exact = finished(job, start, outcome.poses, observer, stop, kept)
-        exact = held_down(job, start, exact, observer, stop, kept)
-    return _Placed(job, start, outcome, exact, recorder)
-
-
-def _levels(
-    job: Job,
-    region: Container,
-    outlines: Sequence[Outline],
-    start: Beginning,
-    forces: Forces | None,
-    observer: Observer | None,
-    stop: Stop,
-) -> Outcome:
-    """What the levels make of the first poses; those themselves, where they are as good."""
-    if needs_no_levels(job) or start.method == "first-fit":
-        return Outcome(start.poses, Ending.DONE)
-    options = _solve_options(job, job.recipe.padding_cu(job.container))
-    if job.recipe.stay:
-        options = calmed(options)
-        forces = with_homes(job, forces, start.poses, job.container)
-    return solve(
-        region, outlines, start.poses, start.nominal, options, observer, stop, start.limits, forces
-    )
-
-
-def _forces(job: Job) -> Forces | None:
-    """What pulls items about, if anything."""
-    texts = job.recipe.force
-    if not texts:
-        return None
-    return forces_of(texts, job.items, job.weights, job.container).buoyant(job.weights)
-
-
-def _solve_options(job: Job, padding: float) -> SolveOptions:
-    """Options of the solve, with levels fine enough for the items unless they were given."""
-    recipe, container = job.recipe, job.container
-    options = recipe.solve_options(padding, job.seconds_left(LEVELS_SHARE))
-    if recipe.levels is not None or recipe.preset != "default":
-        return options
-    levels = refined_levels(options.levels, container.side, container.outline.area, len(job.items))
-    return options.model_copy(update={"levels": levels})
-
-
-def padded(container: Container, padding: float) -> Container:
-    """Container drawn in by half the padding; the items' own margins are the other half.
-
-    Raises
-    ------
-    RecipeError
-        If nothing of the container is left.
-    """
-    outline = grown(container.outline, -padding / 2)
-    if padding > 0 and outline is container.outline:
-        raise RecipeError(
-            "padding",
-            f"{padding:g} {container.unit} leaves nothing of the container; use a smaller one",
-        )
-    return replace(container, outline=outline)
 
 
 def warm_up() -> None:

@@ -23,6 +23,7 @@ from packwork.readers.svg.lengths import MAX_COORDINATE
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
+from packwork.scene.datum import Datum
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.label import Label
 from packwork.scene.layout import Layout
@@ -158,7 +159,10 @@ def _item(feature: Mapping[str, Any], where: str) -> Item:
     name = str(properties.get("item", "item"))
     art = FlatArt(_fill(properties, where))
     source = str(properties.get("source", name))
-    return Item(name, source, outline, outline, art, _label(properties, where))
+    return Item(
+        name, source, outline, outline, art, _label(properties, where),
+        datum=_datum(properties, where),
+    )  # fmt: skip
 
 
 def _label(properties: Mapping[str, Any], where: str) -> Label:
@@ -170,6 +174,20 @@ def _label(properties: Mapping[str, Any], where: str) -> Label:
         return Label(**said)
     except RecipeError as error:
         raise UnfitError(f"{where}.{error}") from None
+
+
+def _datum(properties: Mapping[str, Any], where: str) -> Datum | None:
+    """What a mark of a chart stands for; None for any other item."""
+    said = properties.get("datum")
+    if said is None:
+        return None
+    if not isinstance(said, dict) or not isinstance(said.get("row"), dict):
+        raise UnfitError(f"{where}.datum: must be an object with a row")
+    value = said.get("value", 1.0)
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        raise UnfitError(f"{where}.datum.value: must be a number, not {str(value)[:20]!r}")
+    category, group = (str(said.get(key, "")) for key in ("category", "group"))
+    return Datum(said["row"], float(value), category, group)
 
 
 def _fill(properties: Mapping[str, Any], where: str) -> str:

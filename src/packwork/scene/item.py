@@ -7,6 +7,7 @@ from typing import Protocol, TypeAlias
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.scene.datum import Datum
 from packwork.scene.label import Label
 from packwork.scene.live_text import LiveText
 
@@ -109,6 +110,8 @@ class Item:
     halo
         Colour of a rim that makes it stand out from a picture behind; empty for none. It is
         no part of the item, and is drawn under all.
+    datum
+        What it stands for, if it is a mark of a chart.
     """
 
     name: str
@@ -119,3 +122,4 @@ class Item:
     label: Label = field(default_factory=Label)
     text: LiveText | None = None
     halo: str = ""
+    datum: Datum | None = None

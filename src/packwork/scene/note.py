@@ -21,9 +21,13 @@ class Note:
         Any CSS colour.
     says
         What it says, for those who do not see it; may be empty.
+    is_on_item
+        Whether it is a label on an item: what is under it can still be pointed at, and films, in
+        which items move, are without it.
     """
 
     path: str
     matrix: FloatArray
     fill: str
     says: str = ""
+    is_on_item: bool = False

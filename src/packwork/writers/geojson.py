@@ -119,7 +119,16 @@ def _item_properties(layout: Layout, k: int, item: Item) -> dict[str, Any]:
         "weight": float(layout.weights[k]),
         # Those that are empty are left out.
         **{key: text for key, text in asdict(item.label).items() if text},
+        **_stands_for(item),
     }
+
+
+def _stands_for(item: Item) -> dict[str, Any]:
+    """What a mark of a chart says; nothing for other items."""
+    if item.datum is None:
+        return {}
+    said = {key: value for key, value in asdict(item.datum).items() if value != ""}
+    return {"datum": plain(said)}
 
 
 def _feature(properties: dict[str, Any], outline: Outline, digits: int) -> dict[str, Any]:

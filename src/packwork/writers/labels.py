@@ -13,7 +13,9 @@ ID_LENGTH = 60
 """Characters of a name that an id keeps. Chosen."""
 
 _NOT_IN_IDS = re.compile(r"[^\w]+")
-_OURS = re.compile(r"(item|shape)-\d+(-\d+)?|items|container|background|legend|p[0-9a-f]{10}-.*")
+_OURS = re.compile(
+    r"(item|shape)-\d+(-\d+)?|items|container|background|labels|legend|p[0-9a-f]{10}-.*"
+)
 """Ids that a document of ours may hold anyway, those of drawings among them."""
 
 

@@ -19,6 +19,7 @@ from packwork.geometry import affine
 from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
+from packwork.scene.note import Note
 from packwork.units import Unit
 from packwork.writers.colours import hex_colour, parse_colour
 from packwork.writers.labels import item_ids, labelled
@@ -281,14 +282,21 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
 
 
 def _notes(layout: Layout) -> list[str]:
-    """Letters and keys beside the items."""
-    drawn = []
-    for note in layout.notes:
-        place = {"transform": matrix_text(note.matrix), "fill": note.fill}
-        title = f"<title>{xml_text(note.says)}</title>" if note.says else ""
-        path = f'<path{attributes(place)} fill-rule="evenodd" d="{note.path}"/>'
-        drawn.append(f"<g>{title}{path}</g>" if title else path)
-    return ['<g id="legend">', *drawn, "</g>"] if drawn else []
+    """Labels on items, then letters and keys beside them."""
+    labels = [_note(note) for note in layout.notes if note.is_on_item]
+    beside = [_note(note) for note in layout.notes if not note.is_on_item]
+    return [
+        *(['<g id="labels" pointer-events="none">', *labels, "</g>"] if labels else []),
+        *(['<g id="legend">', *beside, "</g>"] if beside else []),
+    ]
+
+
+def _note(note: Note) -> str:
+    place = {"transform": matrix_text(note.matrix), "fill": note.fill}
+    path = f'<path{attributes(place)} fill-rule="evenodd" d="{note.path}"/>'
+    # What lies on an item is said by that one's own title.
+    title = f"<title>{xml_text(note.says)}</title>" if note.says and not note.is_on_item else ""
+    return f"<g>{title}{path}</g>" if title else path
 
 
 def _said(layout: Layout) -> dict[str, str]:

@@ -79,6 +79,7 @@ def pile(
     known: IntArray | None = None,
     shuffle: float = 0.0,
     source: Source | None = None,
+    ranks: IntArray | None = None,
 ) -> Piled:
     """Poses in which items of the given sizes are at rest and nothing meets.
 
@@ -111,6 +112,8 @@ def pile(
         largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
     source
         Where items come from, one after another or all at once; None for their lowest places.
+    ranks
+        ``(n,)`` items of a lower rank get their places first, and so lie lower; None for one rank.
 
     Examples
     --------
@@ -127,6 +130,8 @@ def pile(
     if len(outlines) == 0:
         return Piled(poses, np.arange(0), 0, 0.0)
     run = _Pile(container, outlines, poses, forces, options, observer, stop, shuffle)
+    if ranks is not None:
+        run.ranks = ranks
     room = container.outline if basin is None else basin
     if source is not None:
         run.pour(room, source)
@@ -168,6 +173,8 @@ class _Pile:
         self._is_given = False
         self._details: dict[tuple[Outline, float], Detail] = {}
         self._height = 0.0
+        self.ranks = np.zeros(len(poses), dtype=np.int64)
+        """Items of a lower one get their places first."""
         strengths = [f.strengths for f in forces.fields] + [b.strengths for b in forces.bonds]
         columns = np.column_stack([np.zeros(len(poses)), *strengths])
         _, self._kinds = np.unique(columns, axis=0, return_inverse=True)
@@ -185,7 +192,8 @@ class _Pile:
             standing = np.delete(known, lost)
         arrangement = self._arrangement(room, COARSE, everyone)
         lifted = np.setdiff1d(everyone, standing)
-        lifted = lifted[np.argsort(-self._order_sizes(arrangement)[lifted], kind="stable")]
+        sizes = self._order_sizes(arrangement)
+        lifted = lifted[np.lexsort((-sizes[lifted], self.ranks[lifted]))]
         left = self._nestle(arrangement, lifted, standing)
         self._take_over(arrangement, everyone)
         self._items = np.setdiff1d(everyone, left)

@@ -3,31 +3,26 @@
 from __future__ import annotations
 
 import logging
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.charts.columns import categories, is_numeric, shown, sizes
+from packwork.readers.charts.amounts import marks_of, read_amounts
+from packwork.readers.charts.columns import categories, is_numeric, shown
+from packwork.readers.charts.groups import Groups, read_groups
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.charts.part import part_of
 from packwork.readers.items import read_items
 from packwork.readers.regions import Holes
 from packwork.readers.tables.table import Row, Table, read_table
+from packwork.scene.datum import Datum
 from packwork.scene.item import Item
 from packwork.scene.label import MAX_LENGTH, Label
 
 _LOG = logging.getLogger("packwork")
-
-MOST_MARKS = 5_000
-"""Marks of one chart: on a canvas of 600 px each would be 5 px wide. More could not be told
-apart. Derived."""
-
-SPECK = 1e-3
-"""Share of a mark below which a remainder is rounding of the numbers, not a part. Chosen."""
 
 WIDEST = 1e6
 """Largest area over the smallest; the smallest could not be seen. Chosen."""
@@ -58,6 +53,12 @@ class ChartRead:
         Whether colours go by numbers.
     table
         Where rows come from.
+    groups
+        Names of the groups, in the order in which they are shown; none if there are none.
+    group_of
+        ``(n,)`` which of them each mark is in.
+    is_ordered
+        Whether groups stand on a scale, so that a few names tell all.
     notices
         What was left out or put together, a sentence each.
     """
@@ -70,7 +71,23 @@ class ChartRead:
     colour_of: tuple[str, ...] | None
     is_ramp: bool
     table: Table
+    groups: tuple[str, ...]
+    group_of: IntArray
+    is_ordered: bool
     notices: tuple[str, ...]
+
+    def some(self, marks: IntArray) -> ChartRead:
+        """The same chart with some of its marks."""
+        colours = None if self.colour_of is None else tuple(self.colour_of[k] for k in marks)
+        return replace(
+            self,
+            items=tuple(self.items[k] for k in marks),
+            areas=self.areas[marks],
+            values=self.values[marks],
+            rows=tuple(self.rows[k] for k in marks),
+            colour_of=colours,
+            group_of=self.group_of[marks],
+        )
 
 
 def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
@@ -93,12 +110,14 @@ def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
     ('left out 1 row of 3 whose t is 0: Fiji',)
     """
     table = read_table(options.data)
-    for key in ("size_by", "color_by", "mark_by", "label_by"):
+    for key in ("size_by", "color_by", "mark_by", "label_by", "by"):
         column = getattr(options, key)
         if column is not None:
             table.check_column(key, column)
-    rows, amounts, notices = _amounts(table, options)
-    owner, shares = _marks_of(amounts, options)
+    groups = read_groups(table, options)
+    shown_rows = read_amounts(table, options, groups)
+    rows, amounts = shown_rows.rows, shown_rows.amounts
+    owner, shares = marks_of(amounts, options)
     kinds, more = _categories(rows, options.mark_by)
     marks = _drawings(options, kinds, holes)
     is_ramp = options.color_by is not None and is_numeric(rows, options.color_by)
@@ -106,21 +125,45 @@ def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
     items = _items(
         rows, owner, shares, [marks[kind] for kind in kinds or [""] * len(rows)], options
     )
-    everything = tuple(dict.fromkeys((*notices, *more, *told)))
+    colour_of = _per_mark(colours, owner)
+    everything = tuple(
+        dict.fromkeys((*shown_rows.notices, *(groups.notices if groups else ()), *more, *told))
+    )
     for notice in everything:
         _LOG.warning("%s", notice)
     values = amounts[owner] if options.unit is None else options.unit * shares
+    names, group_of = _groups_of_marks(groups, shown_rows.groups[owner])
+    in_group = [names[k] for k in group_of] if names else [""] * len(items)
+    data = zip(owner, values.tolist(), colour_of or [""] * len(items), in_group, strict=True)
     return ChartRead(
-        items=items,
+        items=tuple(
+            replace(item, datum=Datum(rows[k], value, category, group))
+            for item, (k, value, category, group) in zip(items, data, strict=True)
+        ),
         areas=_areas(items, values, shares, options),
         values=values,
         rows=tuple(rows[k] for k in owner),
         marks=marks,
-        colour_of=_per_mark(colours, owner),
+        colour_of=colour_of,
         is_ramp=is_ramp,
         table=table,
+        groups=names,
+        group_of=group_of,
+        is_ordered=groups is not None and groups.is_ordered,
         notices=everything,
     )
+
+
+def _groups_of_marks(groups: Groups | None, member: IntArray) -> tuple[tuple[str, ...], IntArray]:
+    """Names of the groups that are shown, none if there are none; and which each mark is in.
+
+    Of values only those that have marks are shown, of steps those between as well.
+    """
+    if groups is None:
+        return (), np.zeros(len(member), dtype=np.int64)
+    there = np.unique(member)
+    kept = np.arange(there[0], there[-1] + 1) if groups.has_steps else there
+    return tuple(groups.names[k] for k in kept), np.searchsorted(kept, member)
 
 
 def _per_mark(names: Sequence[str] | None, owner: Sequence[int]) -> tuple[str, ...] | None:
@@ -129,77 +172,6 @@ def _per_mark(names: Sequence[str] | None, owner: Sequence[int]) -> tuple[str, .
 
 def _categories(rows: Sequence[Row], column: str | None) -> tuple[list[str] | None, Sequence[str]]:
     return (None, ()) if column is None else categories(rows, column)
-
-
-def _amounts(table: Table, options: ChartOptions) -> tuple[list[Row], FloatArray, Sequence[str]]:
-    """Rows that are shown, and how much each stands for."""
-    if options.size_by is not None:
-        found, said = sizes(table, options.size_by, options.label_by)
-        return [table.rows[k] for k in found], np.array(list(found.values())), said
-    if options.unit is None:
-        return list(table.rows), np.ones(len(table.rows)), ()
-    # What is not shown of rows tells none apart: they are counted.
-    shown_of = (options.color_by, options.mark_by, options.label_by)
-    columns = [column for column in shown_of if column is not None]
-    counts: dict[tuple[str, ...], int] = {}
-    for row in table.rows:
-        key = tuple(shown(row.get(column)) for column in columns)
-        counts[key] = counts.get(key, 0) + 1
-    rows = [dict(zip(columns, key, strict=True)) | {"rows": n} for key, n in counts.items()]
-    return rows, np.array(list(counts.values()), dtype=np.float64), ()
-
-
-def _marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], FloatArray]:
-    """Row of each mark, and its share of a whole one.
-
-    Raises
-    ------
-    RecipeError
-        If there are too many to be told apart.
-    """
-    unit = options.unit
-    total = len(amounts) if unit is None else float(np.ceil(amounts / unit - SPECK).sum())
-    if total > MOST_MARKS:
-        least = _round_up((total if unit is None else float(amounts.sum())) / MOST_MARKS)
-        raise RecipeError(
-            "unit",
-            f"there would be {total:,.0f} marks; at most {MOST_MARKS:,} can be told apart: "
-            f"use --unit {_least_unit(amounts, least, options):.12g} or more",
-        )
-    if unit is None:
-        return list(range(len(amounts))), np.ones(len(amounts))
-    owner: list[int] = []
-    shares: list[float] = []
-    for k, amount in enumerate((amounts / unit).tolist()):
-        whole = math.floor(amount + SPECK)
-        rest = amount - whole
-        parts = [1.0] * whole + ([rest] if rest > SPECK else [])
-        # A row that is less than a speck of a mark is still a row.
-        parts = parts or [amount]
-        owner += [k] * len(parts)
-        shares += parts
-    return owner, np.array(shares)
-
-
-def _round_up(value: float) -> float:
-    """The next of 1, 2, 5, 10, 20 ...
-
-    Examples
-    --------
-    >>> _round_up(21.0), _round_up(0.7)
-    (50.0, 1.0)
-    """
-    power = 10.0 ** math.floor(math.log10(value))
-    return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * 0.999999)
-
-
-def _least_unit(amounts: FloatArray, first: float, options: ChartOptions) -> float:
-    """A round unit that makes few enough marks, remainders counted."""
-    counted = amounts if options.size_by or options.unit else np.array([float(len(amounts))])
-    unit = first
-    while len(counted) <= MOST_MARKS and np.ceil(counted / unit - SPECK).sum() > MOST_MARKS:
-        unit = _round_up(unit * 1.5)
-    return unit
 
 
 def _drawings(options: ChartOptions, kinds: Sequence[str] | None, holes: Holes) -> dict[str, Item]:

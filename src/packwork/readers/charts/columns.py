@@ -13,6 +13,10 @@ from packwork.readers.tables.table import Row, Table
 MOST_NAMED = 6
 """Rows that a notice names. Chosen."""
 
+FARTHEST = 1e60
+"""Largest number that is shown, and one over the smallest: squares of their ratios are still
+numbers. Chosen."""
+
 MISSING = "missing"
 """Category of cells that hold nothing."""
 
@@ -123,12 +127,34 @@ def sizes(table: Table, column: str, label_by: str | None) -> tuple[dict[int, fl
             found[k] = value
     if not found:
         raise RecipeError("size_by", _why_none(table, column, odd))
-    said = [
-        f"left out {_rows(len(which))} of {len(table.rows)} whose {column} {why}: "
-        + _names(table, which, label_by)
-        for why, which in odd.items()
-    ]
-    return found, said
+    return found, [left_out(table, column, why, which, label_by) for why, which in odd.items()]
+
+
+def left_out(
+    table: Table, column: str, why: str, which: Sequence[int], label_by: str | None
+) -> str:
+    """Sentence about rows that are not shown.
+
+    Examples
+    --------
+    >>> rows = ({"land": "Peru"}, {"land": ""})
+    >>> left_out(Table("data", ("land",), rows), "land", "is missing", [1], None)
+    'left out 1 row of 2 whose land is missing: row 2'
+    """
+    count = f"{_rows(len(which))} of {len(table.rows)}"
+    return f"left out {count} whose {column} {why}: " + _names(table, which, label_by)
+
+
+def round_up(value: float) -> float:
+    """The next of 1, 2, 5, 10, 20 ...
+
+    Examples
+    --------
+    >>> round_up(21.0), round_up(0.7)
+    (50.0, 1.0)
+    """
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * 0.999999)
 
 
 def _size(cell: Any) -> tuple[str, float]:
@@ -140,6 +166,8 @@ def _size(cell: Any) -> tuple[str, float]:
         return "is no number", value
     if value == 0:
         return "is 0", value
+    if not 1 / FARTHEST <= abs(value) <= FARTHEST:
+        return f"is beyond {FARTHEST:g}", value
     return ("is negative", value) if value < 0 else ("", value)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator
+from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
 
@@ -43,7 +43,14 @@ class ChartOptions(BaseModel):
     """Column whose values have marks of their own: that of the same name, else in turn."""
 
     label_by: str | None = None
-    """Column that names marks: in files, tooltips and messages."""
+    """Column that names marks: in files, tooltips and messages, and on marks that have room."""
+
+    by: str | None = None
+    """Column that parts marks into groups: each has a container of its own or, in container none,
+    is a bar that its marks have fallen into. All marks have one scale."""
+
+    by_step: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
+    """With --by and a column of numbers: groups of so many, as 10 for decades."""
 
     title: str | None = None
     """Line over the chart."""
@@ -53,6 +60,12 @@ class ChartOptions(BaseModel):
 
     paper: str = "white"
     """What is behind the chart: colours are made to be seen on it."""
+
+    @model_validator(mode="after")
+    def _steps_of_something(self) -> ChartOptions:
+        if self.by_step is not None and self.by is None:
+            raise RecipeError("by_step", "parts the numbers of a column; say which: --by COL")
+        return self
 
     @field_validator("data", mode="before")
     @classmethod

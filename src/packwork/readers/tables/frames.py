@@ -69,7 +69,8 @@ def _plain(row: Mapping[Any, Any]) -> dict[str, Any]:
 
 
 def _cell(cell: Any) -> Any:
-    value = cell.item() if hasattr(cell, "item") and not hasattr(cell, "columns") else cell
+    # Scalars of NumPy alone: cells may hold whole arrays.
+    value = cell.item() if getattr(cell, "shape", None) == () else cell
     if value is None or isinstance(value, bool | int | str):
         return value
     if isinstance(value, float):

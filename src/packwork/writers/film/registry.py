@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 from typing import TypeAlias
@@ -62,7 +63,9 @@ def film_bytes(film: Film, path: str | Path, tell: Tell = tell_nobody) -> bytes:
     WriteError
         If the ending is unknown or the film cannot be drawn.
     """
-    return _encoder(path)(film, tell)
+    # Labels on items would stay where the items end.
+    beside = tuple(note for note in film.layout.notes if not note.is_on_item)
+    return _encoder(path)(replace(film, layout=replace(film.layout, notes=beside)), tell)
 
 
 def _encoder(path: str | Path) -> FilmEncoder:

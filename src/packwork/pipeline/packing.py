@@ -1,0 +1,157 @@
+"""Items to their places in one container: begin, levels, finish."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import count
+
+from packwork.errors import RecipeError
+from packwork.finish.finish import Finished
+from packwork.forces.forces import Forces
+from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import grown
+from packwork.levels import refined_levels
+from packwork.pipeline.beginning import Beginning, begin
+from packwork.pipeline.finishing import finished
+from packwork.pipeline.forcing import forces_of
+from packwork.pipeline.job import Job
+from packwork.pipeline.letters import held_down, with_readable, without_hopeless
+from packwork.pipeline.recording import Recorder
+from packwork.pipeline.staying import calmed, needs_no_levels, with_homes
+from packwork.progress import Observer, Stop, together
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.solve.options import SolveOptions
+from packwork.solve.solver import Ending, Outcome, solve
+from packwork.solve.stand_ins import stand_ins
+
+LEVELS_SHARE = 0.6
+"""Share of the time left after the start that the levels may take; the finish, measuring
+and writing need the rest. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Placed:
+    """What the levels gave, and the finish if one was asked for.
+
+    Parameters
+    ----------
+    job
+        Its items are those that were placed.
+    start
+        What it began from.
+    outcome
+        Of the levels.
+    exact
+        Of the finish; None without one.
+    recorder
+        Who kept the way; None if nobody.
+    """
+
+    job: Job
+    start: Beginning
+    outcome: Outcome
+    exact: Finished | None
+    recorder: Recorder | None
+
+    @property
+    def poses(self) -> Poses:
+        """Where all items are now."""
+        return self.outcome.poses if self.exact is None else self.exact.poses
+
+
+def placed_readably(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
+    """Poses of all items, before voids are filled.
+
+    Where words would come out smaller than they may be, those are left out and the others
+    are placed anew.
+    """
+    job = without_hopeless(job)
+    for attempt in count(1):
+        placed = _placed(job, observer, stop, record)
+        fewer = job if stop() else with_readable(job, placed.poses, attempt)
+        if fewer is job:
+            break
+        job = fewer
+    return placed
+
+
+def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
+    """Poses of all items, whatever their sizes."""
+    recipe, clock = job.recipe, job.clock
+    recorder = Recorder() if record else None
+    observer = together(observer, recorder)
+    with clock.time("start"):
+        outlines = stand_ins([item.outline for item in job.items], recipe.outline)
+        region = padded(job.container, recipe.padding_cu(job.container))
+        forces = _forces(job)
+        start = begin(job, region, outlines, forces, stop)
+    if recorder is not None:
+        recorder.keep(start.poses)
+    with clock.time("levels"):
+        outcome = _levels(job, region, outlines, start, forces, observer, stop)
+    if recipe.finish != "exact":
+        return Placed(job, start, outcome, None, recorder)
+    with clock.time("finish"):
+        # What is to stay where it was is not pushed on.
+        kept = None if recipe.stay else forces
+        exact = finished(job, start, outcome.poses, observer, stop, kept)
+        exact = held_down(job, start, exact, observer, stop, kept)
+    return Placed(job, start, outcome, exact, recorder)
+
+
+def _levels(
+    job: Job,
+    region: Container,
+    outlines: Sequence[Outline],
+    start: Beginning,
+    forces: Forces | None,
+    observer: Observer | None,
+    stop: Stop,
+) -> Outcome:
+    """What the levels make of the first poses; those themselves, where they are as good."""
+    if needs_no_levels(job) or start.method == "first-fit":
+        return Outcome(start.poses, Ending.DONE)
+    options = _solve_options(job, job.recipe.padding_cu(job.container))
+    if job.recipe.stay:
+        options = calmed(options)
+        forces = with_homes(job, forces, start.poses, job.container)
+    return solve(
+        region, outlines, start.poses, start.nominal, options, observer, stop, start.limits, forces
+    )
+
+
+def _forces(job: Job) -> Forces | None:
+    """What pulls items about, if anything."""
+    texts = job.recipe.force
+    if not texts:
+        return None
+    return forces_of(texts, job.items, job.weights, job.container).buoyant(job.weights)
+
+
+def _solve_options(job: Job, padding: float) -> SolveOptions:
+    """Options of the solve, with levels fine enough for the items unless they were given."""
+    recipe, container = job.recipe, job.container
+    options = recipe.solve_options(padding, job.seconds_left(LEVELS_SHARE))
+    if recipe.levels is not None or recipe.preset != "default":
+        return options
+    levels = refined_levels(options.levels, container.side, container.outline.area, len(job.items))
+    return options.model_copy(update={"levels": levels})
+
+
+def padded(container: Container, padding: float) -> Container:
+    """Container drawn in by half the padding; the items' own margins are the other half.
+
+    Raises
+    ------
+    RecipeError
+        If nothing of the container is left.
+    """
+    outline = grown(container.outline, -padding / 2)
+    if padding > 0 and outline is container.outline:
+        raise RecipeError(
+            "padding",
+            f"{padding:g} {container.unit} leaves nothing of the container; use a smaller one",
+        )
+    return replace(container, outline=outline)

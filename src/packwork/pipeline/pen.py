@@ -1,0 +1,140 @@
+"""Letters and shapes beside the marks of a chart, as notes."""
+
+from __future__ import annotations
+
+import logging
+from functools import lru_cache
+
+import numpy as np
+
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.readers.typeface.fonts import Fonts, open_fonts
+from packwork.readers.typeface.lettering import Lettering
+from packwork.readers.unfit import UnfitError
+from packwork.scene.note import Note
+from packwork.writers.notation import path_data
+
+_LOG = logging.getLogger("packwork")
+
+WEIGHT = 500
+DIGITS = 6
+ROUNDING = 1e-9
+MIDDLE_EM = 0.35
+"""From the line that letters stand on to the middle of theirs."""
+
+
+class Pen:
+    """Collects notes; places are canvas units, letters stand on their line.
+
+    Parameters
+    ----------
+    ink
+        Colour of letters that are given none.
+
+    Examples
+    --------
+    >>> pen = Pen("black")
+    >>> end = pen.write("kg", 10.0, 20.0, 12.0)
+    >>> pen.notes[0].says, bool(abs(end - 10.0 - pen.width("kg", 12.0)) < 1e-9)
+    ('kg', True)
+    """
+
+    def __init__(self, ink: str) -> None:
+        self.ink = ink
+        self.notes: list[Note] = []
+
+    @staticmethod
+    def width(text: str, em: float) -> float:
+        """Width of letters an em of which is so high."""
+        return _ends(text)[1] * em - _ends(text)[0] * em
+
+    def write(self, text: str, x: float, y: float, em: float, ink: str = "") -> float:
+        """Letters from ``x`` on; where they end."""
+        if not text.strip():
+            return x
+        drawn = lettering(text)
+        left, right = _ends(text)
+        place = affine.similarity(x - left * em, y, 0.0, em / drawn.units)
+        self.notes.append(Note(drawn.path, place, ink or self.ink, text))
+        return x + (right - left) * em
+
+    def write_about(self, text: str, x: float, y: float, em: float, ink: str = "") -> None:
+        """Letters with ``x`` in their middle."""
+        self.write(text, x - self.width(text, em) / 2, y, em, ink)
+
+    def write_upwards(self, text: str, x: float, top: float, em: float) -> None:
+        """Letters read from below to above, with ``x`` in the middle of their height."""
+        if not text.strip():
+            return
+        drawn = lettering(text)
+        left, right = _ends(text)
+        scale, foot = em / drawn.units, top + (right - left) * em
+        place = affine.similarity(x + MIDDLE_EM * em, foot + left * em, -np.pi / 2, scale)
+        self.notes.append(Note(drawn.path, place, self.ink, text))
+
+    def shape(self, outline: Outline, x: float, y: float, scale: float, fill: str) -> None:
+        """A shape, its origin at a place."""
+        place = affine.similarity(x, y, 0.0, scale)
+        self.notes.append(Note(path_data(outline, DIGITS), place, fill))
+
+
+@lru_cache(maxsize=1)
+def letters() -> Fonts:
+    """The typeface of all notes."""
+    return open_fonts([], WEIGHT)
+
+
+@lru_cache(maxsize=4096)
+def _ends(text: str) -> tuple[float, float]:
+    """Left and right end of letters, in ems from their middle."""
+    if not text.strip():
+        return 0.0, 0.0
+    left, _, right, _ = lettering(text).region.bounds
+    return float(left), float(right)
+
+
+@lru_cache(maxsize=4096)
+def lettering(text: str) -> Lettering:
+    """Text as it is drawn; what no font has is a question mark, and told.
+
+    Examples
+    --------
+    >>> lettering("kg").path == lettering("kg").path
+    True
+    """
+    try:
+        return letters().lettering([text])
+    except UnfitError:
+        lacking = "".join(dict.fromkeys(one for one in text if not _is_drawn(one)))
+        _LOG.warning("no font installed has %s of %r: ? stands for it", lacking[:20], text[:40])
+        return letters().lettering(["".join("?" if one in lacking else one for one in text)])
+
+
+@lru_cache(maxsize=4096)
+def _is_drawn(character: str) -> bool:
+    if character.isspace():
+        return True
+    try:
+        letters().lettering([character])
+    except UnfitError:
+        return False
+    return True
+
+
+def shortened(text: str, em: float, room: float) -> str:
+    """As many letters as there is room for, the rest as an ellipsis.
+
+    Examples
+    --------
+    >>> shortened("Nicaragua", 10.0, 40.0), shortened("Peru", 10.0, 40.0)
+    ('Nicara…', 'Peru')
+    """
+    # An em may have been chosen by this very width.
+    if Pen.width(text, em) <= room * (1 + ROUNDING):
+        return text
+    for end in range(len(text) - 1, 0, -1):
+        short = f"{text[:end].rstrip()}…"
+        if Pen.width(short, em) <= room:
+            return short
+    return "…"

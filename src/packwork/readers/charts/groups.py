@@ -1,0 +1,185 @@
+"""Rows of a chart in groups: by the values of a column, or by steps of its numbers."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from packwork.errors import RecipeError
+from packwork.readers.charts.columns import (
+    as_number,
+    categories,
+    is_missing,
+    is_numeric,
+    left_out,
+    round_up,
+    shown,
+)
+from packwork.readers.charts.options import ChartOptions
+from packwork.readers.tables.table import Table
+
+MOST_GROUPS = 60
+"""Groups of one chart: on a canvas of 600 px each has 10 px. More could not be told apart.
+Derived."""
+
+YEARS = (1000, 2999)
+"""Whole numbers that count as years, whose tens are called decades: the 1990s. Chosen."""
+
+ROUNDING = 1e-9
+"""Steps by which a number may miss the edge of one: 0.3 / 0.1 is less than 3. Derived."""
+
+MOST_STEPS = 1e12
+"""Steps from 0 to a number at most: beyond, rounding decides in which one it is. Derived."""
+
+LARGE = 10**9
+"""Numbers of groups from which digits say nothing more. Chosen."""
+
+_DATE = re.compile(r"\d{4}-\d{2}(-\d{2}([T ][\d:.,+Z-]*)?)?")
+
+
+@dataclass(frozen=True, eq=False)
+class Groups:
+    """Which rows belong together.
+
+    Parameters
+    ----------
+    names
+        In the order in which they are shown; steps without rows are among them.
+    of_row
+        Number of each row's group; -1 for those in none.
+    has_steps
+        Whether they are steps of a scale, on which empty ones show.
+    is_ordered
+        Whether they ascend.
+    notices
+        What was left out or put together, a sentence each.
+    """
+
+    names: tuple[str, ...]
+    of_row: tuple[int, ...]
+    has_steps: bool
+    is_ordered: bool
+    notices: tuple[str, ...]
+
+
+def read_groups(table: Table, options: ChartOptions) -> Groups | None:
+    """Groups that a chart asks for; None if it asks for none.
+
+    Numbers and dates ascend, all else comes as it first stands in the table.
+
+    Raises
+    ------
+    RecipeError
+        If the column has no numbers for the steps, or there are too many groups.
+
+    Examples
+    --------
+    >>> rows = ({"year": 1999}, {"year": 1962}, {"year": 1995}, {"year": None})
+    >>> asked = ChartOptions(data=rows, by="year", by_step=10)
+    >>> groups = read_groups(Table("data", ("year",), rows), asked)
+    >>> groups.names, groups.of_row
+    (('1960s', '1970s', '1980s', '1990s'), (3, 0, 3, -1))
+    >>> groups.notices
+    ('left out 1 row of 4 whose year is missing: row 4',)
+    """
+    column = options.by
+    if column is None:
+        return None
+    if options.by_step is not None:
+        return _steps(table, column, options.by_step, options.label_by)
+    is_in = [not is_missing(row.get(column)) for row in table.rows]
+    missing = [k for k, there in enumerate(is_in) if not there]
+    named, told = _values(table, column)
+    present = [name for name, there in zip(named, is_in, strict=True) if there]
+    if not present:
+        raise RecipeError("by", f"column {column!r} holds nothing; group by another")
+    names = tuple(dict.fromkeys(present))
+    _check_count(len(names), table, column)
+    has_numbers = is_numeric(table.rows, column)
+    has_dates = not has_numbers and all(_DATE.fullmatch(name) for name in names)
+    if has_numbers or has_dates:
+        names = tuple(sorted(names, key=float if has_numbers else None))
+    numbers = {name: number for number, name in enumerate(names)}
+    pairs = zip(named, is_in, strict=True)
+    of_row = tuple(numbers[name] if there else -1 for name, there in pairs)
+    said = [left_out(table, column, "is missing", missing, options.label_by)] if missing else []
+    return Groups(names, of_row, False, has_numbers or has_dates, (*said, *told))
+
+
+def _values(table: Table, column: str) -> tuple[list[str], list[str]]:
+    """Name of each row's group, and which spellings count as one."""
+    if is_numeric(table.rows, column):
+        return [f"{as_number(row.get(column)):.12g}" for row in table.rows], []
+    return categories(table.rows, column)
+
+
+def _steps(table: Table, column: str, step: float, label_by: str | None) -> Groups:
+    """Groups of numbers from one multiple of the step up to the next."""
+    numbers = [as_number(row.get(column)) for row in table.rows]
+    held = [number for number in numbers if not math.isnan(number)]
+    if not held:
+        texts = [row.get(column) for row in table.rows if not is_missing(row.get(column))]
+        if not texts:
+            raise RecipeError("by", f"column {column!r} holds nothing; group by another")
+        met = shown(texts[0])[:30]
+        raise RecipeError(
+            "by_step", f"needs numbers; column {column!r} holds {met!r}: leave the step out"
+        )
+    farthest = max(map(abs, held))
+    if not farthest / step < MOST_STEPS:
+        raise RecipeError(
+            "by_step", f"{step:g} is too small for numbers up to {farthest:.2g}; use a larger one"
+        )
+    first, last = (math.floor(end / step + ROUNDING) for end in (min(held), max(held)))
+    _check_count(last - first + 1, table, column)
+    names = tuple(_step_name(k * step, step, held) for k in range(first, last + 1))
+    of_row = tuple(
+        -1 if math.isnan(number) else math.floor(number / step + ROUNDING) - first
+        for number in numbers
+    )
+    said = []
+    for why, is_so in (("is missing", True), ("is no number", False)):
+        which = [
+            k
+            for k, number in enumerate(of_row)
+            if number < 0 and is_missing(table.rows[k].get(column)) == is_so
+        ]
+        if which:
+            said.append(left_out(table, column, why, which, label_by))
+    return Groups(names, of_row, True, True, tuple(said))
+
+
+def _step_name(begin: float, step: float, numbers: Sequence[float]) -> str:
+    """What people call the numbers from one multiple of the step up to the next.
+
+    Examples
+    --------
+    >>> _step_name(1990, 10, [1991, 1999]), _step_name(20, 5, [21]), _step_name(0.5, 0.5, [0.7])
+    ('1990s', '20–24', '0.5–1')
+    """
+    if not all(number.is_integer() for number in map(float, [*numbers, step])):
+        return f"{begin:.6g}–{begin + step:.6g}"
+    if step == 10 and YEARS[0] <= min(numbers) and max(numbers) <= YEARS[1]:
+        return f"{begin:.0f}s"
+    return f"{begin:.12g}" if step == 1 else f"{begin:.12g}–{begin + step - 1:.12g}"
+
+
+def _check_count(count: int, table: Table, column: str) -> None:
+    """Refuse more groups than can be told apart, saying what would do."""
+    if count <= MOST_GROUPS:
+        return
+    numbers = [as_number(row.get(column)) for row in table.rows]
+    held = [number for number in numbers if not math.isnan(number)]
+    advice = "group by a column of fewer values"
+    if is_numeric(table.rows, column) and math.isfinite(max(held) - min(held)):
+        # A step more than divides it: the first need not begin at the smallest number.
+        least = round_up((max(held) - min(held)) / (MOST_GROUPS - 1))
+        advice = f"use --by-step {least:.12g} or more"
+    said = f"{count:,}" if count < LARGE else f"{count:.2g}"
+    raise RecipeError(
+        "by",
+        f"column {column!r} makes {said} groups; at most {MOST_GROUPS} can be told apart: "
+        + advice,
+    )
