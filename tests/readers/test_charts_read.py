@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from packwork.errors import PackworkError, ReadError
+from packwork.errors import PackworkError, ReadError, RecipeError
+from packwork.pipeline import chart_recipe
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.table import read_table
@@ -84,6 +85,22 @@ def test_what_cannot_be_shown_is_told_by_name() -> None:
     assert [notice.split("whose kg ")[1] for notice in read.notices] == [
         "is 0: b", "is negative: c", "is no number: d", "is missing: e",
     ]  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("odd", "why"),
+    [("1e-320", "is too near 0"), ("1e300", "is no number"), (10**400, "is no number")],
+)
+def test_numbers_that_floating_point_would_lose_are_told(odd: Any, why: str) -> None:
+    read = chart([{"kg": 2.5}, {"kg": odd}], size_by="kg")
+    assert read.areas.tolist() == [1.0]
+    assert read.notices == (f"left out 1 row of 2 whose kg {why}: row 2",)
+
+
+@pytest.mark.parametrize("unit", [1e-300, 1e300])
+def test_units_that_floating_point_would_lose_are_refused(unit: float) -> None:
+    with pytest.raises(RecipeError, match="unit"):
+        chart_recipe("circle", LANDS, size_by="kg", unit=unit)
 
 
 def test_categories_in_odd_case_are_one_and_told() -> None:

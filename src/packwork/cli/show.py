@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import threading
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -9,6 +11,8 @@ from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+
+from packwork.errors import WriteError
 
 SLOW_SECONDS = 3.0
 """Patience before a notice explains a wait. Chosen."""
@@ -24,6 +28,31 @@ def notice_if_slow(console: Console, text: str) -> Iterator[None]:
         yield
     finally:
         timer.cancel()
+
+
+class Paper(Console):
+    """Standard output; a reader that went away is an error like any other there."""
+
+    def on_broken_pipe(self) -> None:
+        """Leave it to :func:`printing`."""
+        raise
+
+
+@contextmanager
+def printing() -> Iterator[None]:
+    """Tell a standard output that takes nothing more: a full disk, a closed pipe.
+
+    Raises
+    ------
+    WriteError
+        About it; what is printed afterwards goes nowhere.
+    """
+    try:
+        yield
+    except OSError as error:
+        # What is still held back would fail once more when the program ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise WriteError("standard output", f"cannot be written to: {error.strerror}") from None
 
 
 def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:

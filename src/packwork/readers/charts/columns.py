@@ -17,6 +17,12 @@ MISSING = "missing"
 """Category of cells that hold nothing."""
 
 
+WIDEST = 1e100
+"""Numbers further from 0 count as none, those nearer to 0 than its inverse as none to size
+by: their squares and quotients are lost in floating point. Derived.
+"""
+
+
 def is_missing(cell: Any) -> bool:
     """Whether a cell holds nothing.
 
@@ -31,20 +37,20 @@ def is_missing(cell: Any) -> bool:
 
 
 def as_number(cell: Any) -> float:
-    """Number in a cell; NaN if it is none.
+    """Number in a cell; NaN if it is none, or further from 0 than :data:`WIDEST`.
 
     Examples
     --------
-    >>> as_number("3.5"), as_number("many"), as_number(True)
-    (3.5, nan, nan)
+    >>> as_number("3.5"), as_number("many"), as_number(True), as_number("1e300")
+    (3.5, nan, nan, nan)
     """
     if isinstance(cell, bool):
         return math.nan
     try:
         value = float(cell)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return math.nan
-    return value if math.isfinite(value) else math.nan
+    return value if abs(value) <= WIDEST else math.nan
 
 
 def is_numeric(rows: Sequence[Row], column: str) -> bool:
@@ -140,6 +146,8 @@ def _size(cell: Any) -> tuple[str, float]:
         return "is no number", value
     if value == 0:
         return "is 0", value
+    if abs(value) < 1 / WIDEST:
+        return "is too near 0", value
     return ("is negative", value) if value < 0 else ("", value)
 
 
