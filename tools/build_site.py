@@ -13,7 +13,6 @@ import sys
 from pathlib import Path
 
 from reference import REFERENCE
-from sphinx.cmd.build import main as sphinx
 
 ROOT = Path(__file__).resolve().parents[1]
 BUILD = ROOT / "build"
@@ -67,6 +66,9 @@ TOCTREE = "```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{pages}\n```\n"
 
 def main() -> int:
     """Lay out, write, build; the exit code of Sphinx."""
+    # Who only asks for the list of pages needs no Sphinx.
+    from sphinx.cmd.build import main as sphinx
+
     shutil.rmtree(STAGE, ignore_errors=True)
     for path in _documents():
         copy = STAGE / path.relative_to(ROOT)
