@@ -3,10 +3,10 @@
 Gives the program spoilt and made-up files, stops it at random moments with Ctrl-C and with
 kill -9, lets it write to full and read-only disks, and runs it eight times at once. Prints
 counts; crashes, hangs and lost files must be 0, else it says which inputs they were, puts
-those into ``out/robustness`` and ends with code 1. Writes ``docs/benchmarks-robustness.md``
-if all 10,000 inputs were tried. ``kinds=fonts,tables`` tries those kinds of input only,
-``only=inputs``, ``only=stops`` or ``only=surroundings`` one part. Needs Linux and
-``packwork[dev]``.
+those into ``out/robustness`` and ends with code 1. ``only=inputs``, ``only=stops`` or
+``only=surroundings`` is one part of it; once there are all three of one and the same code, with
+10,000 inputs or more, ``docs/benchmarks-robustness.md`` is written. ``kinds=fonts,tables`` tries
+those kinds of input only. Needs Linux and ``packwork[dev]``.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ import signal
 import sys
 import time
 from collections import Counter
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from hostile.inputs import KINDS, Input, inputs
-from hostile.stops import Stopped, stop_at_random, whole_length
-from hostile.surroundings import Met, all_surroundings
-from hostile.trying import CLEAR_ERROR, CRASH, HANG, SECONDS_AT_MOST, SUCCESS, Tried
+from hostile.parts import Part, Tally
+from hostile.stops import stop_at_random, whole_length
+from hostile.surroundings import all_surroundings
+from hostile.trying import CLEAR_ERROR, CRASH, HANG, SECONDS_AT_MOST, SUCCESS
 from hostile.workers import CLOCK_SECONDS, MEMORY_BYTES, try_all
 from measuring import markdown_table, write_page
 
@@ -32,7 +32,7 @@ HEADER = ["what", "tried", "clear errors", "successes", "crashes", "hangs", "los
 
 PAGE = """# What breaks it
 
-Made by `packwork bench robustness {settings}` on {date}.
+Made by {settings} on {date}.
 {machine}
 
 | what | tried | clear errors | successes | crashes | hangs | lost files |
@@ -70,56 +70,22 @@ the slowest run took {longest} s to end. {left}
 """
 
 
-@dataclass
-class Tally:
-    """Counts of one row, and what went wrong."""
-
-    counts: Counter[str] = field(default_factory=Counter)
-    faults: list[str] = field(default_factory=list)
-
-    def row(self, name: str) -> list[str]:
-        return [name, *(f"{self.counts[column]:,}" for column in HEADER[1:])]
-
-    def add(self, other: Tally) -> None:
-        self.counts += other.counts
-        self.faults += other.faults
-
-    def blame(self, faults: Sequence[str]) -> None:
-        """Count sentences by the word that they begin with."""
-        columns = {"crash": CRASH, "hang": HANG, "lost": "lost files"}
-        self.counts.update(columns[fault.partition(":")[0]] for fault in faults)
-        self.faults += faults
-
-
-@dataclass
-class Fuzzed:
-    """What came of the inputs."""
-
-    rows: dict[str, Tally] = field(default_factory=dict)
-    peak_bytes: int = 0
-    slowest: float = 0.0
-
-    def take(self, one: Input, tried: Tried, peak: int) -> None:
-        tally = self.rows.setdefault(one.kind, Tally())
+def fuzzed(count: int, seed: int, processes: int, kinds: Sequence[str]) -> Part:
+    """Try ``count`` inputs; tell how far it is."""
+    part = Part("inputs", facts={"count": count, "peak": 0.0, "slowest": 0.0})
+    began = time.monotonic()
+    for done, (one, tried, peak) in enumerate(try_all(inputs(count, seed, kinds), processes), 1):
+        tally = part.rows.setdefault(one.kind, Tally())
         tally.counts.update(["tried", tried.came])
         tally.counts["lost files"] += tried.lost
         if tried.came in {CRASH, HANG} or tried.lost:
-            tally.faults.append(
-                f"{tried.came}: {one.kind} as {one.use}: {_kept(one)}: {tried.said}"
-            )
-        self.peak_bytes = max(self.peak_bytes, peak)
-        self.slowest = max(self.slowest, tried.seconds)
-
-
-def fuzz(count: int, seed: int, processes: int, kinds: Sequence[str] = ()) -> Fuzzed:
-    """Try ``count`` inputs; tell how far it is."""
-    found = Fuzzed()
-    began = time.monotonic()
-    for done, (one, tried, peak) in enumerate(try_all(inputs(count, seed, kinds), processes), 1):
-        found.take(one, tried, peak)
+            where = f"{one.kind} as {one.use}: {_kept(one)}"
+            tally.faults.append(f"{tried.came}: {where}: {tried.said}")
+        part.facts["peak"] = max(part.facts["peak"], peak / 1e6)
+        part.facts["slowest"] = max(part.facts["slowest"], tried.seconds)
         if done % 1_000 == 0:
             print(f"{done:,} inputs, {time.monotonic() - began:.0f} s", flush=True)
-    return found
+    return part
 
 
 def _kept(one: Input) -> Path:
@@ -130,78 +96,99 @@ def _kept(one: Input) -> Path:
     return path
 
 
-def of_stops(stopped: Stopped) -> Tally:
-    tally = Tally(Counter({"tried": stopped.tried}))
-    tally.blame(stopped.faults)
-    nothing = stopped.came["said that nothing was written"]
-    tally.counts[CLEAR_ERROR] = nothing
-    tally.counts[SUCCESS] = stopped.came.total() - nothing
-    return tally
+def stopped(count: int, seed: int) -> Part:
+    """Stop runs by Ctrl-C, then by kill -9."""
+    length = min(whole_length() for _ in range(2))
+    part = Part("stops", facts={"length": length})
+    for name, number in (("Ctrl-C", signal.SIGINT), ("kill -9", signal.SIGKILL)):
+        found = stop_at_random(number, count, seed, length)
+        nothing = found.came["said that nothing was written"]
+        done = found.came.total() - nothing
+        tally = Tally(Counter({"tried": found.tried, CLEAR_ERROR: nothing, SUCCESS: done}))
+        tally.blame(found.faults)
+        part.rows[name] = tally
+        part.facts[name] = dict(found.came)
+        part.facts[f"longest, {name}"] = found.longest
+        part.facts[f"left, {name}"] = found.left
+    return part
 
 
-def of_place(met: Met) -> Tally:
-    tally = Tally(Counter({"tried": met.tried, CLEAR_ERROR: met.clear, SUCCESS: met.done}))
-    tally.blame(met.faults)
-    return tally
+def surrounded() -> Part:
+    """Run in places that do not let the program work."""
+    part = Part("surroundings")
+    for met in all_surroundings():
+        tally = Tally(Counter({"tried": met.tried, CLEAR_ERROR: met.clear, SUCCESS: met.done}))
+        tally.blame(met.faults)
+        part.rows[met.name] = tally
+        part.facts[met.name] = f"{met.how}; {met.tried} runs"
+    return part
 
 
 def main(arguments: list[str]) -> int:
-    """Try all that is asked, print, write the page; 1 if anything broke."""
+    """Try all that is asked, print; write the page if all is there. 1 if anything broke."""
     asked = dict(argument.split("=", 1) for argument in arguments)
-    count, stops = int(asked.get("inputs", ENOUGH)), int(asked.get("stops", 40))
-    seed, only = int(asked.get("seed", 0)), asked.get("only", "")
-    kinds = asked["kinds"].split(",") if "kinds" in asked else list(KINDS)
-    rows: dict[str, Tally] = {}
-    fuzzed = Fuzzed()
-    if only in {"", "inputs"}:
-        fuzzed = fuzz(count, seed, int(asked.get("processes", 2)), kinds)
-        rows |= fuzzed.rows
-    length, stopped = 0.0, {}
-    if only in {"", "stops"}:
-        length = min(whole_length() for _ in range(2))
-        for name, number in (("Ctrl-C", signal.SIGINT), ("kill -9", signal.SIGKILL)):
-            stopped[name] = stop_at_random(number, stops, seed, length)
-            rows[name] = of_stops(stopped[name])
-    places = list(all_surroundings()) if only in {"", "surroundings"} else []
-    rows |= {met.name: of_place(met) for met in places}
-    whole = Tally()
-    for tally in rows.values():
-        whole.add(tally)
-    table = [tally.row(name) for name, tally in rows.items()] + [whole.row("all")]
+    seed, kinds = int(asked.get("seed", 0)), asked.get("kinds", ",".join(KINDS)).split(",")
+    count, processes = int(asked.get("inputs", ENOUGH)), int(asked.get("processes", 2))
+    makers = {
+        "inputs": lambda: fuzzed(count, seed, processes, kinds),
+        "stops": lambda: stopped(int(asked.get("stops", 40)), seed),
+        "surroundings": surrounded,
+    }
+    chosen = asked["only"].split(",") if "only" in asked else list(makers)
+    done = []
+    for name in chosen:
+        part = makers[name]()
+        part.settings = " ".join(arguments)
+        part.save(OUT)
+        done.append(part)
+    table, whole = _table(done)
     print(markdown_table(HEADER, table))
     for fault in whole.faults:
         print(fault)
-    if count >= ENOUGH and not only and len(kinds) == len(KINDS):
-        _write(" ".join(arguments), table, fuzzed, length, stopped, places)
+    parts = {name: Part.load(OUT, name) for name in makers}
+    if (
+        all(parts.values())
+        and parts["inputs"].facts["count"] >= ENOUGH
+        and len(kinds) == len(KINDS)
+    ):
+        _write(parts)
     return int(any(whole.counts[column] for column in HEADER[4:]))
 
 
-def _write(
-    settings: str, table: list[list[str]], fuzzed: Fuzzed, length: float,
-    stopped: dict[str, Stopped], places: Sequence[Met],
-) -> None:  # fmt: skip
+def _table(parts: Iterable[Part]) -> tuple[list[list[str]], Tally]:
+    rows = [(name, tally) for part in parts for name, tally in part.rows.items()]
+    whole = Tally()
+    for _, tally in rows:
+        whole.add(tally)
+    named = [*rows, ("all", whole)]
+    return [[name, *(f"{tally.counts[c]:,}" for c in HEADER[1:])] for name, tally in named], whole
+
+
+def _write(parts: dict[str, Part]) -> None:
+    stops = parts["stops"].facts
     came = [
-        f"{name}: " + ", ".join(f"{number} {how}" for how, number in found.came.most_common()) + "."
-        for name, found in stopped.items()
+        f"{name}: " + ", ".join(f"{number} {how}" for how, number in stops[name].items()) + "."
+        for name in ("Ctrl-C", "kill -9")
     ]
-    left = sum(found.left for found in stopped.values())
+    left = stops["left, Ctrl-C"] + stops["left, kill -9"]
+    settings = sorted({f"`packwork bench robustness {part.settings}`" for part in parts.values()})
     write_page(
         "benchmarks-robustness.md",
         PAGE,
-        settings=settings,
-        rows="\n".join("| " + " | ".join(row) + " |" for row in table),
+        settings=" and ".join(settings).replace(" `", "`"),
+        rows="\n".join("| " + " | ".join(row) + " |" for row in _table(parts.values())[0]),
         seconds=f"{SECONDS_AT_MOST:g}",
         clock=f"{CLOCK_SECONDS:g}",
         memory=f"{MEMORY_BYTES / 2**30:g}",
-        peak=f"{fuzzed.peak_bytes / 1e6:.0f}",
-        slowest=f"{fuzzed.slowest:.1f}",
-        length=f"{length:.1f}",
+        peak=f"{parts['inputs'].facts['peak']:.0f}",
+        slowest=f"{parts['inputs'].facts['slowest']:.1f}",
+        length=f"{stops['length']:.1f}",
         stops=" ".join(came),
-        longest=f"{stopped['Ctrl-C'].longest:.1f}",
+        longest=f"{stops['longest, Ctrl-C']:.1f}",
         left="No file of another name was left behind."
         if not left
-        else f"kill -9 left {left} files of other names behind.",
-        surroundings="\n".join(f"- {met.name}: {met.how}; {met.tried} runs" for met in places),
+        else f"Files of other names that were left behind: {left}.",
+        surroundings="\n".join(f"- {k}: {said}" for k, said in parts["surroundings"].facts.items()),
     )
 
 
