@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import multiprocessing as mp
 import os
 import resource
@@ -113,8 +114,8 @@ class _Worker:
 def _work(end: Connection) -> None:
     hush()
     _bound_memory()
-    with tempfile.TemporaryDirectory() as folder:
-        # A message on the terminal would be one of a library's that no one asked for.
+    # Whoever gave the inputs may be gone before the last answer.
+    with tempfile.TemporaryDirectory() as folder, contextlib.suppress(BrokenPipeError):
         while (one := _next(end)) is not None:
             tried = attempt(one, Path(folder))
             end.send((tried, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024))

@@ -6,7 +6,7 @@ import os
 import sys
 import threading
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from rich.console import Console
@@ -21,7 +21,13 @@ SLOW_SECONDS = 3.0
 @contextmanager
 def notice_if_slow(console: Console, text: str) -> Iterator[None]:
     """Print ``text`` once if the block takes longer than a person waits unasked."""
-    timer = threading.Timer(SLOW_SECONDS, lambda: console.print(text))
+
+    def tell() -> None:
+        # A notice that nobody can read is no reason to fail.
+        with suppress(OSError):
+            console.print(text)
+
+    timer = threading.Timer(SLOW_SECONDS, tell)
     timer.daemon = True
     timer.start()
     try:
