@@ -6,7 +6,7 @@ import hashlib
 import json
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +46,13 @@ class Part:
     def save(self, folder: Path) -> None:
         """Keep it, with what says of which code it tells."""
         folder.mkdir(parents=True, exist_ok=True)
-        text = json.dumps({"code": code(), **asdict(self)}, indent=1)
+        # asdict would make a counter of a counter's pairs.
+        rows = {
+            name: {"counts": dict(tally.counts), "faults": tally.faults}
+            for name, tally in self.rows.items()
+        }
+        kept = {"code": code(), **vars(self), "rows": rows}
+        text = json.dumps(kept, indent=1)
         (folder / f"{self.name}.json").write_text(text, encoding="utf-8")
 
     @classmethod

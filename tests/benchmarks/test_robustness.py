@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import time
+from collections import Counter
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import pytest
 
 from hostile import trying, workers
 from hostile.inputs import KINDS, Input, inputs
+from hostile.parts import Part, Tally
 from hostile.stops import stop_at_random
 from hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS, attempt
 from packwork.errors import ReadError
@@ -28,6 +30,20 @@ def test_spoilt_and_made_up_files_are_read_or_refused(kind: str, tmp_path: Path)
     broken = [(one, came) for one, came in tried if came.came in {CRASH, HANG} or came.lost]
     assert not broken, broken[0]
     assert {came.came for _, came in tried} == {CLEAR_ERROR, SUCCESS}
+
+
+def test_parts_are_kept_and_told_apart_by_the_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tally = Tally(Counter({"tried": 3, CRASH: 1}))
+    tally.blame(["hang: one", "lost: two"])
+    part = Part("stops", {"Ctrl-C": tally}, {"length": 2.5}, "stops=3")
+    part.save(tmp_path)
+    assert Part.load(tmp_path, "stops") == part
+    assert tally.counts == {"tried": 3, CRASH: 1, HANG: 1, "lost files": 1}
+    assert Part.load(tmp_path, "inputs") is None
+    monkeypatch.setattr("hostile.parts.code", lambda: "another")
+    assert Part.load(tmp_path, "stops") is None
 
 
 def test_the_same_lot_is_the_same() -> None:
