@@ -171,11 +171,12 @@ def _write(parts: dict[str, Part]) -> None:
         for name in ("Ctrl-C", "kill -9")
     ]
     left = stops["left, Ctrl-C"] + stops["left, kill -9"]
-    settings = sorted({f"`packwork bench robustness {part.settings}`" for part in parts.values()})
+    command = "packwork bench robustness "
+    settings = sorted({f"`{(command + part.settings).strip()}`" for part in parts.values()})
     write_page(
         "benchmarks-robustness.md",
         PAGE,
-        settings=" and ".join(settings).replace(" `", "`"),
+        settings=" and ".join(settings),
         rows="\n".join("| " + " | ".join(row) + " |" for row in _table(parts.values())[0]),
         seconds=f"{SECONDS_AT_MOST:g}",
         clock=f"{CLOCK_SECONDS:g}",
