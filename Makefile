@@ -8,13 +8,21 @@ PYTHON ?= python3
 BIN := .venv/bin
 endif
 
-.PHONY: demo gallery test check format clean
+.PHONY: demo gallery figures site test check format clean
 
 demo: .venv/installed
 	$(BIN)/packwork demo
 
 gallery: .venv/installed
 	$(BIN)/python examples/gallery.py
+
+figures: .venv/installed
+	$(BIN)/python tools/draw_figures.py
+	$(BIN)/python tools/draw_tutorial.py
+
+site: .venv/installed
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -e ".[docs]"
+	$(BIN)/python tools/build_site.py
 
 test: .venv/installed-dev
 	$(BIN)/ruff format --check src tests benchmarks examples tools

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import itertools
 import math
 import tomllib
 from dataclasses import replace
@@ -11,9 +13,14 @@ from typing import Any
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import BaseModel
 
 from packwork.errors import RecipeError
+from packwork.readers.charts.options import ChartOptions
+from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.words.options import WordOptions
 from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe, parse_levels
+from packwork.rules import Rule
 from packwork.solve.options import MAX_RESOLUTION, MIN_RESOLUTION
 from packwork.writers import recipe_bytes
 from scenes import square_container
@@ -257,3 +264,29 @@ def test_a_canvas_survives_toml_and_json(canvas: str | float | None) -> None:
     assert make_recipe(**recipe.plain()) == recipe
     again = tomllib.loads(recipe_bytes(recipe.plain(), Path()).decode())
     assert make_recipe(**again).canvas_size == recipe.canvas_size
+
+
+ODD = [
+    3, 2.5, True, None, [], {}, [[1]], [None], {"a": 1}, {"a": [1], "b": 2}, {"a": "xy"}, "x\0",
+    [{"a": [1]}], {"a": {"b": 1}}, 10**400,
+]  # fmt: skip
+SOUND = {
+    "chart": {"data": "table.csv"}, "words": {"source": "table.csv"},
+    "photos": {"sources": ["a.jpg"]}, "rules": {"items": "star"},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("part", "model"),
+    [("", Recipe), ("chart", ChartOptions), ("words", WordOptions), ("photos", PhotoOptions),
+     ("rules", Rule)],
+)  # fmt: skip
+def test_an_odd_value_of_any_option_is_taken_or_refused(part: str, model: type[BaseModel]) -> None:
+    for key, odd in itertools.product(model.model_fields, ODD):
+        options: dict[str, Any] = {key: odd}
+        if part:
+            options = {part: {**SOUND[part], key: odd}}
+        if part == "rules":
+            options = {"rules": [options["rules"]]}
+        with contextlib.suppress(RecipeError):
+            make_recipe(**{"container": "heart", **options})

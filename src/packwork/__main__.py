@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 
 INTERRUPTED = 130
@@ -13,7 +14,11 @@ def main() -> None:
     try:
         from packwork.cli import app
 
-        app()
+        try:
+            app()
+        finally:
+            # All is done and said; what is left is to take the program down.
+            signal.signal(signal.SIGINT, signal.SIG_IGN)
     except KeyboardInterrupt:
         sys.stderr.write("packwork: stopped before there was anything to write\n")
         sys.stderr.flush()

@@ -140,7 +140,7 @@ def rotation_text(value: object) -> object:
 class Pin(BaseModel):
     """What of one item's pose is given; the rest is free."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid")
+    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     x: Length | None = None
     """Where its centroid lies, from the canvas' left edge; % are of the canvas' width."""

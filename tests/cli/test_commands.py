@@ -359,11 +359,43 @@ def test_ctrl_c_in_each_stage_writes_the_best_so_far(
         "fill circle star -n 20 --levels 32 --epochs 9 -o out.geojson --report r.json"
     )
     assert result.exit_code == 130
-    assert result.stderr.endswith(
-        "packwork: stopped by Ctrl-C; this is the best so far, still rough\n"
-    )
     assert item_count(folder / "out.geojson") == 20
-    assert set(json.loads((folder / "r.json").read_text(encoding="utf-8"))["seconds"]) > {"levels"}
+    report = json.loads((folder / "r.json").read_text(encoding="utf-8"))
+    assert set(report["seconds"]) > {"levels"}
+    worth = "certified" if report["certified"] else "not certified"
+    said = f"packwork: stopped by Ctrl-C; this is the best so far, {worth}\n"
+    assert result.stderr.endswith(said)
+    # What is certified is not rough as well, and a run that was stopped needs no more effort.
+    assert "still rough" not in result.stderr or worth == "not certified"
+    assert "--effort" not in result.stderr
+    assert f"\n{worth}: " in result.stdout
+
+
+def test_ctrl_c_after_all_is_written_changes_nothing(
+    folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def pressed(*results: object) -> None:
+        for _ in range(2):
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr("packwork.cli.running._show", pressed)
+    result = packwork("fill circle star -n 2 --levels 16 --epochs 2 -o out.svg")
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert (folder / "out.svg").exists()
+
+
+def test_a_second_ctrl_c_ends_it_at_once(
+    folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def pressed(*asked: object) -> None:
+        for _ in range(2):
+            signal.raise_signal(signal.SIGINT)
+
+    monkeypatch.setattr("packwork.pipeline.run", pressed)
+    result = packwork("fill circle star -n 2 -o out.svg")
+    assert result.exit_code == 130
+    assert result.stderr == "packwork: stopped by a second Ctrl-C; nothing was written\n"
+    assert not list(folder.iterdir())
 
 
 def test_ctrl_c_while_loading_is_one_line() -> None:

@@ -8,7 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from packwork.errors import PackworkError, ReadError
+from packwork.errors import PackworkError, ReadError, RecipeError
+from packwork.pipeline import chart_recipe
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.table import read_table
@@ -123,6 +124,22 @@ def test_numbers_that_no_computation_holds_are_left_out_and_told() -> None:
     assert read.notices == ("left out 2 rows of 3 whose a is beyond 1e+60: row 1, row 2",)
 
 
+@pytest.mark.parametrize(
+    "odd",
+    ["1e-320", "1e300", 10**400],
+)
+def test_numbers_that_floating_point_would_lose_are_told(odd: Any) -> None:
+    read = chart([{"kg": 2.5}, {"kg": odd}], size_by="kg")
+    assert read.areas.tolist() == [1.0]
+    assert read.notices == ("left out 1 row of 2 whose kg is beyond 1e+60: row 2",)
+
+
+@pytest.mark.parametrize("unit", [1e-300, 1e300])
+def test_units_that_floating_point_would_lose_are_refused(unit: float) -> None:
+    with pytest.raises(RecipeError, match="unit"):
+        chart_recipe("circle", LANDS, size_by="kg", unit=unit)
+
+
 def test_categories_in_odd_case_are_one_and_told() -> None:
     read = chart([{"k": "Red"}, {"k": "red"}, {"k": "Red"}], color_by="k")
     assert read.colour_of == ("Red",) * 3
@@ -145,7 +162,7 @@ def test_marks_go_to_the_values_of_their_names() -> None:
         (LANDS, {"size_by": "land"}, "holds text such as 'Peru', no numbers; those of numbers"),
         ([{"a": 0}, {"a": 0}], {"size_by": "a"}, "no row can be shown: 'a' is 0 in 2 rows"),
         ([{"a": 1}] * 100_000, {}, r"100,000 marks; at most 5,000 .* --unit 20 or more"),
-        (LANDS, {"size_by": "kg", "unit": 5e-324}, "more than 1,000,000,000 marks; .* --unit 0.01"),
+        (LANDS, {"size_by": "kg", "unit": 1e-99}, "more than 1,000,000,000 marks; .* --unit 0.01"),
         ([{"a": 1}, {"a": 1e9}], {"size_by": "a"}, "at most 1e\\+06 can be shown"),
         (LANDS, {"mark": ("circle", "star")}, "say which row has which"),
         (LANDS, {"mark": ("star",), "mark_by": "land"}, "2 values for 1 marks"),

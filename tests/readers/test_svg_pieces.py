@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from xml.etree import ElementTree as ET
 
 import numpy as np
 import pytest
@@ -14,7 +15,7 @@ from packwork.readers.gate.css import parse_rules
 from packwork.readers.svg.arcs import arc_cubics
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.path_data import parse_path
-from packwork.readers.svg.shapes import flattened
+from packwork.readers.svg.shapes import flattened, shape_pieces
 from packwork.readers.svg.strokes import Pen, stroke_region
 from packwork.scene.item import VectorArt
 
@@ -57,6 +58,15 @@ def test_smooth_commands_mirror_only_their_own_kind():
     assert cubics[1, 1].tolist() == [3.0, -1.0]
     plain = parse_path("M0 0L2 0S4 1 4 0")[0].segments
     assert plain[1, 1].tolist() == [2.0, 0.0]
+
+
+@pytest.mark.parametrize("radius", [5e-324, 1e-320, 1e-12])
+def test_arcs_too_small_for_their_place_are_lines(radius):
+    end = (24.0, radius)
+    assert arc_cubics((24.0, 0.0), end, (radius, radius, 0), 0, 1) == [((24.0, 0.0), end, end)]
+    tile = ET.Element("rect", {"width": "24", "height": "150", "rx": repr(radius)})
+    (rounded,) = shape_pieces(tile, (24.0, 150.0))
+    assert np.isfinite(rounded.segments).all()
 
 
 @settings(deadline=None)

@@ -39,19 +39,22 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
             line = "--" + error.key.replace("_", "-") + line.removeprefix(error.key)
         typer.echo(f"packwork: {line}", err=True)
         raise typer.Exit(BAD_INPUT) from None
-    except KeyboardInterrupt:
-        typer.echo("packwork: stopped before there was anything to write", err=True)
+    except KeyboardInterrupt as stop:
+        said = str(stop) or "stopped before there was anything to write"
+        typer.echo(f"packwork: {said}", err=True)
         raise typer.Exit(INTERRUPTED) from None
 
 
 class Interrupt:
     """Tells the solver, which asks before every epoch, whether Ctrl-C was pressed.
 
-    The first Ctrl-C ends the run with what it has; a second one ends it at once.
+    The first Ctrl-C ends the run with what it has; a second one ends it at once. Once all is
+    written, which whoever writes says by ``is_over``, there is nothing left to stop.
     """
 
     def __init__(self) -> None:
         self.pressed = False
+        self.is_over = False
 
     def __call__(self) -> bool:
         """Whether to stop."""
@@ -59,7 +62,7 @@ class Interrupt:
 
     @contextmanager
     def listening(self) -> Iterator[None]:
-        """Catch the first Ctrl-C while the block runs."""
+        """Catch Ctrl-C while the block runs."""
         before = signal.signal(signal.SIGINT, self._press)
         try:
             yield
@@ -67,6 +70,8 @@ class Interrupt:
             signal.signal(signal.SIGINT, before)
 
     def _press(self, number: int, frame: FrameType | None) -> None:
+        if self.is_over:
+            return
         if self.pressed:
-            raise KeyboardInterrupt
+            raise KeyboardInterrupt("stopped by a second Ctrl-C; nothing was written")
         self.pressed = True

@@ -33,10 +33,8 @@ def measure(
     [bold]packwork measure cut.dxf[/]
     """
     with clear_errors():
-        from rich.console import Console
-
         from packwork import writers
-        from packwork.cli.show import certificate_line, metrics_table
+        from packwork.cli.show import Paper, certificate_line, metrics_table, printing
         from packwork.metrics.certificate import Promise, broken
         from packwork.metrics.measure import measure as measure_layout
         from packwork.readers.written.read import read_written
@@ -66,9 +64,10 @@ def measure(
             )
         if diagnose is not None and picture is not None:
             writers.write_atomic(diagnose, picture)
-        console = Console(quiet=quiet, highlight=False)
-        console.print(metrics_table(metrics, found.container.unit))
-        console.print(certificate_line(promise is not None, not faults), soft_wrap=True)
+        console = Paper(quiet=quiet, highlight=False)
+        with printing():
+            console.print(metrics_table(metrics, found.container.unit))
+            console.print(certificate_line(promise is not None, not faults), soft_wrap=True)
         for fault in faults:
             typer.echo(f"packwork: {layout}: {fault}", err=True)
         if faults:

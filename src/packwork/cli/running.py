@@ -17,11 +17,13 @@ from rich.console import Console
 from packwork import pipeline, writers
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.show import (
+    Paper,
     certificate_line,
     filling_line,
     metrics_table,
     notice_if_slow,
     pile_line,
+    printing,
     seconds_line,
     words_line,
 )
@@ -165,7 +167,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         Ctrl-C.
     """
     outputs.check(recipe)
-    console = Console(quiet=quiet, highlight=False)
+    console = Paper(quiet=quiet, highlight=False)
     job = pipeline.read(recipe)
     with notice_if_slow(console, COMPILING):
         pipeline.warm_up()
@@ -174,17 +176,25 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     with interrupt.listening():
         with bar.showing():
             run = pipeline.run(job, None if quiet else bar, interrupt, bool(outputs.films))
-            is_rough = interrupt.pressed
+            was_cut_short = interrupt.pressed
             began = time.perf_counter()
             films = _filmed(run, outputs, bar, interrupt)
+        was_stopped = was_cut_short or len(films) < len(outputs.films)
         results = _write(run, recipe, outputs, films, began)
-    _warn(run)
-    written = [path for path in outputs.every if path not in outputs.films]
-    written += [path for path, _ in films]
-    _show(results, written, console, run.layout.container.unit)
-    if is_rough:
-        typer.echo("packwork: stopped by Ctrl-C; this is the best so far, still rough", err=True)
-    return INTERRUPTED if interrupt.pressed else 0 if run.is_as_asked else SHORTFALL
+        interrupt.is_over = True
+        _warn(run, was_cut_short)
+        written = [path for path in outputs.every if path not in outputs.films]
+        written += [path for path, _ in films]
+        try:
+            with printing():
+                _show(results, written, console, run.layout.container.unit)
+        except WriteError as error:
+            # The files are there; that is what was asked for.
+            typer.echo(f"packwork: {error}; all files are written", err=True)
+        if was_cut_short:
+            worth = "certified" if run.certified else "not certified"
+            typer.echo(f"packwork: stopped by Ctrl-C; this is the best so far, {worth}", err=True)
+    return INTERRUPTED if was_stopped else 0 if run.is_as_asked else SHORTFALL
 
 
 def _filmed(
@@ -239,7 +249,7 @@ def _write(
     return results
 
 
-def _warn(run: pipeline.Run) -> None:
+def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
     for unplaced in run.unplaced[:MOST_NAMED]:
         typer.echo(
             f"packwork: not placed: {unplaced.item} (item {unplaced.index + 1}): {unplaced.reason}",
@@ -259,11 +269,13 @@ def _warn(run: pipeline.Run) -> None:
         typer.echo(f"packwork: {fault}", err=True)
     if run.is_rough:
         exact = run.metrics.exact
-        remedy = "more --effort" if run.layout.manifest["recipe"]["time"] is None else "more --time"
+        option = "--effort" if run.layout.manifest["recipe"]["time"] is None else "--time"
+        remedy = f"try more {option}, fewer items or --sizes free"
+        if was_cut_short:
+            remedy = "let it run to its end"
         typer.echo(
             f"packwork: still rough: {100 * exact.overlap:.1f} % of the container is covered "
-            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; try {remedy}, "
-            "fewer items or --sizes free",
+            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; {remedy}",
             err=True,
         )
 

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import sys
 import threading
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from typing import Any
 
 from rich.console import Console
 from rich.table import Table
+
+from packwork.errors import WriteError
 
 SLOW_SECONDS = 3.0
 """Patience before a notice explains a wait. Chosen."""
@@ -17,13 +21,44 @@ SLOW_SECONDS = 3.0
 @contextmanager
 def notice_if_slow(console: Console, text: str) -> Iterator[None]:
     """Print ``text`` once if the block takes longer than a person waits unasked."""
-    timer = threading.Timer(SLOW_SECONDS, lambda: console.print(text))
+
+    def tell() -> None:
+        # A notice that nobody can read is no reason to fail.
+        with suppress(OSError):
+            console.print(text)
+
+    timer = threading.Timer(SLOW_SECONDS, tell)
     timer.daemon = True
     timer.start()
     try:
         yield
     finally:
         timer.cancel()
+
+
+class Paper(Console):
+    """Standard output; a reader that went away is an error like any other there."""
+
+    def on_broken_pipe(self) -> None:
+        """Leave it to :func:`printing`."""
+        raise
+
+
+@contextmanager
+def printing() -> Iterator[None]:
+    """Tell a standard output that takes nothing more: a full disk, a closed pipe.
+
+    Raises
+    ------
+    WriteError
+        About it; what is printed afterwards goes nowhere.
+    """
+    try:
+        yield
+    except OSError as error:
+        # What is still held back would fail once more when the program ends.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        raise WriteError("standard output", f"cannot be written to: {error.strerror}") from None
 
 
 def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:

@@ -68,5 +68,5 @@ class Container:
 
     @property
     def side(self) -> float:
-        """Longer side of the canvas: what shares of the canvas refer to."""
+        """Longer side of the canvas, to which shares of it refer."""
         return max(self.width, self.height)

@@ -35,20 +35,26 @@ def is_missing(cell: Any) -> bool:
 
 
 def as_number(cell: Any) -> float:
-    """Number in a cell; NaN if it is none.
+    """Number in a cell; NaN if it is none, or further from 0 than :data:`FARTHEST`.
 
     Examples
     --------
-    >>> as_number("3.5"), as_number("many"), as_number(True)
-    (3.5, nan, nan)
+    >>> as_number("3.5"), as_number("many"), as_number(True), as_number("1e300")
+    (3.5, nan, nan, nan)
     """
+    value = _float(cell)
+    return value if abs(value) <= FARTHEST else math.nan
+
+
+def _float(cell: Any) -> float:
     if isinstance(cell, bool):
         return math.nan
     try:
-        value = float(cell)
+        return float(cell)
+    except OverflowError:
+        return math.inf
     except (TypeError, ValueError):
         return math.nan
-    return value if math.isfinite(value) else math.nan
 
 
 def is_numeric(rows: Sequence[Row], column: str) -> bool:
@@ -161,7 +167,7 @@ def _size(cell: Any) -> tuple[str, float]:
     """Why a cell gives no size, empty if it does; and the size."""
     if is_missing(cell):
         return "is missing", math.nan
-    value = as_number(cell)
+    value = _float(cell)
     if math.isnan(value):
         return "is no number", value
     if value == 0:

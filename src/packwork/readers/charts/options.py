@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -27,7 +28,7 @@ class ChartOptions(BaseModel):
     size_is: SizeIs = "area"
     """What of a mark is in that proportion: its area, height or width."""
 
-    unit: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None
+    unit: Annotated[float, Field(ge=1e-100, le=1e100)] | None = None
     """One mark for each so many of --size-by (without it: so many rows that are alike in
     what is shown of them); what is left over is a part of a mark."""
 
@@ -86,4 +87,6 @@ class ChartOptions(BaseModel):
         if mark is None:
             return ()
         several = [mark] if isinstance(mark, str | Path) else mark
+        if not isinstance(several, Iterable):
+            raise ValueError(f"use a mark or a list of them, not {mark!r}")
         return tuple(str(one) for one in several)

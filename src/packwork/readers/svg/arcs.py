@@ -13,7 +13,8 @@ ARC_STEP_RAD = math.pi / 8
 """Widest arc drawn as one cubic: it is then within 7e-8 of the radius. Derived."""
 
 _FLATTEST = 1e-9
-"""Radius as a share of the chord below which an arc is a line: no digits are left."""
+"""Radius as a share of the chord or of the coordinates, whichever is larger, below which an arc
+is a line: no digits are left."""
 
 
 def arc_cubics(
@@ -36,7 +37,8 @@ def arc_cubics(
     rx, ry = abs(axes[0]), abs(axes[1])
     if start == end:
         return []
-    if min(rx, ry) <= _FLATTEST * math.dist(start, end):
+    reach = max(math.dist(start, end), *map(abs, (*start, *end)))
+    if min(rx, ry) <= _FLATTEST * reach:
         return [(start, end, end)]
     cosine, sine = math.cos(math.radians(axes[2])), math.sin(math.radians(axes[2]))
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import importlib
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from packwork.errors import ReadError, RecipeError
@@ -52,6 +52,8 @@ def rows_of_frame(data: Any) -> list[dict[str, Any]]:
     if hasattr(data, "to_dict") and hasattr(data, "columns"):
         return [_plain(row) for row in data.to_dict("records")]
     if isinstance(data, Mapping):
+        if not all(_is_column(cells) for cells in data.values()):
+            raise RecipeError("data", "use a list of cells for each column, all equally long")
         columns = {str(name): list(cells) for name, cells in data.items()}
         if len({len(cells) for cells in columns.values()}) == 1:
             rows = zip(*columns.values(), strict=True)
@@ -61,6 +63,10 @@ def rows_of_frame(data: Any) -> list[dict[str, Any]]:
     raise RecipeError(
         "data", "use a file, a data frame, or rows such as [{'land': 'Peru', 'kg': 2}]"
     )
+
+
+def _is_column(cells: Any) -> bool:
+    return isinstance(cells, Iterable) and not isinstance(cells, str | bytes)
 
 
 def _plain(row: Mapping[Any, Any]) -> dict[str, Any]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -119,6 +119,8 @@ class WordOptions(BaseModel):
         if fonts is None:
             return ()
         several = [fonts] if isinstance(fonts, str | Path) else fonts
+        if not isinstance(several, Iterable):
+            raise ValueError(f"use a font or a list of them, not {fonts!r}")
         return [str(font) for font in several]
 
     @field_validator("stopwords", mode="before")

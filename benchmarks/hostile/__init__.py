@@ -1,0 +1,1 @@
+"""What ``packwork bench robustness`` does to the program: inputs, stops, surroundings."""

@@ -1,0 +1,129 @@
+"""The short form of ``packwork bench robustness``, and that it sees what it looks for."""
+
+from __future__ import annotations
+
+import os
+import signal
+import time
+from collections import Counter
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from hostile import trying, workers
+from hostile.inputs import KINDS, Input, inputs
+from hostile.parts import Part, Tally
+from hostile.stops import stop_at_random
+from hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS, attempt
+from packwork.errors import ReadError
+
+INPUTS = 300
+
+pytestmark = pytest.mark.skipif(os.name == "nt", reason="alarms and limits are those of Unix")
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_spoilt_and_made_up_files_are_read_or_refused(kind: str, tmp_path: Path) -> None:
+    lot = list(inputs(round(INPUTS * KINDS[kind].share), 1, [kind]))
+    tried = [(one, attempt(one, tmp_path)) for one in lot]
+    broken = [(one, came) for one, came in tried if came.came in {CRASH, HANG} or came.lost]
+    assert not broken, broken[0]
+    assert {came.came for _, came in tried} == {CLEAR_ERROR, SUCCESS}
+
+
+def test_parts_are_kept_and_told_apart_by_the_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tally = Tally(Counter({"tried": 3, CRASH: 1}))
+    tally.blame(["hang: one", "lost: two"])
+    part = Part("stops", {"Ctrl-C": tally}, {"length": 2.5}, "stops=3")
+    part.save(tmp_path)
+    assert Part.load(tmp_path, "stops") == part
+    assert tally.counts == {"tried": 3, CRASH: 1, HANG: 1, "lost files": 1}
+    assert Part.load(tmp_path, "inputs") is None
+    monkeypatch.setattr("hostile.parts.code", lambda: "another")
+    assert Part.load(tmp_path, "stops") is None
+
+
+def test_the_same_lot_is_the_same() -> None:
+    first, again = (list(inputs(40, 5, ["recipes", "tables"])) for _ in range(2))
+    assert first == again
+    assert len(first) == 40
+
+
+def trial(read: Any, folder: Path, monkeypatch: pytest.MonkeyPatch) -> trying.Tried:
+    monkeypatch.setitem(trying._USES, "item", read)
+    return attempt(Input(7, "drawings", "item", "a.svg", b"<svg/>"), folder)
+
+
+def refuse(path: Path) -> None:
+    raise ReadError(path, "no")
+
+
+def fail(path: Path) -> None:
+    raise KeyError(path)
+
+
+def spin(path: Path) -> None:
+    while True:
+        pass
+
+
+@pytest.mark.parametrize(
+    ("read", "came"), [(refuse, CLEAR_ERROR), (fail, CRASH), (spin, HANG), (str, SUCCESS)]
+)
+def test_what_came_of_an_input(
+    read: Any, came: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(trying, "SECONDS_AT_MOST", 0.05)
+    found = trial(read, tmp_path, monkeypatch)
+    assert (found.number, found.came, found.lost) == (7, came, 0)
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize(
+    "spoil",
+    [lambda p: p.write_text("changed"), Path.unlink, lambda p: p.with_name("more").touch()],
+    ids=["changed", "gone", "beside"],
+)
+def test_lost_files_are_seen(spoil: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    assert trial(spoil, tmp_path, monkeypatch).lost == 1
+
+
+class Fatal:
+    """Ends the process that unpickles it, as a fault of native code does."""
+
+    number = 3
+
+    def __reduce__(self) -> Any:
+        return os.abort, ()
+
+
+class Endless:
+    """Keeps the process that unpickles it busy past the clock."""
+
+    number = 4
+
+    def __reduce__(self) -> Any:
+        return time.sleep, (100,)
+
+
+def test_processes_that_die_or_hang_are_counted_and_replaced(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    sound = Input(9, "tables", "weights", "a.csv", b"star,2\n")
+    monkeypatch.setattr(workers, "CLOCK_SECONDS", 60.0)
+    lot: list[Any] = [sound, Fatal(), sound]
+    came = [tried.came for _, tried, _ in workers.try_all(lot, 1)]
+    assert came == [SUCCESS, CRASH, SUCCESS]
+    monkeypatch.setattr(workers, "CLOCK_SECONDS", 0.2)
+    lot = [Endless()]
+    assert [tried.came for _, tried, _ in workers.try_all(lot, 1)] == [HANG]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_runs_that_are_stopped_leave_nothing_half_done(number: signal.Signals) -> None:
+    run = ("fill", "heart", "star", "-n", "9", "--levels", "32", "-o", "out.svg", "-o", "out.png")
+    stopped = stop_at_random(number, 2, 0, 2.0, run)
+    assert (stopped.tried, stopped.faults) == (2, [])

@@ -1,0 +1,71 @@
+"""Standard output that takes nothing: files count, not what is said of them."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+import pytest
+
+from packwork.cli import show
+
+FILL = "fill circle star -n 2 --levels 16 --epochs 2 --finish none"
+pytestmark = pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a full device")
+
+
+def run(line: str, where: str, folder: Path) -> subprocess.CompletedProcess[bytes]:
+    command = [sys.executable, "-m", "packwork", *line.split()]
+    if where == "device":
+        with open("/dev/full", "wb") as full:  # noqa: PTH123
+            return subprocess.run(
+                command, stdout=full, stderr=subprocess.PIPE, cwd=folder, check=False
+            )
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "wb") as pipe:
+        return subprocess.run(command, stdout=pipe, stderr=subprocess.PIPE, cwd=folder, check=False)
+
+
+@pytest.mark.parametrize("where", ["device", "pipe"])
+def test_a_run_writes_its_files_all_the_same(where: str, folder: Path) -> None:
+    done = run(f"{FILL} -o out.geojson", where, folder)
+    assert "Traceback" not in done.stderr.decode()
+    last = done.stderr.decode().splitlines()[-1]
+    assert last.startswith("packwork: standard output: cannot be written to: ")
+    assert last.endswith("; all files are written")
+    assert (folder / "out.geojson").exists()
+    measured = run("measure out.geojson", where, folder)
+    assert measured.returncode == 2
+    assert measured.stderr.decode().startswith("packwork: standard output: cannot be written")
+    assert measured.stderr.count(b"\n") == 1
+
+
+def test_a_notice_that_nobody_reads_is_no_failure(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(show, "SLOW_SECONDS", 0.0)
+    tried = threading.Event()
+    with open("/dev/full", "w", encoding="utf-8") as full:  # noqa: PTH123
+        console = show.Paper(file=full, highlight=False)
+        broken = console.print
+
+        def print_to_nobody(text: str) -> None:
+            try:
+                broken(text)
+                full.flush()
+            finally:
+                tried.set()
+
+        monkeypatch.setattr(console, "print", print_to_nobody)
+        with show.notice_if_slow(console, "patience"):
+            assert tried.wait(20)
+            for thread in threading.enumerate():
+                if isinstance(thread, threading.Timer):
+                    thread.join()
+        with contextlib.suppress(OSError):
+            full.close()
+    assert capsys.readouterr().err == ""

@@ -1,0 +1,127 @@
+"""Builds the documentation as a site: ``python tools/build_site.py``, into build/site.
+
+Lays the pages out as they lie in the clone, so that their links lead on unchanged, writes the
+reference from the code (``reference.py``) and lets Sphinx build it; a warning is an error.
+Needs ``packwork[docs]``.
+"""
+
+from __future__ import annotations
+
+import re
+import shutil
+import sys
+from pathlib import Path
+
+from reference import REFERENCE
+
+ROOT = Path(__file__).resolve().parents[1]
+BUILD = ROOT / "build"
+STAGE, SITE = BUILD / "site-source", BUILD / "site"
+
+PAGES = {
+    "Begin": ("tutorial", "users", "how-it-works", "gallery"),
+    "Uses": ("words", "photos", "charts", "films", "forces", "rules", "python"),
+    "Reference": tuple(f"reference/{name}" for name in REFERENCE),
+    "About": ("conventions", "architecture"),
+}
+"""What is in the sidebar by name; benchmarks, decisions and examples follow by themselves."""
+
+CONF = """
+project = "Packwork"
+copyright = "Packwork contributors"
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+myst_enable_extensions = ["dollarmath", "html_image"]
+myst_heading_anchors = 4
+html_math_renderer = "mathml"
+html_theme = "furo"
+smartquotes = False
+html_title = "Packwork"
+html_show_sphinx = False
+html_theme_options = {"light_css_variables": {"color-brand-primary": "#2663a5",
+                                              "color-brand-content": "#2663a5"}}
+autodoc_typehints = "none"
+napoleon_use_rtype = False
+napoleon_use_ivar = True
+suppress_warnings = ["myst.header"]
+
+
+def setup(app):
+    # Browsers draw MathML themselves: no script, nothing fetched from elsewhere.
+    from docutils import nodes
+    from docutils.utils.math.latex2mathml import tex2mathml
+
+    def inline(writer, node):
+        writer.body.append(str(tex2mathml(node.astext())))
+        raise nodes.SkipNode
+
+    def block(writer, node):
+        writer.body.append(str(tex2mathml(node.astext(), as_block=True)))
+        raise nodes.SkipNode
+
+    app.add_html_math_renderer("mathml", (inline, None), (block, None))
+"""
+
+TOCTREE = "```{{toctree}}\n:hidden:\n:caption: {caption}\n\n{pages}\n```\n"
+
+
+def main() -> int:
+    """Lay out, write, build; the exit code of Sphinx."""
+    # Who only asks for the list of pages needs no Sphinx.
+    from sphinx.cmd.build import main as sphinx
+
+    shutil.rmtree(STAGE, ignore_errors=True)
+    for path in _documents():
+        copy = STAGE / path.relative_to(ROOT)
+        copy.parent.mkdir(parents=True, exist_ok=True)
+        if path.suffix == ".md":
+            copy.write_text(_readable(path), encoding="utf-8")
+        else:
+            shutil.copy(path, copy)
+    for name, write in REFERENCE.items():
+        page = STAGE / "docs" / "reference" / f"{name}.md"
+        page.parent.mkdir(exist_ok=True)
+        page.write_text(write(), encoding="utf-8")
+    (STAGE / "README.md").rename(STAGE / "index.md")
+    with (STAGE / "index.md").open("a", encoding="utf-8") as index:
+        index.write("\n" + "\n".join(_toctrees()))
+    (STAGE / "conf.py").write_text(CONF, encoding="utf-8")
+    shutil.rmtree(SITE, ignore_errors=True)
+    return sphinx(["-W", "--keep-going", "-q", "-b", "html", str(STAGE), str(SITE)])
+
+
+def _documents() -> list[Path]:
+    """Pages, and the files beside them that they show or lead to."""
+    found = [ROOT / name for name in ("README.md", "CHANGELOG.md", "CONTRIBUTING.md", "LICENSE")]
+    for folder in ("docs", "examples"):
+        found += [path for path in sorted((ROOT / folder).rglob("*")) if path.is_file()]
+    found.append(ROOT / "src" / "packwork" / "bundled" / "LICENCE.txt")
+    return [path for path in found if "__pycache__" not in path.parts]
+
+
+def _readable(path: Path) -> str:
+    """A page whose links to folders lead to what lies in them, and to README.md to the index."""
+    text = path.read_text(encoding="utf-8")
+    text = re.sub(r"\]\((docs/decisions)/\)", r"](\1/0001-sums-run-down-the-columns.md)", text)
+    if path.parent in {ROOT, ROOT / "docs"}:
+        text = re.sub(r"\]\(((?:\.\./)*)README\.md", r"](\1index.md", text)
+    return text
+
+
+def _toctrees() -> list[str]:
+    pages = {caption: [f"docs/{name}" for name in names] for caption, names in PAGES.items()}
+    pages["Benchmarks"] = _all("docs", "benchmarks*.md")
+    pages["Decisions"] = _all("docs/decisions", "*.md")
+    pages["Examples"] = _all("examples", "*/README.md")
+    pages["About"] += ["CONTRIBUTING", "CHANGELOG"]
+    return [
+        TOCTREE.format(caption=caption, pages="\n".join(names)) for caption, names in pages.items()
+    ]
+
+
+def _all(folder: str, pattern: str) -> list[str]:
+    found = sorted((STAGE / folder).glob(pattern))
+    return [str(path.relative_to(STAGE).with_suffix("")) for path in found]
+
+
+if __name__ == "__main__":
+    sys.exit(main())
