@@ -52,8 +52,6 @@ def chart_recipe(container: str, data: object, **options: Any) -> Recipe:
         asked = ChartOptions.model_validate({"data": data, **given})
     except ValidationError as error:
         raise refusal(error, ChartOptions) from error
-    if asked.by is None and container == "none":
-        raise RecipeError("container", "none shows groups as bars: give --by COL, or a container")
     if asked.by is not None and container.startswith("around:"):
         raise RecipeError("by", "repeats the container, and a picture's quiet part is there once")
     chosen = {**DEFAULTS, **{key: value for key, value in options.items() if value is not None}}

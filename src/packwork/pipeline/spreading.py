@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from packwork.errors import RecipeError
 from packwork.pipeline.cells import (
     BAR_SHARE,
     BARS_ASPECT,
@@ -55,7 +56,14 @@ def spread_out(recipe: Recipe, chart: ChartRead, single: Container | None) -> Sp
     ----------
     single
         The container to fill, or of which each group has a copy; None for bars.
+
+    Raises
+    ------
+    RecipeError
+        If there are no groups to make bars of.
     """
+    if single is None and not chart.groups:
+        raise RecipeError("container", "none shows groups as bars: give --by COL, or a container")
     size = recipe.canvas_size
     if single is not None and not chart.groups:
         plain = framed(single, recipe, chart, size)
