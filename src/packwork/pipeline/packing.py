@@ -6,6 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import count
 
+import numpy as np
+
 from packwork.errors import RecipeError
 from packwork.finish.finish import Finished
 from packwork.forces.forces import Forces
@@ -88,7 +90,7 @@ def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Pl
         forces = _forces(job)
         start = begin(job, region, outlines, forces, stop)
     if recorder is not None:
-        recorder.keep(start.poses)
+        _keep_start(recorder, start, outlines)
     with clock.time("levels"):
         outcome = _levels(job, region, outlines, start, forces, observer, stop)
     if recipe.finish != "exact":
@@ -120,6 +122,16 @@ def _levels(
     return solve(
         region, outlines, start.poses, start.nominal, options, observer, stop, start.limits, forces
     )
+
+
+def _keep_start(recorder: Recorder, start: Beginning, outlines: Sequence[Outline]) -> None:
+    """Keep the first poses; before them, of what was put one by one, the largest first."""
+    poses = start.poses
+    if start.method == "first-fit":
+        order = np.argsort([-o.area * s**2 for o, s in zip(outlines, poses.scale, strict=True)])
+        for put in range(len(order)):
+            recorder.keep(poses.some(order[:put]), order[:put])
+    recorder.keep(poses)
 
 
 def _forces(job: Job) -> Forces | None:

@@ -1,0 +1,65 @@
+"""Whole runs whose items are put one after another."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.errors import RecipeError
+
+WORDS = {"harbour": 9, "tide": 7, "gull": 5, "mast": 4, "rope": 3, "sail": 2, "oar": 1}
+
+
+def _starts(layout: pw.Layout) -> str:
+    return str(layout.manifest["start"])
+
+
+def test_words_are_put_one_after_another_and_certified() -> None:
+    layout = pw.words("circle", WORDS, padding=0)
+    levels = pw.words("circle", WORDS, padding=0, start="distance-field", effort="draft")
+    assert (_starts(layout), _starts(levels)) == ("first-fit", "distance-field")
+    assert layout.manifest["certified"]
+    assert layout.manifest["levels"] == []
+    assert levels.manifest["levels"] != []
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"sizes": "free"},
+        {"epochs": 50},
+        {"levels": "50"},
+        {"losses": {"evenness": 0.5}},
+        {"force": "together"},
+        {"apart": True},
+        {"preset": "paper"},
+    ],
+)
+def test_what_only_the_levels_know_is_left_to_them(options: dict[str, object]) -> None:
+    layout = pw.words("circle", WORDS, **{"effort": "draft", **options})
+    assert _starts(layout) == "distance-field"
+
+
+def test_icons_of_one_size_that_stand_upright_are_put_so_too() -> None:
+    options = {"count": 12, "sizes": "shared", "effort": "draft"}
+    upright = pw.fill("heart", ["star", "cat"], rotate="none", **options)
+    assert _starts(upright) == "first-fit"
+    assert upright.manifest["certified"]
+    assert _starts(pw.fill("heart", ["star", "cat"], **options)) == "distance-field"
+
+
+def test_first_fit_needs_one_size() -> None:
+    with pytest.raises(RecipeError, match="use it with sizes shared, not free"):
+        pw.fill("heart", ["star"], count=4, start="first-fit")
+
+
+def test_a_film_shows_words_come_in_the_largest_first() -> None:
+    layout = pw.words("circle", WORDS, record=True)
+    assert layout.track is not None
+    early = layout.track.at(0.1).scale
+    late = layout.track.at(1.0).scale
+    largest = int(np.argmax(layout.weights))
+    assert early[largest] > 0
+    assert (early == 0).sum() >= 3
+    assert (late > 0).all()
