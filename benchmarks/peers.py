@@ -22,7 +22,8 @@ import numpy as np
 import shapely
 
 import frozen
-from measuring import machine, markdown_table, ranged, write_page
+from manifests import write_page
+from measuring import machine, markdown_table, ranged
 from packwork import pipeline
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline

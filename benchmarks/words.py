@@ -21,7 +21,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 from scipy import ndimage
 
-from measuring import markdown_table, write_page
+from manifests import write_page
+from measuring import markdown_table
 from packwork import pipeline
 from packwork.geometry.outline import joined
 from packwork.raster.membership import centre_count
