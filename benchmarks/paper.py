@@ -15,11 +15,11 @@ from collections.abc import Sequence
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-import overview
 
 import cases
 import evenness
 import frozen
+import overview
 import resolution
 from manifests import Manifest, stamp, write_manifest, write_text
 from measuring import machine, markdown_table, ranged
@@ -50,8 +50,8 @@ photographs against ShapeCollage. Its ablations: [resolutions](benchmarks-resolu
 **The inputs are not the paper's**, whose data is not public in full. The containers are of the
 same character: a flower and a leaf (outlines of bundled icons), the letter P of the bundled font,
 Australia, a moon and a fish (bundled). The words are {words} of this gallery's, with weights
-1 / rank^0.35, one in four upright; the icons {icons}, of the frozen set; the photographs {photos} of
-half a megapixel, made up, with aspects from 2:3 to 3:2. How many items the paper's cases have is
+1 / rank^0.35, one in four upright; the icons {icons}, of the frozen set; the photographs {photos},
+of half a megapixel, made up, with aspects from 2:3 to 3:2. How many items the paper's cases have is
 not known to us. So "published" and "ratio" (ours over the middle of what is published) say in
 which range a result lies, not that the same work was done better.
 

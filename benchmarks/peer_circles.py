@@ -15,14 +15,12 @@ from peering import RUNS, entry, limited, missing, repeated, timed_out, version
 
 COUNTS = (10, 100, 1_000)
 LIMIT = 60.0
-"""Seconds by the clock for one run of a peer."""
+"""Seconds of the processor for one run of a peer."""
 
 
 def measure(counts: Sequence[int] = COUNTS) -> list[Manifest]:
     """All programs on all radii."""
-    absent = [
-        missing(name, f"pip install {name}") for name in PEERS if version(name) is None
-    ]
+    absent = [missing(name, f"pip install {name}") for name in PEERS if version(name) is None]
     if node.version("d3-hierarchy") is None:
         absent.append(missing("d3-hierarchy", "packwork bench peers install"))
     packed(np.ones(3), 0)

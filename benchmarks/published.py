@@ -37,7 +37,7 @@ RESOLUTIONS = {
 
 @dataclass(frozen=True)
 class Comparison:
-    """What the paper reports of one kind of item: ranges of coverage over its cases, shares; overlap.
+    """What the paper reports of one kind of item: coverage, a range over its cases; overlap.
 
     ``None``: not known. ``peer`` is the program that it compares itself with.
     """

@@ -1,0 +1,190 @@
+"""docs/benchmarks-scaling.md and its plots, of their manifest."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from manifests import DOCS, Manifest
+from measuring import markdown_table, ranged
+
+PICTURES = DOCS / "pictures"
+STAGES = ("read", "start", "levels", "finish", "measure")
+INK = "#22304f"
+COLOURS = {"read": "#b8c4cc", "start": "#8fb48c", "levels": "#e9b341", "finish": "#ee6c4d",
+           "measure": "#7b3b5e"}  # fmt: skip
+
+PAGE = """# Scaling
+
+Made by `{command}` on {date}.
+{machine}, on a machine of {cores} cores.
+
+Every run is a process of its own, round container, icons of the frozen set in turn. Seconds are
+the processor's, reading and measuring taken in, writing not; the peak of memory is what the system
+says of the process, of which {before:.0f} MiB are Python, the packages and the compiled kernels
+before the run begins. Medians, least and most in brackets, of as many runs as the table says.
+
+A bear of a hundred icons (`packwork fill bear -n 100`): {bear} s.
+
+## Items
+
+Defaults: 800 epochs on levels to 600 px (finer where items are many), then the exact finish.
+
+![time and memory by the number of items](pictures/scaling-items.svg)
+
+{items}
+
+Time grows as the number of items to the power {power:.2f} from {low:,} to {high:,}. The shares are
+of the time by the clock.
+
+![share of each stage by the number of items](pictures/scaling-stages.svg)
+
+## Pixels
+
+100 items, {epochs} epochs all at one resolution, no finish.
+
+![time and memory by pixels](pictures/scaling-px.svg)
+
+{px}
+
+## The floor
+
+An epoch of 100 icons must at the least move {bytes} bytes a pixel: the buffer that edges deposit in
+is read and cleared, the container read, the adjoint written, in float32; evenness adds a pass.
+"Floor" is the time that a copy takes for as many bytes on an image of the same size, in turn with
+the epochs; edges, whose work does not grow with the pixels' number but with its root, come on top,
+so that the ratio falls as images grow.
+
+{floor}
+
+## Cores
+
+A run uses one core, but for the reading of photographs. As many runs at once as there are cores,
+of 100 items with the defaults, the start of Python taken in:
+
+{at_once}
+"""
+
+
+def page(manifest: Manifest) -> str:
+    """docs/benchmarks-scaling.md."""
+    items = manifest["items"]
+    counts = [int(count) for count in items]
+    many = [count for count in counts if count >= 100]
+    times = [_median(items[str(count)], "seconds") for count in many]
+    power = np.polyfit(np.log(many), np.log(times), 1)[0] if len(many) > 1 else np.nan
+    runs = [run for some in items.values() for run in some]
+    return PAGE.format(
+        command=manifest["command"],
+        date=manifest["date"],
+        machine=manifest["machine"],
+        cores=manifest["cores"],
+        before=np.median([run["before_mib"] for run in runs]),
+        bear=ranged(manifest["bear"], ".1f"),
+        items=markdown_table(
+            ["items", "runs", "s", "peak, MiB", "LC", "certified", *STAGES],
+            [_row(count, some, STAGES) for count, some in items.items()],
+        ),
+        power=power,
+        low=many[0] if many else 0,
+        high=many[-1] if many else 0,
+        epochs=manifest["epochs"],
+        px=markdown_table(
+            ["px", "runs", "s", "peak, MiB", "start", "levels", "measure"],
+            [_row(side, some, ("start", "levels", "measure")) for side, some in
+             manifest["px"].items()],
+        ),
+        bytes=manifest["bytes_a_pixel"],
+        floor=markdown_table(
+            ["px", "epoch, ms", "with evenness, ms", "floor, ms", "epoch over floor",
+             "with evenness over floor"],
+            [_floor_row(one) for one in manifest["floor"]],
+        ),
+        at_once=markdown_table(
+            ["runs at once", "runs a minute", "s of a run"],
+            [
+                [workers, f"{one['runs_a_minute']:.1f}", ranged(one["seconds"], ".1f")]
+                for workers, one in manifest["at_once"].items()
+            ],
+        ),
+    )  # fmt: skip
+
+
+def _row(name: str, runs: list[Manifest], stages: tuple[str, ...]) -> list[str]:
+    cells = [
+        f"{int(name):,}", str(len(runs)), ranged([run["seconds"] for run in runs], ".2f"),
+        f"{_median(runs, 'peak_mib'):.0f}",
+    ]  # fmt: skip
+    if "finish" in stages:
+        certified = sum(run["certified"] for run in runs)
+        cells += [f"{_median(runs, 'LC'):.3f}", f"{certified} of {len(runs)}"]
+    return [*cells, *(f"{share:.0%}" for share in _shares(runs, stages))]
+
+
+def _shares(runs: list[Manifest], stages: tuple[str, ...]) -> list[float]:
+    """Of the time by the clock that each stage takes."""
+    totals = [sum(run["stages"].values()) for run in runs]
+    return [
+        float(np.median([run["stages"].get(stage, 0.0) / total
+                         for run, total in zip(runs, totals, strict=True)]))
+        for stage in stages
+    ]  # fmt: skip
+
+
+def _floor_row(one: Manifest) -> list[str]:
+    even = one["floor_ms"] * 1.5
+    return [
+        f"{one['px']:,}", f"{one['epoch_ms']:.3g}", f"{one['evenness_ms']:.3g}",
+        f"{one['floor_ms']:.3g}", f"{one['epoch_ms'] / one['floor_ms']:.1f}",
+        f"{one['evenness_ms'] / even:.1f}",
+    ]  # fmt: skip
+
+
+def _median(runs: list[Manifest], key: str) -> float:
+    return float(np.median([run[key] for run in runs]))
+
+
+def draw(manifest: Manifest) -> None:
+    """Write the three plots."""
+    import matplotlib as mpl
+
+    mpl.use("svg")
+    import matplotlib.pyplot as plt
+
+    plt.rcParams.update(
+        {"svg.fonttype": "none", "svg.hashsalt": "packwork", "font.size": 10,
+         "font.family": "sans-serif", "axes.spines.top": False, "axes.spines.right": False,
+         "axes.edgecolor": INK, "axes.labelcolor": INK, "xtick.color": INK, "ytick.color": INK}
+    )  # fmt: skip
+    for key, label in (("items", "items"), ("px", "pixels on the longer side")):
+        figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.2), layout="constrained")
+        numbers = [int(name) for name in manifest[key]]
+        for axes, of, said in ((left, "seconds", "seconds"), (right, "peak_mib", "peak, MiB")):
+            axes.loglog(numbers, [_median(runs, of) for runs in manifest[key].values()],
+                        "o-", color=INK, markersize=4)  # fmt: skip
+            axes.set(xlabel=label, ylabel=said)
+            axes.grid(which="major", color="#e4e8ec", linewidth=0.8)
+        right.set_ylim(100, None)
+        _save(figure, f"scaling-{key}.svg")
+    _save(_stages_plot(plt, manifest["items"]), "scaling-stages.svg")
+
+
+def _stages_plot(plt: Any, items: dict[str, list[Manifest]]) -> Any:
+    figure, axes = plt.subplots(figsize=(8, 2.8), layout="constrained")
+    names = [f"{int(count):,}" for count in items]
+    shares = np.array([_shares(runs, STAGES) for runs in items.values()])
+    left = np.zeros(len(names))
+    for stage, column in zip(STAGES, shares.T, strict=True):
+        axes.barh(names, column, left=left, color=COLOURS[stage], label=stage, height=0.7)
+        left += column
+    axes.invert_yaxis()
+    axes.set(xlabel="share of the time", ylabel="items", xlim=(0, 1))
+    figure.legend(loc="outside upper center", ncols=len(STAGES), frameon=False)
+    return figure
+
+
+def _save(figure: Any, name: str) -> None:
+    PICTURES.mkdir(exist_ok=True)
+    figure.savefig(PICTURES / name, metadata={"Date": None})
+    print(f"wrote {PICTURES / name}", flush=True)
