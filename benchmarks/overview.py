@@ -53,7 +53,8 @@ was asked for. {missing}
 
 {peers}
 
-Where a peer does better by what it is measured by: {weak}
+Where a peer comes out ahead in what its row shows (wordcloud by shrinking words, see "sizes off
+by"): {weak}
 
 ## All pages
 

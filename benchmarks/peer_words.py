@@ -39,7 +39,7 @@ def measure() -> list[Manifest]:
     if version("wordcloud") is None:
         found.append(missing("wordcloud", "pip install packwork[bench]"))
     else:
-        peers = {"wordcloud": peer, "wordcloud, scaling 1": proportional_peer}
+        peers = {"wordcloud": peer, "wordcloud (scaling 1)": proportional_peer}
     for name in CONTAINERS:
         container = read_container(name)
         found.append(_entry("packwork", str(version("packwork")), container, weights, ours))
@@ -64,6 +64,8 @@ def _entry(
     """The same seed in each run: what differs is the time alone."""
     clouds = [make(container, weights) for _ in range(RUNS)]
     found = figures(container, weights, clouds[0])
+    if clouds[0].overlap != "-":
+        found["overlap"] = float(clouds[0].overlap)
     return entry(
         program, known, container.name, len(weights), [cloud.seconds for cloud in clouds],
         {key: [value] for key, value in found.items()},

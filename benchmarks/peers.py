@@ -53,16 +53,17 @@ def main(words: list[str]) -> None:
                  f"there are {', '.join(SECTIONS)}")  # fmt: skip
     print(machine(), flush=True)
     is_short = "short" in words
-    # A section that was measured before and is not asked for now stays as it is.
-    sections: Manifest = {} if is_short else known().get("peers", {"sections": {}})["sections"]
+    measured: Manifest = {}
     for name in [name for name in SECTIONS if name in words] or list(SECTIONS):
         measure = (SHORT if is_short else SECTIONS)[name]
-        sections[name] = {**stamp(), "runs": measure()}
+        measured[name] = {**stamp(), "runs": measure()}
         if not is_short:
-            sections = write_manifest("peers", {"sections": sections})["sections"]
-            write_text("benchmarks-peers.md", page({"sections": sections}))
+            # A section that is not asked for now stays as it was measured before.
+            earlier = known().get("peers", {"sections": {}})["sections"]
+            manifest = write_manifest("peers", {"sections": {**earlier, **measured}})
+            write_text("benchmarks-peers.md", page(manifest))
     if is_short:
-        print(page({"sections": sections}))
+        print(page({"sections": measured}))
     else:
         overview.write()
 

@@ -161,11 +161,15 @@ def draw(manifest: Manifest) -> None:
         figure, (left, right) = plt.subplots(1, 2, figsize=(8, 3.2), layout="constrained")
         numbers = [int(name) for name in manifest[key]]
         for axes, of, said in ((left, "seconds", "seconds"), (right, "peak_mib", "peak, MiB")):
-            axes.loglog(numbers, [_median(runs, of) for runs in manifest[key].values()],
-                        "o-", color=INK, markersize=4)  # fmt: skip
-            axes.set(xlabel=label, ylabel=said)
+            values = [_median(runs, of) for runs in manifest[key].values()]
+            axes.plot(numbers, values, "o-", color=INK, markersize=4)
+            axes.set(xlabel=label, ylabel=said, xscale="log")
+            axes.set_xticks(numbers, [f"{number:,}" for number in numbers], fontsize=8)
+            axes.minorticks_off()
             axes.grid(which="major", color="#e4e8ec", linewidth=0.8)
-        right.set_ylim(100, None)
+        left.set_yscale("log")
+        left.yaxis.set_major_formatter("{x:g}")
+        right.set_ylim(0, None)
         _save(figure, f"scaling-{key}.svg")
     _save(_stages_plot(plt, manifest["items"]), "scaling-stages.svg")
 
@@ -180,6 +184,7 @@ def _stages_plot(plt: Any, items: dict[str, list[Manifest]]) -> Any:
         left += column
     axes.invert_yaxis()
     axes.set(xlabel="share of the time", ylabel="items", xlim=(0, 1))
+    axes.xaxis.set_major_formatter(lambda share, _: f"{share:.0%}")
     figure.legend(loc="outside upper center", ncols=len(STAGES), frameon=False)
     return figure
 
