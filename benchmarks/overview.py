@@ -139,32 +139,27 @@ def _row(
 
 
 def _paper_rows(paper: Manifest | None) -> Iterator[list[str]]:
+    """Coverages, with the overlaps that they were paid with."""
     for name, case in (paper or {"cases": {}})["cases"].items():
         published = COMPARISONS[case["kind"]]
         measure = "ink" if case["kind"] == "words" else "LC"
         for setting, runs in case["runs"].items():
-            if setting == "preset paper" and published.coverage is None:
-                continue
             work = f"{case['kind']}, {name}" + ("" if setting == "packwork" else f", {setting}")
             peer = (f"{published.peer} (published)", published.peer_coverage)
             ours = _median([run["LC"] for run in runs])
-            yield _row(work, measure, ".2f", ours, published.coverage, peer)
-            ours = _median([run["overlap"] for run in runs])
-            yield [
-                work, "overlap", f"{ours:.1e}" if ours else "0",
-                NONE if published.overlap is None else f"{published.overlap:.1e}",
-                _their_overlap(published),
-                NONE if published.overlap is None else f"{ours / published.overlap:.2g}",
-                NONE,
-            ]  # fmt: skip
+            row = _row(work, f"{measure}, overlap", ".2f", ours, published.coverage, peer)
+            overlap = _median([run["overlap"] for run in runs])
+            row[2] += f", {overlap:.1e}" if overlap else ", 0"
+            row[3] += "" if published.overlap is None else f", {published.overlap:.1e}"
+            row[4] += _their_overlap(published)
+            yield row
 
 
 def _their_overlap(published: Comparison) -> str:
     if published.peer_overlap is None:
-        return NONE
+        return ""
     low, high = published.peer_overlap
-    said = f"{low:.0%}" if low == high else f"{low:.0%} to {high:.0%}"
-    return f"{published.peer} (published) {said}"
+    return f", {low:.0%}" if low == high else f", {low:.0%} to {high:.0%}"
 
 
 def _ablation_rows(resolution: Manifest | None, evenness: Manifest | None) -> Iterator[list[str]]:
