@@ -1,9 +1,11 @@
-"""Time and memory by items and pixels: ``packwork bench scaling [short]``.
+"""Time and memory by items and pixels: ``packwork bench scaling [SECTION...] [most=N] [short]``.
 
 Whole runs of 10 to 10,000 items, and of 50 to 4,000 px, each in a process of its own, whose peak
 of memory is the system's; the share of each stage; what an epoch costs beside the floor, the bytes
-that it has to move; all cores. Writes docs/manifests/scaling.json, docs/benchmarks-scaling.md
-and the plots (matplotlib, of ``packwork[bench]``). ``short`` only prints, with fewer items.
+that it has to move; all cores. Sections: bear, floor, cores, items, px; all without a word;
+``most=N`` leaves out more items than that. After each, docs/manifests/scaling.json is written,
+whose other sections stay as they were, the page and the plots (matplotlib, of ``packwork[bench]``).
+``short`` only prints, with fewer items.
 """
 
 from __future__ import annotations
@@ -17,17 +19,18 @@ import json
 import resource
 import subprocess
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from itertools import cycle, islice
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 import frozen
 import overview
 from epochs import epoch_of
-from manifests import Manifest, stamp, write_manifest, write_text
+from manifests import Manifest, known, stamp, write_manifest, write_text
 from measuring import machine, timed_in_turn
 from packwork import pipeline
 from packwork.readers.container import read_container
@@ -41,6 +44,7 @@ SIDES = {50: 5, 100: 5, 200: 5, 400: 5, 800: 5, 1_600: 5, 4_000: 3}
 """Pixels of all epochs of a run of 100 items, and how many runs."""
 
 EPOCHS = 200
+FLOORS = (50, 200, 600, 1_200, 2_400, 4_000)
 SHORT_COUNTS, SHORT_SIDES = {10: 2, 100: 2}, {50: 2, 400: 2}
 WEIGHTS = {"containment": 5.0, "overlap": 5.0, "filling": 1.0, "evenness": 2.0}
 
@@ -143,16 +147,28 @@ def bear(runs: int) -> list[float]:
     return seconds
 
 
-def measure(counts: dict[int, int], sides: dict[int, int], floors: Sequence[int]) -> Manifest:
-    """Everything that the page shows."""
+def by_items(counts: dict[int, int]) -> Manifest:
+    """Whole runs by their number of items."""
+    return {str(n): [in_child(n, 0, seed) for seed in range(runs)] for n, runs in counts.items()}
+
+
+def by_px(sides: dict[int, int]) -> Manifest:
+    """Runs of 100 items at one resolution each."""
     return {
-        "bear": bear(5),
-        "floor": floor(floors),
-        "bytes_a_pixel": BYTES_A_PIXEL,
-        "epochs": EPOCHS,
-        "at_once": by_cores(),
-        "items": {n: [in_child(n, 0, s) for s in range(runs)] for n, runs in counts.items()},
-        "px": {side: [in_child(100, side, s) for s in range(runs)] for side, runs in sides.items()},
+        str(side): [in_child(100, side, seed) for seed in range(runs)]
+        for side, runs in sides.items()
+    }
+
+
+def sections(is_short: bool, most: int) -> dict[str, Callable[[], Any]]:
+    """What there is to be measured, by the word that asks for it."""
+    counts = SHORT_COUNTS if is_short else COUNTS
+    return {
+        "bear": lambda: bear(2 if is_short else 5),
+        "floor": lambda: floor(FLOORS[:3] if is_short else FLOORS),
+        "cores": by_cores,
+        "px": lambda: by_px(SHORT_SIDES if is_short else SIDES),
+        "items": lambda: by_items({n: runs for n, runs in counts.items() if n <= most}),
     }
 
 
@@ -163,14 +179,22 @@ def main(words: list[str]) -> None:
         return
     print(machine(), flush=True)
     pipeline.warm_up()
-    if "short" in words:
-        print(page({**stamp(), **measure(SHORT_COUNTS, SHORT_SIDES, (200, 600))}))
-        return
-    found = {**stamp(), **measure(COUNTS, SIDES, (50, 200, 600, 1_200, 2_400, 4_000))}
-    manifest = write_manifest("scaling", found)
-    draw(manifest)
-    write_text("benchmarks-scaling.md", page(manifest))
-    overview.write()
+    given = [int(word.split("=")[1]) for word in words if word.startswith("most=")]
+    is_short = "short" in words
+    chosen = sections(is_short, given[0] if given else max(COUNTS))
+    measured: Manifest = {}
+    for name in [name for name in chosen if name in words] or list(chosen):
+        measured[name] = {**stamp(), "found": chosen[name]()}
+        if not is_short:
+            earlier = known().get("scaling", {"sections": {}})["sections"]
+            about = {"bytes_a_pixel": BYTES_A_PIXEL, "epochs": EPOCHS}
+            manifest = write_manifest("scaling", {**about, "sections": {**earlier, **measured}})
+            draw(manifest)
+            write_text("benchmarks-scaling.md", page(manifest))
+    if is_short:
+        print(measured)
+    else:
+        overview.write()
 
 
 if __name__ == "__main__":
