@@ -29,7 +29,7 @@ SHARE = 0.6
 """Of the disc that the items cover: loose, so that every program can keep them apart."""
 
 COUNTS = {"circles": (10, 20, 40, 80, 160, 320), "polygons": (5, 10, 20, 40, 100)}
-OURS = (10, 20, 40, 80, 100, 160, 320)
+OURS = (5, 10, 20, 40, 80, 100, 160, 320)
 CORNERS = 8
 LIMIT = 60
 """Seconds of the processor for one run of the peer."""

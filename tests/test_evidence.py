@@ -57,9 +57,9 @@ def test_a_picture_is_that_of_the_run(picture: dict[str, str]) -> None:
 
 def test_the_readme_says_of_the_bear_what_was_measured() -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    (said,) = re.findall(r"a\s+hundred\s+icons\s+takes\s+(\d+)\s+seconds", readme)
-    seconds = sorted(MANIFESTS["scaling"]["sections"]["bear"]["found"])
-    assert int(said) == round(seconds[len(seconds) // 2])
+    (said,) = re.findall(r"hundred\s+icons\s+takes\s+less\s+than\s+(\d+)\s+seconds", readme)
+    measured = max(MANIFESTS["scaling"]["sections"]["bear"]["found"])
+    assert measured < int(said) < 2 * measured
 
 
 @pytest.mark.parametrize(
