@@ -18,7 +18,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
-from measuring import markdown_table, ranged, write_page
+from manifests import write_page
+from measuring import markdown_table, ranged
 from packwork import pipeline, writers
 from packwork.readers.written.read import read_written
 

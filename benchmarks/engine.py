@@ -1,6 +1,6 @@
 """The engine's figures: ``packwork bench engine``.
 
-Prints the tables and writes them to docs/benchmarks.md. One process, one thread. Times
+Prints the tables and writes them to docs/benchmarks-engine.md. One process, one thread. Times
 are medians with quartiles, of the processor; the running sum they are compared with is
 ``np.cumsum(image, axis=1, out=buffer)`` on a float32 image of the same size.
 """
@@ -15,7 +15,8 @@ import numpy as np
 
 import frozen
 from epochs import EDGES, RECALL, EpochTiming, frozen_edges, spread_out, timed_epochs
-from measuring import Timing, machine, markdown_table, running_sum, timed, timed_in_turn, write_page
+from manifests import write_page
+from measuring import Timing, machine, markdown_table, running_sum, timed, timed_in_turn
 from packwork import pipeline
 from packwork.arrays import FloatArray
 from packwork.losses.fused import FusedAdjoint, FusedWeights
@@ -34,7 +35,7 @@ STAGE_HEADER = [
     "items", "px", "edges", "forward", "losses", "backward", "epoch", "running sum", "ratio",
 ]  # fmt: skip
 
-PAGE = """# Benchmarks
+PAGE = """# The engine
 
 Made by `packwork bench engine` on {date}.
 {machine}.
@@ -196,7 +197,7 @@ def target_rows(
 
 
 def main() -> None:
-    """Measure, print, write docs/benchmarks.md."""
+    """Measure, print, write docs/benchmarks-engine.md."""
     print(machine(), flush=True)
     pipeline.warm_up()
     epochs = timed_epochs(
@@ -210,7 +211,7 @@ def main() -> None:
     normal, _ = budget_rows(800)
     stages = stage_rows()
     write_page(
-        "benchmarks.md",
+        "benchmarks-engine.md",
         PAGE,
         targets=markdown_table(
             ["what", "measured", "target"], target_rows(epochs, curves, draft_mean)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import cycle, islice
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from measuring import Timing, running_sum, timed
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.solve.detail import seen_at
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
@@ -50,7 +52,7 @@ def frozen_edges() -> int:
 
 def timed_epochs(settings: Mapping[str, Mapping[str, float]]) -> dict[str, EpochTiming]:
     """One epoch, poses to poses, with each set of weights: 100 icons, 6,000 edges, 600 px."""
-    calls = {name: _epoch(weights) for name, weights in settings.items()}
+    calls = {name: epoch_of(weights) for name, weights in settings.items()}
     container = frozen.round_container()
     summing = running_sum((RESOLUTION, round(RESOLUTION * container.width / container.side)))
     taken: dict[str, list[tuple[float, float]]] = {name: [] for name in calls}
@@ -62,10 +64,19 @@ def timed_epochs(settings: Mapping[str, Mapping[str, float]]) -> dict[str, Epoch
     return {name: _timing(pairs) for name, pairs in taken.items()}
 
 
-def _epoch(weights: Mapping[str, float]) -> Callable[[], None]:
-    outlines, container = frozen.outlines_of(EDGES), frozen.round_container()
+def epoch_of(
+    weights: Mapping[str, float], count: int = frozen.COUNT, resolution: int = RESOLUTION
+) -> Callable[[], None]:
+    """One epoch, poses to poses, of so many icons in the round container.
+
+    At ``RESOLUTION`` the outlines are as the frozen set's, elsewhere as coarse as pixels ask.
+    """
+    container = frozen.round_container()
+    outlines = list(islice(cycle(frozen.outlines_of(EDGES)), count))
     poses = spread_out(outlines, container)
-    level = Level(container, outlines, RESOLUTION, weights)
+    if resolution != RESOLUTION:
+        outlines = seen_at(outlines, poses.scale, resolution / container.side)
+    level = Level(container, outlines, resolution, weights)
     motion = Motion(poses, poses.scale, container.side, SolveOptions())
 
     def epoch() -> None:

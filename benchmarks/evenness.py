@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
@@ -17,13 +18,15 @@ import numpy as np
 
 import frozen
 from epochs import BLOCKS, EpochTiming, frozen_edges, timed_epochs
-from measuring import machine, markdown_table, write_page
+from manifests import Manifest, stamp, write_manifest, write_text
+from measuring import Timing, machine, markdown_table
 from packwork import pipeline
 from packwork.arrays import FloatArray
 from packwork.presets import PRESETS
-from runs import EA, LC, LNU, OO, on_frozen_set
+from runs import EA, LC, LNU, MEASURES, OO, on_frozen_set
 
 SEEDS = (0, 1, 2, 3, 4)
+NAMES = [*(make().name for make in frozen.CONTAINERS), "mean"]
 
 
 @dataclass(frozen=True)
@@ -83,7 +86,27 @@ neighbouring blocks. Other programs on the machine take caches from an epoch, no
 """
 
 
-def pair(setting: Setting, seeds: tuple[int, ...]) -> tuple[FloatArray, FloatArray]:
+def measure(seeds: Sequence[int]) -> Manifest:
+    """An epoch, and runs of all settings, without the loss and with it."""
+    timings = {name: asdict(timing) for name, timing in epoch_timings().items()}
+    settings: Manifest = {}
+    for setting in SETTINGS:
+        without, including = pair(setting, seeds)
+        settings[setting.title] = {"without": without, "with": including}
+        print(setting.title, flush=True)
+        print(markdown_table(HEADER, setting_rows(without, including)), flush=True)
+    return {
+        "seeds": len(seeds),
+        "measures": MEASURES,
+        "containers": NAMES,
+        "settings": settings,
+        "edges": frozen_edges(),
+        "blocks": BLOCKS,
+        "epoch": timings,
+    }
+
+
+def pair(setting: Setting, seeds: Sequence[int]) -> tuple[FloatArray, FloatArray]:
     """Measures without and with the loss, ``(5, seeds, 6)``: the containers, their mean."""
     options = {
         "preset": setting.preset, "epochs": setting.epochs, "finish": setting.finish,
@@ -95,7 +118,6 @@ def pair(setting: Setting, seeds: tuple[int, ...]) -> tuple[FloatArray, FloatArr
 
 def setting_rows(without: FloatArray, including: FloatArray) -> list[list[str]]:
     """One row a container, and one for their mean."""
-    names = [make().name for make in frozen.CONTAINERS] + ["mean"]
     falls = 1 - including[:, :, LNU] / without[:, :, LNU]
     without, including = np.median(without, axis=1), np.median(including, axis=1)
     return [
@@ -105,7 +127,7 @@ def setting_rows(without: FloatArray, including: FloatArray) -> list[list[str]]:
             f"{np.median(fall):.0%} ({fall.min():.0%} to {fall.max():.0%})",
             f"{w[OO]:.1e}", f"{i[OO]:.1e}", f"{w[EA]:.1e}", f"{i[EA]:.1e}",
         ]
-        for name, w, i, fall in zip(names, without, including, falls, strict=True)
+        for name, w, i, fall in zip(NAMES, without, including, falls, strict=True)
     ]  # fmt: skip
 
 
@@ -115,49 +137,63 @@ def epoch_timings() -> dict[str, EpochTiming]:
     return timed_epochs({"without evenness": {**losses, "evenness": 0.0}, "with evenness": losses})
 
 
-def epoch_rows(timings: dict[str, EpochTiming]) -> list[list[str]]:
-    return [[name, str(t.epoch), str(t.running_sum), str(t.ratio)] for name, t in timings.items()]
-
-
-def target_rows(tables: dict[str, list[list[str]]], timing: EpochTiming) -> list[list[str]]:
+def target_rows(tables: dict[str, list[list[str]]], epoch: dict[str, Timing]) -> list[list[str]]:
     """The means of each setting, and the epoch, beside what was asked for."""
     rows = []
     for title, table in tables.items():
         mean = dict(zip(HEADER, table[-1], strict=True))
         rows.append([f"L-nU falls, {title}", mean["falls by"], "25 %"])
         rows.append([f"LC changes, {title}", f"{mean['change, points']} points", "+-0.5 points"])
-    cost = f"{timing.ratio} x the running sum ({timing.epoch} ms)"
+    cost = f"{epoch['ratio']} x the running sum ({epoch['epoch']} ms)"
     return [*rows, ["one epoch with evenness, 600 px", cost, "1.0 x"]]
 
 
+def tables_of(manifest: Manifest) -> dict[str, list[list[str]]]:
+    """Rows of each setting."""
+    return {
+        title: setting_rows(np.array(taken["without"]), np.array(taken["with"]))
+        for title, taken in manifest["settings"].items()
+    }
+
+
+def page(manifest: Manifest) -> str:
+    """docs/benchmarks-evenness.md."""
+    tables = tables_of(manifest)
+    timings = {
+        name: {key: Timing(**timing) for key, timing in one.items()}
+        for name, one in manifest["epoch"].items()
+    }
+    rows = [
+        [name, *(str(one[key]) for key in ("epoch", "running_sum", "ratio"))]
+        for name, one in timings.items()
+    ]
+    return PAGE.format(
+        date=manifest["date"],
+        machine=manifest["machine"],
+        targets=markdown_table(
+            ["what", "measured", "target"], target_rows(tables, timings["with evenness"])
+        ),
+        seeds=manifest["seeds"],
+        settings="\n\n".join(
+            f"### {title[0].upper()}{title[1:]}\n\n{markdown_table(HEADER, table)}"
+            for title, table in tables.items()
+        ),
+        edges=f"{manifest['edges']:,}",
+        blocks=manifest["blocks"],
+        epoch=markdown_table(["epoch", "ms", "running sum, ms", "ratio"], rows),
+    )
+
+
 def main(words: list[str]) -> None:
-    """Measure, print, write docs/benchmarks-evenness.md."""
+    """Measure, print, write the manifest and docs/benchmarks-evenness.md."""
     seeds = SEEDS[:1] if "short" in words else SEEDS
     print(machine(), flush=True)
     pipeline.warm_up()
-    timings = epoch_timings()
-    epoch = markdown_table(["epoch", "ms", "running sum, ms", "ratio"], epoch_rows(timings))
-    print(epoch, flush=True)
-    tables = {}
-    for setting in SETTINGS:
-        tables[setting.title] = setting_rows(*pair(setting, seeds))
-        print(setting.title, markdown_table(HEADER, tables[setting.title]), sep="\n", flush=True)
-    targets = target_rows(tables, timings["with evenness"])
-    print(markdown_table(["what", "measured", "target"], targets))
+    manifest = {**stamp(), **measure(seeds)}
     if seeds == SEEDS:
-        write_page(
-            "benchmarks-evenness.md",
-            PAGE,
-            targets=markdown_table(["what", "measured", "target"], targets),
-            seeds=str(len(seeds)),
-            settings="\n\n".join(
-                f"### {title[0].upper()}{title[1:]}\n\n{markdown_table(HEADER, table)}"
-                for title, table in tables.items()
-            ),
-            edges=f"{frozen_edges():,}",
-            blocks=str(BLOCKS),
-            epoch=epoch,
-        )
+        write_text("benchmarks-evenness.md", page(write_manifest("evenness", manifest)))
+    else:
+        print(page(manifest))
 
 
 if __name__ == "__main__":

@@ -19,7 +19,8 @@ import numpy as np
 from PIL import Image
 
 import packwork as pw
-from measuring import machine, markdown_table, ranged, timed, write_page
+from manifests import write_page
+from measuring import machine, markdown_table, ranged, timed
 from packwork.pipeline.recording import Recorder
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

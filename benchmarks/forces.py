@@ -13,25 +13,19 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 import numpy as np
-import shapely
 
 import packwork as pw
-from measuring import markdown_table, ranged, write_page
+from circles import RADII, density, front_chain, packed
+from manifests import write_page
+from measuring import markdown_table, ranged
 from packwork.arrays import FloatArray
-from packwork.geometry.outline import Outline
-from packwork.scene.item import FlatArt, Item
+from packwork.scene.item import Item
 from rest import lowered_at_random, lowered_by_programmes, mean_depth
 
 ICONS, CIRCLES, WORDS = 300, 200, 100
 SIZE = "5.7%"
-CORNERS = 256
-"""Of the polygon that stands for a circle, of the same area."""
-
 FAR = 1 / 30
 """Share of the canvas beyond which a word counts as moved."""
-
-SPREAD = 0.5
-"""Of the logarithms of the mixed radii."""
 
 PAIR = ("star", "heart")
 MIXED = {"cat": 6.0, "owl": 4.0, "fish": 5.0}
@@ -104,17 +98,15 @@ def piles(seeds: Sequence[int]) -> str:
 def circles(seeds: Sequence[int]) -> str:
     """Table of round packs beside the peer's."""
     rows = []
-    for name, radii_of in (("lognormal", _lognormal), ("equal", _equal)):
+    for name, radii_of in RADII.items():
         ours, peer, seconds = [], [], []
         for seed in seeds:
-            radii = radii_of(seed)
-            items = [_circle(k, radius) for k, radius in enumerate(radii)]
-            began = time.process_time()
-            layout = pw.pile("none", items, rotate="none", compact=True, seed=seed)
-            seconds.append(time.process_time() - began)
-            found = np.column_stack([layout.poses.x, layout.poses.y])
-            ours.append(_density(found, np.array([_radius(item) for item in layout.items])))
-            peer += _front_chain(radii)
+            radii = radii_of(seed, CIRCLES)
+            found, spent = packed(radii, seed)
+            seconds.append(spent)
+            ours.append(density(found))
+            if importlib.util.find_spec("packcircles") is not None:
+                peer.append(density(front_chain(radii)))
         rows.append([name, ranged(ours, ".4f"), ranged(peer, ".4f") if peer else "-"])
         rows[-1].append(ranged(seconds, ".1f"))
         print(rows[-1], flush=True)
@@ -278,44 +270,6 @@ def _names() -> list[str]:
         if word not in names:
             names.append(word)
     return names
-
-
-def _lognormal(seed: int) -> FloatArray:
-    return np.asarray(10 * np.exp(np.random.default_rng(seed).normal(0, SPREAD, CIRCLES)))
-
-
-def _equal(seed: int) -> FloatArray:
-    return np.full(CIRCLES, 10.0)
-
-
-def _circle(k: int, radius: float) -> Item:
-    turns = 2 * np.pi * np.arange(CORNERS) / CORNERS
-    # The corners lie on the circle: the true one holds the polygon.
-    points = radius * np.column_stack([np.cos(turns), np.sin(turns)])
-    outline = Outline.from_rings([points])
-    return Item(f"c{k}", f"c{k}", outline, outline, FlatArt())
-
-
-def _radius(item: Item) -> float:
-    return item.outline.radius
-
-
-def _density(centres: FloatArray, radii: FloatArray) -> float:
-    """Area of circles over that of the smallest circle that holds them all."""
-    turns = 2 * np.pi * np.arange(720) / 720
-    rims = np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    points = (centres[:, None] + radii[:, None, None] * rims).reshape(-1, 2)
-    whole = shapely.minimum_bounding_radius(shapely.MultiPoint(points))
-    return float((radii**2).sum() / whole**2)
-
-
-def _front_chain(radii: FloatArray) -> list[float]:
-    if importlib.util.find_spec("packcircles") is None:
-        return []
-    import packcircles
-
-    packed = np.array(list(packcircles.pack(radii.tolist())))
-    return [_density(packed[:, :2], packed[:, 2])]
 
 
 def main(arguments: Sequence[str]) -> None:

@@ -6,7 +6,6 @@ one they are those of a clock, since nothing here runs in more than one thread.
 
 from __future__ import annotations
 
-import datetime
 import importlib.metadata
 import platform
 import time
@@ -98,11 +97,3 @@ def markdown_table(header: list[str], rows: list[list[str]]) -> str:
     """Rows as a Markdown table."""
     lines = [header, ["---"] * len(header), *rows]
     return "\n".join("| " + " | ".join(cells) + " |" for cells in lines)
-
-
-def write_page(name: str, page: str, **parts: str) -> None:
-    """Write a page of ``docs``: a format string with ``{date}``, ``{machine}`` and parts."""
-    today = datetime.date.today().isoformat()
-    text = page.format(date=today, machine=machine(), **parts)
-    (DOCS / name).write_text(text, encoding="utf-8")
-    print(f"wrote {DOCS / name}")

@@ -14,7 +14,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
-from measuring import Timing, machine, markdown_table, write_page
+from manifests import write_page
+from measuring import Timing, machine, markdown_table
 from packwork.fit.fitted import FittedOutline, fit_anew
 from packwork.readers.items import read_items
 from packwork.scene.item import Item

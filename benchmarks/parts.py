@@ -16,7 +16,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 import shapely
 
-from measuring import machine, markdown_table, ranged, write_page
+from manifests import write_page
+from measuring import machine, markdown_table, ranged
 from packwork import pipeline
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline

@@ -20,7 +20,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 from PIL import Image
 
-from measuring import markdown_table, ranged, write_page
+from manifests import write_page
+from measuring import markdown_table, ranged
 from packwork import pipeline
 
 CONTAINERS = ("moon", "fish", "heart")
@@ -136,7 +137,7 @@ def main() -> None:
     if not arguments:
         size, used = memory()
         write_page(
-            "benchmarks-photos.md", PAGE, count=COUNT, seeds=", ".join(map(str, seeds)),
+            "benchmarks-photos.md", PAGE, count=str(COUNT), seeds=", ".join(map(str, seeds)),
             table=found, size=size, memory=used, poster=" ".join(POSTER),
         )  # fmt: skip
 

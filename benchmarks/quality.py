@@ -24,7 +24,8 @@ import numpy as np
 import frozen
 import many
 import others
-from measuring import machine, markdown_table, ranged, write_page
+from manifests import write_page
+from measuring import machine, markdown_table, ranged
 from packwork import pipeline
 from packwork.metrics.exact import exact_metrics
 from packwork.pipeline.beginning import begin

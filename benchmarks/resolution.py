@@ -2,52 +2,30 @@
 
 The ablation of Wang and Lu 2025, table 1, on the frozen set: 200 epochs shared evenly
 among the levels. Prints the tables and writes them to docs/benchmarks-resolution.md.
-``short`` takes one seed in place of five, and only prints.
+``short`` takes one seed in place of three, and only prints.
 """
 
 from __future__ import annotations
 
 import os
 import sys
-from dataclasses import dataclass
+from collections.abc import Sequence
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
 
-from measuring import machine, markdown_table, ranged, write_page
+from manifests import Manifest, stamp, write_manifest, write_text
+from measuring import machine, markdown_table, ranged
 from packwork import pipeline
 from packwork.arrays import FloatArray
-from runs import EA, LC, OO, SECONDS, on_frozen_set
+from published import RESOLUTIONS
+from runs import EA, LC, MEASURES, OO, SECONDS, on_frozen_set
 
-SEEDS = (0, 1, 2, 3, 4)
+SEEDS = (0, 1, 2)
 EPOCHS = 200
 PRESETS = ("default", "paper")
 
-
-@dataclass(frozen=True)
-class Published:
-    """One row of the paper's table 1: LC, OO, EA in percent, seconds for 200 epochs."""
-
-    LC: str
-    OO: str
-    EA: str
-    seconds: str
-
-
-STRATEGIES = {
-    "50": Published("69.67", "2.72", "1.11", "12.90"),
-    "100": Published("65.60", "0.68", "0.33", "13.41"),
-    "200": Published("73.43", "0.42", "0.07", "15.44"),
-    "400": Published("67.55", "0.08", "0.01", "22.36"),
-    "600": Published("70.77", "0.11", "0.00", "32.54"),
-    "800": Published("72.23", "0.12", "0.00", "52.42"),
-    "1000": Published("71.16", "0.05", "0.00", "76.04"),
-    "1200": Published("69.39", "0.01", "0.00", "99.76"),
-    "100,600": Published("51.47", "0.02", "0.00", "18.51"),
-    "50,200,600": Published("60.73", "0.01", "0.00", "20.74"),
-}
-"""Levels, with what the paper reports for them."""
 
 HEADER = ["levels, px", *(f"preset `{preset}`" for preset in PRESETS), "published"]
 
@@ -85,10 +63,10 @@ they are.
 """
 
 
-def taken(seeds: tuple[int, ...]) -> dict[str, dict[str, FloatArray]]:
+def measure(seeds: Sequence[int]) -> Manifest:
     """Measures by levels and preset, ``(seeds, measures)``, means of the containers."""
     found: dict[str, dict[str, FloatArray]] = {}
-    for levels in STRATEGIES:
+    for levels in RESOLUTIONS:
         found[levels] = {
             preset: np.mean(
                 on_frozen_set(seeds, epochs=EPOCHS, levels=levels, preset=preset), axis=0
@@ -97,41 +75,46 @@ def taken(seeds: tuple[int, ...]) -> dict[str, dict[str, FloatArray]]:
         }
         middle = {preset: np.median(m, axis=0) for preset, m in found[levels].items()}
         print(levels, {preset: m.round(5).tolist() for preset, m in middle.items()}, flush=True)
-    return found
+    return {"seeds": len(seeds), "epochs": EPOCHS, "measures": MEASURES, "levels": found}
 
 
-def table(
-    found: dict[str, dict[str, FloatArray]], measure: int, factor: float, form: str, name: str
-) -> str:
+def page(manifest: Manifest) -> str:
+    """docs/benchmarks-resolution.md."""
+    return PAGE.format(
+        date=manifest["date"],
+        machine=manifest["machine"],
+        epochs=manifest["epochs"],
+        seeds=manifest["seeds"],
+        LC=_table(manifest, LC, 100, ".1f", "LC"),
+        OO=_table(manifest, OO, 100, ".3f", "OO"),
+        EA=_table(manifest, EA, 100, ".4f", "EA"),
+        seconds=_table(manifest, SECONDS, 1, ".2f", "seconds"),
+    )
+
+
+def _table(manifest: Manifest, measure: int, factor: float, form: str, name: str) -> str:
     """One measure of all runs, beside what was published."""
     rows = [
         [
             levels.replace(",", "+"),
-            *(ranged((factor * found[levels][p][:, measure]).tolist(), form) for p in PRESETS),
-            getattr(published, name),
+            *(ranged([factor * one[measure] for one in of[preset]], form) for preset in PRESETS),
+            getattr(RESOLUTIONS[levels], name),
         ]
-        for levels, published in STRATEGIES.items()
+        for levels, of in manifest["levels"].items()
     ]
     return markdown_table(HEADER, rows)
 
 
 def main(words: list[str]) -> None:
-    """Measure, print, write docs/benchmarks-resolution.md."""
+    """Measure, print, write the manifest and docs/benchmarks-resolution.md."""
     seeds = SEEDS[:1] if "short" in words else SEEDS
     print(machine(), flush=True)
     pipeline.warm_up()
-    found = taken(seeds)
-    tables = {
-        "LC": table(found, LC, 100, ".1f", "LC"),
-        "OO": table(found, OO, 100, ".3f", "OO"),
-        "EA": table(found, EA, 100, ".4f", "EA"),
-        "seconds": table(found, SECONDS, 1, ".2f", "seconds"),
-    }
-    print("\n\n".join(["", *tables.values()]))
+    manifest = {**stamp(), **measure(seeds)}
     if seeds == SEEDS:
-        write_page(
-            "benchmarks-resolution.md", PAGE, epochs=str(EPOCHS), seeds=str(len(seeds)), **tables
-        )
+        write_text("benchmarks-resolution.md", page(write_manifest("resolution", manifest)))
+    else:
+        print(page(manifest))
 
 
 if __name__ == "__main__":

@@ -24,7 +24,8 @@ from hostile.stops import stop_at_random, whole_length
 from hostile.surroundings import all_surroundings
 from hostile.trying import CLEAR_ERROR, CRASH, HANG, SECONDS_AT_MOST, SUCCESS
 from hostile.workers import CLOCK_SECONDS, MEMORY_BYTES, try_all
-from measuring import markdown_table, write_page
+from manifests import write_page
+from measuring import markdown_table
 
 ENOUGH = 10_000
 OUT = Path("out") / "robustness"

@@ -21,7 +21,8 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import numpy as np
 from scipy import ndimage
 
-from measuring import markdown_table, write_page
+from manifests import write_page
+from measuring import markdown_table
 from packwork import pipeline
 from packwork.geometry.outline import joined
 from packwork.raster.membership import centre_count
@@ -141,7 +142,8 @@ def pixels(outlines: Sequence[Any], container: Container) -> np.ndarray:
     return np.asarray(centre_count(points * scale, starts, shape)) > 0
 
 
-def row(container: Container, weights: dict[str, float], cloud: Cloud) -> list[str]:
+def figures(container: Container, weights: dict[str, float], cloud: Cloud) -> dict[str, float]:
+    """What a cloud is worth: ink, sizes, gaps."""
     inside = pixels([container.outline], container)
     shown = cloud.ink & inside
     distance = ndimage.distance_transform_edt(~shown) * (600 / SIDE_PX)
@@ -150,15 +152,26 @@ def row(container: Container, weights: dict[str, float], cloud: Cloud) -> list[s
     # Against the largest word's, as a reader compares.
     first = next(iter(weights))
     off = ratios / (cloud.heights.get(first, np.nan) / weights[first]) - 1
+    return {
+        "placed": cloud.placed,
+        "ink": float(shown.sum() / inside.sum()),
+        "off": float(np.median(np.abs(off))),
+        "gap": float(room.max()),
+        "LnU": float(np.mean(distance[inside & ~shown] ** 2)),
+    }
+
+
+def row(container: Container, weights: dict[str, float], cloud: Cloud) -> list[str]:
+    found = figures(container, weights, cloud)
     return [
         container.name,
         str(len(weights)),
         cloud.program,
         str(cloud.placed),
-        f"{shown.sum() / inside.sum():.3f}",
-        f"{100 * float(np.median(np.abs(off))):.2g} %",
-        f"{float(room.max()):.1f}",
-        f"{float(np.mean(distance[inside & ~shown] ** 2)):.1f}",
+        f"{found['ink']:.3f}",
+        f"{100 * found['off']:.2g} %",
+        f"{found['gap']:.1f}",
+        f"{found['LnU']:.1f}",
         cloud.overlap,
         cloud.outside,
         f"{cloud.seconds:.1f}",

@@ -43,7 +43,7 @@ if TYPE_CHECKING:
 Effort: TypeAlias = Literal["draft", "normal", "best"]
 
 EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
-"""Iterations, never seconds, so that one seed gives one result. Measured (benchmarks.md)."""
+"""Iterations, never seconds: one seed gives one result. Measured (docs/benchmarks-engine.md)."""
 
 APART = 0.5
 """Weight of the loss that keeps kinds apart. Larger parts more and fills less. Tried."""
