@@ -8,6 +8,8 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
+from packwork.finish.finish import COMMON_COARSE
+from packwork.finish.options import HAIR
 from packwork.forces.forces import PRESSURE, FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.forcing import forces_of
@@ -65,7 +67,8 @@ def first_places(
             scales,
             _angles(job, angles, limits),
             np.random.default_rng(recipe.seed),
-            margin_cu=recipe.padding_cu(job.container) / 2,
+            margin_cu=recipe.padding_cu(job.container) / 2 + HAIR * job.container.side,
+            slack=COMMON_COARSE,
             attempts=ATTEMPTS[recipe.effort],
             limits=limits,
             fields=_fields(job),

@@ -50,6 +50,9 @@ two at which the search ends. Smaller finds more, which the finish would find as
 MOST_SIZES = 24
 """Sizes tried at most: should nothing fit at a tenth of the first, nothing will. Chosen."""
 
+SPARE = 1.15
+"""How much wider a margin is drawn than needed, so that it need not be drawn anew. Chosen."""
+
 URGENCY = 2.0
 """Factor on the area by which items are ordered, for one that found no place. Chosen."""
 
@@ -69,6 +72,7 @@ def first_fit(
     rng: np.random.Generator,
     *,
     margin_cu: float = 0.0,
+    slack: float = 0.0,
     attempts: int = 1,
     limits: Limits | None = None,
     fields: Sequence[FieldForce] = (),
@@ -90,6 +94,9 @@ def first_fit(
         The only source of randomness.
     margin_cu
         Room that every item keeps round itself, canvas units.
+    slack
+        More of it, as a share of the item's extent: what later stages take it for may be
+        as much wider.
     attempts
         Orders tried for each size: the item that found no place comes earlier the next time.
     limits
@@ -111,7 +118,7 @@ def first_fit(
     """
     own = np.array([outline.area for outline in outlines])
     share = float((own * scales**2).sum()) / container.outline.area
-    fitting = _Fitting(container, outlines, scales, angles, rng, margin_cu, limits, fields)
+    fitting = _Fitting(container, outlines, scales, angles, rng, margin_cu, slack, limits, fields)
     return fitting.largest(math.sqrt(FIRST_SHARE / share), attempts, stop)
 
 
@@ -126,6 +133,7 @@ class _Fitting:
         angles: Sequence[FloatArray],
         rng: np.random.Generator,
         margin_cu: float,
+        slack: float,
         limits: Limits | None,
         fields: Sequence[FieldForce],
     ) -> None:
@@ -134,7 +142,8 @@ class _Fitting:
         image, self._px_per_cu = container_image(container, side)
         self._inside: BoolArray = image > 1 - TOUCHED
         self._outlines, self._scales, self._angles = outlines, scales, angles
-        self._margin_cu = margin_cu
+        self._margin_cu, self._slack = margin_cu, slack
+        self._wide: dict[int, tuple[float, Outline]] = {}
         self._urgency = np.array([outline.area for outline in outlines]) * scales**2
         limits = Limits.free(count) if limits is None else limits
         self._is_sized = limits.held[:, 3]
@@ -230,9 +239,20 @@ class _Fitting:
             for turn in self._angles[k]:
                 key = self._key(k, scale, turn)
                 if key not in wanted:
-                    wide = grown(outline, self._margin_cu / scale) if self._margin_cu else outline
+                    wide = self._with_margin(outline, float(scale))
                     wanted[key] = wide.mapped(similarity(0.0, 0.0, turn, scale * self._px_per_cu))
         return cut_all(wanted, REACH)
+
+    def _with_margin(self, outline: Outline, scale: float) -> Outline:
+        """The outline with its margin, or a little more: one that serves several sizes."""
+        needed = self._margin_cu / scale + self._slack * outline.extent
+        if needed == 0:
+            return outline
+        margin, wide = self._wide.get(id(outline), (0.0, outline))
+        if not needed <= margin <= SPARE**2 * needed:
+            wide = grown(outline, SPARE * needed)
+            self._wide[id(outline)] = (SPARE * needed, wide)
+        return wide
 
     def _key(self, item: int, scale: float, turn: float) -> Key:
         return id(self._outlines[item]), float(scale), float(turn)
