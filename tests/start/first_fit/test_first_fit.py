@@ -130,3 +130,16 @@ def test_a_field_draws_to_its_low_those_that_it_acts_on() -> None:
     drawn = _fit(outlines, scales, fields=[to_left])
     assert drawn.x[:6].mean() < without.x[:6].mean() - 20
     assert drawn.scale[0] > 0.8 * without.scale[0]
+
+
+def test_what_is_left_over_is_no_single_void(monkeypatch: pytest.MonkeyPatch) -> None:
+    outlines, scales = [BOX] * 60, np.linspace(1, 3, 60)
+
+    def void() -> float:
+        union = shapely.union_all(_regions(outlines, _fit(outlines, scales)))
+        left = shapely.difference(_disc().outline.region, union)
+        return float(shapely.maximum_inscribed_circle(left).length)
+
+    evened = void()
+    monkeypatch.setattr("packwork.start.first_fit.first_fit.LOOSE", ())
+    assert evened < 0.8 * void()

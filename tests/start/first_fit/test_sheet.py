@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.arrays import BoolArray
+from packwork.fields.clearance import distance_inside
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.sheet import Sheet
 from packwork.start.first_fit.stencil import Stencil
@@ -116,3 +117,15 @@ def test_smeared_rows_tell_of_any_pixel_within_their_length(seed: int, width: in
     for level, row in enumerate(bits):
         want = [beyond[x : x + 2**level].any() for x in range(width)]
         assert row[:width].astype(bool).tolist() == want
+
+
+def test_clearance_is_kept_up() -> None:
+    free, mask = _random(3, 70)
+    sheet = Sheet(free, REACH)
+    assert sheet.clearance.shape == free.shape
+    for _ in range(8):
+        place = sheet.best_place(_stencil(mask), sheet.clearance, is_everywhere=True)
+        assert place is not None
+        sheet.take(_stencil(mask), *place[1:])
+    inner = sheet.taken[REACH:-REACH, REACH:-REACH] == 0
+    assert sheet.clearance == pytest.approx(distance_inside(inner))

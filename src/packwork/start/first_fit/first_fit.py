@@ -56,6 +56,10 @@ SPARE = 1.15
 URGENCY = 2.0
 """Factor on the area by which items are ordered, for one that found no place. Chosen."""
 
+LOOSE = (0.2, 0.1, 0.05)
+"""Shares of the items, the smallest, that are put where there is most room: the largest with which
+all still find a place. Tried."""
+
 PULL = 2.0
 """Score that an item gives for coming the canvas' side lower, at a strength of 1. Larger leaves
 more room, smaller does not show. Tried."""
@@ -174,7 +178,20 @@ class _Fitting:
                 factor = low * STRIDE
             else:
                 factor = math.sqrt(low * high)
-        return found
+        return found if found is None or stop() else self._loosened(found)
+
+    def _loosened(self, tight: Poses) -> Poses:
+        """The same sizes, the last and smallest where there is most room.
+
+        What is left over is else one large void, where the last items would have come.
+        """
+        stencils = self._stencils(tight.scale)
+        order = np.argsort(-self._urgency, kind="stable")
+        for share in LOOSE:
+            found = self._put_in_order(order, tight.scale, stencils, round(share * len(order)))
+            if isinstance(found, Poses):
+                return found
+        return tight
 
     def _put_all(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
         """Poses of all items at one size; None if not all found a place."""
@@ -193,9 +210,13 @@ class _Fitting:
         return None
 
     def _put_in_order(
-        self, order: IntArray, scales: FloatArray, stencils: dict[Key, Stencil]
+        self, order: IntArray, scales: FloatArray, stencils: dict[Key, Stencil], loose: int = 0
     ) -> Poses | int:
-        """Poses of all items, or the first that found no place."""
+        """Poses of all items, or the first that found no place.
+
+        The last of the order, ``loose`` of them, go where there is most room.
+        """
+        is_loose = np.isin(np.arange(len(order)), order[len(order) - loose :])
         sheet = Sheet(self._inside, REACH)
         x, y, angle = np.zeros((3, len(scales)))
         poses = Poses(x, y, angle, scales)
@@ -207,7 +228,7 @@ class _Fitting:
                 corner = np.rint(self._pins[k, ::-1] * self._px_per_cu) - stencil.origin
                 row, column = int(corner[0]), int(corner[1])
             else:
-                best = self._best(sheet, int(k), [stencil for _, stencil in own])
+                best = self._best(sheet, int(k), [stencil for _, stencil in own], is_loose[k])
                 if best is None:
                     return int(k)
                 which, row, column = best
@@ -220,11 +241,12 @@ class _Fitting:
         return poses
 
     def _best(
-        self, sheet: Sheet, item: int, stencils: Sequence[Stencil]
+        self, sheet: Sheet, item: int, stencils: Sequence[Stencil], is_loose: bool
     ) -> tuple[int, int, int] | None:
         """Which stencil of an item is to be put, and at what row and column."""
-        is_everywhere = self._homes[item] is not None or not self._is_anywhere
-        tried = [sheet.best_place(s, self._worth[item], is_everywhere) for s in stencils]
+        is_everywhere = is_loose or self._homes[item] is not None or not self._is_anywhere
+        worth = self._worth[item] + sheet.clearance if is_loose else self._worth[item]
+        tried = [sheet.best_place(s, worth, is_everywhere) for s in stencils]
         found = [(*place, which) for which, place in enumerate(tried) if place is not None]
         if not found:
             return None

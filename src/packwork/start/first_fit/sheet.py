@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
+from packwork.fields.clearance import distance_inside
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.stencil import Stencil
 
@@ -51,6 +54,7 @@ class Sheet:
         self._words = -(-width // 64)
         self._rows = np.full((height, LEVELS, self._words), _kernels.ALL, dtype=np.uint64)
         self._free = np.empty((height, self._words), dtype=np.uint64)
+        self._clearance: FloatArray | None = None
         self._refresh(0, height)
 
     def _refresh(self, top: int, bottom: int) -> None:
@@ -98,3 +102,24 @@ class Sheet:
             top - row : bottom - row, left - column : right - column
         ]
         self._refresh(top, bottom)
+        if self._clearance is not None:
+            self._lessen(self._clearance, top, bottom, left, right)
+
+    @property
+    def clearance(self) -> FloatArray:
+        """``(rows, columns)`` pixels to the nearest taken one; kept up from the first call on."""
+        if self._clearance is None:
+            height, width = self.shape
+            m = self._margin
+            self._clearance = distance_inside(self.taken[m : m + height, m : m + width] == 0)
+        return self._clearance
+
+    def _lessen(self, clearance: FloatArray, top: int, bottom: int, left: int, right: int) -> None:
+        """Clearance round a box in which pixels have been taken."""
+        reach = math.ceil(clearance.max())
+        rows = slice(max(top - reach, 0), min(bottom + reach, self.shape[0]))
+        columns = slice(max(left - reach, 0), min(right + reach, self.shape[1]))
+        m = self._margin
+        near = self.taken[rows.start + m : rows.stop + m, columns.start + m : columns.stop + m]
+        window = clearance[rows, columns]
+        np.minimum(window, distance_inside(near == 0), out=window)
