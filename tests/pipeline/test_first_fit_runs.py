@@ -57,7 +57,7 @@ def test_first_fit_needs_one_size() -> None:
 def test_a_film_shows_words_come_in_the_largest_first() -> None:
     layout = pw.words("circle", WORDS, record=True)
     assert layout.track is not None
-    early = layout.track.at(0.1).scale
+    early = layout.track.at(0.02).scale
     late = layout.track.at(1.0).scale
     largest = int(np.argmax(layout.weights))
     assert early[largest] > 0

@@ -56,7 +56,7 @@ SPARE = 1.15
 URGENCY = 2.0
 """Factor on the area by which items are ordered, for one that found no place. Chosen."""
 
-LOOSE = (0.2, 0.1, 0.05)
+LOOSE = (0.2, 0.1, 0.05, 0.02)
 """Shares of the items, the smallest, that are put where there is most room: the largest with which
 all still find a place. Tried."""
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from scipy import ndimage
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.clearance import distance_inside
@@ -122,4 +123,6 @@ class Sheet:
         m = self._margin
         near = self.taken[rows.start + m : rows.stop + m, columns.start + m : columns.stop + m]
         window = clearance[rows, columns]
-        np.minimum(window, distance_inside(near == 0), out=window)
+        # Not ``distance_inside``: the window's own edge is no edge.
+        away = ndimage.distance_transform_edt(near == 0) - 0.5
+        np.minimum(window, np.maximum(away, 0.0), out=window)
