@@ -18,7 +18,7 @@ from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
 from packwork.pipeline.recording import Recorder
-from packwork.pipeline.staying import calmed, needs_no_levels, with_homes
+from packwork.pipeline.staying import as_it_was, calmed, needs_no_levels, with_homes
 from packwork.progress import Observer, Stop, together
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -88,7 +88,7 @@ def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Pl
         forces = _forces(job)
         start = begin(job, region, outlines, forces, stop)
     if recorder is not None:
-        recorder.keep(start.poses)
+        recorder.keep(as_it_was(job, start.poses))
     with clock.time("levels"):
         outcome = _levels(job, region, outlines, start, forces, observer, stop)
     if recipe.finish != "exact":
