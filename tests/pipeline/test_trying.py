@@ -67,6 +67,11 @@ def test_who_chose_for_himself_gets_that(album: str, options: dict[str, Any], co
     assert len(jobs_tried(job(album, **options))) == count
 
 
+def test_photos_of_one_size_are_left_to_the_levels(album: str) -> None:
+    done = pipeline.run(job(album, epochs=None, levels=None, sizes="shared", count=4))
+    assert done.layout.manifest["start"] == "distance-field"
+
+
 def test_icons_begin_in_one_way() -> None:
     assert len(jobs_tried(read(Recipe(container="heart", items=("star",))))) == 1
 
