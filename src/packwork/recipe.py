@@ -137,7 +137,8 @@ class Recipe(Pictured, Moving):
     start: str | None = None
     """How the first places are found: distance-field (into the largest room), medial-axis (along
     the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;
-    for words and shared sizes), or a layout file (.geojson). Default: what suits the sizes."""
+    for words and shared sizes), or a layout file (.geojson). Default: what suits the sizes, of
+    photos the best of distance-field, medial-axis and scatter."""
 
     finish: Literal["exact", "none"] = "exact"
     """exact: after the levels, items are moved, turned and sized in exact geometry until

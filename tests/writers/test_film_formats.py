@@ -21,6 +21,7 @@ from PIL import Image, ImageSequence
 
 from packwork.errors import WriteError
 from packwork.scene.layout import Layout
+from packwork.scene.leaving import Leaving
 from packwork.scene.track import track_of
 from packwork.writers.film.film import Film
 from packwork.writers.film.gif import gif_bytes
@@ -37,13 +38,22 @@ CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", 
 
 @pytest.fixture
 def make_film(three: Layout) -> MakeFilm:
-    """Films of three items that gather from far away; one of them grows from nothing."""
+    """Films of three items that gather from far away; one of them grows from nothing.
+
+    With ``is_left`` three more leave.
+    """
     end = three.poses
     start = replace(end, x=80 - end.x, angle=end.angle + 1, scale=end.scale * [1, 0, 0.5])
 
-    def make(background: str = "ivory", show_container: bool = True, **options: Any) -> Film:
+    def make(
+        background: str = "ivory",
+        show_container: bool = True,
+        is_left: bool = False,
+        **options: Any,
+    ) -> Film:
         given = {"fps": FPS, "seconds": SECONDS, "hold": HOLD, "film_pixels": SIDE} | options
-        moving = replace(three, track=track_of([start, end]))
+        gone = Leaving(three.items, replace(end, y=60 - end.y, scale=0.7 * end.scale))
+        moving = replace(three, track=track_of([start, end]), leaving=gone if is_left else None)
         return Film(moving, FilmOptions(**given), background, show_container)
 
     return make
@@ -67,9 +77,12 @@ def difference(one: Pixels, other: Pixels) -> float:
     return float(np.abs(one - other).mean())
 
 
+@pytest.mark.parametrize("is_left", [False, True])
 @pytest.mark.parametrize(("ending", "bound"), [(".gif", 4.0), (".apng", 0.0), (".webp", 4.0)])
-def test_pictures_that_move_hold_the_frames(make_film: MakeFilm, ending: str, bound: float) -> None:
-    film = make_film()
+def test_pictures_that_move_hold_the_frames(
+    make_film: MakeFilm, ending: str, bound: float, is_left: bool
+) -> None:
+    film = make_film(is_left=is_left)
     frames, times = pictures_of(film_bytes(film, f"a{ending}"))
     assert len(frames) == film.options.frames == 10
     assert sum(times) == pytest.approx(SECONDS + HOLD, abs=0.02)
@@ -200,11 +213,13 @@ def test_every_ending_has_a_test_here() -> None:
 
 
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium is installed")
-@pytest.mark.parametrize("seconds", [0.0, 0.5, 1.3])
+@pytest.mark.parametrize(
+    ("seconds", "is_left"), [(0.0, False), (0.0, True), (0.25, True), (0.5, False), (1.3, True)]
+)
 def test_an_animated_svg_looks_like_the_film(
-    make_film: MakeFilm, tmp_path: Path, seconds: float
+    make_film: MakeFilm, tmp_path: Path, seconds: float, is_left: bool
 ) -> None:
-    film = make_film(fps=20.0)
+    film = make_film(fps=20.0, is_left=is_left)
     svg = film_bytes(film, "a.svg").decode()
     page, picture = tmp_path / "page.html", tmp_path / "page.png"
     script = (
@@ -236,6 +251,36 @@ def test_an_animated_svg_has_no_script_and_ends_as_the_layout(make_film: MakeFil
     assert "1.5s linear 1 both" in svg
     last = re.findall(r"100%\{transform:translate\(([\d.]+)px,([\d.]+)px\)", svg)
     assert np.allclose(np.array(last, dtype=float), [[15, 20], [40, 35], [62.5, 25.25]], atol=0.01)
+
+
+def test_those_who_leave_are_seen_at_first_and_gone_by_the_middle(make_film: MakeFilm) -> None:
+    shown, alone = (
+        [p[:, :, 3] > 0 for p in Projector(film).pictures()]
+        for film in (
+            make_film(background="none", show_container=False, is_left=is_left)
+            for is_left in (True, False)
+        )
+    )
+    more = [int((a & ~b).sum()) for a, b in zip(shown, alone, strict=True)]
+    assert more[0] > 100
+    assert all(a >= b for a, b in itertools.pairwise(more))
+    assert more[6:] == [0, 0, 0, 0]
+
+
+def test_an_animated_svg_shows_none_who_leave_where_nothing_moves(make_film: MakeFilm) -> None:
+    svg = film_bytes(make_film(is_left=True), "a.svg").decode()
+    groups = re.findall(r'<g id="(leaving-\d)" transform="(.*?)">', svg)
+    assert groups == [(f"leaving-{k}", "scale(0)") for k in (1, 2, 3)]
+    assert svg.index('id="leaving"') < svg.index('<g id="items"')
+    ids = re.findall(r'\bid="([^"]+)"', svg.partition("</style>")[2])
+    assert len(ids) == len(set(ids))
+
+
+def test_lottie_lays_those_who_leave_beneath(make_film: MakeFilm) -> None:
+    layers = json.loads(film_bytes(make_film(is_left=True), "a.json"))["layers"]
+    ends = [layer["ks"]["s"] for layer in layers[:6]]
+    last = [size["k"][-1]["s"][0] if size["a"] else size["k"][0] for size in ends]
+    assert [size > 0 for size in last] == [True] * 3 + [False] * 3
 
 
 def test_lottie_has_what_the_format_asks_for(make_film: MakeFilm) -> None:

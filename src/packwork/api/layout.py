@@ -40,6 +40,8 @@ class Layout(scene.Layout):
         What the run did: version, recipe, seed, seconds and metrics per level.
     track
         How the items came here, if that was recorded: :meth:`save_film` shows it.
+    leaving
+        Items of the layout before that are no more, as the same film shows them; else None.
 
     Examples
     --------

@@ -75,7 +75,7 @@ def photos(
     epochs: shared.Epochs = None,
     time: shared.Time = None,
     levels: shared.Levels = None,
-    start: shared.Start = "distance-field",
+    start: shared.Start = None,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     dpi: shared.Dpi = None,

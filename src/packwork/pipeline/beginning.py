@@ -173,7 +173,7 @@ def first_angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> F
 
 def _of_now(job: Job, earlier: Layout, poses: Poses, nominal: FloatArray) -> Poses:
     """Poses of the items of now; those that are new lie in the middle, upright."""
-    found = _who_is_who(job, earlier)
+    found = who_is_who(job, earlier)
     known = found >= 0
     if not known.any():
         raise RecipeError("start", f"{job.recipe.start} has none of these items; leave --stay out")
@@ -184,7 +184,8 @@ def _of_now(job: Job, earlier: Layout, poses: Poses, nominal: FloatArray) -> Pos
     return of_now.with_some(np.flatnonzero(known), poses.some(found[known]))
 
 
-def _who_is_who(job: Job, earlier: Layout) -> IntArray:
+def who_is_who(job: Job, earlier: Layout) -> IntArray:
+    """``(n,)`` which item of an earlier layout each is; -1 for one that is new."""
     return matched([item.name for item in job.items], [item.name for item in earlier.items])
 
 
@@ -192,7 +193,7 @@ def new_items(job: Job) -> IntArray:
     """Items that an earlier layout does not have; none if there is no such layout."""
     if job.earlier is None:
         return np.arange(0)
-    return np.flatnonzero(_who_is_who(job, job.earlier) < 0)
+    return np.flatnonzero(who_is_who(job, job.earlier) < 0)
 
 
 def _unburied(

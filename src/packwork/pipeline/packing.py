@@ -20,7 +20,8 @@ from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
 from packwork.pipeline.recording import Recorder
-from packwork.pipeline.staying import calmed, needs_no_levels, with_homes
+from packwork.pipeline.staying import as_it_was, calmed, needs_no_levels, with_homes
+from packwork.pipeline.trying import jobs_tried, worth
 from packwork.progress import Observer, Stop, together
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -79,8 +80,47 @@ def placed_readably(job: Job, observer: Observer | None, stop: Stop, record: boo
     return placed
 
 
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """What the levels made of one start; ``recorder`` kept the way."""
+
+    start: Beginning
+    outcome: Outcome
+    forces: Forces | None
+    recorder: Recorder | None
+
+
 def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
     """Poses of all items, whatever their sizes."""
+    recipe, clock = job.recipe, job.clock
+    solved = _best_solved(job, observer, stop, record)
+    start, outcome, recorder = solved.start, solved.outcome, solved.recorder
+    if recipe.finish != "exact":
+        return Placed(job, start, outcome, None, recorder)
+    observer = together(observer, recorder)
+    with clock.time("finish"):
+        # What is to stay where it was is not pushed on.
+        kept = None if recipe.stay else solved.forces
+        exact = finished(job, start, outcome.poses, observer, stop, kept)
+        exact = held_down(job, start, exact, observer, stop, kept)
+    return Placed(job, start, outcome, exact, recorder)
+
+
+def _best_solved(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _Solved:
+    """The levels' outcome; of several starts, that from which most comes to be covered."""
+    tried = jobs_tried(job)
+    found: list[_Solved] = []
+    for one in tried:
+        found.append(_solved(one, observer, stop, record))
+        if len(tried) == 1 or stop():
+            return found[0]
+    with job.clock.time("finish"):
+        worths = [worth(job, s.start, s.outcome.poses, stop, s.forces) for s in found]
+    return found[worths.index(max(worths))]
+
+
+def _solved(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _Solved:
+    """Start and levels."""
     recipe, clock = job.recipe, job.clock
     recorder = Recorder() if record else None
     observer = together(observer, recorder)
@@ -90,17 +130,10 @@ def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Pl
         forces = _forces(job)
         start = begin(job, region, outlines, forces, stop)
     if recorder is not None:
-        _keep_start(recorder, start, outlines)
+        _keep_start(recorder, job, start, outlines)
     with clock.time("levels"):
         outcome = _levels(job, region, outlines, start, forces, observer, stop)
-    if recipe.finish != "exact":
-        return Placed(job, start, outcome, None, recorder)
-    with clock.time("finish"):
-        # What is to stay where it was is not pushed on.
-        kept = None if recipe.stay else forces
-        exact = finished(job, start, outcome.poses, observer, stop, kept)
-        exact = held_down(job, start, exact, observer, stop, kept)
-    return Placed(job, start, outcome, exact, recorder)
+    return _Solved(start, outcome, forces, recorder)
 
 
 def _levels(
@@ -124,14 +157,16 @@ def _levels(
     )
 
 
-def _keep_start(recorder: Recorder, start: Beginning, outlines: Sequence[Outline]) -> None:
+def _keep_start(
+    recorder: Recorder, job: Job, start: Beginning, outlines: Sequence[Outline]
+) -> None:
     """Keep the first poses; before them, of what was put one by one, the largest first."""
     poses = start.poses
     if start.method == "first-fit":
         order = np.argsort([-o.area * s**2 for o, s in zip(outlines, poses.scale, strict=True)])
         for put in range(len(order)):
             recorder.keep(poses.some(order[:put]), order[:put])
-    recorder.keep(poses)
+    recorder.keep(as_it_was(job, poses))
 
 
 def _forces(job: Job) -> Forces | None:

@@ -83,7 +83,7 @@ def is_tight(job: Job, forces: Forces | None) -> bool:
     """Whether putting items one after another leaves less room than the levels would.
 
     So it does where all have one size and cannot turn as they like, unless something is asked
-    that only the levels know.
+    that only the levels know. Photos by themselves fill more by the levels: three points.
     """
     recipe = job.recipe
     is_turning = recipe.rotation.limit is None and recipe.rotation.choices is None
@@ -95,7 +95,7 @@ def is_tight(job: Job, forces: Forces | None) -> bool:
         and recipe.finish == "exact"
         and recipe.stretch == 1.0
         and not (levels_asked or has_bonds or recipe.keeps_apart)
-        and (recipe.words is not None or not is_turning)
+        and (recipe.words is not None or (recipe.photos is None and not is_turning))
         and len(job.items) <= MOST_ITEMS
     )
 

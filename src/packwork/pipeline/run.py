@@ -14,11 +14,13 @@ from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
 from packwork.piles import PileOptions
+from packwork.pipeline.beginning import new_items
 from packwork.pipeline.finishing import unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.grouping import run_groups
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.judging import Judged, judged
+from packwork.pipeline.leaving import left_behind
 from packwork.pipeline.outcome import Filling, Run, find_unplaced
 from packwork.pipeline.packing import placed_readably
 from packwork.pipeline.piling import run_pile
@@ -28,6 +30,7 @@ from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
+from packwork.scene.leaving import grown_in
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
@@ -86,7 +89,7 @@ def run(
         poses, filling, ids = exact.poses, filled.filling, filled.ids
     unplaced = None if exact is None else unfinished(job, exact)
     found = Judged(poses, start.method, start.limits, placed.outcome, unplaced, filling)
-    return _with_track(judged(job, found), recorder, ids)
+    return _with_track(judged(job, found), recorder, ids, placed.job)
 
 
 def _heaped(
@@ -96,23 +99,27 @@ def _heaped(
     recorder = Recorder() if record else None
     done = run_pile(job, asked, together(observer, recorder), stop)
     left = [one.index for one in done.unplaced]
-    return _with_track(done, recorder, np.setdiff1d(np.arange(len(job.items)), left))
+    return _with_track(done, recorder, np.setdiff1d(np.arange(len(job.items)), left), job)
 
 
 def _grouped(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
     """Groups of a chart, and the way of their marks."""
     recorder = Recorder() if record else None
     done, ids = run_groups(job, together(observer, recorder), stop)
-    return _with_track(done, recorder, ids)
+    return _with_track(done, recorder, ids, job)
 
 
-def _with_track(done: Run, recorder: Recorder | None, ids: IntArray | None) -> Run:
+def _with_track(done: Run, recorder: Recorder | None, ids: IntArray | None, job: Job) -> Run:
+    """The run with the way of its items, which ``ids`` number as ``job`` does."""
     if recorder is None:
         return done
     layout = done.layout
-    return replace(
-        done, layout=replace(layout, track=recorder.track(layout.poses, ids, layout.items))
-    )
+    track = recorder.track(layout.poses, ids, layout.items)
+    called = np.arange(len(layout.items)) if ids is None else ids
+    if job.recipe.stay:
+        track = grown_in(track, np.flatnonzero(np.isin(called, new_items(job))))
+    placed = called[called < len(job.items)]
+    return replace(done, layout=replace(layout, track=track, leaving=left_behind(job, placed)))
 
 
 def warm_up() -> None:

@@ -7,8 +7,9 @@ import shapely
 
 from packwork.forces.bonds import Home
 from packwork.forces.forces import BondForce, Forces
-from packwork.pipeline.beginning import new_items
+from packwork.pipeline.beginning import new_items, who_is_who
 from packwork.pipeline.job import Job
+from packwork.scene.canvas import brought_over
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
@@ -48,6 +49,19 @@ def with_homes(job: Job, forces: Forces | None, poses: Poses, container: Contain
         kinds = np.zeros(len(poses), dtype=np.int64)
         return Forces([], [held], kinds, container.side)
     return Forces(forces.fields, [*forces.bonds, held], forces.kinds, forces.side)
+
+
+def as_it_was(job: Job, poses: Poses) -> Poses:
+    """First poses, those of the earlier layout's items as they were in it: the start of a film.
+
+    A run begins with sizes that fit what is asked for now.
+    """
+    if not job.recipe.stay or job.earlier is None:
+        return poses
+    found = who_is_who(job, job.earlier)
+    known = np.flatnonzero(found >= 0)
+    before = brought_over(job.earlier.poses, job.earlier.container, job.container)
+    return poses.with_some(known, before.some(found[known]))
 
 
 def calmed(options: SolveOptions) -> SolveOptions:

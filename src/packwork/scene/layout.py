@@ -14,6 +14,7 @@ from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.scene.leaving import Leaving
 from packwork.scene.note import Note
 from packwork.scene.pose import Poses
 from packwork.scene.track import Track
@@ -39,6 +40,8 @@ class Layout:
         Letters and keys that are drawn beside the items.
     track
         How the items came here; None if that was not recorded.
+    leaving
+        Items of the layout before that this one has no more, for the same film; None if none.
     """
 
     container: Container
@@ -48,6 +51,7 @@ class Layout:
     manifest: Mapping[str, Any] = field(default_factory=dict)
     notes: tuple[Note, ...] = ()
     track: Track | None = None
+    leaving: Leaving | None = None
 
     def __post_init__(self) -> None:
         if not len(self.items) == len(self.poses) == len(self.weights):

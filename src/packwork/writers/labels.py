@@ -14,7 +14,7 @@ ID_LENGTH = 60
 
 _NOT_IN_IDS = re.compile(r"[^\w]+")
 _OURS = re.compile(
-    r"(item|shape)-\d+(-\d+)?|items|container|background|labels|legend|p[0-9a-f]{10}-.*"
+    r"(item|shape)-\d+(-\d+)?|items|container|background|labels|legend|leaving(-\d+)?|p[0-9a-f]{10}-.*"
 )
 """Ids that a document of ours may hold anyway, those of drawings among them."""
 

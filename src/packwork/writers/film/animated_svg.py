@@ -12,11 +12,13 @@ import math
 from dataclasses import replace
 
 from packwork.arrays import FloatArray
+from packwork.scene.item import VectorArt
 from packwork.scene.track import COLUMNS, poses_of
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.film.knots import item_knots
 from packwork.writers.frame import picture_frame
 from packwork.writers.labels import item_ids
+from packwork.writers.marks import element, paint, with_fresh_ids
 from packwork.writers.notation import decimals, number
 from packwork.writers.svg import Sheet, SvgOptions, svg_document
 
@@ -25,7 +27,8 @@ TOLERANCE = 1 / 4_000
 fifth of a pixel of 800. Smaller: longer files that look the same. Chosen."""
 
 _PERCENT_DIGITS = 3
-_STRETCH = COLUMNS.index("stretch")
+_SCALE, _STRETCH = COLUMNS.index("scale"), COLUMNS.index("stretch")
+_LEAVING = "leaving"
 
 
 def animated_svg_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
@@ -40,11 +43,27 @@ def animated_svg_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
         replace(film.layout, items=bare), options, Sheet(size=size, unit="px", view=view)
     )
     head, end_of_title, rest = still.partition("</title>")
-    return (head + end_of_title + "\n" + _style(film, tell) + rest).encode()
+    beneath, items, above = rest.partition('<g id="items"')
+    drawn = [head, end_of_title, "\n", _style(film, tell), beneath, *_leaving(film), items, above]
+    return "".join(drawn).encode()
+
+
+def _leaving(film: Film) -> list[str]:
+    """Drawings of the items that leave, which no program shows that does not move them."""
+    step, scales = TOLERANCE * film.layout.container.side / 4, film.frames[0, :, _SCALE]
+    drawn = []
+    for k, item in enumerate(film.items[: film.leaving]):
+        if isinstance(item.art, VectorArt):
+            markup = with_fresh_ids(item.art.markup, f"-{_LEAVING}-{k + 1}")
+            item = replace(item, art=replace(item.art, markup=markup))
+        shape = element(item, paint(item), "", decimals(step / float(scales[k])))
+        drawn.append(f'<g id="{_LEAVING}-{k + 1}" transform="scale(0)">{shape}</g>\n')
+    return [f'<g id="{_LEAVING}">\n', *drawn, "</g>\n"] if drawn else []
 
 
 def _style(film: Film, tell: Tell) -> str:
-    ids, items = item_ids(film.layout.items), film.layout.items
+    items = film.items
+    ids = [f"{_LEAVING}-{k + 1}" for k in range(film.leaving)] + item_ids(film.layout.items)
     # Several films may stand in one page, whose keyframes have one namespace.
     name = "way-" + hashlib.sha256(film.frames.tobytes()).hexdigest()[:8]
     count = "infinite" if film.options.loop else "1"
@@ -55,7 +74,10 @@ def _style(film: Film, tell: Tell) -> str:
         lines.append(f'[id="{own}"]{{animation:{name}-{k + 1} {timing}}}')
         lines.append(f"@keyframes {name}-{k + 1}{{{_keyframes(film, frames, item.ink.radius)}}}")
         tell((k + 1) / len(items))
-    still = "@media (prefers-reduced-motion:reduce){#items *{animation:none!important}}"
+    still = (
+        f"@media (prefers-reduced-motion:reduce){{#items *,#{_LEAVING} *"
+        "{animation:none!important}}"
+    )
     return "\n".join(["<style>", *lines, still, "</style>"])
 
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import WriteError
+from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.track import Track
 from packwork.writers.colours import parse_colour
@@ -82,17 +83,35 @@ class Film:
         """Whether nothing shines through the background."""
         return parse_colour("background", self.background)[3] == 255
 
+    @property
+    def leaving(self) -> int:
+        """How many items of the layout before are shown besides."""
+        return 0 if self.layout.leaving is None else len(self.layout.leaving)
+
+    @cached_property
+    def items(self) -> tuple[Item, ...]:
+        """All that are shown, from the bottom up: those that leave, then the layout's."""
+        leaving = self.layout.leaving
+        return self.layout.items if leaving is None else (*leaving.items, *self.layout.items)
+
     @cached_property
     def frames(self) -> FloatArray:
-        """``(frames, n, 5)`` numbers of a track, frame by frame, eased as asked."""
+        """``(frames, n, 5)`` numbers of all items, frame by frame, eased as asked."""
         options = self.options
         if options.easing == "linear":
-            return self.track.sampled(np.linspace(0.0, 1.0, options.frames))
+            return self._sampled(np.linspace(0.0, 1.0, options.frames))
         reach = round(min(SOFT_SECONDS * options.fps, SOFT_SHARE * options.frames) / 2)
-        return _softened(self.track, options.frames, reach)
+        return _softened(self._sampled, options.frames, reach)
+
+    def _sampled(self, times: FloatArray) -> FloatArray:
+        """The same at times of the track; those beyond its ends are its ends."""
+        numbers, leaving = self.track.sampled(times), self.layout.leaving
+        if leaving is None:
+            return numbers
+        return np.concatenate([leaving.sampled(times), numbers], axis=1)
 
 
-def _softened(track: Track, count: int, reach: int) -> FloatArray:
+def _softened(sampled: Callable[[FloatArray], FloatArray], count: int, reach: int) -> FloatArray:
     """Frames that are weighed means of those ``reach`` before and after them.
 
     The first and the last are the track's own: it begins ``reach`` frames late, ends as many
@@ -101,12 +120,12 @@ def _softened(track: Track, count: int, reach: int) -> FloatArray:
     # A window of 2 * reach + 1 frames about each frame sees those beyond the film's ends too.
     span = max(count - 1 - 2 * reach, 1)
     places = (np.arange(-reach, count + reach) - reach) / span
-    path = track.sampled(places)
+    path = sampled(places)
     window = np.hanning(2 * reach + 3)[1:-1]
     window /= window.sum()
     frames = np.zeros((count, *path.shape[1:]))
     for offset, weight in enumerate(window):
         frames += weight * path[offset : offset + count]
     # Means of equal numbers are off by rounding: what ends a film is the layout itself.
-    frames[0], frames[-1] = track.numbers[0], track.numbers[-1]
+    frames[[0, -1]] = path[[0, -1]]
     return frames

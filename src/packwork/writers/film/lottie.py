@@ -46,7 +46,7 @@ def lottie_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     """Lottie file of a film; whether it loops is for its player to say."""
     frame = picture_frame(film.layout.container, film.options.film_pixels)
     scene = _Scene(film, frame)
-    layers = [scene.layer(k, tell) for k in range(len(film.layout.items))]
+    layers = [scene.layer(k, tell) for k in range(len(film.items))]
     # The first layer is the one on top.
     layers = [*layers[::-1], *_under(film, frame)]
     end = film.options.total * film.options.fps
@@ -65,7 +65,7 @@ class _Scene:
 
     def __init__(self, film: Film, frame: Frame) -> None:
         self._film, self._frame = film, frame
-        self._items = film.layout.items
+        self._items = film.items
         self._largest: dict[int, float] = {}
         for item, scale in zip(self._items, film.frames[:, :, 3].max(axis=0), strict=True):
             key = shape_key(item)

@@ -49,7 +49,7 @@ class Projector:
     def __init__(self, film: Film, is_even: bool = False) -> None:
         self._film = film
         self.frame = _frame(film, is_even)
-        self._keys = [_key(item) for item in film.layout.items]
+        self._keys = [_key(item) for item in film.items]
         try:
             self._sheet = _sheet(film, self.frame)
             self._textures = self._rendered()
@@ -64,7 +64,7 @@ class Projector:
             tell((k + 1) / len(numbers))
 
     def picture(self, numbers: FloatArray) -> Picture:
-        """One frame, of the ``(n, 5)`` numbers of a track."""
+        """One frame, of the ``(n, 5)`` numbers of all that are shown."""
         image, poses = self._sheet.copy(), poses_of(numbers)
         to_px = affine.similarity(0.0, 0.0, 0.0, self.frame.px_per_cu)
         for k, key in enumerate(self._keys):
@@ -76,9 +76,7 @@ class Projector:
         """Each drawing as fine as it is ever shown."""
         largest: dict[tuple[int, str], float] = {}
         drawings: dict[tuple[int, str], Item] = {}
-        for key, item, scale in zip(
-            self._keys, self._film.layout.items, self._scales(), strict=True
-        ):
+        for key, item, scale in zip(self._keys, self._film.items, self._scales(), strict=True):
             drawings.setdefault(key, item)
             largest[key] = max(largest.get(key, 0.0), scale)
         return {key: _texture(item, largest[key]) for key, item in drawings.items()}
@@ -115,7 +113,7 @@ def _frame(film: Film, is_even: bool) -> Frame:
 def _sheet(film: Film, frame: Frame) -> Picture:
     """What lies under the items in every frame, premultiplied."""
     none = Poses(_NOWHERE, _NOWHERE, _NOWHERE, _NOWHERE)
-    bare = replace(film.layout, items=(), poses=none, weights=_NOWHERE, track=None)
+    bare = replace(film.layout, items=(), poses=none, weights=_NOWHERE)
     size = (float(frame.columns), float(frame.rows))
     view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
     drawn = SvgOptions(background=film.background, show_container=film.show_container)
