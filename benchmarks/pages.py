@@ -8,6 +8,7 @@ from functools import partial
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
+import charts
 import engine
 import evenness
 import film
@@ -20,6 +21,7 @@ import peer_pages
 import photos
 import quality
 import resolution
+import robustness
 import scaling_page
 import words
 from manifests import Manifest, known, of_parts, write_text
@@ -33,8 +35,9 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
     **{
         name: partial(of_parts, module.PAGE)
         for name, module in {
-            "engine": engine, "films": film, "forces": forces, "outlines": outlines,
-            "parts": parts, "photos": photos, "quality": quality, "words": words,
+            "charts": charts, "engine": engine, "films": film, "forces": forces,
+            "outlines": outlines, "parts": parts, "photos": photos, "quality": quality, "robustness": robustness,
+            "words": words,
         }.items()
     },
 }  # fmt: skip

@@ -36,8 +36,6 @@ PAGE = """# What breaks it
 Made by {settings} on {date}.
 {machine}
 
-| what | tried | clear errors | successes | crashes | hangs | lost files |
-| --- | --- | --- | --- | --- | --- | --- |
 {rows}
 
 The last three must be 0. A **clear error** is one of Packwork's own: one line that says what is
@@ -178,7 +176,7 @@ def _write(parts: dict[str, Part]) -> None:
         "benchmarks-robustness.md",
         PAGE,
         settings=" and ".join(settings),
-        rows="\n".join("| " + " | ".join(row) + " |" for row in _table(parts.values())[0]),
+        rows=markdown_table(HEADER, _table(parts.values())[0]),
         seconds=f"{SECONDS_AT_MOST:g}",
         clock=f"{CLOCK_SECONDS:g}",
         memory=f"{MEMORY_BYTES / 2**30:g}",

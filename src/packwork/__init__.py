@@ -9,9 +9,12 @@
 from __future__ import annotations
 
 import importlib
-from typing import TYPE_CHECKING, Any
 
+# Not from ``typing``: its import takes ten milliseconds in which Ctrl-C would be a traceback.
+TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from typing import Any
+
     from packwork.api.albums import photos
     from packwork.api.layout import Layout
     from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
