@@ -36,8 +36,8 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
         name: partial(of_parts, module.PAGE)
         for name, module in {
             "charts": charts, "engine": engine, "films": film, "forces": forces,
-            "outlines": outlines, "parts": parts, "photos": photos, "quality": quality, "robustness": robustness,
-            "words": words,
+            "outlines": outlines, "parts": parts, "photos": photos, "quality": quality,
+            "robustness": robustness, "words": words,
         }.items()
     },
 }  # fmt: skip
