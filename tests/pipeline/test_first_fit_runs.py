@@ -54,6 +54,14 @@ def test_first_fit_needs_one_size() -> None:
         pw.fill("heart", ["star"], count=4, start="first-fit")
 
 
+@pytest.mark.parametrize("options", [{"epochs": 30}, {"force": "align horizontal"}])
+def test_levels_that_are_asked_for_run_after_a_first_fit_too(options: dict[str, object]) -> None:
+    layout = pw.words("circle", WORDS, start="first-fit", effort="draft", **options)
+    assert _starts(layout) == "first-fit"
+    assert layout.manifest["levels"] != []
+    assert layout.manifest["certified"]
+
+
 def test_a_film_shows_words_come_in_the_largest_first() -> None:
     layout = pw.words("circle", WORDS, record=True)
     assert layout.track is not None

@@ -17,7 +17,7 @@ from packwork.pipeline.given import given_scales
 from packwork.pipeline.job import Job
 from packwork.pipeline.limiting import check_poses, held_to, item_limits, pinned_scales
 from packwork.pipeline.matching import matched
-from packwork.pipeline.placing import first_places
+from packwork.pipeline.placing import first_places, needs_levels
 from packwork.progress import Stop, never
 from packwork.rules import Rotation
 from packwork.scene.canvas import brought_over
@@ -70,12 +70,15 @@ class Beginning:
         How places were found.
     limits
         What rules ask of single items; None if nothing.
+    is_tight
+        Whether nothing overlaps, and the levels have nothing to add.
     """
 
     poses: Poses
     nominal: FloatArray
     method: str
     limits: Limits | None
+    is_tight: bool = False
 
 
 def begin(
@@ -100,13 +103,15 @@ def begin(
     limits = item_limits(job, nominal, scales, angles) if job.is_limited else None
     if limits is not None:
         scales = np.clip(scales, limits.smallest, limits.largest)
+    is_tight = False
     if earlier is not None:
         poses, method = replace(earlier, angle=angles), "layout"
         poses = poses if limits is None else held_to(limits, poses)
     else:
         first = first_places(job, container, outlines, scales, angles, limits, rng, forces, stop)
         poses, method = first.poses, str(first.method)
-        if forces is not None and method != "first-fit":
+        is_tight = method == "first-fit" and not needs_levels(job, forces)
+        if forces is not None and not is_tight:
             poses = _by_forces(outlines, poses, limits, forces)
     if limits is not None:
         check_poses(job, container, poses, limits)
@@ -116,7 +121,7 @@ def begin(
         poses = _unburied(container, outlines, poses, rng, limits)
     if limits is not None and limits.kinds is not None:
         poses = _kinds_apart(outlines, poses, limits, limits.kinds)
-    return Beginning(poses, nominal, method, limits)
+    return Beginning(poses, nominal, method, limits, is_tight)
 
 
 def _scales(

@@ -179,7 +179,7 @@ def _options(
         narrowest = float(start.limits.turn_limit[items].min())
         limit = narrowest if np.isfinite(narrowest) else None
     # Put together so closely, items have nowhere to go: a tenth of a point in twice the time.
-    is_tight = start.method == "first-fit" and recipe.effort != "best"
+    is_settled = start.is_tight and recipe.effort != "best"
     return FinishOptions(
         gap_cu=gap_with_bulge(job, items, largest),
         sizes=recipe.sizes,
@@ -187,8 +187,8 @@ def _options(
         largest=tuple(largest.tolist()),
         turning=turning,
         turn_limit=limit if turning else None,
-        trials=0 if recipe.stay or is_tight else trials_for(job, len(items)),
-        relieving=not is_tight,
+        trials=0 if recipe.stay or is_settled else trials_for(job, len(items)),
+        relieving=not is_settled,
         refining=needs_no_levels(job),
         staying=recipe.stay,
         seed=recipe.seed,

@@ -146,7 +146,7 @@ def _levels(
     stop: Stop,
 ) -> Outcome:
     """What the levels make of the first poses; those themselves, where they are as good."""
-    if needs_no_levels(job) or start.method == "first-fit":
+    if needs_no_levels(job) or start.is_tight:
         return Outcome(start.poses, Ending.DONE)
     options = _solve_options(job, job.recipe.padding_cu(job.container))
     if job.recipe.stay:

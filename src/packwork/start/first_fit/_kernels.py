@@ -1,4 +1,4 @@
-"""Inner loops on sheets of bits: 64 pixels in a word, the lowest bit leftmost."""
+"""Inner loops on rows of bits: 64 pixels in a word, the lowest bit leftmost."""
 
 from __future__ import annotations
 
@@ -62,8 +62,8 @@ def find_free(rows, runs, height, free):
 
 
 @njit(cache=True, nogil=True)
-def best_touching(free, taken, margin, ring, worth, origin, is_everywhere):
-    """Return score, row and column of the free place whose ring is taken most; rows of -1 if none.
+def best_touching(free, taken, margin, fringe, worth, origin, is_everywhere):
+    """Return score, row and column of the free place whose fringe is taken most; -1 if none.
 
     ``worth`` is added for the pixel that the stencil's origin comes to; minus infinity
     forbids it. Unless ``is_everywhere``, only places beside one that is not free come into
@@ -101,9 +101,9 @@ def best_touching(free, taken, margin, ring, worth, origin, is_everywhere):
                     continue
                 base = (y + margin) * width + x + margin
                 touched = 0
-                for k in range(len(ring)):
-                    touched += flat[base + ring[k]]
-                score = touched / len(ring) + more
+                for k in range(len(fringe)):
+                    touched += flat[base + fringe[k]]
+                score = touched / len(fringe) + more
                 if best_y < 0 or score > best:
                     best, best_y, best_x = score, y, x
     return best, best_y, best_x
@@ -133,7 +133,7 @@ def runs_of(mask):
 
 
 @njit(cache=True, nogil=True)
-def ring_of(mask, reach):
+def fringe_of(mask, reach):
     """Return ``(r, 2)`` rows and columns of the pixels off a mask, at most ``reach`` from it."""
     height, width = mask.shape
     near = np.zeros((height + 2 * reach, width + 2 * reach), np.bool_)

@@ -35,14 +35,14 @@ class Stencil:
     runs
         ``(r, 4)`` the same as runs: row, first column, length, log2 of the length; long
         ones first, as they are the first to meet something.
-    ring
+    fringe
         ``(m, 2)`` rows and columns of the pixels round it.
     """
 
     mask: BoolArray
     origin: tuple[int, int]
     runs: IntArray
-    ring: IntArray
+    fringe: IntArray
 
 
 def cut_all(outlines_px: Mapping[Key, Outline], reach: int) -> dict[Key, Stencil]:
@@ -53,13 +53,13 @@ def cut_all(outlines_px: Mapping[Key, Outline], reach: int) -> dict[Key, Stencil
     outlines_px
         In pixels, origin where a pixel's corner will be put.
     reach
-        Width of the ring round each, pixels.
+        Width of the fringe round each, pixels.
 
     Examples
     --------
     >>> tile = Outline.from_rings([np.array([[-1.0, -1], [2, -1], [2, 1], [-1, 1]])])
     >>> one = cut_all({"tile": tile}, 1)["tile"]
-    >>> one.mask.tolist(), one.origin, len(one.ring)
+    >>> one.mask.tolist(), one.origin, len(one.fringe)
     ([[True, True, True], [True, True, True]], (1, 1), 14)
     """
     outlines = list(outlines_px.values())
@@ -75,7 +75,7 @@ def cut_all(outlines_px: Mapping[Key, Outline], reach: int) -> dict[Key, Stencil
             runs = _kernels.runs_of(mask)
             runs = runs[np.argsort(-runs[:, 2], kind="stable")]
             origin = (-int(low[k, 1]), -int(low[k, 0]))
-            found.append(Stencil(mask, origin, runs, _kernels.ring_of(mask, reach)))
+            found.append(Stencil(mask, origin, runs, _kernels.fringe_of(mask, reach)))
     return dict(zip(outlines_px, found, strict=True))
 
 

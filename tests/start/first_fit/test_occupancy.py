@@ -10,18 +10,18 @@ from hypothesis import strategies as st
 from packwork.arrays import BoolArray
 from packwork.fields.clearance import distance_inside
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.sheet import Sheet
+from packwork.start.first_fit.occupancy import Occupancy
 from packwork.start.first_fit.stencil import Stencil
 
 REACH = 2
 
 
 def _stencil(mask: BoolArray) -> Stencil:
-    return Stencil(mask, (0, 0), _kernels.runs_of(mask), _kernels.ring_of(mask, REACH))
+    return Stencil(mask, (0, 0), _kernels.runs_of(mask), _kernels.fringe_of(mask, REACH))
 
 
 def _touching(mask: BoolArray, free: BoolArray, row: int, column: int) -> float | None:
-    """Share of the ring's pixels that are taken; None if the mask meets a taken pixel."""
+    """Share of the fringe's pixels that are taken; None if the mask meets a taken pixel."""
     taken = np.pad(~free, REACH, constant_values=True)
     here = np.zeros_like(taken)
     height, width = mask.shape
@@ -33,13 +33,13 @@ def _touching(mask: BoolArray, free: BoolArray, row: int, column: int) -> float 
         return None
     away = np.linalg.norm(np.mgrid[-REACH : REACH + 1, -REACH : REACH + 1], axis=0)
     steps = np.argwhere(away**2 <= REACH**2 + REACH) - REACH
-    ring = np.zeros_like(here)
+    fringe = np.zeros_like(here)
     for y, x in np.argwhere(here):
         for dy, dx in steps:
-            if 0 <= y + dy < ring.shape[0] and 0 <= x + dx < ring.shape[1]:
-                ring[y + dy, x + dx] = True
-    ring &= ~here
-    return float(taken[ring].mean())
+            if 0 <= y + dy < fringe.shape[0] and 0 <= x + dx < fringe.shape[1]:
+                fringe[y + dy, x + dx] = True
+    fringe &= ~here
+    return float(taken[fringe].mean())
 
 
 def _random(seed: int, width: int) -> tuple[BoolArray, BoolArray]:
@@ -54,7 +54,7 @@ def _random(seed: int, width: int) -> tuple[BoolArray, BoolArray]:
 @pytest.mark.parametrize("seed", [0, 1, 2])
 def test_the_best_place_is_that_of_a_look_at_all(seed: int, width: int) -> None:
     free, mask = _random(seed, width)
-    place = Sheet(free, REACH).best_place(_stencil(mask), np.zeros(free.shape))
+    place = Occupancy(free, REACH).best_place(_stencil(mask), np.zeros(free.shape))
     assert place is not None
     score, row, column = place
     scores = {
@@ -70,13 +70,13 @@ def test_the_best_place_is_that_of_a_look_at_all(seed: int, width: int) -> None:
 
 def test_what_is_put_meets_nothing_until_nothing_fits() -> None:
     free, mask = _random(5, 70)
-    sheet, left, count = Sheet(free, REACH), free.copy(), 0
-    while (place := sheet.best_place(_stencil(mask), np.zeros(free.shape))) is not None:
+    occupancy, left, count = Occupancy(free, REACH), free.copy(), 0
+    while (place := occupancy.best_place(_stencil(mask), np.zeros(free.shape))) is not None:
         _, row, column = place
         here = left[row : row + mask.shape[0], column : column + mask.shape[1]]
         assert here[mask].all()
         here[mask] = False
-        sheet.take(_stencil(mask), row, column)
+        occupancy.take(_stencil(mask), row, column)
         count += 1
     assert count > 10
     assert all(_touching(mask, left, y, x) is None for y in range(24) for x in range(70))
@@ -88,32 +88,32 @@ def test_an_origin_comes_only_where_it_may(is_everywhere: bool) -> None:
     worth = np.full(free.shape, -np.inf)
     worth[9, 65] = worth[1, 30] = 0.0
     mask = np.ones((3, 4), dtype=bool)
-    stencil = Stencil(mask, (1, 2), _kernels.runs_of(mask), _kernels.ring_of(mask, REACH))
-    sheet = Sheet(free, REACH)
+    stencil = Stencil(mask, (1, 2), _kernels.runs_of(mask), _kernels.fringe_of(mask, REACH))
+    occupancy = Occupancy(free, REACH)
     found = []
-    while (place := sheet.best_place(stencil, worth, is_everywhere)) is not None:
+    while (place := occupancy.best_place(stencil, worth, is_everywhere)) is not None:
         found.append(place[1:])
-        sheet.take(stencil, *place[1:])
+        occupancy.take(stencil, *place[1:])
     # What touches nothing is looked at only if asked.
     assert found == ([(0, 28), (8, 63)] if is_everywhere else [(0, 28)])
 
 
-def test_what_lies_off_the_sheet_is_not_kept() -> None:
-    sheet = Sheet(np.ones((5, 5), dtype=bool), REACH)
-    before = int(sheet.taken.sum())
-    sheet.take(_stencil(np.ones((3, 3), dtype=bool)), -2, 4)
-    assert int(sheet.taken.sum()) == before + 1
-    sheet.take(_stencil(np.ones((3, 3), dtype=bool)), 9, 9)
-    assert int(sheet.taken.sum()) == before + 1
+def test_what_lies_off_the_occupancy_is_not_kept() -> None:
+    occupancy = Occupancy(np.ones((5, 5), dtype=bool), REACH)
+    before = int(occupancy.taken.sum())
+    occupancy.take(_stencil(np.ones((3, 3), dtype=bool)), -2, 4)
+    assert int(occupancy.taken.sum()) == before + 1
+    occupancy.take(_stencil(np.ones((3, 3), dtype=bool)), 9, 9)
+    assert int(occupancy.taken.sum()) == before + 1
 
 
 @given(st.integers(0, 2**32), st.integers(1, 200))
 def test_smeared_rows_tell_of_any_pixel_within_their_length(seed: int, width: int) -> None:
     rng = np.random.default_rng(seed)
     taken = rng.random(width) < 0.1
-    sheet = Sheet(~taken[None, :], 1)
+    occupancy = Occupancy(~taken[None, :], 1)
     beyond = np.concatenate([taken, np.ones(600, dtype=bool)])
-    bits = np.unpackbits(sheet._rows[0].view(np.uint8), axis=1, bitorder="little")
+    bits = np.unpackbits(occupancy._rows[0].view(np.uint8), axis=1, bitorder="little")
     for level, row in enumerate(bits):
         want = [beyond[x : x + 2**level].any() for x in range(width)]
         assert row[:width].astype(bool).tolist() == want
@@ -121,11 +121,11 @@ def test_smeared_rows_tell_of_any_pixel_within_their_length(seed: int, width: in
 
 def test_clearance_is_kept_up() -> None:
     free, mask = _random(3, 70)
-    sheet = Sheet(free, REACH)
-    assert sheet.clearance.shape == free.shape
+    occupancy = Occupancy(free, REACH)
+    assert occupancy.clearance.shape == free.shape
     for _ in range(8):
-        place = sheet.best_place(_stencil(mask), sheet.clearance, is_everywhere=True)
+        place = occupancy.best_place(_stencil(mask), occupancy.clearance, is_everywhere=True)
         assert place is not None
-        sheet.take(_stencil(mask), *place[1:])
-    inner = sheet.taken[REACH:-REACH, REACH:-REACH] == 0
-    assert sheet.clearance == pytest.approx(distance_inside(inner))
+        occupancy.take(_stencil(mask), *place[1:])
+    inner = occupancy.taken[REACH:-REACH, REACH:-REACH] == 0
+    assert occupancy.clearance == pytest.approx(distance_inside(inner))

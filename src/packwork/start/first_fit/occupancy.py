@@ -15,11 +15,11 @@ from packwork.start.first_fit.stencil import Stencil
 LEVELS = 10
 """Lengths of runs that are looked at in one step: powers of two up to 512."""
 
-MOST_RING = 96
-"""Pixels round a stencil that are looked at, at most: every so manieth of a longer ring."""
+MOST_FRINGE = 96
+"""Pixels round a stencil that are looked at, at most: every so manieth of a longer fringe."""
 
 
-class Sheet:
+class Occupancy:
     """Which pixels are taken; it finds places in them by bits, 64 pixels at a time.
 
     Parameters
@@ -27,7 +27,7 @@ class Sheet:
     free
         ``(rows, columns)`` the pixels that may be taken.
     margin
-        Pixels by which a ring may reach out of a box.
+        Pixels by which a fringe may reach out of a box.
 
     Examples
     --------
@@ -35,12 +35,12 @@ class Sheet:
     >>> from packwork.start.first_fit.stencil import cut_all
     >>> tile = Outline.from_rings([np.array([[0.0, 0], [2, 0], [2, 2], [0, 2]])])
     >>> stencil = cut_all({"tile": tile}, 1)["tile"]
-    >>> sheet = Sheet(np.ones((2, 5), dtype=bool), 1)
+    >>> occupancy = Occupancy(np.ones((2, 5), dtype=bool), 1)
     >>> worth = np.zeros((2, 5))
-    >>> while (place := sheet.best_place(stencil, worth)) is not None:
+    >>> while (place := occupancy.best_place(stencil, worth)) is not None:
     ...     score, row, column = place
     ...     print(round(score, 2), row, column)
-    ...     sheet.take(stencil, row, column)
+    ...     occupancy.take(stencil, row, column)
     0.83 0 0
     0.83 0 2
     """
@@ -81,10 +81,10 @@ class Sheet:
         """
         height = stencil.mask.shape[0]
         _kernels.find_free(self._rows, stencil.runs, height, self._free)
-        ring = stencil.ring
-        if len(ring) > MOST_RING:
-            ring = ring[:: -(-len(ring) // MOST_RING)]
-        steps = ring[:, 0] * self.taken.shape[1] + ring[:, 1]
+        fringe = stencil.fringe
+        if len(fringe) > MOST_FRINGE:
+            fringe = fringe[:: -(-len(fringe) // MOST_FRINGE)]
+        steps = fringe[:, 0] * self.taken.shape[1] + fringe[:, 1]
         origin = np.array(stencil.origin)
         score, row, column = _kernels.best_touching(
             self._free, self.taken, self._margin, steps, worth, origin, is_everywhere
@@ -92,7 +92,7 @@ class Sheet:
         return (float(score), int(row), int(column)) if row >= 0 else None
 
     def take(self, stencil: Stencil, row: int, column: int) -> None:
-        """Put the stencil's box there; what of it lies off the sheet is not kept."""
+        """Put the stencil's box there; what of it lies off the image is not kept."""
         height, width = stencil.mask.shape
         top, left = max(row, 0), max(column, 0)
         bottom, right = min(row + height, self.shape[0]), min(column + width, self.shape[1])
