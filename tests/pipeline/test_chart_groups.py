@@ -197,6 +197,7 @@ def test_time_is_shared_by_the_groups() -> None:
             "padding: 150 px leaves nothing of the container",
         ),
         ("none", {"by": "kind", "force": "up"}, "groups of --by have their own"),
+        ("circle", {"by": "kind", "filler": ["star"]}, "filler: has no meaning in groups"),
         (
             "circle",
             {"by": "kind", "label_by": "name", "rules": [{"items": "a", "pin": {"x": 5, "y": 5}}]},

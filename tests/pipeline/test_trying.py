@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -10,6 +11,7 @@ from PIL import Image
 from packwork import pipeline
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.trying import PHOTO_STARTS, jobs_tried
+from packwork.progress import Step
 from packwork.recipe import Recipe
 
 QUICK = {"epochs": 40, "levels": (50, 150), "seed": 1}
@@ -79,3 +81,25 @@ def test_icons_begin_in_one_way() -> None:
 def test_stopped_at_once_it_ends_with_what_it_has(album: str) -> None:
     done = pipeline.run(job(album), stop=lambda: True)
     assert done.layout.manifest["start"] == PHOTO_STARTS[0]
+
+
+class Watch:
+    """Keeps the progress of the levels."""
+
+    every = 10
+
+    def __init__(self) -> None:
+        self.progress: list[float] = []
+
+    def on_step(self, step: Step) -> None:
+        """Keep it."""
+        if not step.is_finish:
+            self.progress.append(step.progress)
+
+
+def test_progress_of_several_starts_goes_from_0_to_1_once(album: str) -> None:
+    watch = Watch()
+    pipeline.run(job(album), watch)
+    assert all(a <= b for a, b in pairwise(watch.progress))
+    assert watch.progress[0] < 0.2
+    assert watch.progress[-1] == 1.0

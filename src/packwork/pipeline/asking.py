@@ -76,6 +76,19 @@ class Asked:
             voices={**self.voices, **dict.fromkeys(speaks, voice)},
         )
 
+    def refuse(self, keys: Sequence[str], where: str) -> None:
+        """Refuse rules that have no meaning somewhere.
+
+        Raises
+        ------
+        RecipeError
+            In the words of who asked for one of the keys.
+        """
+        for key in keys:
+            voice = next((v for k, v in self.voices.items() if k.split(".")[0] == key), None)
+            if voice is not None:
+                raise voice.error(f"{key} has no meaning in {where}; leave it out")
+
     @property
     def is_placed(self) -> bool:
         """Whether the copy has to lie at one point."""

@@ -17,8 +17,8 @@ from packwork.geometry.outline import Outline
 from packwork.pipeline.beginning import first_angles
 from packwork.pipeline.cells import SNUG_SHARE, Cell, box_outline, joined_rooms
 from packwork.pipeline.chart_colours import chart_colours
-from packwork.pipeline.chorus import Grouped, Voice, members, moved, unit_scales
 from packwork.pipeline.finishing import gap_with_bulge, solid_outlines
+from packwork.pipeline.grouped import Grouped, GroupSteps, members, moved, unit_scales
 from packwork.pipeline.heights import COVER, is_alike_and_round, rows_in_hollows
 from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Unplaced
@@ -65,10 +65,11 @@ def fill_bars(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
         if over <= 1 or stop():
             break
         scale *= BACK / np.sqrt(over)
-    outlines = job_outlines(job, poses)
+    heaped = [own[np.isin(own, kept)] for own in heaps.members]
+    gap = heaps.gap(scale)
     rooms = [
-        _cut(cell, [outlines[k] for k in own if k in set(kept.tolist())], heaps.gap(scale))
-        for cell, own in zip(heaps.cells, heaps.members, strict=True)
+        _cut(cell, [job.items[k].outline.mapped(poses.matrix(int(k))) for k in own], gap)
+        for cell, own in zip(heaps.cells, heaped, strict=True)
     ]
     container = replace(
         job.container, outline=joined_rooms([room for room in rooms if room is not None])
@@ -78,11 +79,6 @@ def fill_bars(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
         Unplaced(job.items[k].name, int(k), "there was no room left for it") for k in left
     )
     return Grouped(poses, kept, container, "lowest", unplaced)
-
-
-def job_outlines(job: Job, poses: Poses) -> list[Outline]:
-    """True outlines of all marks in their places."""
-    return [item.outline.mapped(poses.matrix(k)) for k, item in enumerate(job.items)]
 
 
 class _Heaps:
@@ -149,10 +145,10 @@ class _Heaps:
         for k, own in enumerate(self.members):
             if len(own) == 0:
                 continue
-            voice = None
+            steps = None
             if observer is not None:
-                voice = Voice(observer, poses, kept, own, np.zeros(2))
-            heap, placed = self._heap(k, scale, voice)
+                steps = GroupSteps(observer, poses, kept, own, np.zeros(2))
+            heap, placed = self._heap(k, scale, steps)
             poses = poses.with_some(own, self._centred(k, heap, placed))
             kept = np.concatenate([kept, own[placed]])
         return poses, np.sort(kept)
@@ -169,7 +165,7 @@ class _Heaps:
         foot = self.cells[0].room.bounds[3]
         return (foot - min(tops, default=foot)) / self._height
 
-    def _heap(self, group: int, scale: float, voice: Observer | None) -> tuple[Poses, IntArray]:
+    def _heap(self, group: int, scale: float, steps: Observer | None) -> tuple[Poses, IntArray]:
         """One group at rest in its bar, and which of its marks have a place."""
         own = self.members[group]
         left, top, right, foot = self.cells[group].room.bounds
@@ -190,7 +186,7 @@ class _Heaps:
         )
         heap = pile(
             container, [self._outlines[k] for k in own], begin, forces, options,
-            observer=voice, stop=self._stop, ranks=self._ranks[own],
+            observer=steps, stop=self._stop, ranks=self._ranks[own],
         )  # fmt: skip
         return heap.poses, heap.placed
 

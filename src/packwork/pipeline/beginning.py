@@ -220,10 +220,7 @@ def _kinds_apart(
 ) -> Poses:
     """Poses in which items of about one size have changed places, away from their kind."""
     sizes = np.log(disc_radii(outlines, poses.scale)) / np.log(ALIKE)
-    order = mixed(kinds, neighbour_pairs(poses.x, poses.y), limits.groups, sizes)
-    x, y = poses.x.copy(), poses.y.copy()
-    x[order], y[order] = poses.x, poses.y
-    return replace(poses, x=x, y=y)
+    return _exchanged(poses, mixed(kinds, neighbour_pairs(poses.x, poses.y), limits.groups, sizes))
 
 
 def _by_forces(
@@ -234,7 +231,12 @@ def _by_forces(
     groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
     places = np.column_stack([poses.x, poses.y])
     areas = np.array([outline.area for outline in outlines]) * poses.scale**2
-    order = exchanged(forces, places, areas, np.log(radii) / np.log(FORCED_ALIKE), groups)
+    sizes = np.log(radii) / np.log(FORCED_ALIKE)
+    return _exchanged(poses, exchanged(forces, places, areas, sizes, groups))
+
+
+def _exchanged(poses: Poses, order: IntArray) -> Poses:
+    """Poses in which items have come to the places of others."""
     x, y = poses.x.copy(), poses.y.copy()
     x[order], y[order] = poses.x, poses.y
     return replace(poses, x=x, y=y)

@@ -53,7 +53,7 @@ class Cell:
         Of the group.
     room
         Where its marks lie.
-    middle, width
+    width
         Of its name, along x.
     line
         What the name stands on: y.
@@ -63,10 +63,15 @@ class Cell:
 
     name: str
     room: Outline
-    middle: float
     width: float
     line: float
     is_turned: bool = False
+
+    @property
+    def middle(self) -> float:
+        """Of the room and the name, along x."""
+        left, _, right, _ = self.room.bounds
+        return (left + right) / 2
 
     def mapped(self, matrix: FloatArray) -> Cell:
         """Image under a map that neither turns nor stretches.
@@ -74,18 +79,16 @@ class Cell:
         Examples
         --------
         >>> tile = Outline.from_rings([np.array([[0.0, 0], [1, 0], [1, 1]])])
-        >>> cell = Cell("a", tile, 0.5, 1.0, 2.0).mapped(affine.similarity(1.0, 0.0, 0.0, 3.0))
+        >>> cell = Cell("a", tile, 1.0, 2.0).mapped(affine.similarity(1.0, 0.0, 0.0, 3.0))
         >>> cell.middle, cell.width, cell.line
         (2.5, 3.0, 6.0)
         """
-        at = affine.apply(matrix, np.array([[self.middle, self.line]]))[0]
-        scale = float(matrix[0, 0])
+        scale, down = float(matrix[0, 0]), float(matrix[1, 2])
         return replace(
             self,
             room=self.room.mapped(matrix),
-            middle=float(at[0]),
             width=self.width * scale,
-            line=float(at[1]),
+            line=self.line * scale + down,
         )
 
 
@@ -117,7 +120,7 @@ def bars(
         middle = 0.5 + (k - (len(names) - 1) / 2) * pitch
         room = box_outline(middle - width / 2, top, middle + width / 2, foot)
         line = foot + (LINE_UNDER_EM + turned) * em_share
-        cells.append(Cell(name, room, middle, pitch, line, turned > 0))
+        cells.append(Cell(name, room, pitch, line, turned > 0))
     return Container("bars", "none", joined_rooms(cells), 1.0, height_share, unit), tuple(cells)
 
 
@@ -164,7 +167,7 @@ def copies(
         place = affine.similarity(x + free - left, y + free - top, 0.0, 1.0)
         line = y + free - LINE_OVER_EM * em_share * columns * width
         room = container.outline.mapped(place)
-        cells.append(Cell(name, room, x + width / 2, width - free, line))
+        cells.append(Cell(name, room, width - free, line))
     whole = replace(
         container, outline=joined_rooms(cells), width=columns * width, height=rows * (height + over)
     )

@@ -59,8 +59,7 @@ def _check(job: Job) -> None:
         raise RecipeError("force", "groups of --by have their own; leave it out")
     if job.has_bars and job.recipe.finish == "none":
         raise RecipeError("finish", "bars are settled in exact geometry; use exact")
+    if job.recipe.fills_gaps:
+        raise RecipeError("filler", "has no meaning in groups of --by; leave it out")
     for one in job.asked:
-        for key in ("pin", "region"):
-            voice = next((v for k, v in one.voices.items() if k.split(".")[0] == key), None)
-            if voice is not None:
-                raise voice.error(f"{key} has no meaning in groups of --by; leave it out")
+        one.refuse(("pin", "region"), "groups of --by")

@@ -168,7 +168,12 @@ def read(
         frame, cells, single = None, None, None
         if chart is not None:
             spread = spread_out(recipe, chart, room)
-            region, frame, cells, single = spread.container, spread.frame, spread.cells, room
+            region, frame, cells, single = (
+                spread.container,
+                spread.frame,
+                spread.cells,
+                spread.single,
+            )
         else:
             region = no_container(recipe, chosen) if room is None else room
         names = () if words is None else {item.name for item in words.items}

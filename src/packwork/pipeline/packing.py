@@ -21,7 +21,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
 from packwork.pipeline.recording import Recorder
 from packwork.pipeline.staying import as_it_was, calmed, needs_no_levels, with_homes
-from packwork.pipeline.trying import jobs_tried, worth
+from packwork.pipeline.trying import Turn, jobs_tried, worth
 from packwork.progress import Observer, Stop, together
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -110,8 +110,9 @@ def _best_solved(job: Job, observer: Observer | None, stop: Stop, record: bool) 
     """The levels' outcome; of several starts, that from which most comes to be covered."""
     tried = jobs_tried(job)
     found: list[_Solved] = []
-    for one in tried:
-        found.append(_solved(one, observer, stop, record))
+    for number, one in enumerate(tried):
+        turn = None if observer is None else Turn(observer, number, len(tried))
+        found.append(_solved(one, turn, stop, record))
         if len(tried) == 1 or stop():
             return found[0]
     with job.clock.time("finish"):

@@ -117,10 +117,7 @@ def _check(job: Job) -> None:
             "sizes", f"items of a pile keep their sizes; use fixed, not {recipe.sizes}"
         )
     for one in job.asked:
-        for key in ("pin", "region", "scale"):
-            voice = next((v for k, v in one.voices.items() if k.split(".")[0] == key), None)
-            if voice is not None:
-                raise voice.error(f"{key} has no meaning in a pile; leave it out")
+        one.refuse(("pin", "region", "scale"), "a pile")
     if recipe.fills_gaps or recipe.finish == "none":
         raise RecipeError("pile", "is settled in exact geometry, and its voids stay as they are")
 

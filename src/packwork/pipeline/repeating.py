@@ -13,8 +13,8 @@ from packwork.finish.offenders import find_offenders
 from packwork.finish.options import HAIR
 from packwork.geometry import affine
 from packwork.geometry.simplify import grown
-from packwork.pipeline.chorus import Grouped, Voice, members, moved, unit_scales
 from packwork.pipeline.finishing import finished, solid_outlines, unfinished
+from packwork.pipeline.grouped import Grouped, GroupSteps, members, moved, unit_scales
 from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.packing import Placed, placed_readably
@@ -60,13 +60,13 @@ def fill_copies(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
     # The fullest first: its scale tells when others need no more effort.
     fullest = int(np.argmax([job.weights[own].sum() for _, own in pairs]))
     for offset, own in [pairs[fullest], *pairs[:fullest], *pairs[fullest + 1 :]]:
-        voice = None if observer is None else Voice(observer, poses, before, own, offset)
+        steps = None if observer is None else GroupSteps(observer, poses, before, own, offset)
         part = _part(job, single, own, len(job.items) - len(before))
         found_before = known.get(_alike(part))
         if found_before is None:
-            group = _filled(part, own, offset, groups, voice, stop)
+            group = _filled(part, own, offset, groups, steps, stop)
         else:
-            group = _as_before(part, own, offset, found_before, voice)
+            group = _as_before(part, own, offset, found_before, steps)
         groups.append(group)
         known[_alike(part)] = group.placed
         poses = poses.with_some(own, moved(group.placed.poses, offset))
@@ -88,7 +88,7 @@ def _filled(
     own: IntArray,
     offset: FloatArray,
     before: Sequence[_Filled],
-    voice: Voice | None,
+    steps: GroupSteps | None,
     stop: Stop,
 ) -> _Filled:
     """One group, filled as hard as it takes to be no tighter than those before."""
@@ -97,7 +97,7 @@ def _filled(
         efforts = ["draft", part.recipe.effort]
     for effort in efforts:
         tried = replace(part, recipe=part.recipe.model_copy(update={"effort": effort}))
-        placed = placed_readably(tried, voice, stop, False)
+        placed = placed_readably(tried, steps, stop, False)
         scale = float(np.median(placed.poses.scale / unit_scales(part)))
         is_clean = placed.exact is None or placed.exact.clean
         least = ALMOST * min((one.scale for one in before), default=np.inf)
@@ -113,13 +113,13 @@ def _alike(part: Job) -> tuple[tuple[int, float], ...]:
 
 
 def _as_before(
-    part: Job, own: IntArray, offset: FloatArray, before: Placed, voice: Voice | None
+    part: Job, own: IntArray, offset: FloatArray, before: Placed, steps: GroupSteps | None
 ) -> _Filled:
     """A group whose marks lie as those of another, which are alike."""
     placed = replace(before, job=part)
-    if voice is not None:
+    if steps is not None:
         nothing = (0.0, 0.0, 0.0)
-        voice.on_step(Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True))
+        steps.on_step(Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True))
     scale = float(np.median(placed.poses.scale / unit_scales(part)))
     return _Filled(own, offset, placed, scale)
 

@@ -42,11 +42,14 @@ class Spread:
         Where title and legend go.
     cells
         Where groups go; None if there are none.
+    single
+        The container of which each group has a copy; None for bars, and where there are none.
     """
 
     container: Container
     frame: Frame
     cells: tuple[Cell, ...] | None
+    single: Container | None = None
 
 
 def spread_out(recipe: Recipe, chart: ChartRead, single: Container | None) -> Spread:
@@ -77,7 +80,8 @@ def spread_out(recipe: Recipe, chart: ChartRead, single: Container | None) -> Sp
         whole, cells = copies(single, chart.groups, aspect, EM_SHARE)
         size = size or CanvasSize(single.side, None, single.unit)
     about = framed(whole, recipe, chart, size)
-    return Spread(about.container, about.frame, tuple(cell.mapped(about.place) for cell in cells))
+    placed = tuple(cell.mapped(about.place) for cell in cells)
+    return Spread(about.container, about.frame, placed, single)
 
 
 def _bars_aspect(chart: ChartRead) -> float:

@@ -10,7 +10,7 @@ from packwork.forces.forces import Forces
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.finishing import finished
 from packwork.pipeline.job import Job
-from packwork.progress import Stop
+from packwork.progress import Observer, Step, Stop
 from packwork.scene.pose import Poses
 
 PHOTO_STARTS = ("distance-field", "medial-axis", "scatter")
@@ -34,6 +34,33 @@ def jobs_tried(job: Job) -> list[Job]:
     return [
         replace(job, recipe=recipe.model_copy(update={"start": start})) for start in PHOTO_STARTS
     ]
+
+
+class Turn:
+    """Passes steps of one start of several on, its progress a part of that of all.
+
+    Parameters
+    ----------
+    observer
+        Who listens.
+    number, count
+        Which of how many, from 0.
+
+    Examples
+    --------
+    >>> from types import SimpleNamespace
+    >>> Turn(SimpleNamespace(every=20), 1, 3).every
+    20
+    """
+
+    def __init__(self, observer: Observer, number: int, count: int) -> None:
+        self._observer, self._number, self._count = observer, number, count
+        self.every = observer.every
+
+    def on_step(self, step: Step) -> None:
+        """Tell of it."""
+        progress = (self._number + step.progress) / self._count
+        self._observer.on_step(replace(step, progress=progress))
 
 
 def worth(

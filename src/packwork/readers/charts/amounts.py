@@ -10,7 +10,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
-from packwork.readers.charts.columns import round_up, shown, sizes
+from packwork.readers.charts.columns import LARGE, round_up, shown, sizes
 from packwork.readers.charts.groups import Groups
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.table import Row, Table
@@ -18,9 +18,6 @@ from packwork.readers.tables.table import Row, Table
 MOST_MARKS = 5_000
 """Marks of one chart: on a canvas of 600 px each would be 5 px wide. More could not be told
 apart. Derived."""
-
-LARGE = 10**9
-"""Numbers of marks from which digits say nothing more. Chosen."""
 
 SPECK = 1e-3
 """Share of a mark below which a remainder is rounding of the numbers, not a part. Chosen."""

@@ -17,6 +17,9 @@ FARTHEST = 1e60
 """Largest number that is shown, and one over the smallest: squares of their ratios are still
 numbers. Chosen."""
 
+LARGE = 10**9
+"""Counts from which on only about how many is said. Chosen."""
+
 MISSING = "missing"
 """Category of cells that hold nothing."""
 

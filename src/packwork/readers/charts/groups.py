@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from packwork.errors import RecipeError
 from packwork.readers.charts.columns import (
+    LARGE,
     as_number,
     categories,
     is_missing,
@@ -32,9 +33,6 @@ ROUNDING = 1e-9
 
 MOST_STEPS = 1e12
 """Steps from 0 to a number at most: beyond, rounding decides in which one it is. Derived."""
-
-LARGE = 10**9
-"""Numbers of groups from which digits say nothing more. Chosen."""
 
 _DATE = re.compile(r"\d{4}-\d{2}(-\d{2}([T ][\d:.,+Z-]*)?)?")
 

@@ -39,7 +39,7 @@ class Grouped:
     unplaced: tuple[Unplaced, ...] | None
 
 
-class Voice:
+class GroupSteps:
     """Passes steps of one group on, the groups before it beside it.
 
     Parameters
