@@ -7,12 +7,15 @@ the picture or were too many; how the ink agrees with resvg's rendering of the f
 gate let it in, both drawn 1,000 px long, as when they are traced; and how long reading took,
 in time of the processor, so that a busy machine does not show. Without folders: the bundled
 drawings, and a made-up set that uses every feature. Then the table of ``outputs.py``:
-twenty icons from those folders, or bundled ones, as they are written. Fetches nothing.
+twenty icons from those folders, or bundled ones, as they are written. Fetches nothing. With
+folders it writes docs/benchmarks-files.md; one that ``npm pack NAME`` gave goes by the name and
+version in its package.json.
 """
 
 from __future__ import annotations
 
 import contextlib
+import json
 import logging
 import math
 import sys
@@ -26,6 +29,8 @@ from pathlib import Path
 import numpy as np
 
 import packwork as pw
+from files_page import PAGE
+from manifests import write_page
 from measuring import machine, markdown_table
 from outputs import ICONS, outputs_table
 from packwork.errors import PackworkError
@@ -126,10 +131,19 @@ def bundled(folder: str) -> Iterable[tuple[str, bytes]]:
     return ((file.name, file.read_bytes()) for file in drawings)
 
 
+def title_of(folder: Path) -> str:
+    """Name and version of a package, else the folder's own name."""
+    described = next(iter(sorted(folder.glob("**/package.json"), key=lambda p: len(p.parts))), None)
+    if described is None:
+        return folder.name
+    told = json.loads(described.read_text(encoding="utf-8"))
+    return f"{told.get('name', folder.name)} {told.get('version', '')}".strip()
+
+
 def groups(folders: list[Path], sample: int | None, seed: int) -> dict[str, list[Reading]]:
     if folders:
         return {
-            folder.name: [read(*file) for file in files_of(folder, sample, seed)]
+            title_of(folder): [read(*file) for file in files_of(folder, sample, seed)]
             for folder in folders
         }
     made_up = ((name, text.encode()) for name, text in wild_files(MIXTURES, seed))
@@ -163,14 +177,19 @@ def main(arguments: list[str]) -> None:
     read_by = groups(folders, sample, seed)
     every = [reading for readings in read_by.values() for reading in readings]
     rows = [row(title, readings) for title, readings in read_by.items() if readings]
-    print(markdown_table(HEADER, [*rows, row("all", every)] if every else []))
+    drawings = markdown_table(HEADER, [*rows, row("all", every)] if every else [])
+    print(drawings)
     for reading in every:
         if reading.problem or reading.how == "disagreed" or reading.agreement < LEAST_AGREEMENT:
             print(f"{reading.how}  {reading.agreement:.4f}  {reading.problem or reading.name}")
     for reading in sorted(every, key=lambda r: -r.seconds)[:SLOWEST]:
         print(f"{reading.seconds:.2f} s  {reading.name}")
     print(flush=True)
-    print(outputs_table(some_icons(folders, seed)))
+    outputs = outputs_table(some_icons(folders, seed))
+    print(outputs)
+    if folders:
+        told = " ".join(word for word in arguments if word.partition("=")[0] in settings)
+        write_page("benchmarks-files.md", PAGE, settings=told, drawings=drawings, outputs=outputs)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 import charts
 import engine
 import evenness
+import files_page
 import film
 import forces
 import outlines
@@ -35,9 +36,9 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
     **{
         name: partial(of_parts, module.PAGE)
         for name, module in {
-            "charts": charts, "engine": engine, "films": film, "forces": forces,
-            "outlines": outlines, "parts": parts, "photos": photos, "quality": quality,
-            "robustness": robustness, "words": words,
+            "charts": charts, "engine": engine, "files": files_page, "films": film,
+            "forces": forces, "outlines": outlines, "parts": parts, "photos": photos,
+            "quality": quality, "robustness": robustness, "words": words,
         }.items()
     },
 }  # fmt: skip
