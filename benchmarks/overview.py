@@ -28,13 +28,14 @@ NONE = "-"
 PAGE = """# Benchmarks
 
 Ours, the paper's and the peers' side by side. Every figure of ours and of the peers' was measured
-by us, on one machine, and stands in a manifest in [manifests](manifests) that a command wrote;
-the pages are made of those (`packwork bench pages`). The paper is "Image-Space Collage and
-Packing with Differentiable Rendering" (Wang and Lu, SIGGRAPH 2025); its figures, and those of
-ShapeWordle, PAD and ShapeCollage, are of its own inputs, which are not public in full, on hardware
-that it does not name. **A ratio to them says in which range we are, not that the same work was
-done**; how the inputs differ is on [the page of its comparisons](benchmarks-paper.md). Ratios to
-peers are of the same work in the same run. A dash: not measured, or not known.
+by us and stands in a manifest that a command wrote, with what it was measured on; the pages are
+made of those (`packwork bench pages`), and the list below leads to both. The paper is
+"Image-Space Collage and Packing with Differentiable Rendering" (Wang and Lu, SIGGRAPH 2025); its
+figures, and those of ShapeWordle, PAD and ShapeCollage, are of its own inputs, which are not
+public in full, on hardware that it does not name. **A ratio to them says in which range we are,
+not that the same work was done**; how the inputs differ is on [the page of its
+comparisons](benchmarks-paper.md). Ratios to peers are of the same work in the same run. A dash:
+not measured, or not known.
 
 {pictures}
 
@@ -53,8 +54,7 @@ was asked for. {missing}
 
 {peers}
 
-Where a peer comes out ahead in what its row shows (wordcloud by shrinking words, see "sizes off
-by"): {weak}
+{weak}
 
 ## All pages
 
@@ -77,10 +77,15 @@ PAGES = {
     "forces": "piles, round packs, stable words",
     "parts": "containers of several parts",
     "outlines": "outlines as a few curves",
+    "charts": "unit charts: areas true to the data",
     "files": "drawings from anywhere, and what is written",
     "films": "recording and writing films",
+    "robustness": "spoilt files, stops at any moment, full disks",
 }
 """By the end of the page's name."""
+
+
+WEAK = "Where a peer comes out ahead in what its row shows (wordcloud does so by shrinking words):"
 
 
 def write() -> None:
@@ -105,9 +110,15 @@ def page(manifests: dict[str, Manifest]) -> str:
         pictures=_pictures(manifests.get("paper")),
         weak=_weak(peers),
         pages="\n".join(
-            f"- [{name}](benchmarks-{name}.md): {said}" for name, said in PAGES.items()
+            f"- [{name}](benchmarks-{name}.md): {said}{_source(name, manifests)}"
+            for name, said in PAGES.items()
         ),
     )
+
+
+def _source(name: str, manifests: dict[str, Manifest]) -> str:
+    """Where a page's figures are, as a link."""
+    return f" ([manifest](manifests/{name}.json))" if name in manifests else ""
 
 
 def _median(values: list[float]) -> float:
@@ -277,14 +288,16 @@ def _peer_row(section: str, one: Manifest, own: Manifest) -> list[str]:
 def _weak(peers: Manifest | None) -> str:
     """Where a peer of the same work does better by what it is measured by."""
     found = [
-        f"{one['program']} in {section}, {one['task']}, {one['count']:,} items ({key} "
+        f"- {one['program']} in {section}, {one['task']}, {one['count']:,} items ({key} "
         f"{_median(one[key]):.3f}, ours {_median(own[key]):.3f})"
         for section, (key, _) in SHOWN.items()
         if key != "overlap"
         for one, own in _pairs(peers, section)
         if key in one and _median(one[key]) > _median(own[key])
     ]
-    return "; ".join(found) + "." if found else "nothing that was measured here."
+    if not found:
+        return "No peer comes out ahead in what its row shows."
+    return "\n".join([WEAK, "", *found])
 
 
 def _pictures(paper: Manifest | None) -> str:

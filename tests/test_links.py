@@ -43,3 +43,17 @@ def test_every_anchor_is_a_heading(page: Path) -> None:
 def test_the_site_and_the_readme_lead_to_what_a_newcomer_needs(name: str) -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     assert f"](docs/{name}.md)" in readme
+
+
+@pytest.mark.parametrize("page", PAGES, ids=[str(page.relative_to(ROOT)) for page in PAGES])
+def test_every_link_leads_to_a_file(page: Path) -> None:
+    text = re.sub(r"```.*?```|`[^`]*`", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    targets = re.findall(r"\]\(([^)#\s]+)", text) + re.findall(r'src="([^"]+)"', text)
+    lost = [
+        target
+        for target in targets
+        if "://" not in target
+        and not (page.parent / target).is_file()
+        and target != "docs/decisions/"
+    ]
+    assert lost == []
