@@ -75,6 +75,26 @@ def ranged(samples: Sequence[float], form: str) -> str:
     return f"{middle} ({low} to {high})" if low != high else middle
 
 
+def lasting(samples: Sequence[float]) -> str:
+    """Median seconds, and the least and the most, in milliseconds where they are short.
+
+    >>> lasting([0.004, 0.0052, 0.0061]), lasting([21.34])
+    ('5.2 (4 to 6.1) ms', '21.3 s')
+    """
+    if np.median(samples) < 0.1:
+        return ranged([1e3 * one for one in samples], ".3g") + " ms"
+    return ranged(samples, ".3g") + " s"
+
+
+def plainly(value: float) -> str:
+    """Two digits that count, without an exponent.
+
+    >>> plainly(2134.0), plainly(0.000181), plainly(1.25)
+    ('2,100', '0.00018', '1.2')
+    """
+    return f"{float(f'{value:.2g}'):,.10f}".rstrip("0").rstrip(".")
+
+
 def machine() -> str:
     """Processor and versions, one line."""
     versions = ", ".join(

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from manifests import Manifest, known, write_text
-from measuring import markdown_table
+from measuring import lasting, markdown_table, plainly
 from published import (
     COMPARISONS,
     MINKOWSKI_COUNT,
@@ -21,7 +21,7 @@ from runs import LNU, SECONDS
 
 HEADER = ["work", "measure", "ours", "the paper's", "peer", "ours / paper", "ours / peer"]
 PEERS_HEADER = [
-    "work", "peer", "ours", "the peer's", "ours / peer", "s, ours", "s, the peer's", "ours / peer",
+    "work", "peer", "ours", "the peer's", "ours / peer", "time, ours", "the peer's", "ours / peer",
 ]  # fmt: skip
 NONE = "-"
 
@@ -281,7 +281,7 @@ def _peer_row(section: str, one: Manifest, own: Manifest) -> list[str]:
     theirs, ours = _median(one["seconds"]), _median(own["seconds"])
     return [
         f"{section}: {one['task']}, {one['count']:,}", f"{one['program']} {one['version']}",
-        *cells, f"{ours:.2g}", f"{theirs:.2g}", f"{ours / theirs:.2g}",
+        *cells, lasting([ours]), lasting([theirs]), plainly(ours / theirs),
     ]  # fmt: skip
 
 

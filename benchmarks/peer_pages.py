@@ -11,12 +11,12 @@ import peer_icons
 import peer_penrose
 import peer_raster
 from manifests import Manifest
-from measuring import markdown_table, ranged
+from measuring import lasting, markdown_table, ranged
 
 PAGE = """# Peers
 
 Made by `packwork bench peers`, a section at a time; each says when and on what. One thread;
-seconds are the processor's where nothing else is said, medians with the least and the most in
+times are the processor's where nothing else is said, medians with the least and the most in
 brackets, five runs each, one where a run took more than 10 s. Peers in Python come with
 `pip install 'packwork[bench,torch]'`, those in JavaScript with `packwork bench peers install`.
 
@@ -98,7 +98,7 @@ def _spent(one: Manifest) -> str:
         return f"stopped after {one['limit']:.0f} s"
     if "gib" in one:
         return f"not tried: about {one['gib']:.0f} GiB"
-    return ranged(one["seconds"], ".3g")
+    return lasting(one["seconds"])
 
 
 def _who(one: Manifest) -> list[str]:
@@ -137,17 +137,18 @@ def _raster(one: Manifest) -> list[str]:
 WHO = ["program", "task", "items"]
 TABLES: dict[str, tuple[list[str], Callable[[Manifest], list[str]]]] = {
     "icons": (
-        ["program", "turns", "density", "overlap", "outside", "least gap", "s of a clock", "s"],
+        ["program", "turns", "density", "overlap", "outside", "least gap", "s by the clock",
+         "time"],
         _icons,
     ),
     "words": (
         ["program", "container", "words", "placed", "ink", "sizes off by", "largest gap", "L-nU",
-         "overlap", "s"],
+         "overlap", "time"],
         _words,
     ),
-    "circles": (["program", "radii", "circles", "density", "deepest", "s"], _circles),
-    "apart": ([*WHO, "overlap", "outside", "s"], _apart),
-    "raster": ([*WHO, "LC", "OO", "EA", "s"], _raster),
+    "circles": (["program", "radii", "circles", "density", "deepest", "time"], _circles),
+    "apart": ([*WHO, "overlap", "outside", "time"], _apart),
+    "raster": ([*WHO, "LC", "OO", "EA", "time"], _raster),
 }  # fmt: skip
 
 

@@ -117,7 +117,7 @@ def test_the_overview_divides_ours_by_theirs() -> None:
     ours = peering.entry("packwork", "1", "equal", 100, [2.0, 3.0, 4.0], {"density": [0.6]})
     theirs = peering.entry("d3", "3", "equal", 100, [1.5], {"density": [0.8]})
     text = overview.page({"peers": peers_of(ours, theirs)})
-    assert "| circles: equal, 100 | d3 3 | density 0.600 | 0.800 | 0.75 | 3 | 1.5 | 2 |" in text
+    assert "| circles: equal, 100 | d3 3 | density 0.600 | 0.800 | 0.75 | 3 s | 1.5 s | 2 |" in text
     assert "d3 in circles, equal, 100 items (density 0.800, ours 0.600)" in text
 
 
