@@ -103,3 +103,14 @@ def test_every_command_has_a_summary() -> None:
         for found in pkgutil.iter_modules(packwork.cli.__path__)
     ]
     assert {m.__name__.rpartition(".")[2] for m in modules if is_command(m)} == set(SUMMARIES)
+
+
+def test_a_run_waits_for_no_library_that_only_some_need() -> None:
+    script = (
+        "import sys, packwork.cli.running\n"
+        "sys.exit(', '.join({'scipy.optimize', 'skimage', 'pandas'} & set(sys.modules)) or 0)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
