@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import signal
 import sys
@@ -21,9 +22,23 @@ def main() -> None:
             signal.signal(signal.SIGINT, signal.SIG_IGN)
     except KeyboardInterrupt:
         sys.stderr.write("packwork: stopped before there was anything to write\n")
-        sys.stderr.flush()
-        # Libraries that are half loaded would print their own complaints on the way out.
-        os._exit(INTERRUPTED)
+        _end_stopped()
+    except SystemExit as end:
+        if end.code == INTERRUPTED:
+            _end_stopped()
+        raise
+
+
+def _end_stopped() -> None:
+    """End at once with the exit code of Ctrl-C.
+
+    Libraries that are half loaded would print their own complaints on the way out; and where
+    Ctrl-C struck inside ``exec``, as data classes call it, Python would die of the signal.
+    """
+    for stream in (sys.stdout, sys.stderr):
+        with contextlib.suppress(OSError):
+            stream.flush()
+    os._exit(INTERRUPTED)
 
 
 if __name__ == "__main__":

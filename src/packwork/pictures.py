@@ -6,9 +6,10 @@ import math
 from collections.abc import Mapping
 from typing import Annotated
 
-from pydantic import BaseModel, Field, field_validator
+from pydantic import Field, field_validator
 
 from packwork.errors import RecipeError
+from packwork.options import Options
 from packwork.readers.photos.options import PhotoOptions
 
 _EXAMPLE = "use shares such as words=50%,photos=30%,items=20%"
@@ -46,7 +47,7 @@ def share_of_kinds(value: object) -> dict[str, float]:
     return shares
 
 
-class Pictured(BaseModel, use_attribute_docstrings=True):
+class Pictured(Options):
     """Photographs that are placed, and the picture round which items are."""
 
     photos: PhotoOptions | None = None

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Annotated, Literal, TypeAlias, get_args
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, field_validator, model_validator
+from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.forces.spec import ForceTexts, is_pair
+from packwork.options import Options
 from packwork.refusals import length_asked
 
 Side: TypeAlias = Literal["top", "bottom", "left", "right"]
@@ -73,10 +74,8 @@ def parse_emitter(text: str) -> Emitter:
     )
 
 
-class PileOptions(BaseModel):
+class PileOptions(Options):
     """How items of given sizes are heaped."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     open: Annotated[tuple[Side, ...], BeforeValidator(_one_or_more)] = ()
     """Take the lid off on that side (top, bottom, left or right): items come in through it and
@@ -119,10 +118,8 @@ class PileOptions(BaseModel):
         return value
 
 
-class Moving(BaseModel):
+class Moving(Options):
     """The part of a recipe that says how items move."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     force: ForceTexts = None
     """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,

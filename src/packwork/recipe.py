@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 from pydantic import (
     AfterValidator,
     BeforeValidator,
-    ConfigDict,
     Field,
     ValidationError,
     ValidationInfo,
@@ -57,8 +56,6 @@ DEFAULT_SMALLEST = "0.5%"
 
 class Recipe(Pictured, Moving):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     container: str
     """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, around:IMAGE, or a built-in name."""

@@ -9,14 +9,13 @@ from types import MappingProxyType
 from typing import Annotated, Any, TypeAlias
 
 from pydantic import (
-    BaseModel,
     BeforeValidator,
-    ConfigDict,
     Field,
     field_validator,
 )
 
 from packwork.errors import RecipeError
+from packwork.options import Options
 from packwork.scene.label import Label
 from packwork.units import parse_length
 
@@ -64,10 +63,8 @@ Length: TypeAlias = Annotated[str | float, BeforeValidator(checked_length)]
 """A length as people write it."""
 
 
-class Rotation(BaseModel):
+class Rotation(Options):
     """How far items may turn, radians."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     limit: float | None = None
     """Largest turn from upright; None for any."""
@@ -137,10 +134,8 @@ def rotation_text(value: object) -> object:
     return f"{text}," if isinstance(value, tuple | list) and len(value) == 1 else text
 
 
-class Pin(BaseModel):
+class Pin(Options):
     """What of one item's pose is given; the rest is free."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     x: Length | None = None
     """Where its centroid lies, from the canvas' left edge; % are of the canvas' width."""
@@ -167,10 +162,8 @@ class Pin(BaseModel):
         return self.x is not None and self.y is not None
 
 
-class Rule(BaseModel):
+class Rule(Options):
     """What is asked of the items of some names; every key but ``items`` may be left out."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     items: tuple[str, ...]
     """Names of items, or patterns such as ``b*``."""

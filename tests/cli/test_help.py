@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import importlib
+import inspect
+import pkgutil
 import subprocess
 import sys
 from collections.abc import Callable
+from types import ModuleType
 
 import pytest
 from typer.testing import Result
+
+import packwork.cli
+from packwork.cli.commands import SUMMARIES, Commands
 
 Command = Callable[..., Result]
 
@@ -50,15 +57,58 @@ def test_the_version_is_one_line(packwork: Command) -> None:
     assert result.stdout.count("\n") == 1
 
 
-@pytest.mark.parametrize("line", ["--help", "fill --help", "--version"])
-def test_help_loads_nothing_heavy(line: str) -> None:
+HEAVY = {"numpy", "numba", "scipy", "shapely", "skimage", "PIL"}
+OURS = {"packwork.recipe", "packwork.cli.options", "packwork.cli.fill"}
+MODELS = {"pydantic", *OURS}
+
+
+@pytest.mark.parametrize(
+    ("line", "kept_out"),
+    [
+        ("--help", HEAVY | MODELS),
+        ("--version", HEAVY | MODELS),
+        ("", HEAVY | MODELS),
+        ("fil heart", HEAVY | OURS),
+        ("fill --help", HEAVY | {"packwork.cli.chart"}),
+    ],
+)
+def test_help_loads_nothing_heavy(line: str, kept_out: set[str]) -> None:
     script = (
         "import sys, packwork.cli\n"
         f"sys.argv = ['packwork', *{line.split()!r}]\n"
         "try:\n    packwork.cli.app()\n"
         "except SystemExit:\n    pass\n"
-        "heavy = {'numpy', 'numba', 'scipy', 'shapely', 'skimage', 'PIL'} & set(sys.modules)\n"
-        "sys.exit(', '.join(heavy) or 0)\n"
+        f"sys.exit(', '.join({kept_out!r} & set(sys.modules)) or 0)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr
+
+
+@pytest.mark.parametrize("name", SUMMARIES)
+def test_the_summary_of_a_command_is_its_own_first_line(name: str) -> None:
+    command = Commands()[name]
+    assert command.name == name
+    assert SUMMARIES[name] == command.help.split("\n")[0]
+
+
+def test_every_command_has_a_summary() -> None:
+    def is_command(module: ModuleType) -> bool:
+        said = inspect.getdoc(module) or ""
+        return said.startswith(f"``packwork {module.__name__.rpartition('.')[2]}``")
+
+    modules = [
+        importlib.import_module(f"packwork.cli.{found.name}")
+        for found in pkgutil.iter_modules(packwork.cli.__path__)
+    ]
+    assert {m.__name__.rpartition(".")[2] for m in modules if is_command(m)} == set(SUMMARIES)
+
+
+def test_a_run_waits_for_no_library_that_only_some_need() -> None:
+    script = (
+        "import sys, packwork.cli.running\n"
+        "sys.exit(', '.join({'scipy.optimize', 'skimage', 'pandas'} & set(sys.modules)) or 0)\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", script], capture_output=True, text=True, check=False

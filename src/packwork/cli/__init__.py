@@ -1,6 +1,6 @@
 """The command line: parse, call the pipeline, show. One file per command.
 
-Nothing heavy is imported here, so that ``packwork --help`` answers at once.
+No command is imported here, so that ``packwork --help`` answers at once.
 """
 
 from __future__ import annotations
@@ -9,25 +9,16 @@ import logging
 
 import typer
 
-from packwork.cli.bench import bench
-from packwork.cli.chart import chart
-from packwork.cli.demo import demo
-from packwork.cli.fill import fill
-from packwork.cli.measure import measure
-from packwork.cli.photos import photos
-from packwork.cli.pile import pile
-from packwork.cli.run import run
-from packwork.cli.usage import OneLineGroup
-from packwork.cli.words import words
+from packwork.cli.commands import MARKUP, LazyGroup
 
 app = typer.Typer(
     name="packwork",
-    cls=OneLineGroup,
+    cls=LazyGroup,
     help="Arrange shapes so that they fill a container of any form.\n\n"
     "Try [bold]packwork demo[/] first, then [bold]packwork fill heart your-icons/[/].",
     no_args_is_help=True,
     add_completion=False,
-    rich_markup_mode="rich",
+    rich_markup_mode=MARKUP,
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
@@ -59,14 +50,3 @@ def _main(
     ),
 ) -> None:
     logging.getLogger("packwork").addHandler(_NOTICES)
-
-
-app.command()(fill)
-app.command()(words)
-app.command()(chart)
-app.command()(photos)
-app.command()(pile)
-app.command()(run)
-app.command()(measure)
-app.command()(demo)
-app.command()(bench)

@@ -8,11 +8,24 @@ from typing import Any
 import typer
 from typer.core import TyperGroup
 
-from packwork.cli.failure import BAD_INPUT, INTERRUPTED
+from packwork.cli.failure import BAD_INPUT, INTERRUPTED, clear_errors
 
 
 class OneLineGroup(TyperGroup):
-    """Commands whose usage errors are one line and exit code 2, without a box."""
+    """Commands whose usage errors are one line and exit code 2, without a box.
+
+    Ctrl-C before a command begins, while things are still loaded, is one line too.
+    """
+
+    def make_context(self, *args: Any, **extra: Any) -> Any:
+        """Read the group's own options; see ``click.Command.make_context``."""
+        with clear_errors():
+            return super().make_context(*args, **extra)
+
+    def invoke(self, ctx: Any) -> Any:
+        """Find the command and run it; see ``typer.core.TyperGroup.invoke``."""
+        with clear_errors():
+            return super().invoke(ctx)
 
     def main(self, *args: Any, **extra: Any) -> Any:
         """Run a command line; see ``typer.core.TyperGroup.main``."""

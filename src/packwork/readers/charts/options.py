@@ -6,17 +6,16 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator, model_validator
+from pydantic import Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
+from packwork.options import Options
 
 SizeIs: TypeAlias = Literal["area", "height", "width"]
 
 
-class ChartOptions(BaseModel):
+class ChartOptions(Options):
     """Where rows come from and what of a mark says what of them."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     data: str | tuple[dict[str, Any], ...]
     """A table: .csv, .tsv, .json or (with pandas) .parquet; in Python also a data frame, rows

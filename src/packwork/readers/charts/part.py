@@ -6,7 +6,6 @@ import base64
 from dataclasses import replace
 
 import shapely
-from scipy.optimize import brentq
 
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
@@ -39,6 +38,9 @@ def part_of(item: Item, share: float) -> Item:
 
 def _cut(region: Region, share: float) -> float:
     """Where a vertical line leaves that share of the area on its left."""
+    # What it brings along takes a quarter of a second, and few charts cut a mark.
+    from scipy.optimize import brentq
+
     left, _, right, _ = region.bounds
     whole = float(region.area)
 

@@ -7,9 +7,10 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, Field, field_validator
+from pydantic import Field, field_validator
 
 from packwork.errors import RecipeError
+from packwork.options import Options
 
 ROUNDED = "rounded"
 """Shape of a photo that keeps its proportions and loses its corners."""
@@ -22,10 +23,8 @@ _SHARE = re.compile(r"(\d+(?:\.\d+)?)\s*%")
 _WIDEST = 50.0
 
 
-class PhotoOptions(BaseModel):
+class PhotoOptions(Options):
     """Photographs, and what becomes of their edges."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     sources: tuple[str, ...] = Field(min_length=1)
     """Photos (JPEG, PNG, WebP), folders of them, or patterns such as *.jpg."""

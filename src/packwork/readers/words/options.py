@@ -8,9 +8,10 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, field_serializer, field_validator
+from pydantic import Field, field_serializer, field_validator
 
 from packwork.errors import RecipeError
+from packwork.options import Options
 from packwork.readers.words.word import Word
 
 WeightIs: TypeAlias = Literal["height", "area", "ink"]
@@ -23,10 +24,8 @@ MOST_WORDS = 5_000
 """Words in one cloud; more could not be read on any sheet. Chosen."""
 
 
-class WordOptions(BaseModel):
+class WordOptions(Options):
     """Where words come from and how they are set."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     source: str | dict[str, float]
     """Text, a table of word,weight (.csv, .tsv, .json), or - for standard input; in Python

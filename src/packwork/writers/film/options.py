@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, Self, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field, model_validator
+from pydantic import Field, model_validator
 
 from packwork.errors import RecipeError
+from packwork.options import Options
 
 Easing: TypeAlias = Literal["smooth", "linear"]
 
@@ -24,10 +25,8 @@ MAX_FRAMES = 20_000
 """Pictures of one film at most: half an hour of encoding. Chosen."""
 
 
-class FilmOptions(BaseModel):
+class FilmOptions(Options):
     """How a film of a run is made."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid", use_attribute_docstrings=True)
 
     fps: Annotated[float, Field(ge=1, le=MAX_FPS, allow_inf_nan=False)] = 30.0
     """Pictures a second of a film. Any number: they are drawn between what was recorded."""
