@@ -15,6 +15,7 @@ from packwork.finish.detail import Detail
 from packwork.finish.finish import FINE
 from packwork.finish.offenders import find_offenders
 from packwork.finish.options import HAIR, FinishOptions
+from packwork.finish.rounding.gathered import gathered
 from packwork.finish.settling.ease import ease
 from packwork.finish.settling.nestle import nestle
 from packwork.finish.settling.pour import Source, Spout, pour
@@ -80,6 +81,7 @@ def pile(
     shuffle: float = 0.0,
     source: Source | None = None,
     ranks: IntArray | None = None,
+    is_round: bool = False,
 ) -> Piled:
     """Poses in which items of the given sizes are at rest and nothing meets.
 
@@ -114,6 +116,9 @@ def pile(
         Where items come from, one after another or all at once; None for their lowest places.
     ranks
         ``(n,)`` items of a lower rank get their places first, and so lie lower; None for one rank.
+    is_round
+        Whether the pack is to lie in a small circle, where forces draw all items to one point
+        alike.
 
     Examples
     --------
@@ -132,6 +137,8 @@ def pile(
     run = _Pile(container, outlines, poses, forces, options, observer, stop, shuffle)
     if ranks is not None:
         run.ranks = ranks
+    if is_round and source is None and known is None:
+        run.centre = forces.common_point()
     room = container.outline if basin is None else basin
     if source is not None:
         run.pour(room, source)
@@ -175,6 +182,8 @@ class _Pile:
         self._height = 0.0
         self.ranks = np.zeros(len(poses), dtype=np.int64)
         """Items of a lower one get their places first."""
+        self.centre: FloatArray | None = None
+        """Of the circle that a round pack lies in; None for other piles."""
         strengths = [f.strengths for f in forces.fields] + [b.strengths for b in forces.bonds]
         columns = np.column_stack([np.zeros(len(poses)), *strengths])
         _, self._kinds = np.unique(columns, axis=0, return_inverse=True)
@@ -194,9 +203,29 @@ class _Pile:
         lifted = np.setdiff1d(everyone, standing)
         sizes = self._order_sizes(arrangement)
         lifted = lifted[np.lexsort((-sizes[lifted], self.ranks[lifted]))]
-        left = self._nestle(arrangement, lifted, standing)
+        if self._gather_round(arrangement):
+            left = np.arange(0)
+        else:
+            left = self._nestle(arrangement, lifted, standing)
         self._take_over(arrangement, everyone)
         self._items = np.setdiff1d(everyone, left)
+
+    def _gather_round(self, arrangement: Arrangement) -> bool:
+        """Put all into a small circle, if it is wanted and there is room for it."""
+        if self.centre is None:
+            return False
+        rng = np.random.default_rng(self._options.seed)
+        # A little more than the gap, so that what touches passes the check.
+        radii = arrangement.radii + self._gap * (1 + 1e-3) / 2
+        centres = self.centre + gathered(radii, rng)
+        left, top, right, bottom = arrangement.container.bounds
+        reach = radii[:, None] + self._gap
+        if (centres - reach < (left, top)).any() or (centres + reach > (right, bottom)).any():
+            return False
+        places = arrangement.places.copy()
+        places[:, :2] = centres
+        arrangement.put(self._items, places)
+        return True
 
     @property
     def first_trust(self) -> float:
@@ -250,6 +279,7 @@ class _Pile:
             settling = self._settling(arrangement, self._items)
             # Those that were given a place keep it as well as they can.
             settling.is_swaying = not self._is_given
+            settling.centre = self.centre
             tell = partial(self._tell, self._items)
             self._rounds += settling.settle(tell, self._stop, trusts)
             self._height = settling.mean_height()
