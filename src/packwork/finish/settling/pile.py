@@ -15,7 +15,7 @@ from packwork.finish.detail import Detail
 from packwork.finish.finish import FINE
 from packwork.finish.offenders import find_offenders
 from packwork.finish.options import HAIR, FinishOptions
-from packwork.finish.rounding.gathered import gathered
+from packwork.finish.settling.begin_round import begin_round
 from packwork.finish.settling.ease import ease
 from packwork.finish.settling.nestle import nestle
 from packwork.finish.settling.pour import Source, Spout, pour
@@ -215,17 +215,8 @@ class _Pile:
         if self.centre is None:
             return False
         rng = np.random.default_rng(self._options.seed)
-        # A little more than the gap, so that what touches passes the check.
-        radii = arrangement.radii + self._gap * (1 + 1e-3) / 2
-        centres = self.centre + gathered(radii, rng)
-        left, top, right, bottom = arrangement.container.bounds
-        reach = radii[:, None] + self._gap
-        if (centres - reach < (left, top)).any() or (centres + reach > (right, bottom)).any():
-            return False
-        places = arrangement.places.copy()
-        places[:, :2] = centres
-        arrangement.put(self._items, places)
-        return True
+        settling = self._settling(arrangement, self._items)
+        return begin_round(settling, self._gap, (FIRST_TRUST, ROUGH_TRUST), rng, self._stop)
 
     @property
     def first_trust(self) -> float:
@@ -257,7 +248,7 @@ class _Pile:
         self._items = np.setdiff1d(everyone, left)
 
     def _settling(self, arrangement: Arrangement, items: IntArray) -> Settling:
-        return Settling(
+        settling = Settling(
             arrangement,
             self._forces.some(items),
             self._areas[items],
@@ -266,6 +257,8 @@ class _Pile:
             self._hair,
             self._container.side,
         )
+        settling.centre = self.centre
+        return settling
 
     def settle(self, room: Outline, first_trust: float) -> None:
         """Let the placed ones go down to rest, on coarse outlines, then on fine ones."""
@@ -279,7 +272,6 @@ class _Pile:
             settling = self._settling(arrangement, self._items)
             # Those that were given a place keep it as well as they can.
             settling.is_swaying = not self._is_given
-            settling.centre = self.centre
             tell = partial(self._tell, self._items)
             self._rounds += settling.settle(tell, self._stop, trusts)
             self._height = settling.mean_height()

@@ -46,7 +46,7 @@ TILTED_TRUST = 0.03
 MOST_ROUNDS = 400
 """Rounds at most. Chosen."""
 
-ROUNDNESS = 3.0
+ROUNDNESS = 30.0
 """What a smaller circle is worth where a pack is to be round, mean heights. Larger lets items
 inside lie anywhere, smaller lets some stick out. Tried."""
 
@@ -82,7 +82,7 @@ class Settling:
         hair: float,
         side: float,
     ) -> None:
-        self.arrangement, self._forces, self._areas, self._turns = arrangement, forces, areas, turns
+        self.arrangement, self._forces, self.areas, self._turns = arrangement, forces, areas, turns
         self._gap, self._hair, self._side = gap, hair, side
         self.is_swaying = True
         """Whether wide rounds are tilted."""
@@ -95,24 +95,25 @@ class Settling:
 
     def pull(self) -> Pull:
         """Heights and slopes of the active items where they are now."""
-        forces = self._forces if len(self.active) == len(self._areas) else (
+        forces = self._forces if len(self.active) == len(self.areas) else (
             self._forces.some(self.active)
         )  # fmt: skip
-        return forces(self.arrangement.places[self.active, :2], self._areas[self.active])
+        return forces(self.arrangement.places[self.active, :2], self.areas[self.active])
 
     def mean_height(self) -> float:
         """Area-weighted mean height of the active items, canvas units."""
-        return self.pull().value / max(float(self._areas[self.active].sum()), 1e-300)
+        return self.pull().value / max(float(self.areas[self.active].sum()), 1e-300)
 
     def _cost(self, items: IntArray) -> float:
         """Mean height, and the circle that holds some items where that counts."""
-        return self.mean_height() + ROUNDNESS * self._circle(items)
+        return self.mean_height() + ROUNDNESS * self.circle(items)
 
-    def _circle(self, items: IntArray) -> float:
-        """Radius of the circle that holds some items; 0 where none is asked for."""
+    def circle(self, items: IntArray | None = None) -> float:
+        """Radius of the circle that holds some items, or all; 0 where none is asked for."""
         if self.centre is None:
             return 0.0
-        return float(_kernels.circle_about(self.arrangement.board, items, self.centre))
+        some = self.active if items is None else items
+        return float(_kernels.circle_about(self.arrangement.board, some, self.centre))
 
     def settle(
         self,
@@ -155,7 +156,7 @@ class Settling:
         turn
             Number of the round: others cut blocks elsewhere.
         """
-        before, circle = self._cost(self.active), self._circle(self.active)
+        before, circle = self._cost(self.active), self.circle()
         low = self._lows()
         tilt = (
             TILT * (1 - 2 * (turn // SWAY % 2)) if self.is_swaying and trust > TILTED_TRUST else 0.0
@@ -164,12 +165,12 @@ class Settling:
         for block in sorted(found, key=lambda items: float(low[items].mean())):
             self._step(block, trust * self._spacing, tilt)
         self._drops = low - self._lows()
-        self._narrowed = circle - self._circle(self.active)
+        self._narrowed = circle - self.circle()
         return before - self._cost(self.active)
 
     def _lows(self) -> FloatArray:
         """Height of each active item, by its area."""
-        return np.asarray(self.pull().parts / self._areas[self.active])
+        return np.asarray(self.pull().parts / self.areas[self.active])
 
     def _farthest(self) -> float:
         """How far the tenth that went farthest down came in the last round, canvas units.
@@ -200,7 +201,7 @@ class Settling:
                 board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair
             )
         else:
-            worth = ROUNDNESS * float(self._areas[self.active].sum())
+            worth = ROUNDNESS * float(self.areas[self.active].sum())
             step = _kernels.rounding_step(
                 board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair,
                 self.centre, worth,
