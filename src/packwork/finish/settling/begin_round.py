@@ -15,6 +15,9 @@ MOST_TRIES, ITEMS = 8, 120
 """Starts that are tried of items that are no discs, and items in all of them together at most.
 Larger takes longer, in proportion; the best of eight covers a twentieth more than any. Tried."""
 
+MOST_ITEMS = 4_000
+"""Items of a round start at most: a front looks at all pairs. Chosen."""
+
 NEARLY_DISC = 0.88
 """Share of the disc about it that an item covers to be taken for one: its first place is then
 as good as any. Chosen."""
@@ -49,9 +52,10 @@ def begin_round(
         Asked before each round of a trial.
     """
     arrangement = settling.arrangement
-    tries = _tries(settling)
+    if arrangement.count > MOST_ITEMS:
+        return False
     starts = []
-    for _ in range(tries):
+    for _ in range(_tries(settling)):
         found = _placed(settling, gap, rng)
         if found is not None:
             starts.append(found)
