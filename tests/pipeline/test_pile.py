@@ -66,6 +66,15 @@ def test_a_few_equal_items_make_a_round_pack() -> None:
     assert run.pile["compact"]["circle"] > 0.68
 
 
+def test_a_round_pack_leaves_nobody_out_where_the_sheet_is_narrow() -> None:
+    recipe = pipeline.pile_recipe("none", ["circle"], count=19, padding="3%", compact=True)
+    run = pipeline.fill(recipe)
+    assert not run.unplaced
+    assert run.certified
+    assert run.pile is not None
+    assert run.pile["compact"]["circle"] > 0.55
+
+
 @pytest.mark.parametrize("count", [2, 3])
 def test_a_bare_sheet_holds_few_items(count: int) -> None:
     assert len(pw.pile("none", ["circle"], count=count).items) == count
