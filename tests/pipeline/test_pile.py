@@ -59,6 +59,27 @@ def test_without_a_container_items_gather_round_the_centre() -> None:
     assert run.report()["pile"]["compact"] == run.pile["compact"]
 
 
+def test_a_few_equal_items_make_a_round_pack() -> None:
+    run = pipeline.fill(pipeline.pile_recipe("none", ["circle"], count=10, compact=True))
+    assert run.certified
+    assert run.pile is not None
+    assert run.pile["compact"]["circle"] > 0.68
+
+
+def test_a_round_pack_leaves_nobody_out_where_the_sheet_is_narrow() -> None:
+    recipe = pipeline.pile_recipe("none", ["circle"], count=19, padding="3%", compact=True)
+    run = pipeline.fill(recipe)
+    assert not run.unplaced
+    assert run.certified
+    assert run.pile is not None
+    assert run.pile["compact"]["circle"] > 0.55
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_a_bare_sheet_holds_few_items(count: int) -> None:
+    assert len(pw.pile("none", ["circle"], count=count).items) == count
+
+
 def test_a_horizontal_line_makes_a_strip() -> None:
     run = _run("none", count=12, size="6%", force="towards horizontal")
     assert np.ptp(run.layout.poses.y) < 0.5 * np.ptp(run.layout.poses.x)

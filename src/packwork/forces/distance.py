@@ -46,6 +46,11 @@ class Distance:
         """From a line through points ``(m, 2)``."""
         return cls(line[:-1], line[1:])
 
+    @property
+    def is_point(self) -> bool:
+        """Whether it is from one point."""
+        return len(self.begins) == 1 and bool((self.begins == self.ends).all())
+
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Distance and the unit vectors that lead off; zero where there is none."""
         off = np.empty_like(points)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.forces.distance import Distance
 from packwork.forces.field import Bond, Field, Group
 
 FORCE_WEIGHT = 30.0
@@ -122,6 +123,27 @@ class Forces:
                 parts[own] += strength * part
                 slopes[own] += strength * slope
         return Pull(parts, slopes)
+
+    def common_point(self) -> FloatArray | None:
+        """The one point ``(2,)`` to which all items are drawn alike; None where that is not all.
+
+        Examples
+        --------
+        >>> from packwork.forces.distance import Distance
+        >>> middle = Distance.from_points(np.array([[1.0, 2.0]]))
+        >>> def drawn(strengths):
+        ...     return Forces([FieldForce(middle, strengths)], [], np.zeros(2, int), 10.0)
+        >>> drawn(np.ones(2)).common_point().tolist(), drawn(np.array([1.0, 2.0])).common_point()
+        ([1.0, 2.0], None)
+        """
+        if len(self.fields) != 1 or self.bonds:
+            return None
+        [force] = self.fields
+        if not isinstance(force.field, Distance) or not (force.strengths > 0).all():
+            return None
+        if np.ptp(force.strengths) > 0 or not force.field.is_point:
+            return None
+        return np.asarray(force.field.begins[0])
 
     def cost(self, points: FloatArray, areas: FloatArray) -> Pull:
         """What it costs that items lie where they do, in areas covered; and its slope."""

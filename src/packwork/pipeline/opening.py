@@ -32,6 +32,10 @@ AROUND = 0.4
 """Share of a canvas without container that items cover, as the discs that hold them. Larger
 leaves less paper about a pack, smaller more. Chosen by eye."""
 
+SIDE_BY_SIDE = 2.2
+"""Width of such a canvas at least, radii of its two largest items together: 2 hold them side by
+side with nothing round them. Chosen."""
+
 
 @dataclass(frozen=True, eq=False)
 class Opened:
@@ -99,7 +103,9 @@ def nowhere(size: CanvasSize | None, radii_cu: FloatArray) -> Container:
         Of the sheet; None for one on which discs of these radii lie in its middle.
     """
     width = math.sqrt(math.pi * float((radii_cu**2).sum()) / AROUND)
-    width = max(width, 4 * float(radii_cu.max()))
+    width = max(
+        width, 4 * float(radii_cu.max()), SIDE_BY_SIDE * float(np.sort(radii_cu)[-2:].sum())
+    )
     if size is not None:
         width = size.width
     height = width if size is None or size.height is None else size.height

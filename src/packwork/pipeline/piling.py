@@ -100,11 +100,13 @@ def run_pile(job: Job, asked: PileOptions, observer: Observer | None, stop: Stop
         forces = forces_of(job.recipe.force or (), job.items, job.weights, room.container)
     with clock.time("finish"):
         options = _options(job, poses)
+        is_alone = room.container.name == NO_CONTAINER
         heap = pile(
             room.container, outlines, poses, forces, options, room.basin, observer, stop,
-            known=known,
+            known=known if len(known) else None,
             source=source,
-            shuffle=SHUFFLE_ALONE if room.container.name == NO_CONTAINER else SHUFFLE,
+            shuffle=SHUFFLE_ALONE if is_alone else SHUFFLE,
+            is_round=is_alone,
         )  # fmt: skip
     return _judged(job, asked, heap, room)
 

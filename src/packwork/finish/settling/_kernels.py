@@ -41,9 +41,17 @@ def best_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair):
     ``slope``: ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each of
     ``items``; ``backmost``, ``foremost``: bounds of the turn of every solid.
     """
-    n = items.shape[0]
     who, numbers, where, kept = rounds.near_contacts(board, items, pairs, trust, gap, hair)
     rows = rounds.conditions(board, pairs, who, numbers, where, trust, kept)
+    gain, low, high = _freedoms(board, slope, backmost, foremost, items, trust)
+    z = programme.maximise(rows, gain, low, high, ACCURACY)
+    return _lengthened(board, items, z, low, high, trust)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _freedoms(board, slope, backmost, foremost, items, trust):
+    """Gains and bounds of the unknowns, lengths in units of ``trust``."""
+    n = items.shape[0]
     gain, low, high = np.zeros(4 * n), np.zeros(4 * n) - 1.0, np.zeros(4 * n) + 1.0
     for k in range(n):
         i = items[k]
@@ -58,14 +66,103 @@ def best_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair):
         low[4 * k + 2] = min(max((backmost[i] - turn) / most, -1.0), 0.0)
         high[4 * k + 2] = max(min((foremost[i] - turn) / most, 1.0), 0.0)
         low[4 * k + 3] = high[4 * k + 3] = 0.0
-    z = programme.maximise(rows, gain, low, high, ACCURACY)
-    step = np.zeros((n, 4))
-    for k in range(n):
+    return gain, low, high
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _lengthened(board, items, z, low, high, trust):
+    """Change of place that the unknowns stand for."""
+    step = np.zeros((items.shape[0], 4))
+    for k in range(items.shape[0]):
         for c in range(3):
             # An interior point is a little off its bounds: what may not turn would.
             share = min(max(z[4 * k + c], low[4 * k + c]), high[4 * k + c])
             step[k, c] = share * trust / (contact.arm(board, items[k]) if c > 1 else 1.0)
     return step
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def circle_about(board, items, centre):
+    """Radius of the circle about a point that holds ``items``."""
+    most = 0.0
+    for k in range(items.shape[0]):
+        for v in range(board.starts[items[k]], board.starts[items[k] + 1]):
+            x, y = board.points[v, 0] - centre[0], board.points[v, 1] - centre[1]
+            most = max(most, x * x + y * y)
+    return np.sqrt(most)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _tops(board, items, centre, least, who, numbers):
+    """Write the points farther off than ``least`` that are farther than those beside them.
+
+    ``numbers``: distance and unit normal of each; returns how many.
+    """
+    count = 0
+    for k in range(items.shape[0]):
+        for v in range(board.starts[items[k]], board.starts[items[k] + 1]):
+            x, y = board.points[v, 0] - centre[0], board.points[v, 1] - centre[1]
+            far = np.hypot(x, y)
+            if far < least:
+                continue
+            is_top = True
+            for w in (board.before[v], board.after[v]):
+                if np.hypot(board.points[w, 0] - centre[0], board.points[w, 1] - centre[1]) > far:
+                    is_top = False
+            if is_top:
+                if count < who.shape[0]:
+                    who[count] = k
+                    numbers[count, 0], numbers[count, 1], numbers[count, 2] = far, x / far, y / far
+                count += 1
+    return count
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _with_circle(board, items, rows, centre, circle, trust):
+    """Rows and those that keep ``items`` in a circle, whose radius is one item more."""
+    n, m = items.shape[0], rows.first.shape[0]
+    room = 16 * n + 64
+    while True:
+        who, numbers = np.empty(room, np.int64), np.empty((room, 3))
+        count = _tops(board, items, centre, circle - rounds.REACH * trust, who, numbers)
+        if count <= room:
+            break
+        room = count
+    first, second = np.empty(m + count, np.int64), np.empty(m + count, np.int64)
+    coefficients, limits = np.zeros((m + count, 8)), np.empty(m + count)
+    first[:m], second[:m] = rows.first, rows.second
+    coefficients[:m], limits[:m] = rows.coefficients, rows.limits
+    for k in range(count):
+        i = items[who[k]]
+        far, nx, ny = numbers[k, 0], numbers[k, 1], numbers[k, 2]
+        first[m + k], second[m + k] = who[k], n
+        ex = centre[0] + far * nx - board.places[i, 0]
+        ey = centre[1] + far * ny - board.places[i, 1]
+        coefficients[m + k, 0], coefficients[m + k, 1] = nx, ny
+        coefficients[m + k, 2] = (ex * ny - ey * nx) / contact.arm(board, i)
+        coefficients[m + k, 4] = -1.0
+        limits[m + k] = max(circle - far, 0.0) / trust
+    return programme.Rows(first, second, coefficients, limits)
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def rounding_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair, centre, weight):
+    """The same where a smaller circle about ``centre`` is worth ``weight`` a canvas unit."""
+    n = items.shape[0]
+    who, numbers, where, kept = rounds.near_contacts(board, items, pairs, trust, gap, hair)
+    rows = rounds.conditions(board, pairs, who, numbers, where, trust, kept)
+    circle = circle_about(board, items, centre)
+    rows = _with_circle(board, items, rows, centre, circle, trust)
+    gain, low, high = np.zeros(4 * n + 4), np.zeros(4 * n + 4), np.zeros(4 * n + 4)
+    own = _freedoms(board, slope, backmost, foremost, items, trust)
+    gain[: 4 * n], low[: 4 * n], high[: 4 * n] = own
+    # What makes room for others may go anywhere.
+    for k in range(n):
+        for c in range(2):
+            low[4 * k + c], high[4 * k + c] = -1.0, 1.0
+    gain[4 * n], low[4 * n] = -weight, -1.0
+    z = programme.maximise(rows, gain, low, high, ACCURACY)
+    return _lengthened(board, items, z, low, high, trust)
 
 
 @njit(cache=True, nogil=True, error_model="numpy")

@@ -15,6 +15,7 @@ from packwork.finish.detail import Detail
 from packwork.finish.finish import FINE
 from packwork.finish.offenders import find_offenders
 from packwork.finish.options import HAIR, FinishOptions
+from packwork.finish.settling.begin_round import begin_round
 from packwork.finish.settling.ease import ease
 from packwork.finish.settling.nestle import nestle
 from packwork.finish.settling.pour import Source, Spout, pour
@@ -80,6 +81,7 @@ def pile(
     shuffle: float = 0.0,
     source: Source | None = None,
     ranks: IntArray | None = None,
+    is_round: bool = False,
 ) -> Piled:
     """Poses in which items of the given sizes are at rest and nothing meets.
 
@@ -114,6 +116,9 @@ def pile(
         Where items come from, one after another or all at once; None for their lowest places.
     ranks
         ``(n,)`` items of a lower rank get their places first, and so lie lower; None for one rank.
+    is_round
+        Whether the pack is to lie in a small circle, where forces draw all items to one point
+        alike.
 
     Examples
     --------
@@ -132,6 +137,8 @@ def pile(
     run = _Pile(container, outlines, poses, forces, options, observer, stop, shuffle)
     if ranks is not None:
         run.ranks = ranks
+    if is_round and source is None and known is None:
+        run.centre = forces.common_point()
     room = container.outline if basin is None else basin
     if source is not None:
         run.pour(room, source)
@@ -144,6 +151,7 @@ def pile(
         if not run.try_again(container.outline):
             break
         run.settle(container.outline, run.first_trust)
+    run.round_off(container.outline)
     return run.result()
 
 
@@ -171,10 +179,13 @@ class _Pile:
         self._gap = options.gap_cu + self._hair
         self._rounds = self._told = 0
         self._is_given = False
+        self._is_rounding = True
         self._details: dict[tuple[Outline, float], Detail] = {}
         self._height = 0.0
         self.ranks = np.zeros(len(poses), dtype=np.int64)
         """Items of a lower one get their places first."""
+        self.centre: FloatArray | None = None
+        """Of the circle that a round pack lies in; None for other piles."""
         strengths = [f.strengths for f in forces.fields] + [b.strengths for b in forces.bonds]
         columns = np.column_stack([np.zeros(len(poses)), *strengths])
         _, self._kinds = np.unique(columns, axis=0, return_inverse=True)
@@ -194,9 +205,27 @@ class _Pile:
         lifted = np.setdiff1d(everyone, standing)
         sizes = self._order_sizes(arrangement)
         lifted = lifted[np.lexsort((-sizes[lifted], self.ranks[lifted]))]
-        left = self._nestle(arrangement, lifted, standing)
+        if self._gather_round(arrangement):
+            left = np.arange(0)
+        else:
+            left = self._nestle(arrangement, lifted, standing)
         self._take_over(arrangement, everyone)
         self._items = np.setdiff1d(everyone, left)
+        self._is_rounding = len(left) == 0
+
+    def round_off(self, room: Outline) -> None:
+        """Settle into a small circle those that at first did not all find room."""
+        if self.centre is not None and not self._is_rounding:
+            self._is_rounding = True
+            self.settle(room, self.first_trust)
+
+    def _gather_round(self, arrangement: Arrangement) -> bool:
+        """Put all into a small circle, if it is wanted and there is room for it."""
+        if self.centre is None:
+            return False
+        rng = np.random.default_rng(self._options.seed)
+        settling = self._settling(arrangement, self._items)
+        return begin_round(settling, self._gap, (FIRST_TRUST, ROUGH_TRUST), rng, self._stop)
 
     @property
     def first_trust(self) -> float:
@@ -228,7 +257,7 @@ class _Pile:
         self._items = np.setdiff1d(everyone, left)
 
     def _settling(self, arrangement: Arrangement, items: IntArray) -> Settling:
-        return Settling(
+        settling = Settling(
             arrangement,
             self._forces.some(items),
             self._areas[items],
@@ -237,6 +266,8 @@ class _Pile:
             self._hair,
             self._container.side,
         )
+        settling.centre = self.centre if self._is_rounding else None
+        return settling
 
     def settle(self, room: Outline, first_trust: float) -> None:
         """Let the placed ones go down to rest, on coarse outlines, then on fine ones."""

@@ -46,6 +46,10 @@ TILTED_TRUST = 0.03
 MOST_ROUNDS = 400
 """Rounds at most. Chosen."""
 
+ROUNDNESS = 30.0
+"""What a smaller circle is worth where a pack is to be round, mean heights. Larger lets items
+inside lie anywhere, smaller lets some stick out. Tried."""
+
 
 class Settling:
     """Items of fixed sizes on their way down; the arrangement never has a conflict.
@@ -78,25 +82,38 @@ class Settling:
         hair: float,
         side: float,
     ) -> None:
-        self.arrangement, self._forces, self._areas, self._turns = arrangement, forces, areas, turns
+        self.arrangement, self._forces, self.areas, self._turns = arrangement, forces, areas, turns
         self._gap, self._hair, self._side = gap, hair, side
         self.is_swaying = True
         """Whether wide rounds are tilted."""
+        self.centre: FloatArray | None = None
+        """Of the circle that is to become small; None for none."""
         self.active = np.arange(len(areas))
         """Items that move; all others count as not there, and have to be far away."""
-        self._drops = np.zeros(len(areas))
+        self._drops, self._narrowed = np.zeros(len(areas)), 0.0
         self._spacing = float(np.sqrt(np.mean(areas)))
 
     def pull(self) -> Pull:
         """Heights and slopes of the active items where they are now."""
-        forces = self._forces if len(self.active) == len(self._areas) else (
+        forces = self._forces if len(self.active) == len(self.areas) else (
             self._forces.some(self.active)
         )  # fmt: skip
-        return forces(self.arrangement.places[self.active, :2], self._areas[self.active])
+        return forces(self.arrangement.places[self.active, :2], self.areas[self.active])
 
     def mean_height(self) -> float:
         """Area-weighted mean height of the active items, canvas units."""
-        return self.pull().value / max(float(self._areas[self.active].sum()), 1e-300)
+        return self.pull().value / max(float(self.areas[self.active].sum()), 1e-300)
+
+    def _cost(self, items: IntArray) -> float:
+        """Mean height, and the circle that holds some items where that counts."""
+        return self.mean_height() + ROUNDNESS * self.circle(items)
+
+    def circle(self, items: IntArray | None = None) -> float:
+        """Radius of the circle that holds some items, or all; 0 where none is asked for."""
+        if self.centre is None:
+            return 0.0
+        some = self.active if items is None else items
+        return float(_kernels.circle_about(self.arrangement.board, some, self.centre))
 
     def settle(
         self,
@@ -130,7 +147,7 @@ class Settling:
         return MOST_ROUNDS
 
     def round(self, trust: float, turn: int) -> float:
-        """One step of each block, the lowest first; the mean way down.
+        """One step of each block, the lowest first; the mean way down, and that of the circle.
 
         Parameters
         ----------
@@ -139,7 +156,7 @@ class Settling:
         turn
             Number of the round: others cut blocks elsewhere.
         """
-        before = self.mean_height()
+        before, circle = self._cost(self.active), self.circle()
         low = self._lows()
         tilt = (
             TILT * (1 - 2 * (turn // SWAY % 2)) if self.is_swaying and trust > TILTED_TRUST else 0.0
@@ -148,16 +165,20 @@ class Settling:
         for block in sorted(found, key=lambda items: float(low[items].mean())):
             self._step(block, trust * self._spacing, tilt)
         self._drops = low - self._lows()
-        return before - self.mean_height()
+        self._narrowed = circle - self.circle()
+        return before - self._cost(self.active)
 
     def _lows(self) -> FloatArray:
         """Height of each active item, by its area."""
-        return np.asarray(self.pull().parts / self._areas[self.active])
+        return np.asarray(self.pull().parts / self.areas[self.active])
 
     def _farthest(self) -> float:
-        """How far the tenth that went farthest down came in the last round, canvas units."""
+        """How far the tenth that went farthest down came in the last round, canvas units.
+
+        Or the circle, if it came farther.
+        """
         some = max(len(self._drops) // 10, 1)
-        return float(np.sort(self._drops)[-some:].mean())
+        return max(float(np.sort(self._drops)[-some:].mean()), self._narrowed)
 
     def is_still(self, gained: float, least: float) -> bool:
         """Whether a round gained less than ``least`` sides of an item's square."""
@@ -173,12 +194,19 @@ class Settling:
         cosine, sine = np.cos(tilt), np.sin(tilt)
         slopes = slopes @ np.array([[cosine, sine], [-sine, cosine]])
         before = self.arrangement.places[items].copy()
-        height = self.mean_height()
+        height = self._cost(items)
         pairs = contact.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
-        step = _kernels.best_step(
-            board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair
-        )
+        if self.centre is None:
+            step = _kernels.best_step(
+                board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair
+            )
+        else:
+            worth = ROUNDNESS * float(self.areas[self.active].sum())
+            step = _kernels.rounding_step(
+                board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair,
+                self.centre, worth,
+            )  # fmt: skip
         _kernels.move(board, items, step, pairs, self._gap)
-        if self.mean_height() > height:
+        if self._cost(items) > height:
             # Near a point the slope turns within a step.
             self.arrangement.put(items, before)

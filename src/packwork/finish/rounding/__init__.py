@@ -1,0 +1,1 @@
+"""Packs with nothing round them: few items in the smallest circle."""
