@@ -7,6 +7,7 @@ import numpy as np
 from packwork.arrays import BoolArray, IntArray
 from packwork.finish._kernels import LEAST_GROWTH
 from packwork.finish.arrangement import Arrangement
+from packwork.finish.contact import _kernels as contact
 from packwork.finish.relocate import relocate
 
 CUT = 0.004
@@ -50,8 +51,9 @@ def part(arrangement: Arrangement, gap: float) -> IntArray:
     """
     first = arrangement.places[:, 3].copy()
     moved: list[int] = []
+    near = arrangement.pairs(gap)
     for check in range(MOST_CHECKS):
-        bad = arrangement.conflicts(arrangement.pairs(gap), gap)
+        bad = arrangement.conflicts(near, gap)
         if len(bad) == 0:
             break
         items = _items(bad, arrangement.count)
@@ -65,6 +67,8 @@ def part(arrangement: Arrangement, gap: float) -> IntArray:
             relocate(arrangement, hopeless, gap)
             first[hopeless] = arrangement.places[hopeless, 3]
             moved += hopeless.tolist()
+        # All in conflict have changed: nobody else can be in one now.
+        near = contact.pairs_of(arrangement.board.boxes, items, gap)
     return np.unique(np.array(moved, dtype=np.int64))
 
 

@@ -247,7 +247,7 @@ def _exchanged(
     """Two items of like size, each where the other was and as large."""
     radii = arrangement.radii
     i = int(rng.integers(arrangement.count))
-    alike = np.argsort(np.abs(np.log(radii / radii[i])), kind="stable")[: ALIKE + 1]
+    alike = least_of(np.abs(np.log(radii / radii[i])), ALIKE + 1)
     alike = alike[alike != i]
     j = int(rng.choice(alike))
     if pulling is not None and rng.random() < WITH_FORCES:
@@ -257,6 +257,21 @@ def _exchanged(
     places[:, 2] = arrangement.places[pair, 2]
     places[:, 3] = np.log(radii[pair[::-1]] / arrangement.board.arms[pair]) - LOSS
     return pair, places
+
+
+def least_of(values: FloatArray, count: int) -> IntArray:
+    """Indices of the smallest values, in order; of equal ones the first.
+
+    Examples
+    --------
+    >>> least_of(np.array([3.0, 1.0, 2.0, 1.0]), 3).tolist()
+    [1, 3, 2]
+    """
+    if count < len(values):
+        among = np.flatnonzero(values <= np.partition(values, count - 1)[count - 1])
+    else:
+        among = np.arange(len(values))
+    return among[np.argsort(values[among], kind="stable")][:count]
 
 
 def at_angles(
@@ -280,10 +295,10 @@ def at_angles(
 
 def _about(arrangement: Arrangement, moved: IntArray) -> IntArray:
     """The moved items and their neighbours, in the order of their x."""
-    centres = arrangement.places[:, :2]
+    centres, radii = arrangement.places[:, :2], arrangement.radii
     away = np.full(arrangement.count, np.inf)
     for k in moved:
-        away = np.minimum(away, np.hypot(*(centres - centres[k]).T) - arrangement.radii)
+        away = np.minimum(away, np.hypot(*(centres - centres[k]).T) - radii)
     wanted = min(len(moved) * (NEIGHBOURS + 1), arrangement.count)
     items = np.union1d(np.argpartition(away, wanted - 1)[:wanted], moved)
     return items[np.argsort(centres[items, 0], kind="stable")]
