@@ -7,7 +7,6 @@ import numpy as np
 from packwork.arrays import BoolArray, IntArray
 from packwork.finish._kernels import LEAST_GROWTH
 from packwork.finish.arrangement import Arrangement
-from packwork.finish.contact import _kernels as contact
 from packwork.finish.relocate import relocate
 
 CUT = 0.004
@@ -68,7 +67,9 @@ def part(arrangement: Arrangement, gap: float) -> IntArray:
             first[hopeless] = arrangement.places[hopeless, 3]
             moved += hopeless.tolist()
         # All in conflict have changed: nobody else can be in one now.
-        near = contact.pairs_of(arrangement.board.boxes, items, gap)
+        changed = np.isin(np.arange(arrangement.count + 1), items)
+        near = arrangement.pairs(gap)
+        near = near[changed[near].any(axis=1)]
     return np.unique(np.array(moved, dtype=np.int64))
 
 
