@@ -63,9 +63,9 @@ HEAT = 0.03
 the container, at the begin; it falls to nothing. Larger wanders, smaller stays in the
 first optimum. Tried."""
 
-SWEEP_ROUNDS = 4
-"""Linear programmes over all items after as many trials as there are items: what trials
-free here lets others grow there. Tried."""
+SWEEPS, SWEEP_ROUNDS = 3, 4
+"""Linear programmes over all items after as many trials as there are items, or so many times
+in all if that is oftener: what trials free here lets others grow there. Tried."""
 
 ROUNDING = 1e-9
 """Logarithm of size by which steps may end off their bounds. Derived."""
@@ -132,6 +132,7 @@ def search(
     if arrangement.count < 2 and not can_turn:
         return 0
     kept = 0
+    every = max(min(arrangement.count, trials // SWEEPS), 1)
     for trial in range(trials):
         if stop():
             break
@@ -160,7 +161,7 @@ def search(
             arrangement.put(items, before)
         if tell is not None:
             tell(trial)
-        if (trial + 1) % arrangement.count == 0:
+        if (trial + 1) % every == 0:
             _sweep(arrangement, wishes, room, trial)
         # How far an item may grow depends on how large the smallest is now.
         wishes = wish(arrangement.places)
