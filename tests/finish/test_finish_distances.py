@@ -6,6 +6,7 @@ import shapely
 from hypothesis import given, settings
 
 from packwork.finish.arrangement import Arrangement
+from packwork.finish.contact._kernels import pairs_of
 from packwork.geometry.outline import Outline
 from scenes import box
 from strategies import SEEDS, generators
@@ -65,6 +66,34 @@ def test_every_near_pair_is_listed_once(seed: int) -> None:
     listed = [(int(i), int(j)) for i, j in pairs]
     assert len(listed) == len(set(listed))
     assert set(listed) == near | {(i, count) for i in range(count)}
+
+
+@given(SEEDS)
+@settings(deadline=None, max_examples=30)
+def test_pairs_of_some_items_are_all_near_pairs_with_one_of_them(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    count = int(rng.integers(1, 60))
+    places = np.column_stack([rng.uniform(0, 30, (count, 2)), np.zeros((count, 2))])
+    arrangement = Arrangement([box(-1, -0.5, 1, 0.5)] * count, box(-9, -9, 40, 40), places)
+    items = rng.permutation(count)[: rng.integers(1, count + 1)]
+    every = {tuple(pair) for pair in arrangement.pairs(0.7).tolist()}
+    found = [tuple(pair) for pair in pairs_of(arrangement.board.boxes, items, 0.7).tolist()]
+    assert len(set(found)) == len(found)
+    assert set(found) == {pair for pair in every if set(pair) & set(items.tolist())}
+
+
+def test_an_item_beyond_every_wall_is_not_inside() -> None:
+    places = np.array([[0.0, 0, 0, 0], [90.0, 0, 0, 0]])
+    two = Arrangement([box(-1, -1, 1, 1)] * 2, box(-9, -9, 9, 9), places)
+    assert two.distances(np.array([[0, 2], [1, 2]]), 0.5).tolist() == [0.5, 0.0]
+
+
+def test_an_item_in_a_notch_of_the_container_is_not_inside() -> None:
+    notched = Outline.from_region(
+        shapely.difference(shapely.box(-30, -30, 30, 30), shapely.box(-9, -30, 9, 20))
+    )
+    one = Arrangement([box(-1, -1, 1, 1)], notched, np.zeros((1, 4)))
+    assert one.distances(np.array([[0, 1]]), 0.5).tolist() == [0.0]
 
 
 def test_an_item_in_the_hole_of_another_is_clear() -> None:

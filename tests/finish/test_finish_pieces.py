@@ -14,7 +14,7 @@ from packwork.finish.covers.cover import covering, lining
 from packwork.finish.part import part, part_evenly
 from packwork.finish.relief import rehouse
 from packwork.finish.relocate import relocate
-from packwork.finish.search import Room
+from packwork.finish.search import Room, search
 from packwork.finish.sizing import FixedSize, FreeSizes, SharedSize
 from packwork.geometry.outline import Outline
 from packwork.readers.container import read_container
@@ -123,6 +123,23 @@ def test_an_item_without_a_void_stays() -> None:
     )
     relocate(arrangement, np.array([1]), GAP)
     assert arrangement.places[1].tolist() == [2.0, 2.0, 0.5, 0.1]
+
+
+def test_items_that_no_trial_reaches_grow_all_the_same() -> None:
+    x = np.arange(3.0, 120.0, 6.0)
+    zero = np.zeros_like(x)
+    arrangement = Arrangement(
+        [square()] * len(x), box(0, 0, 123, 6), np.column_stack([x, zero + 3, zero, zero])
+    )
+    sizing = free(arrangement, zero + 4.0)
+    room = Room(6.0, GAP, HAIR)
+
+    def wish(places: FloatArray) -> Wishes:
+        return sizing.wishes(places[:, 3], 0.1)
+
+    search(arrangement, wish, 3, room, np.random.default_rng(0))
+    assert is_clean(arrangement)
+    assert arrangement.places[:, 3].min() > 0.05
 
 
 @given(generators())

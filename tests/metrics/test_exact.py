@@ -197,3 +197,13 @@ def test_order_does_not_matter(found: list[Box], random: object) -> None:
     assert two.overlap_area == pytest.approx(one.overlap_area)
     assert two.min_gap == one.min_gap
     assert exact_coverage([box(*b) for b in found], room) == pytest.approx(one.coverage)
+
+
+def test_smallest_gap_of_more_than_one_portion_is_found_wherever_it_is() -> None:
+    rng = np.random.default_rng(3)
+    corners = np.array([(x, y) for x in range(25) for y in range(25)], dtype=float)
+    sides = rng.uniform(0.2, 0.9, len(corners))
+    tiles = [box(x, y, x + s, y + s) for (x, y), s in zip(corners, sides, strict=True)]
+    for moved in (tiles, tiles[::-1], [tiles[k] for k in rng.permutation(len(tiles))]):
+        found = exact_metrics(moved, box(-1, -1, 26, 26)).min_gap
+        assert found == pytest.approx(1 - sides.max(), abs=1e-12)

@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from packwork.finish.binding import _kernels as binding
 from packwork.finish.contact import _kernels as contact
 from packwork.finish.programme import _kernels as programme
 
@@ -90,7 +91,7 @@ def contacts(board, pairs, reach, slants):
     room = 24 * pairs.shape[0] + 256
     while True:
         who, numbers = np.empty(room, np.int64), np.empty((room, 7))
-        count = contact.contacts(board, pairs, reach, slants, who, numbers)
+        count = binding.contacts(board, pairs, reach, slants, who, numbers)
         if count <= room:
             return who[:count], numbers[:count]
         room = count
@@ -174,8 +175,8 @@ def freedoms(board, wishes, items, trust):
 def strike(board, pairs, gap, changed, struck, room):
     """Mark solids in conflict; only pairs of which one has ``changed`` can be. How many."""
     count = 0
-    for i in range(struck.shape[0]):
-        struck[i] = False
+    for p in range(pairs.shape[0]):
+        struck[pairs[p, 0]] = struck[pairs[p, 1]] = False
     for p in range(pairs.shape[0]):
         i, j = pairs[p, 0], pairs[p, 1]
         if (changed[i] or changed[j]) and contact.distance(board, i, j, gap, room) < gap:
@@ -187,12 +188,32 @@ def strike(board, pairs, gap, changed, struck, room):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
+def _solids(pairs, marks):
+    """Solids of some pairs, each once; ``marks``, one for each of all, are lost."""
+    for p in range(pairs.shape[0]):
+        marks[pairs[p, 0]] = marks[pairs[p, 1]] = 0
+    found = np.empty(2 * pairs.shape[0], np.int64)
+    count = 0
+    for p in range(pairs.shape[0]):
+        for i in pairs[p]:
+            if marks[i] == 0:
+                marks[i] = 1
+                found[count] = i
+                count += 1
+    return found[:count]
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
 def _settle_share(board, items, before, step, share, pairs, gap, unit):
     """Move by a share of a step; items in conflict are cut, then left where they were."""
-    strikes = np.zeros(board.starts.shape[0] - 1, np.int64)
-    changed, struck = strikes == 0, strikes > 0
+    # Only what is in the pairs is looked at: work must not grow with all solids.
+    strikes = np.empty(board.starts.shape[0] - 1, np.int64)
+    changed, struck = np.empty(strikes.shape[0], np.bool_), np.empty(strikes.shape[0], np.bool_)
+    solids = _solids(pairs, strikes)
+    for i in solids:
+        strikes[i], changed[i], struck[i] = 0, True, False
     place = np.empty((1, 4))
-    room = np.empty((2, contact.most_points(board.starts)), np.int64)
+    room = np.empty((2, contact.most_points(board.starts, pairs)), np.int64)
     for _ in range(CHECKS):
         for k in range(items.shape[0]):
             hits = strikes[items[k]]
@@ -206,7 +227,7 @@ def _settle_share(board, items, before, step, share, pairs, gap, unit):
             contact.put(board, items[k : k + 1], place)
         if strike(board, pairs, gap, changed, struck, room) == 0:
             return True
-        for i in range(strikes.shape[0]):
+        for i in solids:
             strikes[i] += struck[i]
             changed[i] = struck[i]
     return False
@@ -247,7 +268,9 @@ def near_contacts(board, items, pairs, trust, gap, hair):
             if i != last:
                 slants[p] += trust / contact.arm(board, i)
         slants[p] = min(slants[p], 1.0)
-    where = np.zeros(last + 1, np.int64) - 1
+    where = np.empty(last + 1, np.int64)
+    for p in range(pairs.shape[0]):
+        where[pairs[p, 0]] = where[pairs[p, 1]] = -1
     for k in range(items.shape[0]):
         where[items[k]] = k
         mean += contact.arm(board, items[k]) / items.shape[0]
@@ -274,10 +297,10 @@ def best_step(board, wishes, items, pairs, trust, gap, hair):
 @njit(cache=True, nogil=True, error_model="numpy")
 def clear_by_shrinking(board, items, pairs, gap, cut, checks):
     """Shrink ``items`` that are in conflict, by steps, until none is; False if some stay."""
-    struck = np.zeros(board.starts.shape[0] - 1, np.bool_)
-    changed = ~struck
+    struck = np.empty(board.starts.shape[0] - 1, np.bool_)
+    changed = np.ones(struck.shape[0], np.bool_)
     place = np.empty((1, 4))
-    room = np.empty((2, contact.most_points(board.starts)), np.int64)
+    room = np.empty((2, contact.most_points(board.starts, pairs)), np.int64)
     for _ in range(checks):
         if strike(board, pairs, gap, changed, struck, room) == 0:
             return True

@@ -50,8 +50,9 @@ def part(arrangement: Arrangement, gap: float) -> IntArray:
     """
     first = arrangement.places[:, 3].copy()
     moved: list[int] = []
+    near = arrangement.pairs(gap)
     for check in range(MOST_CHECKS):
-        bad = arrangement.conflicts(arrangement.pairs(gap), gap)
+        bad = arrangement.conflicts(near, gap)
         if len(bad) == 0:
             break
         items = _items(bad, arrangement.count)
@@ -65,6 +66,10 @@ def part(arrangement: Arrangement, gap: float) -> IntArray:
             relocate(arrangement, hopeless, gap)
             first[hopeless] = arrangement.places[hopeless, 3]
             moved += hopeless.tolist()
+        # All in conflict have changed: nobody else can be in one now.
+        changed = np.isin(np.arange(arrangement.count + 1), items)
+        near = arrangement.pairs(gap)
+        near = near[changed[near].any(axis=1)]
     return np.unique(np.array(moved, dtype=np.int64))
 
 

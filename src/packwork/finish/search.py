@@ -63,9 +63,9 @@ HEAT = 0.03
 the container, at the begin; it falls to nothing. Larger wanders, smaller stays in the
 first optimum. Tried."""
 
-SWEEP_ROUNDS = 4
-"""Linear programmes over all items after as many trials as there are items: what trials
-free here lets others grow there. Tried."""
+SWEEPS, SWEEP_ROUNDS = 3, 4
+"""Linear programmes over all items after as many trials as there are items, or so many times
+in all if that is oftener: what trials free here lets others grow there. Tried."""
 
 ROUNDING = 1e-9
 """Logarithm of size by which steps may end off their bounds. Derived."""
@@ -132,6 +132,7 @@ def search(
     if arrangement.count < 2 and not can_turn:
         return 0
     kept = 0
+    every = max(min(arrangement.count, trials // SWEEPS), 1)
     for trial in range(trials):
         if stop():
             break
@@ -160,7 +161,7 @@ def search(
             arrangement.put(items, before)
         if tell is not None:
             tell(trial)
-        if (trial + 1) % arrangement.count == 0:
+        if (trial + 1) % every == 0:
             _sweep(arrangement, wishes, room, trial)
         # How far an item may grow depends on how large the smallest is now.
         wishes = wish(arrangement.places)
@@ -247,7 +248,7 @@ def _exchanged(
     """Two items of like size, each where the other was and as large."""
     radii = arrangement.radii
     i = int(rng.integers(arrangement.count))
-    alike = np.argsort(np.abs(np.log(radii / radii[i])), kind="stable")[: ALIKE + 1]
+    alike = least_of(np.abs(np.log(radii / radii[i])), ALIKE + 1)
     alike = alike[alike != i]
     j = int(rng.choice(alike))
     if pulling is not None and rng.random() < WITH_FORCES:
@@ -257,6 +258,21 @@ def _exchanged(
     places[:, 2] = arrangement.places[pair, 2]
     places[:, 3] = np.log(radii[pair[::-1]] / arrangement.board.arms[pair]) - LOSS
     return pair, places
+
+
+def least_of(values: FloatArray, count: int) -> IntArray:
+    """Indices of the smallest values, in order; of equal ones the first.
+
+    Examples
+    --------
+    >>> least_of(np.array([3.0, 1.0, 2.0, 1.0]), 3).tolist()
+    [1, 3, 2]
+    """
+    if count < len(values):
+        among = np.flatnonzero(values <= np.partition(values, count - 1)[count - 1])
+    else:
+        among = np.arange(len(values))
+    return among[np.argsort(values[among], kind="stable")][:count]
 
 
 def at_angles(
@@ -280,10 +296,10 @@ def at_angles(
 
 def _about(arrangement: Arrangement, moved: IntArray) -> IntArray:
     """The moved items and their neighbours, in the order of their x."""
-    centres = arrangement.places[:, :2]
+    centres, radii = arrangement.places[:, :2], arrangement.radii
     away = np.full(arrangement.count, np.inf)
     for k in moved:
-        away = np.minimum(away, np.hypot(*(centres - centres[k]).T) - arrangement.radii)
+        away = np.minimum(away, np.hypot(*(centres - centres[k]).T) - radii)
     wanted = min(len(moved) * (NEIGHBOURS + 1), arrangement.count)
     items = np.union1d(np.argpartition(away, wanted - 1)[:wanted], moved)
     return items[np.argsort(centres[items, 0], kind="stable")]

@@ -26,6 +26,9 @@ _REACH_GROWTH = 4.0
 """Growth of that distance while nothing is found; as above. Tried."""
 
 
+_PORTION = 256
+"""Regions whose gaps are measured at a time. Larger: more memory; smaller: more rounds. Chosen."""
+
 _FEW_PAIRS = 8
 """Pairs that are measured rather than thinned out. Larger: more slow measuring; smaller: more
 rounds of asking. Chosen."""
@@ -132,10 +135,9 @@ def _container_region(container: Outline) -> Region:
 
 
 def _regions(outlines: Sequence[Outline]) -> _Regions:
-    """Valid regions, prepared: the same one is tested against many others."""
+    """Valid regions."""
     regions = np.empty(len(outlines), dtype=object)
     regions[:] = [_valid(outline.region) for outline in outlines]
-    shapely.prepare(regions)
     return regions
 
 
@@ -210,24 +212,34 @@ def _smallest_gap(regions: _Regions, whole: Region) -> float:
     extent = max(right - left, bottom - top)
     reach = _FIRST_REACH * extent
     while True:
-        first, second = _pairs_within(reach, tree, regions, edge)
-        if first.size:
-            return _least_distance(first, second, reach)
+        found = _gap_within(reach, tree, regions, edge)
+        if found is not None:
+            return found
         # An item inside is nearer to the edge than the extent, so this ends.
         reach *= _REACH_GROWTH
 
 
-def _pairs_within(
+def _gap_within(
     reach: float, tree: shapely.STRtree, regions: _Regions, edge: Region
-) -> tuple[_Regions, _Regions]:
-    """All pairs of regions, and of the edge with regions, that are within ``reach``."""
-    i, j = tree.query(regions, predicate="dwithin", distance=reach)
-    near_edge = regions[shapely.dwithin(edge, regions, reach)]
-    edges = np.full(len(near_edge), edge, dtype=object)
-    return (
-        np.concatenate([regions[i[i < j]], edges]),
-        np.concatenate([regions[j[i < j]], near_edge]),
-    )
+) -> float | None:
+    """Smallest gap of all regions and the edge, if it is within ``reach``.
+
+    By portions: what is asked about many times is prepared, which takes much memory; and
+    what one has found spares the next most of its pairs.
+    """
+    least: float | None = None
+    for begin in range(0, len(regions), _PORTION):
+        portion = regions[begin : begin + _PORTION]
+        shapely.prepare(portion)
+        i, j = tree.query(portion, predicate="dwithin", distance=reach)
+        before = j < i + begin
+        near_edge = portion[shapely.dwithin(edge, portion, reach)]
+        first = np.concatenate([portion[i[before]], np.full(len(near_edge), edge, dtype=object)])
+        second = np.concatenate([regions[j[before]], near_edge])
+        if len(first):
+            least = reach = _least_distance(first, second, reach)
+        shapely.destroy_prepared(portion)
+    return least
 
 
 def _least_distance(first: _Regions, second: _Regions, reach: float) -> float:

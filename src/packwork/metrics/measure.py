@@ -5,8 +5,11 @@ from __future__ import annotations
 from dataclasses import asdict, dataclass
 from typing import Any
 
+import numpy as np
+
 from packwork.metrics.exact import ExactMetrics, exact_coverage, exact_metrics
 from packwork.metrics.pixel import PixelMetrics, pixel_metrics
+from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 
 
@@ -48,10 +51,35 @@ class LayoutMetrics:
 
 def measure(layout: Layout) -> LayoutMetrics:
     """Measure a layout's outlines, and the ink of its items, against its container."""
-    same = all(item.ink is item.outline for item in layout.items)
     exact = exact_metrics(layout.outlines, layout.container.outline)
     return LayoutMetrics(
         pixel=pixel_metrics(layout.outlines, layout.container),
         exact=exact,
-        ink=exact.coverage if same else exact_coverage(layout.inks, layout.container.outline),
+        ink=_ink_coverage(layout, exact),
     )
+
+
+def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
+    """Share of the container that is really drawn."""
+    if all(item.ink is item.outline for item in layout.items):
+        return exact.coverage
+    container = layout.container.outline
+    known: dict[tuple[int, int], float | None] = {}
+    for item in layout.items:
+        key = id(item.ink), id(item.outline)
+        if key not in known:
+            known[key] = _area_inside(item)
+    areas = [known[id(item.ink), id(item.outline)] for item in layout.items]
+    if not exact.is_clean or None in areas:
+        return exact_coverage(layout.inks, container)
+    # Inside outlines that neither meet nor stick out, ink does not either.
+    own = np.array(areas, dtype=np.float64)
+    return float((own * layout.poses.scale**2).sum() / container.region.area)
+
+
+def _area_inside(item: Item) -> float | None:
+    """Area of an item's ink, if that lies in its outline."""
+    ink, outline = item.ink.region, item.outline.region
+    if not (ink.is_valid and outline.is_valid and outline.covers(ink)):
+        return None
+    return float(ink.area)

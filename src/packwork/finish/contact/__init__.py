@@ -1,1 +1,1 @@
-"""Distances of polygons in place, and what keeps them apart."""
+"""Distances of polygons in place."""

@@ -1,4 +1,4 @@
-"""Distances and contacts of polygons in place, pair by pair.
+"""Distances of polygons in place, pair by pair.
 
 All solids lie one after another in ``points``: first the items, last the container,
 whose rings run backwards, so that its solid is all that must not be entered. The outward
@@ -86,7 +86,7 @@ def near_pairs(boxes, order, reach, found):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _are_apart(boxes, i, j, reach):
+def are_apart(boxes, i, j, reach):
     """Whether two boxes are farther apart than ``reach`` along an axis."""
     return (
         boxes[j, 0] > boxes[i, 2] + reach
@@ -94,6 +94,53 @@ def _are_apart(boxes, i, j, reach):
         or boxes[j, 1] > boxes[i, 3] + reach
         or boxes[i, 1] > boxes[j, 3] + reach
     )
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _two_boxes(boxes, items):
+    """Boxes about those of ``items`` near the first of them, and about those far from it."""
+    middle = np.empty(2)
+    farthest, most = items[0], -1.0
+    for k in range(items.shape[0]):
+        away = 0.0
+        for c in range(2):
+            middle[c] = boxes[items[k], c] + boxes[items[k], c + 2]
+            away += (middle[c] - boxes[items[0], c] - boxes[items[0], c + 2]) ** 2
+        if away > most:
+            farthest, most = items[k], away
+    found = np.empty((2, 4))
+    found[:, :2], found[:, 2:] = np.inf, -np.inf
+    for k in range(items.shape[0]):
+        box = boxes[items[k]]
+        nearer = 0.0
+        for c in range(2):
+            here = box[c] + box[c + 2]
+            nearer += (here - boxes[items[0], c] - boxes[items[0], c + 2]) ** 2
+            nearer -= (here - boxes[farthest, c] - boxes[farthest, c + 2]) ** 2
+        one = found[int(nearer > 0.0)]
+        for c in range(2):
+            one[c], one[c + 2] = min(one[c], box[c]), max(one[c + 2], box[c + 2])
+    return found
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _nearby(boxes, items, reach):
+    """Items whose boxes may be within ``reach`` of one of ``items``, in their order."""
+    about = _two_boxes(boxes, items)
+    near = np.empty(boxes.shape[0] - 1, np.int64)
+    count = 0
+    for j in range(near.shape[0]):
+        for a in range(2):
+            if (
+                boxes[j, 0] <= about[a, 2] + reach
+                and about[a, 0] <= boxes[j, 2] + reach
+                and boxes[j, 1] <= about[a, 3] + reach
+                and about[a, 1] <= boxes[j, 3] + reach
+            ):
+                near[count] = j
+                count += 1
+                break
+    return near[:count]
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -106,14 +153,16 @@ def pairs_of(boxes, items, reach):
     chosen = np.zeros(last, np.bool_)
     for k in range(items.shape[0]):
         chosen[items[k]] = True
+    near = _nearby(boxes, items, reach)
     found = np.empty((16 * items.shape[0] + 16, 2), np.int64)
     count = 0
     for k in range(items.shape[0]):
         i = items[k]
-        for j in range(last + 1):
+        for a in range(near.shape[0] + 1):
+            j = near[a] if a < near.shape[0] else last
             if j == i or (j < i and chosen[j]):
                 continue
-            if j < last and _are_apart(boxes, i, j, reach):
+            if j < last and are_apart(boxes, i, j, reach):
                 continue
             if count == found.shape[0]:
                 longer = np.empty((2 * count, 2), np.int64)
@@ -126,7 +175,7 @@ def pairs_of(boxes, items, reach):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _cull(board, i, box, reach, kept):
+def cull(board, i, box, reach, kept):
     """Write the edges of a solid (by their first vertex) within ``reach`` of a box."""
     points = board.points
     left, top, right, bottom = box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach
@@ -161,7 +210,7 @@ def _to_edge_squared(x, y, points, v, w):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _side(points, a, b, c):
+def side(points, a, b, c):
     """Twice the signed area of the triangle of three vertices."""
     return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
         points[b, 1] - points[a, 1]
@@ -184,8 +233,8 @@ def _edges_squared(points, v, w, s, t, least):
     if gap_x * gap_x + gap_y * gap_y >= least:
         return least
     if (
-        _side(points, v, w, s) * _side(points, v, w, t) < 0.0
-        and _side(points, s, t, v) * _side(points, s, t, w) < 0.0
+        side(points, v, w, s) * side(points, v, w, t) < 0.0
+        and side(points, s, t, v) * side(points, s, t, w) < 0.0
     ):
         return 0.0
     least = min(least, _to_edge_squared(points[v, 0], points[v, 1], points, s, t))
@@ -213,30 +262,50 @@ def _winding(x, y, board, j):
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def _enters(board, i, j):
-    """Whether a ring of solid ``i`` has its first vertex in solid ``j``."""
+def _is_in(board, v, j):
+    """Whether a vertex lies in solid ``j``."""
+    x, y = board.points[v, 0], board.points[v, 1]
+    # The container's rings run backwards: round a point inside once, the wrong way.
+    return _winding(x, y, board, j) + (j == board.starts.shape[0] - 2) != 0
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _enters(board, kept, count, j):
+    """Whether a ring has its first vertex in solid ``j``, of rings with edges near that."""
     is_container = j == board.starts.shape[0] - 2
     box = board.boxes[j]
-    for v in range(board.starts[i], board.starts[i + 1]):
+    for k in range(count):
+        v = kept[k]
         # The first vertex of a ring is the one that comes after a later one.
         if board.before[v] < v:
             continue
         x, y = board.points[v, 0], board.points[v, 1]
         if not is_container and (x < box[0] or x > box[2] or y < box[1] or y > box[3]):
             continue
-        # The container's rings run backwards: round a point inside once, the wrong way.
-        if _winding(x, y, board, j) + is_container != 0:
+        if _is_in(board, v, j):
             return True
     return False
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
-def most_points(starts):
-    """Points of the solid that has most: room for its edges."""
+def most_points(starts, pairs):
+    """Points of the solid of some pairs that has most: room for its edges."""
     most = 0
-    for i in range(starts.shape[0] - 1):
-        most = max(most, starts[i + 1] - starts[i])
+    for p in range(pairs.shape[0]):
+        for i in pairs[p]:
+            most = max(most, starts[i + 1] - starts[i])
     return most
+
+
+@njit(cache=True, nogil=True, error_model="numpy")
+def _sticks_out(boxes, i, j):
+    """Whether a box is not within another one."""
+    return (
+        boxes[i, 0] < boxes[j, 0]
+        or boxes[i, 1] < boxes[j, 1]
+        or boxes[i, 2] > boxes[j, 2]
+        or boxes[i, 3] > boxes[j, 3]
+    )
 
 
 @njit(cache=True, nogil=True, error_model="numpy")
@@ -245,12 +314,18 @@ def distance(board, i, j, reach, room):
 
     ``room``: two rows of :func:`most_points`.
     """
-    if j < board.starts.shape[0] - 2 and _are_apart(board.boxes, i, j, reach):
+    if j < board.starts.shape[0] - 2 and are_apart(board.boxes, i, j, reach):
         return reach
-    least = reach * reach
     first, second = room[0], room[1]
-    count_i = _cull(board, i, board.boxes[j], reach, first)
-    count_j = _cull(board, j, board.boxes[i], reach, second)
+    count_j = cull(board, j, board.boxes[i], reach, second)
+    if j == board.starts.shape[0] - 2:
+        if _sticks_out(board.boxes, i, j):
+            return 0.0
+        if count_j == 0:
+            # All inside or all outside.
+            return 0.0 if _is_in(board, board.starts[i], j) else reach
+    count_i = cull(board, i, board.boxes[j], reach, first)
+    least = reach * reach
     for a in range(count_i):
         v = first[a]
         w = board.after[v]
@@ -259,7 +334,7 @@ def distance(board, i, j, reach, room):
             least = _edges_squared(board.points, v, w, s, board.after[s], least)
         if least == 0.0:
             return 0.0
-    if _enters(board, i, j) or _enters(board, j, i):
+    if _enters(board, first, count_i, j) or _enters(board, second, count_j, i):
         return 0.0
     return math.sqrt(least) if least < reach * reach else reach
 
@@ -268,133 +343,7 @@ def distance(board, i, j, reach, room):
 def distances(board, pairs, reach):
     """Distance of each pair: 0 if they meet, ``reach`` if it is not below that."""
     found = np.empty(pairs.shape[0])
-    room = np.empty((2, most_points(board.starts)), np.int64)
+    room = np.empty((2, most_points(board.starts, pairs)), np.int64)
     for p in range(pairs.shape[0]):
         found[p] = distance(board, pairs[p, 0], pairs[p, 1], reach, room)
     return found
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def contacts(board, pairs, reach, slants, who, numbers):
-    """Write what keeps pairs apart; returns how many, counting on past the end.
-
-    ``who``: which pair. ``numbers``: normal from the second solid to the first, point on
-    the first, point on the second, distance. Only features within ``reach`` bind: convex
-    vertices against edges that they see from outside, near the edge's own span, and
-    against convex corners that face them. ``slants``: by how much the two solids of each
-    pair may turn against each other, rad.
-    """
-    most = most_points(board.starts)
-    kept, edges = np.empty((2, most), np.int64), np.empty((2, 9, most))
-    near = np.empty(most, np.bool_)
-    count = 0
-    for k in range(pairs.shape[0]):
-        i, j = pairs[k, 0], pairs[k, 1]
-        if _are_apart(board.boxes, i, j, reach):
-            continue
-        count_i = _cull(board, i, board.boxes[j], reach, kept[0])
-        count_j = _cull(board, j, board.boxes[i], reach, kept[1])
-        _describe(board, kept[0], count_i, edges[0])
-        _describe(board, kept[1], count_j, edges[1])
-        for side in range(2):
-            mine, theirs = (count_i, count_j) if side == 0 else (count_j, count_i)
-            count = _meet(
-                edges[side], mine, edges[1 - side], theirs, near, reach, slants[k], k, side,
-                who, numbers, count,
-            )  # fmt: skip
-    return count
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _describe(board, kept, count, edges):
-    """Write columns of what contacts need of edges.
-
-    Their unit vector, length, the unit vector of the edge before, bends at their begin and
-    their end, and their begin. A bend is positive where the solid stands out.
-    """
-    points = board.points
-    for k in range(count):
-        v = kept[k]
-        w, u = board.after[v], board.before[v]
-        dx, dy = points[w, 0] - points[v, 0], points[w, 1] - points[v, 1]
-        ex, ey = points[v, 0] - points[u, 0], points[v, 1] - points[u, 1]
-        length = math.sqrt(dx * dx + dy * dy)
-        other = math.sqrt(ex * ex + ey * ey)
-        edges[0, k], edges[1, k] = dx / max(length, 1e-300), dy / max(length, 1e-300)
-        edges[2, k] = length
-        edges[3, k], edges[4, k] = ex / max(other, 1e-300), ey / max(other, 1e-300)
-        edges[5, k] = _side(points, u, v, w)
-        edges[6, k] = _side(points, v, w, board.after[w])
-        edges[7, k], edges[8, k] = points[v, 0], points[v, 1]
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _sift(own, a, others, count, reach, slant, has_corners, near):
-    """Mark the edges that bind a vertex, but for corners nearly: few of many do.
-
-    A loop without branches takes several edges at a time. ``has_corners``: whether corners
-    that face the vertex count.
-    """
-    x, y = own[7, a], own[8, a]
-    out_x, out_y, in_x, in_y = own[0, a], own[1, a], own[3, a], own[4, a]
-    ux, uy, length, wx, wy = others[0], others[1], others[2], others[3], others[4]
-    first, last, begin_x, begin_y = others[5], others[6], others[7], others[8]
-    for b in range(count):
-        ex, ey = x - begin_x[b], y - begin_y[b]
-        height = uy[b] * ex - ux[b] * ey
-        along = ux[b] * ex + uy[b] * ey
-        # The vertex must reach farthest against the normal among its neighbours, nearly.
-        reaches = (uy[b] * out_x - ux[b] * out_y >= -slant) & (uy[b] * in_x - ux[b] * in_y <= slant)
-        is_beyond = (along < 0.0) & (first[b] > 0.0)
-        faces = has_corners & (ex * wx[b] + ey * wy[b] >= 0.0)
-        # Beyond a bay's corner an edge still binds: its line goes on inside the solid.
-        ends = (along <= length[b]) | ((along <= length[b] + reach) & (last[b] <= 0.0))
-        near[b] = (
-            (height > 0.0)
-            & (height <= reach)
-            & (along >= -reach)
-            & ends
-            & ((is_beyond & faces) | (reaches & ~is_beyond))
-        )
-
-
-@njit(cache=True, nogil=True, error_model="numpy")
-def _meet(
-    own, count_own, others, count_others, near, reach, slant, pair, side, who, numbers, count,
-):  # fmt: skip
-    """Contacts of convex vertices of one solid with edges and corners of another.
-
-    ``side``: 0 if the vertices are the first solid's, 1 if the second's.
-    """
-    for a in range(count_own):
-        if own[5, a] <= 0.0:
-            continue
-        # Each pair of corners counts once, from the first solid's side.
-        _sift(own, a, others, count_others, reach, slant, side == 0, near)
-        x, y = own[7, a], own[8, a]
-        for b in range(count_others):
-            if not near[b]:
-                continue
-            nx, ny = others[1, b], -others[0, b]
-            ex, ey = x - others[7, b], y - others[8, b]
-            height = nx * ex + ny * ey
-            if ny * ex > nx * ey and others[5, b] > 0.0:
-                # Beyond a convex corner that faces the vertex, the corner itself.
-                height = math.sqrt(ex * ex + ey * ey)
-                if height > reach:
-                    continue
-                nx, ny = ex / height, ey / height
-                if nx * own[0, a] + ny * own[1, a] < -slant:
-                    continue
-                if nx * own[3, a] + ny * own[4, a] > slant:
-                    continue
-            if count < who.shape[0]:
-                who[count] = pair
-                row = numbers[count]
-                sign = 1.0 - 2.0 * side
-                row[0], row[1], row[6] = sign * nx, sign * ny, height
-                here, there = 2 + 2 * side, 4 - 2 * side
-                row[here], row[here + 1] = x, y
-                row[there], row[there + 1] = x - height * nx, y - height * ny
-            count += 1
-    return count

@@ -1,0 +1,1 @@
+"""What keeps polygons in place apart."""
