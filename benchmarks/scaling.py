@@ -2,10 +2,10 @@
 
 Whole runs of 10 to 10,000 items, and of 50 to 4,000 px, each in a process of its own, whose peak
 of memory is the system's; the share of each stage; what an epoch costs beside the floor, the bytes
-that it has to move; all cores. Sections: bear, floor, cores, items, px; all without a word;
-``most=N`` leaves out more items than that. After each, docs/manifests/scaling.json is written,
-whose other sections stay as they were, the page and the plots (matplotlib, of ``packwork[bench]``).
-``short`` only prints, with fewer items.
+that it has to move; all cores; what it takes to begin. Sections: bear, begin, floor, cores, items,
+px; all without a word; ``most=N`` leaves out more items than that. After each,
+docs/manifests/scaling.json is written, whose other sections stay as they were, the page and the
+plots (matplotlib, of ``packwork[bench]``). ``short`` only prints, with fewer items.
 """
 
 from __future__ import annotations
@@ -147,6 +147,25 @@ def bear(runs: int) -> list[float]:
     return seconds
 
 
+def begin(runs: int) -> dict[str, list[float]]:
+    """Seconds by the clock from a command to its end, of those that place nothing."""
+    packwork = [sys.executable, "-m", "packwork"]
+    commands = {
+        "packwork --version": [*packwork, "--version"],
+        "packwork --help": [*packwork, "--help"],
+        "packwork fill --help": [*packwork, "fill", "--help"],
+        "import packwork": [sys.executable, "-c", "import packwork"],
+        "an empty program in Python": [sys.executable, "-c", ""],
+    }
+    seconds: dict[str, list[float]] = {name: [] for name in commands}
+    for _ in range(runs + 1):
+        for name, command in commands.items():
+            began = time.perf_counter()
+            subprocess.run(command, check=True, stdout=subprocess.DEVNULL)  # noqa: S603
+            seconds[name].append(time.perf_counter() - began)
+    return {name: taken[1:] for name, taken in seconds.items()}
+
+
 def by_items(counts: dict[int, int]) -> Manifest:
     """Whole runs by their number of items."""
     return {str(n): [in_child(n, 0, seed) for seed in range(runs)] for n, runs in counts.items()}
@@ -165,6 +184,7 @@ def sections(is_short: bool, most: int) -> dict[str, Callable[[], Any]]:
     counts = SHORT_COUNTS if is_short else COUNTS
     return {
         "bear": lambda: bear(2 if is_short else 5),
+        "begin": lambda: begin(2 if is_short else 15),
         "floor": lambda: floor(FLOORS[:3] if is_short else FLOORS),
         "cores": by_cores,
         "px": lambda: by_px(SHORT_SIDES if is_short else SIDES),

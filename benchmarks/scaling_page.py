@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from manifests import DOCS, Manifest
-from measuring import markdown_table, ranged
+from measuring import lasting, markdown_table, ranged
 
 PICTURES = DOCS / "pictures"
 MANY = 100
@@ -36,6 +36,11 @@ SECTION = """## {title}
 """
 
 BEAR = """`packwork fill bear -n 100`, five seeds: {bear} s."""
+
+BEGIN = """By the clock, from the command to its end, in turn; without the first round, in which
+Python compiles its files.
+
+{table}"""
 
 ITEMS = """Every run is a process of its own, with the defaults: 800 epochs on levels to 600 px
 (finer where items are many), then the exact finish. The peak of memory is what the system says of
@@ -89,6 +94,13 @@ def _bear_text(manifest: Manifest, found: list[float]) -> str:
     return BEAR.format(bear=ranged(found, ".1f"))
 
 
+def _begin_text(manifest: Manifest, found: dict[str, list[float]]) -> str:
+    del manifest
+    rows = [[f"`{name}`" if "packwork" in name else name, lasting(taken)]
+            for name, taken in found.items()]  # fmt: skip
+    return BEGIN.format(table=markdown_table(["what", "takes"], rows))
+
+
 def _items_text(manifest: Manifest, found: Manifest) -> str:
     del manifest
     many = [count for count in map(int, found) if count >= MANY]
@@ -129,6 +141,7 @@ def _cores_text(manifest: Manifest, found: Manifest) -> str:
 
 TEXTS: dict[str, tuple[str, Callable[[Manifest, Any], str]]] = {
     "bear": ("A bear of a hundred icons", _bear_text),
+    "begin": ("Before anything is placed", _begin_text),
     "items": ("Items", _items_text),
     "px": ("Pixels", _px_text),
     "floor": ("The floor", _floor_text),

@@ -59,8 +59,8 @@ def draw(folder: Path) -> None:
     with tempfile.TemporaryDirectory() as place:
         copy = Path(shutil.copytree(folder, Path(place) / folder.name))
         for arguments in lines:
-            with contextlib.chdir(copy), contextlib.suppress(SystemExit):
-                app([*arguments, "-q"])
+            with contextlib.chdir(copy):
+                run(arguments)
             kept = "expected.png" if arguments is lines[-1] else None
             for name in pictures(arguments):
                 keep(copy / name, folder / (kept or name))
@@ -68,6 +68,15 @@ def draw(folder: Path) -> None:
                 keep(copy / name, folder / name)
             for name in films(arguments):
                 shutil.copy(copy / name, folder / name)
+
+
+def run(arguments: list[str]) -> None:
+    """Run a command; one that fails ends the drawing."""
+    try:
+        app([*arguments, "-q"])
+    except SystemExit as end:
+        if end.code not in (0, None):
+            raise
 
 
 def keep(picture: Path, target: Path) -> None:
