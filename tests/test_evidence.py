@@ -30,6 +30,11 @@ def test_a_page_is_what_its_manifest_says(name: str) -> None:
     assert (ROOT / "docs" / name).read_text(encoding="utf-8") == RENDERED[name]
 
 
+def test_every_page_of_figures_has_its_manifest() -> None:
+    pages_there = {path.name for path in (ROOT / "docs").glob("benchmarks*.md")}
+    assert pages_there == set(RENDERED)
+
+
 @pytest.mark.parametrize("name", MANIFESTS)
 def test_a_manifest_says_by_what_command_it_came_about(name: str) -> None:
     stamps = MANIFESTS[name].get("sections", {"": MANIFESTS[name]}).values()

@@ -21,7 +21,7 @@ EPOCHS_BETWEEN = 20
 SECONDS_BETWEEN = 0.1
 """Least time between two pictures that a notebook is sent: more flood its page. Chosen."""
 
-BEFORE = "starting (kernels compile on the first run only, up to 20 s)"
+BEFORE = "starting (kernels compile on the first run only, up to 40 s)"
 
 
 class Bar(Observer, Protocol):
