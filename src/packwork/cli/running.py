@@ -40,7 +40,7 @@ MOST_NAMED = 5
 LONGEST_NAME = 255
 """Characters of a file's name, on most systems."""
 
-COMPILING = "Compiling the kernels: once after each installation, up to 20 s ..."
+COMPILING = "Compiling the kernels: once after each installation, up to 40 s ..."
 
 
 @dataclass(frozen=True, kw_only=True)
