@@ -33,7 +33,10 @@ def _as_asked(job: Job, layout: Layout) -> Layout:
     Colours of a palette are given out in the order of the items, as many of each; then
     neighbours of one colour exchange theirs with others.
     """
-    coloured = _chart_colours(job) if job.chart is not None else word_colours(job, layout)
+    if job.chart is not None:
+        coloured = _chart_colours(job)
+    else:
+        coloured = word_colours(job.recipe, job.words, layout)
     palettes: list[tuple[str, ...]] = [] if coloured else _palettes(job)
     if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
         return layout

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -18,6 +17,7 @@ from packwork.readers.pictures.decode import (
     decode_picture,
 )
 from packwork.readers.unfit import naming
+from packwork.readers.words.items import WordsRead
 from packwork.readers.words.options import ColourOf, WordOptions
 from packwork.readers.words.word import Word
 from packwork.recipe import Recipe
@@ -25,9 +25,6 @@ from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout
 from packwork.scene.palette import palette_colours
 from packwork.writers.recolour import has_one_colour
-
-if TYPE_CHECKING:
-    from packwork.pipeline.job import Job
 
 PICTURE_PX = 400
 """Longer side of the image in which a word's colour is looked up. Larger is slower and no
@@ -39,18 +36,26 @@ PAPER = "white"
 WEIGHT = "weight"
 
 
-def word_colours(job: Job, layout: Layout) -> list[str | None] | None:
+def word_colours(recipe: Recipe, read: WordsRead | None, layout: Layout) -> list[str | None] | None:
     """Colour of each item, None for one that keeps its own; None if neighbours decide.
+
+    Parameters
+    ----------
+    recipe
+        Says by what words are coloured.
+    read
+        The words and their items; None where items are no words.
+    layout
+        Of some of those items.
 
     Raises
     ------
     ReadError
         If there is no such picture.
     """
-    recipe = job.recipe
-    if job.words is None or recipe.words is None or recipe.words.color_by is None:
+    if read is None or recipe.words is None or recipe.words.color_by is None:
         return None
-    named = dict(zip((i.name for i in job.words.items), job.words.words, strict=True))
+    named = dict(zip((i.name for i in read.items), read.words, strict=True))
     # Emoji in colours of their own keep them.
     words = [named.get(item.name) if has_one_colour(item.art) else None for item in layout.items]
     by = recipe.words.color_by
