@@ -12,6 +12,7 @@ import peer_penrose
 import peer_raster
 from manifests import Manifest
 from measuring import lasting, markdown_table, ranged
+from words import SIZE_RATIO
 
 PAGE = """# Peers
 
@@ -47,14 +48,15 @@ rectangle, by polygons, the worst of all seeds; the least gap is in canvas units
     ),
     "words": (
         "Words: wordcloud, d3-cloud",
-        """A hundred words with weights 1 / rank^0.35, heights of letters in proportion, one in
+        f"""A hundred words with weights 1 / rank^0.35, heights of letters in proportion, one in
 four upright, no padding. Ink, gaps and L-nU by pixels at 1,200 px, as on the page of
 [word clouds](benchmarks-words.md), which has more containers. wordcloud shrinks words that find no
 place: "sizes off by" is the median distance of a word's height from its share; "scaling 1" is the
-peer asked for proportion. d3-cloud fills rectangles alone, takes sizes as they are given and leaves
-out what finds no place; it was given the largest that place all words, found by halving, and the
-time is of one run at that size, of the search not. Its overlap is by its own drawing; wordcloud
-says none of words. Ours is by polygons.""",
+peer asked for proportion; in "sizes free" ours give way too (`--sizes free --size-ratio
+{SIZE_RATIO:g}`). d3-cloud fills rectangles alone, takes sizes as they are given and leaves out what
+finds no place; it was given the largest that place all words, found by halving, and the time is of
+one run at that size, of the search not. Its overlap is by its own drawing; wordcloud says
+none of words. Ours is by polygons.""",
     ),
     "circles": (
         "Circles round each other: d3-hierarchy, packcircles, circlify",

@@ -1,7 +1,8 @@
 """Word clouds beside the ``wordcloud`` package: ``packwork bench words [CONTAINER...] [100|400]``.
 
 Same words, weights, font and container in one run; ours with ``padding 0`` and one word in four
-vertical, the peer with its defaults, and once more asked for sizes in proportion. Without
+vertical, once more with sizes that give way, the peer with its defaults, and once more asked for
+sizes in proportion. Without
 arguments all rows are run and the tables are written to docs/benchmarks-words.md. The peer
 comes with ``pip install '.[bench]'``.
 """
@@ -37,6 +38,7 @@ CONTAINERS = ("bird", "bear", "dragon", "cat", "heart")
 COUNTS = (100, 400)
 SIDE_PX = 1_200
 ZIPF = 0.35
+FREE_SIZES, SIZE_RATIO = "sizes free", 4.0
 
 HEADER = [
     "container", "words", "program", "placed", "ink", "sizes off by", "largest gap", "L-nU",
@@ -50,8 +52,9 @@ Made by `packwork bench words` on {date}.
 
 Weights are 1 / rank^0.35, heights of letters. "ink" is the share of the container's pixels that is
 drawn on, at 1,200 px; "sizes off by" the median distance of a word's height from its share, in
-percent of it; "scaling 1" is the peer with `relative_scaling=1`, which asks for sizes in
-proportion as ours are; the largest gap is the radius of the largest empty disc and L-nU the mean
+percent of it. The peer shrinks words that find no place; in "sizes free" ours give way too
+(`--sizes free --size-ratio {ratio}`); "scaling 1" is the peer with `relative_scaling=1`, which asks
+for sizes in proportion. The largest gap is the radius of the largest empty disc and L-nU the mean
 squared distance from empty pixels to the nearest ink, both on a canvas of 600 px. Overlap and
 outside are exact areas of ours, shares of the container; the peer writes pixels. Seconds are
 the processor's, reading and measuring taken in, on a machine that others use too.
@@ -88,17 +91,17 @@ def vocabulary(count: int) -> dict[str, float]:
     return {str(word): (rank + 1.0) ** -ZIPF for rank, word in enumerate(mixed)}
 
 
-def ours(container: Container, weights: dict[str, float]) -> Cloud:
+def ours(container: Container, weights: dict[str, float], **options: Any) -> Cloud:
     began = time.process_time()
     recipe = pipeline.words_recipe(
-        container.name, weights, count=len(weights), padding="0", rotate="mixed"
+        container.name, weights, count=len(weights), padding="0", rotate="mixed", **options
     )
     run = pipeline.fill(recipe, container=container)
     seconds = time.process_time() - began
     layout, exact = run.layout, run.metrics.exact
     names = [item.name for item in layout.items]
     return Cloud(
-        "packwork",
+        f"packwork, {FREE_SIZES}" if options else "packwork",
         len(layout.items) - len(run.unplaced),
         pixels(layout.inks, container),
         dict(zip(names, layout.poses.scale.tolist(), strict=True)),
@@ -106,6 +109,11 @@ def ours(container: Container, weights: dict[str, float]) -> Cloud:
         f"{exact.overlap:.0e}",
         f"{exact.exceeding:.0e}",
     )
+
+
+def our_free(container: Container, weights: dict[str, float]) -> Cloud:
+    """Ours with sizes that give way, as the peer's do."""
+    return ours(container, weights, sizes="free", size_ratio=SIZE_RATIO)
 
 
 def peer(container: Container, weights: dict[str, float], relative_scaling: Any = "auto") -> Cloud:
@@ -183,7 +191,7 @@ def rows(names: Sequence[str], counts: Sequence[int]) -> Iterator[list[str]]:
         weights = vocabulary(count)
         for name in names:
             container = read_container(name)
-            for program in (ours, peer, proportional_peer):
+            for program in (ours, our_free, peer, proportional_peer):
                 found = row(container, weights, program(container, weights))
                 print(" | ".join(found), file=sys.stderr, flush=True)
                 yield found
@@ -196,7 +204,7 @@ def main(words: Sequence[str]) -> None:
     table = markdown_table(HEADER, list(rows(names, counts)))
     print(table)
     if not words:
-        write_page("benchmarks-words.md", PAGE, table=table)
+        write_page("benchmarks-words.md", PAGE, table=table, ratio=f"{SIZE_RATIO:g}")
 
 
 if __name__ == "__main__":
