@@ -44,16 +44,17 @@ def test_the_scan_sees_a_forbidden_import() -> None:
 
 
 @each_module
-def test_only_kernels_import_numba(path: Path) -> None:
-    roots = {name.split(".")[0] for name in imported(parse(path))}
-    assert ("numba" in roots) <= (path.stem == "_kernels")
+def test_only_kernels_are_compiled(path: Path) -> None:
+    names = set(imported(parse(path)))
+    assert ("numba" in {name.split(".")[0] for name in names}) == (path.stem == "compiled")
+    assert ("packwork.compiled" in names) == (path.stem == "_kernels")
 
 
 @each_module
-def test_kernels_import_nothing_of_the_package_but_kernels(path: Path) -> None:
+def test_kernels_import_nothing_of_the_package_but_kernels_and_their_decorator(path: Path) -> None:
     if path.stem == "_kernels":
         ours = [name for name in imported(parse(path)) if name.startswith("packwork")]
-        assert all(name.endswith("_kernels") for name in ours)
+        assert all(name.endswith(("_kernels", ".compiled")) for name in ours)
 
 
 @each_module

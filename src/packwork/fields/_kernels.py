@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from numba import njit
+from packwork.compiled import kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def box_sum_across(image, reach, out):
     """Sum of the ``2 reach + 1`` pixels about each one, along the rows."""
     height, width = image.shape
@@ -21,7 +21,7 @@ def box_sum_across(image, reach, out):
             out[r, c] = total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def box_sum_down(image, reach, factor, out):
     """Sum of the ``2 reach + 1`` pixels about each one, down the columns, times ``factor``.
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
+from packwork.compiled import kernel
 from packwork.finish.binding import _kernels as binding
 from packwork.finish.contact import _kernels as contact
 from packwork.finish.programme import _kernels as programme
@@ -85,7 +85,7 @@ class Wishes(NamedTuple):
     push: np.ndarray
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def contacts(board, pairs, reach, slants):
     """Which pair each contact belongs to, and its numbers."""
     room = 24 * pairs.shape[0] + 256
@@ -97,7 +97,7 @@ def contacts(board, pairs, reach, slants):
         room = count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _motion(board, i, nx, ny, x, y, sign, out):
     """Write how fast a point of an item goes along a normal, for each unknown."""
     ex, ey = x - board.places[i, 0], y - board.places[i, 1]
@@ -107,7 +107,7 @@ def _motion(board, i, nx, ny, x, y, sign, out):
     out[3] = sign * (ex * nx + ey * ny) / arm
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def conditions(board, pairs, who, numbers, where, trust, gap):
     """Contacts as rows of a programme, lengths in units of ``trust``.
 
@@ -143,7 +143,7 @@ def conditions(board, pairs, who, numbers, where, trust, gap):
     return programme.Rows(first[:count], second[:count], coefficients[:count], limits[:count])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def freedoms(board, wishes, items, trust):
     """Gains and bounds of the unknowns, lengths in units of ``trust``."""
     n = items.shape[0]
@@ -171,7 +171,7 @@ def freedoms(board, wishes, items, trust):
     return gain, low, high
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def strike(board, pairs, gap, changed, struck, room):
     """Mark solids in conflict; only pairs of which one has ``changed`` can be. How many."""
     count = 0
@@ -187,7 +187,7 @@ def strike(board, pairs, gap, changed, struck, room):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _solids(pairs, marks):
     """Solids of some pairs, each once; ``marks``, one for each of all, are lost."""
     for p in range(pairs.shape[0]):
@@ -203,7 +203,7 @@ def _solids(pairs, marks):
     return found[:count]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _settle_share(board, items, before, step, share, pairs, gap, unit):
     """Move by a share of a step; items in conflict are cut, then left where they were."""
     # Only what is in the pairs is looked at: work must not grow with all solids.
@@ -233,7 +233,7 @@ def _settle_share(board, items, before, step, share, pairs, gap, unit):
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def settle(board, items, step, pairs, gap, trust):
     """Move ``items`` by as much of ``step`` as leaves no conflict; how many halvings.
 
@@ -256,7 +256,7 @@ def settle(board, items, step, pairs, gap, trust):
     return -1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def near_contacts(board, items, pairs, trust, gap, hair):
     """Contacts within reach of a step, each solid's number in the programme, the gap to keep."""
     slants = np.empty(pairs.shape[0])
@@ -279,7 +279,7 @@ def near_contacts(board, items, pairs, trust, gap, hair):
     return who, numbers, where, kept
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def best_step(board, wishes, items, pairs, trust, gap, hair):
     """Change of place of ``items`` that gains most and keeps the contacts apart, nearly."""
     who, numbers, where, kept = near_contacts(board, items, pairs, trust, gap, hair)
@@ -294,7 +294,7 @@ def best_step(board, wishes, items, pairs, trust, gap, hair):
     return step
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def clear_by_shrinking(board, items, pairs, gap, cut, checks):
     """Shrink ``items`` that are in conflict, by steps, until none is; False if some stay."""
     struck = np.empty(board.starts.shape[0] - 1, np.bool_)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from packwork.compiled import kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def gaps(buffer, container, running, line, empty, factor):
     """Empty container summed over blocks of ``factor`` x ``factor`` pixels.
 
@@ -24,7 +24,7 @@ def gaps(buffer, container, running, line, empty, factor):
             line[:] = 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def adjoint(
     buffer, container, running, line, emphasis, factor, outside, excess, reward, one, result
 ):
@@ -42,7 +42,7 @@ def adjoint(
     buffer[container.shape[0]] = 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _add_gaps(swept, container, running, line):
     """Next row of the running sum; ``line`` gains its empty container."""
     for c in range(running.shape[0]):
@@ -52,7 +52,7 @@ def _add_gaps(swept, container, running, line):
         line[c] += max(gap, 0 * gap)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _price(swept, container, running, line, outside, excess, one, row):
     """Next row of the running sum to its adjoint; ``line`` is what covering pays."""
     for c in range(running.shape[0]):
@@ -64,7 +64,7 @@ def _price(swept, container, running, line, outside, excess, one, row):
         row[c] = base + (excess if density > one else -line[c] * inside)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _fold(line, factor, blocks):
     """Sum ``line`` over blocks of ``factor``; the last may be cut off.
 
@@ -77,7 +77,7 @@ def _fold(line, factor, blocks):
             blocks[b] += line[b * factor + k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _unfold(blocks, factor, reward, line):
     """Write each block's value plus ``reward`` to all of its pixels."""
     width = line.shape[0]
@@ -86,7 +86,7 @@ def _unfold(blocks, factor, reward, line):
             line[b * factor + k] = reward + blocks[b]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def steepen(empty, per_inside, slope):
     """Derivative of (empty * per_inside) ** 6 times ``slope``, in place of ``empty``."""
     for r in range(empty.shape[0]):
@@ -96,7 +96,7 @@ def steepen(empty, per_inside, slope):
             empty[r, c] = slope * square * square * share * per_inside[r, c]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def recall(x, y, areas, px_per_cu, inside, nearest_row, nearest_column, by_x, by_y):
     """Area-weighted distance, in pixels, of each centre from the container.
 
@@ -124,7 +124,7 @@ def recall(x, y, areas, px_per_cu, inside, nearest_row, nearest_column, by_x, by
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def repel(x, y, kinds, order, reach, by_x, by_y):
     """Sum of (1 - distance / reach) ** 2 over pairs of one kind nearer than their reach.
 

@@ -14,7 +14,7 @@ buffer's own precision, in any order, and a closed ring leaves exactly zero behi
 
 from __future__ import annotations
 
-from numba import njit
+from packwork.compiled import kernel
 
 SPARE_ROWS = 3
 """Rows of the accumulation buffer beyond the image's: one for what falls off its lower
@@ -32,7 +32,7 @@ ABOVE = -2
 canvas are recorded as -1."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@kernel(inline="always")
 def _walk(
     x0, y0, x1, y1, u_begin, u_end, cell_x, cell_y, end_x, end_y,
     x_magic, area_magic, width, buffer, cells, leaves, k,
@@ -94,7 +94,7 @@ def _walk(
     return k + 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _walk_above(x0, x1, u_begin, u_end, x_magic, width, buffer, cells, leaves, k):
     """Deposit a piece above the canvas: it covers its columns from row 0 on."""
     dx = x1 - x0
@@ -116,7 +116,7 @@ def _walk_above(x0, x1, u_begin, u_end, x_magic, width, buffer, cells, leaves, k
     return k + 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _walk_clipped(
     x0, y0, x1, y1, x_magic, area_magic, width, height, buffer, cells, leaves, k
 ):  # fmt: skip
@@ -182,7 +182,7 @@ def _walk_clipped(
     return k
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _lowest_row(points, begin, end, height):
     """Row just below a ring, and a few more, on the canvas."""
     lowest = 0.0
@@ -191,7 +191,7 @@ def _lowest_row(points, begin, end, height):
     return min(int(min(lowest, float(height))) + ROWS_AHEAD, height)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@kernel(inline="always")
 def _fetch(image, reached, until):
     """Read one pixel of each cache line from ``reached`` to ``until``; return their sum.
 
@@ -204,7 +204,7 @@ def _fetch(image, reached, until):
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def sweep(
     points, starts, order, descends, height, width, x_magic, area_magic,
     buffer, cells, leaves, first,
@@ -267,7 +267,7 @@ def sweep(
     return fetched
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def record_bound(points, height, width):
     """Upper bound of the record's length for these points, all rings closed anywhere."""
     total = 0.0
@@ -281,7 +281,7 @@ def record_bound(points, height, width):
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def accumulate(buffer, density):
     """Running sum down the columns; ``buffer`` (height + 1 rows) is cleared behind it."""
     height = density.shape[0]
@@ -297,7 +297,7 @@ def accumulate(buffer, density):
         buffer[height, c] = 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def pullback(
     points, starts, order, descends, width, cells, leaves, first, adjoint, beyond, gradient
 ):  # fmt: skip
@@ -344,7 +344,7 @@ def pullback(
     return fetched
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def ring_integrals(points, starts, order, cells, leaves, first, image, prefix, totals):
     """Integral of a pixelwise constant image over each ring's inside, by Green's theorem.
 

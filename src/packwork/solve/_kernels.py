@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import math
 
-from numba import njit
+from packwork.compiled import kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def place(own, item_starts, x, y, angle, scale, stretch, px_per_cu, points):
     """Write each item's points, in pixels: scaled and stretched, turned, moved."""
     for i in range(item_starts.shape[0] - 1):
@@ -27,7 +27,7 @@ def place(own, item_starts, x, y, angle, scale, stretch, px_per_cu, points):
             points[v, 1] = move_y + right_y * own[v, 0] + down_y * own[v, 1]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def gather(points, gradient, item_starts, x, y, angle, px_per_cu, by_pose):
     """Sum vertex gradients into those by x, y (per canvas unit), angle, log scale, log stretch.
 
@@ -62,7 +62,7 @@ def gather(points, gradient, item_starts, x, y, angle, px_per_cu, by_pose):
         by_pose[i, 4] = math.cos(2.0 * angle[i]) * upright + math.sin(2.0 * angle[i]) * diagonal
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def adam(gradient, mean, square, first, second, count, stillness, rate, change):
     """One step of Adam; components of an item share their second moment.
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 
+from packwork.compiled import kernel
 from packwork.finish.contact import _kernels as contact
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def contacts(board, pairs, reach, slants, who, numbers):
     """Write what keeps pairs apart; returns how many, counting on past the end.
 
@@ -45,7 +45,7 @@ def contacts(board, pairs, reach, slants, who, numbers):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _describe(board, kept, count, edges):
     """Write columns of what contacts need of edges.
 
@@ -68,7 +68,7 @@ def _describe(board, kept, count, edges):
         edges[7, k], edges[8, k] = points[v, 0], points[v, 1]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _sift(own, a, others, count, reach, slant, has_corners, near):
     """Mark the edges that bind a vertex, but for corners nearly: few of many do.
 
@@ -98,7 +98,7 @@ def _sift(own, a, others, count, reach, slant, has_corners, near):
         )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _meet(
     own, count_own, others, count_others, near, reach, slant, pair, side, who, numbers, count,
 ):  # fmt: skip

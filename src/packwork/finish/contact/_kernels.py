@@ -11,7 +11,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+
+from packwork.compiled import kernel
 
 
 class Board(NamedTuple):
@@ -33,7 +34,7 @@ class Board(NamedTuple):
     arms: np.ndarray
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def put(board, items, places):
     """Grow, turn and move some items to the rows of ``places``."""
     own, points = board.own, board.points
@@ -56,13 +57,13 @@ def put(board, items, places):
         box[0], box[1], box[2], box[3] = left, top, right, bottom
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def arm(board, i):
     """Farthest point of an item from its origin, as large as it is now."""
     return board.arms[i] * math.exp(board.places[i, 3])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def near_pairs(boxes, order, reach, found):
     """Write pairs of boxes within ``reach``, smaller index first; returns how many.
 
@@ -85,7 +86,7 @@ def near_pairs(boxes, order, reach, found):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def are_apart(boxes, i, j, reach):
     """Whether two boxes are farther apart than ``reach`` along an axis."""
     return (
@@ -96,7 +97,7 @@ def are_apart(boxes, i, j, reach):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _two_boxes(boxes, items):
     """Boxes about those of ``items`` near the first of them, and about those far from it."""
     middle = np.empty(2)
@@ -123,7 +124,7 @@ def _two_boxes(boxes, items):
     return found
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _nearby(boxes, items, reach):
     """Items whose boxes may be within ``reach`` of one of ``items``, in their order."""
     about = _two_boxes(boxes, items)
@@ -143,7 +144,7 @@ def _nearby(boxes, items, reach):
     return near[:count]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def pairs_of(boxes, items, reach):
     """Pairs of boxes within ``reach`` of which one at least is among ``items``.
 
@@ -174,7 +175,7 @@ def pairs_of(boxes, items, reach):
     return found[:count]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def cull(board, i, box, reach, kept):
     """Write the edges of a solid (by their first vertex) within ``reach`` of a box."""
     points = board.points
@@ -195,7 +196,7 @@ def cull(board, i, box, reach, kept):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _to_edge_squared(x, y, points, v, w):
     """Squared distance of a point from the edge between two vertices."""
     dx, dy = points[w, 0] - points[v, 0], points[w, 1] - points[v, 1]
@@ -209,7 +210,7 @@ def _to_edge_squared(x, y, points, v, w):
     return ex * ex + ey * ey
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def side(points, a, b, c):
     """Twice the signed area of the triangle of three vertices."""
     return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
@@ -217,7 +218,7 @@ def side(points, a, b, c):
     ) * (points[c, 0] - points[a, 0])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _edges_squared(points, v, w, s, t, least):
     """Squared distance of two edges, 0 if they cross; ``least`` if it is not below that."""
     gap_x = max(
@@ -243,7 +244,7 @@ def _edges_squared(points, v, w, s, t, least):
     return min(least, _to_edge_squared(points[t, 0], points[t, 1], points, v, w))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _winding(x, y, board, j):
     """How often the rings of a solid go round a point."""
     points, turns = board.points, 0
@@ -261,7 +262,7 @@ def _winding(x, y, board, j):
     return turns
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _is_in(board, v, j):
     """Whether a vertex lies in solid ``j``."""
     x, y = board.points[v, 0], board.points[v, 1]
@@ -269,7 +270,7 @@ def _is_in(board, v, j):
     return _winding(x, y, board, j) + (j == board.starts.shape[0] - 2) != 0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _enters(board, kept, count, j):
     """Whether a ring has its first vertex in solid ``j``, of rings with edges near that."""
     is_container = j == board.starts.shape[0] - 2
@@ -287,7 +288,7 @@ def _enters(board, kept, count, j):
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def most_points(starts, pairs):
     """Points of the solid of some pairs that has most: room for its edges."""
     most = 0
@@ -297,7 +298,7 @@ def most_points(starts, pairs):
     return most
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _sticks_out(boxes, i, j):
     """Whether a box is not within another one."""
     return (
@@ -308,7 +309,7 @@ def _sticks_out(boxes, i, j):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def distance(board, i, j, reach, room):
     """Distance of two solids: 0 if they meet, ``reach`` if it is not below that.
 
@@ -339,7 +340,7 @@ def distance(board, i, j, reach, room):
     return math.sqrt(least) if least < reach * reach else reach
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def distances(board, pairs, reach):
     """Distance of each pair: 0 if they meet, ``reach`` if it is not below that."""
     found = np.empty(pairs.shape[0])

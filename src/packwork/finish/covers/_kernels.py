@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from packwork.compiled import kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _bend(points, a, b, c):
     """Twice the signed area of the triangle of three vertices."""
     return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
@@ -16,7 +17,7 @@ def _bend(points, a, b, c):
     ) * (points[c, 0] - points[a, 0])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _change(points, after, before, v, corner):
     """How far the solid grows if vertex ``v`` of a bay, or the edge after ``v``, goes.
 
@@ -48,7 +49,7 @@ def _change(points, after, before, v, corner):
     return height / length if length > 0.0 else 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def shed(points, tolerance):
     """Vertices of a ring whose solid holds that of ``points``, the cheapest changes first.
 

@@ -12,7 +12,8 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
+
+from packwork.compiled import kernel
 
 MOST_STEPS = 30
 """Newton steps at most. Programmes of this kind take 7 to 15. Tried."""
@@ -61,7 +62,7 @@ class Iterate(NamedTuple):
     toll: np.ndarray
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath={"reassoc", "contract"})
+@kernel(fastmath={"reassoc", "contract"})
 def _dot(a, i, b, j, count):
     total = 0.0
     for k in range(count):
@@ -69,7 +70,7 @@ def _dot(a, i, b, j, count):
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def envelope(first, second, count):
     """First item that each item shares a row with, in its own order; and the band's width."""
     begins = np.empty(count, np.int64)
@@ -85,7 +86,7 @@ def envelope(first, second, count):
     return begins, width
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _normal(rows, weights, diagonal, width, band):
     """Write the weighted sum of the rows' squares plus a diagonal."""
     for r in range(diagonal.shape[0]):
@@ -111,7 +112,7 @@ def _normal(rows, weights, diagonal, width, band):
                 band[4 * high + c, width + 4 * (low - high) + d - c] += left * row[before + d]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def factorise(band, begins, width):
     """Cholesky factor in place; False if the matrix is not positive definite."""
     for r in range(band.shape[0]):
@@ -130,7 +131,7 @@ def factorise(band, begins, width):
     return True
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def substitute(band, begins, width, right):
     """Solve in place, given the factor."""
     for r in range(band.shape[0]):
@@ -143,7 +144,7 @@ def substitute(band, begins, width, right):
             right[c] -= band[r, width + c - r] * right[r]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _row(rows, z, k):
     """Product of a row with the unknowns."""
     i, j = 4 * rows.first[k], 4 * rows.second[k]
@@ -156,7 +157,7 @@ def _row(rows, z, k):
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _add_row(rows, k, weight, out):
     i, j = 4 * rows.first[k], 4 * rows.second[k]
     for c in range(4):
@@ -166,7 +167,7 @@ def _add_row(rows, k, weight, out):
             out[j + c] += rows.coefficients[k, 4 + c] * weight
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _direction(rows, now, step, band, begins, width, off_rows, off_cost, centring):
     """Newton direction towards ``centring``, less the second-order terms of the last one."""
     n, m = step.z.shape[0], now.slack.shape[0]
@@ -192,7 +193,7 @@ def _direction(rows, now, step, band, begins, width, off_rows, off_cost, centrin
         step.price[k] = (rest_rows[k] - now.price[k] * step.slack[k]) / now.slack[k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _length(value, change, most):
     """How far numbers may go along their change and stay above zero, ``most`` at most."""
     for k in range(value.shape[0]):
@@ -201,7 +202,7 @@ def _length(value, change, most):
     return most
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _lengths(now, step):
     """How far unknowns and prices may go along a direction."""
     whole = 1.0 / STEP_BACK
@@ -212,7 +213,7 @@ def _lengths(now, step):
     return STEP_BACK * primal, STEP_BACK * dual
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _advance(now, step, primal, dual):
     for k in range(now.slack.shape[0]):
         now.slack[k] += primal * step.slack[k]
@@ -224,7 +225,7 @@ def _advance(now, step, primal, dual):
             now.toll[r, s] += dual * step.toll[r, s]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _barrier(now, step, primal, dual):
     """Mean product of rooms and prices after a step."""
     total = 0.0
@@ -238,12 +239,12 @@ def _barrier(now, step, primal, dual):
     return total / (now.slack.shape[0] + 2 * now.z.shape[0])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _iterate(m, n):
     return Iterate(np.zeros(n), np.zeros(m), np.zeros(m), np.zeros((n, 2)), np.zeros((n, 2)))
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _begin(rows, low, high, now):
     """First iterate: standing still, as far as the bounds leave room on both sides."""
     for r in range(now.z.shape[0]):
@@ -257,7 +258,7 @@ def _begin(rows, low, high, now):
         now.price[k] = FIRST_BARRIER / now.slack[k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _clear(step):
     for k in range(step.slack.shape[0]):
         step.slack[k] = 0.0
@@ -265,7 +266,7 @@ def _clear(step):
         step.room[r, 0] = step.room[r, 1] = 0.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def maximise(rows, gain, low, high, accuracy):
     """Nearly the best unknowns; all vectors have four numbers an item."""
     m, n = rows.first.shape[0], gain.shape[0]

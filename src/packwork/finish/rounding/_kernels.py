@@ -9,7 +9,8 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
+
+from packwork.compiled import kernel
 
 PRESSURES = (1e-1, 1e-2, 1e-3)
 """Weights of the circle's square, one after another. A smaller last one leaves less overlap, by
@@ -59,7 +60,7 @@ NOTHING = 1e-300
 """What no distance is divided by. Chosen."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def front(radii, order, shift, aside):
     """Discs one after another where they touch two and lie nearest to the origin.
 
@@ -92,14 +93,14 @@ def front(radii, order, shift, aside):
     return discs
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _meet(x, y, own, discs, radii, j):
     """Whether a disc at a point meets another."""
     least = (own + radii[j]) * (1.0 - ROUNDING)
     return (x - discs[j, 0]) ** 2 + (y - discs[j, 1]) ** 2 < least * least
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _touching(discs, radii, order, k, pair, best):
     """Put disc ``order[k]`` where it touches a pair, if that is free and better.
 
@@ -133,7 +134,7 @@ def _touching(discs, radii, order, k, pair, best):
     return best
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _near(z, radii, skin):
     """``(k, 2)`` discs that are nearer to each other than ``skin``."""
     n = radii.shape[0]
@@ -157,7 +158,7 @@ def _near(z, radii, skin):
     return pairs[:count]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _energy(z, radii, pairs, pressure, slope):
     """What discs and circle cost, ``z`` x and y of each and the circle's radius; its slope."""
     n = radii.shape[0]
@@ -193,7 +194,7 @@ def _energy(z, radii, pairs, pressure, slope):
     return total
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _way_down(slope, steps, bends, count, way):
     """Write the direction that the last steps and their changes of slope propose."""
     shares = np.empty(MEMORY)
@@ -213,7 +214,7 @@ def _way_down(slope, steps, bends, count, way):
         way += (shares[k] - np.dot(bends[k], way) / np.dot(steps[k], bends[k])) * steps[k]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _descend(z, radii, pressure, most):
     """Go down the energy, in place."""
     n = z.shape[0]
@@ -254,7 +255,7 @@ def _descend(z, radii, pressure, most):
             pairs, seen = _near(z, radii, skin), z.copy()
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def circle_of(discs, radii):
     """Radius of the circle about the origin that holds all discs."""
     circle = 0.0
@@ -263,7 +264,7 @@ def circle_of(discs, radii):
     return circle
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def squeeze(discs, radii):
     """Press discs together and spread them until none meet, in place; the circle's radius."""
     n = radii.shape[0]
@@ -285,7 +286,7 @@ def squeeze(discs, radii):
     return circle_of(discs, radii)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _into_hole(discs, radii, circle, draws):
     """Put one of the rim's discs where there is most room for it, in place."""
     n = radii.shape[0]
@@ -313,7 +314,7 @@ def _into_hole(discs, radii, circle, draws):
     discs[chosen, 0], discs[chosen, 1] = x, y
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _shake(discs, radii, circle, draws):
     """Move the discs near a place at random, in place."""
     mean = radii.mean()
@@ -326,7 +327,7 @@ def _shake(discs, radii, circle, draws):
                 discs[i, c] += SHAKE * mean * 3.4 * (lot - 0.5)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def hop(discs, radii, draws):
     """Try changes one after another and keep those with a smaller circle, in place; its radius.
 

@@ -7,8 +7,8 @@ condition that bends keep away from; items that meet all the same stay where the
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from packwork.compiled import kernel
 from packwork.finish import _kernels as rounds
 from packwork.finish.contact import _kernels as contact
 from packwork.finish.programme import _kernels as programme
@@ -34,7 +34,7 @@ HALVINGS = 4
 """Halvings before the whole step is given up. Chosen."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def best_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair):
     """Change of place of ``items`` that goes down most and keeps the contacts apart, nearly.
 
@@ -48,7 +48,7 @@ def best_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair):
     return _lengthened(board, items, z, low, high, trust)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _freedoms(board, slope, backmost, foremost, items, trust):
     """Gains and bounds of the unknowns, lengths in units of ``trust``."""
     n = items.shape[0]
@@ -69,7 +69,7 @@ def _freedoms(board, slope, backmost, foremost, items, trust):
     return gain, low, high
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _lengthened(board, items, z, low, high, trust):
     """Change of place that the unknowns stand for."""
     step = np.zeros((items.shape[0], 4))
@@ -81,7 +81,7 @@ def _lengthened(board, items, z, low, high, trust):
     return step
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def circle_about(board, items, centre):
     """Radius of the circle about a point that holds ``items``."""
     most = 0.0
@@ -92,7 +92,7 @@ def circle_about(board, items, centre):
     return np.sqrt(most)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _tops(board, items, centre, least, who, numbers):
     """Write the points farther off than ``least`` that are farther than those beside them.
 
@@ -117,7 +117,7 @@ def _tops(board, items, centre, least, who, numbers):
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _with_circle(board, items, rows, centre, circle, trust):
     """Rows and those that keep ``items`` in a circle, whose radius is one item more."""
     n, m = items.shape[0], rows.first.shape[0]
@@ -145,7 +145,7 @@ def _with_circle(board, items, rows, centre, circle, trust):
     return programme.Rows(first, second, coefficients, limits)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def rounding_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair, centre, weight):
     """The same where a smaller circle about ``centre`` is worth ``weight`` a canvas unit."""
     n = items.shape[0]
@@ -165,7 +165,7 @@ def rounding_step(board, slope, backmost, foremost, items, pairs, trust, gap, ha
     return _lengthened(board, items, z, low, high, trust)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _move_share(board, items, before, step, share, pairs, gap):
     """Move by a share of a step; items in conflict go half as far, then back.
 
@@ -192,7 +192,7 @@ def _move_share(board, items, before, step, share, pairs, gap):
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def move(board, items, step, pairs, gap):
     """Move ``items`` by as much of ``step`` as leaves no conflict; False if nobody moved."""
     n = items.shape[0]

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from numba import njit
+from packwork.compiled import kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def count_centres(points, starts, counts):
     """Add, for each pixel, the winding of all rings round its centre.
 

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from packwork.compiled import kernel
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def lay(image, texture, inverse):
     """Draw ``texture`` over ``image``; both ``(rows, columns, 4)``, premultiplied, of 0 to 255.
 
@@ -48,7 +49,7 @@ def lay(image, texture, inverse):
             image[row, column, 3] = np.uint8(np.int32(alpha + kept * under + half))
 
 
-@njit(cache=True, nogil=True, error_model="numpy", inline="always")
+@kernel(inline="always")
 def _mixed(texture, i, j, k, w_00, w_01, w_10, w_11):
     """One channel between four pixels."""
     return (
@@ -59,7 +60,7 @@ def _mixed(texture, i, j, k, w_00, w_01, w_10, w_11):
     )
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _rows(inverse, wide, high, rows):
     """Rows of the image that a texture may reach."""
     det = inverse[0, 0] * inverse[1, 1] - inverse[0, 1] * inverse[1, 0]
@@ -72,7 +73,7 @@ def _rows(inverse, wide, high, rows):
     return max(int(max(top, 0.0)) - 1, 0), min(int(max(min(bottom, rows), -1.0)) + 2, rows)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@kernel
 def _span(at_zero, slope, least, most, left, right):
     """Part of ``left`` to ``right`` where ``at_zero + slope * x`` is from least to most."""
     if abs(slope) < 1e-12:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
+
+from packwork.compiled import kernel
 
 ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
 ONE = np.uint64(1)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def smear(rows, top, bottom):
     """Write ``rows[y, k, x] = any(rows[y, 0, x : x + 2**k])``; taken beyond the last word."""
     levels, words = rows.shape[1], rows.shape[2]
@@ -21,7 +22,7 @@ def smear(rows, top, bottom):
                 rows[y, k, i] = rows[y, k - 1, i] | _from(rows[y, k - 1], i + whole, part)
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def _from(row, i, part):
     """Return 64 pixels of a row, from bit ``part`` of its word ``i`` on."""
     words = len(row)
@@ -32,7 +33,7 @@ def _from(row, i, part):
     return (here >> part) | (after << (np.uint64(64) - part))
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def find_free(rows, runs, height, free):
     """Set a bit of ``free`` where no run of the stencil, moved there, meets a taken pixel."""
     words = free.shape[1]
@@ -61,7 +62,7 @@ def find_free(rows, runs, height, free):
                 break
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def best_touching(free, taken, margin, fringe, worth, origin, is_everywhere):
     """Return score, row and column of the free place whose fringe is taken most; -1 if none.
 
@@ -109,7 +110,7 @@ def best_touching(free, taken, margin, fringe, worth, origin, is_everywhere):
     return best, best_y, best_x
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def runs_of(mask):
     """Return runs of a mask, ``(r, 4)``: row, first column, length, log2 of it rounded down."""
     runs = np.empty((mask.size // 2 + mask.shape[0] + 1, 4), np.int64)
@@ -132,7 +133,7 @@ def runs_of(mask):
     return runs[:found].copy()
 
 
-@njit(cache=True, nogil=True)
+@kernel
 def fringe_of(mask, reach):
     """Return ``(r, 2)`` rows and columns of the pixels off a mask, at most ``reach`` from it."""
     height, width = mask.shape
