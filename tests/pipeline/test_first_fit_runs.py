@@ -7,6 +7,7 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.pipeline import placing
 
 WORDS = {"harbour": 9, "tide": 7, "gull": 5, "mast": 4, "rope": 3, "sail": 2, "oar": 1}
 
@@ -41,12 +42,22 @@ def test_what_only_the_levels_know_is_left_to_them(options: dict[str, object]) -
     assert _starts(layout) == "distance-field"
 
 
-def test_icons_of_one_size_that_stand_upright_are_put_so_too() -> None:
+@pytest.mark.parametrize("rotate", ["none", "20", "free"])
+def test_icons_of_one_size_are_put_so_too(rotate: str) -> None:
+    layout = pw.fill(
+        "heart", ["star", "cat"], count=12, sizes="shared", rotate=rotate, effort="draft"
+    )
+    assert _starts(layout) == "first-fit"
+    assert layout.manifest["certified"]
+
+
+def test_many_that_may_turn_any_way_are_left_to_the_levels(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(placing, "MOST_TURNING", 11)
     options = {"count": 12, "sizes": "shared", "effort": "draft"}
-    upright = pw.fill("heart", ["star", "cat"], rotate="none", **options)
-    assert _starts(upright) == "first-fit"
-    assert upright.manifest["certified"]
     assert _starts(pw.fill("heart", ["star", "cat"], **options)) == "distance-field"
+    assert _starts(pw.fill("heart", ["star", "cat"], rotate="none", **options)) == "first-fit"
 
 
 def test_first_fit_needs_one_size() -> None:
