@@ -261,13 +261,25 @@ def _peer_rows(peers: Manifest | None) -> Iterator[list[str]]:
 
 
 def _pairs(peers: Manifest | None, section: str) -> Iterator[tuple[Manifest, Manifest]]:
-    """A peer's work that came to an end, and ours: the best whose sizes are at least as true."""
+    """A peer's work that came to an end, and ours: the best whose sizes are at least as true.
+
+    Where none is, ours whose sizes are the truest.
+    """
     runs = [one for one in _runs(peers, section) if "seconds" in one]
     key, _ = SHOWN[section]
     for one in runs:
         alike = [own for own in runs if _is_alike(one, own, section)]
-        if alike:
-            yield one, max(alike, key=lambda own: _median(own.get(key, [0.0])))
+        as_true = [own for own in alike if _off(own) <= _off(one)]
+        if as_true:
+            best = min if key == "overlap" else max
+            yield one, best(as_true, key=lambda own: _median(own.get(key, [0.0])))
+        elif alike:
+            yield one, min(alike, key=_off)
+
+
+def _off(one: Manifest) -> float:
+    """How far sizes are off; 0 where they are given."""
+    return _median(one.get("off", [0.0]))
 
 
 def _is_alike(one: Manifest, own: Manifest, section: str) -> bool:
@@ -275,8 +287,7 @@ def _is_alike(one: Manifest, own: Manifest, section: str) -> bool:
     is_ours = own["program"].startswith(OURS) and not one["program"].startswith(OURS)
     # In a rectangle ours turns by any angle, whatever the peer does.
     is_same = one["task"] == own["task"] or section == "icons"
-    is_true = "off" not in one or _median(own["off"]) <= _median(one["off"])
-    return is_ours and is_same and is_true and one["count"] == own["count"]
+    return is_ours and is_same and one["count"] == own["count"]
 
 
 def _peer_row(section: str, one: Manifest, own: Manifest) -> list[str]:
@@ -309,7 +320,7 @@ def _weak(peers: Manifest | None) -> str:
         if key in one and _median(one[key]) > _median(own[key])
     ]
     if not found:
-        return "No peer comes out ahead in what its row shows."
+        return "No peer comes out ahead in what its row shows; in time several do, see there."
     return "\n".join([WEAK, "", *found])
 
 

@@ -62,6 +62,26 @@ def test_where_nothing_may_be_written_nothing_is_said(
     assert kept(folder) == {"a.nbi", "a.1.nbc", "a.pyc"}
 
 
+def test_a_damaged_mark_is_made_anew(folder: Path) -> None:
+    (folder / "__pycache__" / "kernels").write_bytes(b"\xff\xfe")
+    assert compiled.forget_stale(folder)
+    assert not compiled.forget_stale(folder)
+
+
+def test_one_file_that_stays_keeps_no_other(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (folder / "one" / compiled.SOURCES).write_text("second", encoding="utf-8")
+    unlink = Path.unlink
+
+    def refuse(path: Path, missing_ok: bool = False) -> None:
+        if path.suffix == ".nbi":
+            raise PermissionError
+        unlink(path, missing_ok)
+
+    monkeypatch.setattr(Path, "unlink", refuse)
+    assert compiled.forget_stale(folder)
+    assert kept(folder) == {"a.nbi", "a.pyc"}
+
+
 CALLED = "from packwork.compiled import kernel\n\n\n@kernel\ndef called():\n    return {}\n"
 CALLING = (
     "from {name}.called._kernels import called\nfrom packwork.compiled import kernel\n\n\n"

@@ -37,9 +37,10 @@ def kernel(function: Any = None, /, **options: Any) -> Any:
 
 
 def forget_stale(folder: Path) -> bool:
-    """Delete what was compiled of other kernels than those that lie in a folder now.
+    """Delete what was compiled, inside a folder, of other kernels than those that lie there now.
 
-    Where nothing may be written, nothing was kept there either.
+    Where nothing may be written, nothing was kept there either. A cache that ``NUMBA_CACHE_DIR``
+    puts elsewhere is not looked at.
 
     Returns
     -------
@@ -47,28 +48,30 @@ def forget_stale(folder: Path) -> bool:
         Whether there was anything out of date.
     """
     mark = folder / "__pycache__" / "kernels"
-    text = _fingerprint(folder)
+    fingerprint = _fingerprint(folder)
     with contextlib.suppress(OSError):
-        if mark.read_text(encoding="ascii") == text:
+        if mark.read_bytes() == fingerprint:
             return False
-    with contextlib.suppress(OSError):
-        for compiled in folder.rglob("*.nb[ci]"):
+    for compiled in folder.rglob("*.nb[ci]"):
+        with contextlib.suppress(OSError):
             compiled.unlink(missing_ok=True)
+    with contextlib.suppress(OSError):
         mark.parent.mkdir(exist_ok=True)
         # Others may start at the same moment.
         own = mark.with_name(f"{mark.name}-{os.getpid()}")
-        own.write_text(text, encoding="ascii")
+        own.write_bytes(fingerprint)
         own.replace(mark)
     return True
 
 
-def _fingerprint(folder: Path) -> str:
-    """One word for all kernels together."""
-    whole = hashlib.sha256()
+def _fingerprint(folder: Path) -> bytes:
+    """One word for all kernels together, and for how they are compiled."""
+    whole = hashlib.sha256(Path(__file__).read_bytes())
     for depth in range(1, DEEPEST + 1):
         for path in sorted(folder.glob("*/" * depth + SOURCES)):
+            whole.update(path.relative_to(folder).as_posix().encode())
             whole.update(path.read_bytes())
-    return whole.hexdigest()
+    return whole.hexdigest().encode()
 
 
 forget_stale(Path(__file__).parent)

@@ -1,5 +1,7 @@
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import shapely
@@ -48,3 +50,10 @@ def test_ink_that_leaves_its_outline_counts_once_where_it_meets_other_ink() -> N
     assert measure(layout).exact.is_clean
     expected = exact_coverage(layout.inks, layout.container.outline)
     assert measure(layout).ink == pytest.approx(expected, rel=1e-12)
+
+
+def test_ink_in_a_container_that_crosses_itself_is_a_share_of_what_it_encloses() -> None:
+    bow_tie = Outline.from_rings([np.array([[0.0, 0], [100, 100], [100, 0], [0, 100]])])
+    layout = layout_of([drilled(0.5)], (20.0, 50.0, 2.0))
+    crossing = replace(layout, container=replace(layout.container, outline=bow_tie))
+    assert measure(crossing).ink == pytest.approx(exact_coverage(crossing.inks, bow_tie))

@@ -70,7 +70,7 @@ def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
         if key not in known:
             known[key] = _area_inside(item)
     areas = [known[id(item.ink), id(item.outline)] for item in layout.items]
-    if not exact.is_clean or None in areas:
+    if not exact.is_clean or None in areas or not container.region.is_valid:
         return exact_coverage(layout.inks, container)
     # Inside outlines that neither meet nor stick out, ink does not either.
     own = np.array(areas, dtype=np.float64)

@@ -48,7 +48,7 @@ MOST_TRIALS = {"draft": 0, "normal": 3_000, "best": 20_000}
 they take 25 s and end at 0.812; 100 items end at 0.811. Measured."""
 
 MANY, MOST_OF_MANY = 2_000, {"draft": 0, "normal": 1_500, "best": 20_000}
-"""Items from which on there are so many at most: each trial then gains little of the whole.
+"""Items above which there are so many at most: each trial then gains little of the whole.
 Measured in decision 0022."""
 
 TRIALS_SHARE = 0.6

@@ -65,14 +65,15 @@ def front(radii, order, shift, aside):
     """Discs one after another where they touch two and lie nearest to the origin.
 
     The first two touch each other across the origin, moved by ``shift`` along their line and
-    by ``aside`` off it.
+    by ``aside`` off it. ``order``: the largest first.
     """
     n = radii.shape[0]
     discs = np.zeros((n, 2))
     pairs, count = np.empty((32 * n, 4), np.int64), 0
-    widest = 2.0 * radii.max()
     for k in range(n):
         i = order[k]
+        # None that comes is wider than the next.
+        widest = 2.0 * radii[order[k + 1]] if k + 1 < n else 0.0
         if k < 2:
             apart = 0.0 if n == 1 else radii[order[0]] + radii[order[1]]
             discs[i, 0], discs[i, 1] = shift + (apart if k else 0.0) - radii[order[0]], aside

@@ -34,6 +34,7 @@ ROUNDING = 1e-9
 def gathered(radii: FloatArray, rng: np.random.Generator) -> FloatArray:
     """Centres ``(n, 2)`` of discs that do not meet, about the origin, in a small circle.
 
+    Where one is more than a thousand times as large as another, small ones may come to lie in it.
     Deterministic for one generator. The circle is near the smallest for some tens of discs, equal
     or not: there is no table of known packs behind it.
 

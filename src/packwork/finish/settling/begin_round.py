@@ -54,8 +54,10 @@ def begin_round(
     arrangement = settling.arrangement
     if arrangement.count > MOST_ITEMS:
         return False
-    starts = []
+    starts: list[FloatArray] = []
     for _ in range(_tries(settling)):
+        if starts and stop():
+            break
         found = _placed(settling, gap, rng)
         if found is not None:
             starts.append(found)
