@@ -13,7 +13,6 @@ import os
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from itertools import product
 from typing import Any
@@ -93,20 +92,6 @@ KITS = (
 )
 
 
-class ProcessorClock(Clock):
-    """Seconds of the processor by stage, where a run counts those of the clock."""
-
-    @contextmanager
-    def time(self, stage: str) -> Iterator[None]:
-        """Add what the processor does inside to the stage."""
-        began = time.process_time()
-        try:
-            yield
-        finally:
-            spent = time.process_time() - began
-            self.seconds[stage] = self.seconds.get(stage, 0.0) + spent
-
-
 @dataclass(frozen=True)
 class Asked:
     """Words of the command line."""
@@ -148,7 +133,7 @@ def measured(kit: Kit, container: Container, mode: str, effort: str, seed: int) 
     items = kit.items()
     options = weighted(items, mode)
     recipe = make_recipe(container=kit.name, items=["-"], seed=seed, effort=effort, **options)
-    clock = ProcessorClock()
+    clock = Clock(now=time.process_time)
     job = replace(pipeline.read(recipe, items, container), clock=clock)
     placed = placed_readably(job, None, lambda: False, record=False)
     result = placed.exact

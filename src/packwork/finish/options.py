@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
+
+from packwork.options import Options
 
 SizeMode: TypeAlias = Literal["free", "shared", "fixed"]
 
@@ -14,10 +16,8 @@ of the files that are written, so that what was checked still holds when it is r
 Larger wastes room (this one 0.1 % of it with 100 items). Derived."""
 
 
-class FinishOptions(BaseModel):
+class FinishOptions(Options):
     """Gap, size mode, turns and rounds of one finish."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     gap_cu: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
     """Gap between items and to the container's edge, canvas units. A hair is added:

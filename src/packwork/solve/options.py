@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
+
+from packwork.options import Options
 
 SizeMode: TypeAlias = Literal["free", "shared", "fixed"]
 
@@ -32,10 +34,8 @@ def _default_losses() -> dict[str | ImageLossFunction, float]:
     return {"containment": 5.5, "overlap": 5.5, "filling": 1.0, "evenness": 1.9}
 
 
-class SolveOptions(BaseModel):
+class SolveOptions(Options):
     """Levels, epochs, modes and steps of one solve."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     levels: Annotated[tuple[Resolution, ...], Field(min_length=1)] = (50, 200, 600)
     """Pixels on the canvas' longer side, coarse to fine."""

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import Annotated, Literal, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
+
+from packwork.options import Options
 
 Placing: TypeAlias = Literal["distance-field", "medial-axis", "scatter", "first-fit"]
 """Ways to find first places."""
 
 
-class StartOptions(BaseModel):
+class StartOptions(Options):
     """Where items begin and how large."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     method: Literal["auto", "distance-field", "medial-axis", "scatter", "first-fit"] = (
         "distance-field"

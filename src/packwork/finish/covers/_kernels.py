@@ -7,14 +7,7 @@ import math
 import numpy as np
 
 from packwork.compiled import kernel
-
-
-@kernel
-def _bend(points, a, b, c):
-    """Twice the signed area of the triangle of three vertices."""
-    return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
-        points[b, 1] - points[a, 1]
-    ) * (points[c, 0] - points[a, 0])
+from packwork.finish.contact import _kernels as contact
 
 
 @kernel
@@ -25,12 +18,12 @@ def _change(points, after, before, v, corner):
     they meet in ``corner``. Infinite where neither can be.
     """
     u, w = before[v], after[v]
-    bend = _bend(points, u, v, w)
+    bend = contact.side(points, u, v, w)
     if bend <= 0.0:
         length = math.hypot(points[w, 0] - points[u, 0], points[w, 1] - points[u, 1])
         return -bend / length if length > 0.0 else 0.0
     x = after[w]
-    if _bend(points, v, w, x) <= 0.0:
+    if contact.side(points, v, w, x) <= 0.0:
         return np.inf
     ax, ay = points[v, 0] - points[u, 0], points[v, 1] - points[u, 1]
     bx, by = points[w, 0] - points[x, 0], points[w, 1] - points[x, 1]
@@ -69,7 +62,7 @@ def shed(points, tolerance):
         v = int(np.argmin(costs))
         if costs[v] > tolerance:
             break
-        if _bend(points, before[v], v, after[v]) <= 0.0:
+        if contact.side(points, before[v], v, after[v]) <= 0.0:
             gone = v
         else:
             gone = after[v]

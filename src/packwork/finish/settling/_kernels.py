@@ -146,7 +146,7 @@ def _with_circle(board, items, rows, centre, circle, trust):
 
 
 @kernel
-def rounding_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair, centre, weight):
+def round_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair, centre, weight):
     """The same where a smaller circle about ``centre`` is worth ``weight`` a canvas unit."""
     n = items.shape[0]
     who, numbers, where, kept = rounds.near_contacts(board, items, pairs, trust, gap, hair)

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.finish.rounding.gathered import gathered
+from packwork.finish.discs.gathered import gathered
 from packwork.finish.settling.settle import Settling
 from packwork.progress import Stop
 

@@ -179,7 +179,7 @@ class _Pile:
         self._gap = options.gap_cu + self._hair
         self._rounds = self._told = 0
         self._is_given = False
-        self._is_rounding = True
+        self._keeps_round = True
         self._details: dict[tuple[Outline, float], Detail] = {}
         self._height = 0.0
         self.ranks = np.zeros(len(poses), dtype=np.int64)
@@ -211,12 +211,12 @@ class _Pile:
             left = self._nestle(arrangement, lifted, standing)
         self._take_over(arrangement, everyone)
         self._items = np.setdiff1d(everyone, left)
-        self._is_rounding = len(left) == 0
+        self._keeps_round = len(left) == 0
 
     def round_off(self, room: Outline) -> None:
         """Settle into a small circle those that at first did not all find room."""
-        if self.centre is not None and not self._is_rounding:
-            self._is_rounding = True
+        if self.centre is not None and not self._keeps_round:
+            self._keeps_round = True
             self.settle(room, self.first_trust)
 
     def _gather_round(self, arrangement: Arrangement) -> bool:
@@ -266,7 +266,7 @@ class _Pile:
             self._hair,
             self._container.side,
         )
-        settling.centre = self.centre if self._is_rounding else None
+        settling.centre = self.centre if self._keeps_round else None
         return settling
 
     def settle(self, room: Outline, first_trust: float) -> None:

@@ -202,7 +202,7 @@ class Settling:
             )
         else:
             worth = ROUNDNESS * float(self.areas[self.active].sum())
-            step = _kernels.rounding_step(
+            step = _kernels.round_step(
                 board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair,
                 self.centre, worth,
             )  # fmt: skip

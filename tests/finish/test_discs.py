@@ -7,9 +7,9 @@ import pytest
 
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
+from packwork.finish.discs import _kernels
+from packwork.finish.discs.gathered import gathered
 from packwork.finish.options import FinishOptions
-from packwork.finish.rounding import _kernels
-from packwork.finish.rounding.gathered import gathered
 from packwork.finish.settling.pile import pile
 from packwork.forces.distance import Distance
 from packwork.forces.forces import FieldForce, Forces

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.finish.rounding import _kernels
+from packwork.finish.discs import _kernels
 
 STARTS = 8
 """Fronts that are begun with, about other points of their first discs. More takes longer and finds
