@@ -10,7 +10,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, polygon_parts, silhouette, united
-from packwork.readers.unfit import UnfitError
+from packwork.readers.unfit import UnfitError, notice
 
 Holes: TypeAlias = Literal["fill", "keep"]
 """Whether the outline is the silhouette with its holes filled, or the ink itself."""
@@ -23,6 +23,10 @@ SMALLEST_EXTENT_PX = 1e-4
 
 THINNEST = 1e-7
 """Least area of a drawing as a share of its squared extent. Chosen."""
+
+NEARLY_ALL = 0.97
+"""Share of its page from which a container is told to fill it. Larger misses pages with round
+corners, smaller speaks of shapes drawn to the rim. Chosen."""
 
 
 def clean_union(*regions: Region, speck: float = SPECK) -> Region:
@@ -57,6 +61,24 @@ def clean_union(*regions: Region, speck: float = SPECK) -> Region:
     ]
     # What lies in a hole is smaller than it: dropped with it, so parts stay apart.
     return parts[0] if len(parts) == 1 else MultiPolygon(parts)
+
+
+def tell_if_full(share: float, why: str) -> None:
+    """Notice that a container is nearly all of its page, which is seldom meant.
+
+    Parameters
+    ----------
+    share
+        Of the page that it fills.
+    why
+        What makes it so, and what would do.
+
+    Examples
+    --------
+    >>> tell_if_full(0.5, "never told")
+    """
+    if share > NEARLY_ALL:
+        notice(f"fills {min(share, 1.0):.1%} of its page, for {why}")
 
 
 def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:

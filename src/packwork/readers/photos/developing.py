@@ -6,9 +6,16 @@ from dataclasses import dataclass
 from io import BytesIO
 from typing import TypeAlias
 
-from PIL import ExifTags, Image, ImageCms, ImageOps
+from PIL import Image, ImageCms
 
 from packwork.readers.pictures.decode import eight_bit, opened
+from packwork.readers.pictures.reducing import (
+    as_it_lies,
+    is_sideways,
+    orientation,
+    shrunk,
+    upright,
+)
 
 REDUCING_GAP = 2.0
 """How much larger than asked for a picture is when the good filter takes over from the quick
@@ -17,7 +24,6 @@ one. Larger is slower, smaller a little softer. Chosen, after Pillow's own advic
 Window: TypeAlias = tuple[float, float, float, float]
 """Left, top, right, bottom, in pixels of the upright photo."""
 
-_SIDEWAYS = frozenset({5, 6, 7, 8})
 _CLEAR = ("RGBA", "LA", "PA", "La", "RGBa")
 
 
@@ -49,14 +55,14 @@ def inspected(data: bytes) -> Negative:
     Examples
     --------
     >>> file = BytesIO()
-    >>> exif = Image.Exif(); exif[ExifTags.Base.Orientation] = 6
+    >>> exif = Image.Exif(); exif[0x0112] = 6
     >>> Image.new("RGB", (30, 20)).save(file, "JPEG", exif=exif)
     >>> inspected(file.getvalue())
     Negative(width=20, height=30, has_alpha=False)
     """
     with opened(data, shrinking=True) as image:
         width, height = image.size
-        if image.getexif().get(ExifTags.Base.Orientation) in _SIDEWAYS:
+        if is_sideways(orientation(image)):
             width, height = height, width
         return Negative(width, height, image.mode in _CLEAR or "transparency" in image.info)
 
@@ -90,22 +96,30 @@ def developed(data: bytes, window: Window, size: tuple[int, int]) -> Image.Image
     ((15, 20), 'RGB')
     """
     with opened(data, shrinking=True) as image:
-        before = image.size
-        image.draft(None, _draft_size(image, window, size))
-        upright = ImageOps.exif_transpose(image)
-        shrunk = max(upright.size) / max(before)
-        left, top, right, bottom = (side * shrunk for side in window)
-        box = (left, top, min(right, upright.width), min(bottom, upright.height))
-        plain = _resizable(upright)
-        small = plain.resize(size, Image.Resampling.LANCZOS, box, REDUCING_GAP)
-        return _in_screen_colours(small, image.info.get("icc_profile"))
+        lies, whole = orientation(image), image.size
+        left, top, right, bottom = as_it_lies(window, whole, lies)
+        size = size[::-1] if is_sideways(lies) else size
+        share = max(size[0] / (right - left), size[1] / (bottom - top))
+        image.draft(None, _scaled(whole, share))
+        profile = image.info.get("icc_profile")
+        plain = _reduced(image, _scaled(whole, REDUCING_GAP * share))
+        across, down = plain.width / whole[0], plain.height / whole[1]
+        box = (left * across, top * down, min(right * across, plain.width),
+               min(bottom * down, plain.height))  # fmt: skip
+        small = plain.resize(size, Image.Resampling.LANCZOS, box)
+        return _in_screen_colours(upright(small, lies), profile)
 
 
-def _draft_size(image: Image.Image, window: Window, size: tuple[int, int]) -> tuple[int, int]:
-    """Least size of the whole picture, as it lies in the file, that gives so large a part."""
-    left, top, right, bottom = window
-    share = max(size[0] / (right - left), size[1] / (bottom - top))
-    return max(1, int(image.width * share)), max(1, int(image.height * share))
+def _scaled(size: tuple[int, int], share: float) -> tuple[int, int]:
+    """Size of the whole picture, scaled."""
+    return max(1, int(size[0] * share)), max(1, int(size[1] * share))
+
+
+def _reduced(image: Image.Image, size: tuple[int, int]) -> Image.Image:
+    """Picture of that size, if it is larger, in a mode whose values may be averaged."""
+    if size[0] < image.width and size[1] < image.height:
+        return shrunk(image, size, _resizable)
+    return _resizable(image)
 
 
 def _resizable(image: Image.Image) -> Image.Image:

@@ -13,6 +13,10 @@ from packwork.readers.unfit import UnfitError
 MAX_CONTOURS = 5_000
 """Closed curves in one picture, specks left out. Noise has more, shapes fewer. Chosen."""
 
+MAX_CROSSINGS = 1_000_000
+"""Neighbouring pixels between which a picture passes one half. Each costs some 300 bytes while
+contours are joined. Larger takes more memory for noise, smaller refuses fine patterns. Chosen."""
+
 SMALLEST_PX = 4.0
 """Area of a contour, in square pixels, below which it is a speck. Chosen."""
 
@@ -57,16 +61,21 @@ def _rings(coverage: FloatArray) -> list[FloatArray]:
     """Contours at one half, specks left out."""
     from skimage.measure import find_contours
 
+    inside = coverage > _LEVEL
+    crossings = sum(np.count_nonzero(np.diff(inside, axis=axis)) for axis in (0, 1))
+    if crossings > MAX_CROSSINGS:
+        raise _noisy(f"{crossings:,} edges between its pixels")
     # find_contours speaks of (row, col) of pixel centres; the padding moves them by one.
     found = find_contours(np.pad(coverage, 1), _LEVEL)
     rings = [ring[:-1, ::-1] - 0.5 for ring in found]
     kept = [ring for ring in rings if abs(signed_area(ring)) >= SMALLEST_PX]
     if len(kept) > MAX_CONTOURS:
-        raise UnfitError(
-            f"has {len(kept):,} separate contours, as noise has; {MAX_CONTOURS:,} are the "
-            "most, so give a picture of plain shapes"
-        )
+        raise _noisy(f"{len(kept):,} separate contours")
     return kept
+
+
+def _noisy(met: str) -> UnfitError:
+    return UnfitError(f"has {met}, as noise has; give a picture of plain shapes")
 
 
 def has_hard_edges(coverage: FloatArray) -> bool:

@@ -3,21 +3,35 @@
 from __future__ import annotations
 
 import struct
+import threading
 import warnings
 import zlib
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
 from io import BytesIO
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image, ImageOps, UnidentifiedImageError
+from PIL import Image, UnidentifiedImageError
 
+from packwork.readers.pictures.reducing import orientation, shrunk, upright
 from packwork.readers.unfit import UnfitError
 
 MAX_PIXELS = 64_000_000
 """Pixels of a picture: four bytes each once decoded, so a quarter gigabyte. Chosen."""
+
+MAX_HEAVY_PIXELS = 32_000_000
+"""The same of kinds whose decoders hold several copies of the whole picture. Chosen: as much
+memory as others take."""
+
+MAX_SIDE_PX = 100_000
+"""Longest side of a picture: each row costs memory of its own, and what is a thousand times as
+long as wide is no picture. Chosen."""
+
+LARGE_PIXELS = 16_000_000
+"""Pixels of a picture from which only one is decoded at a time, however many threads read.
+Larger takes more memory at once, smaller waits more. Chosen."""
 
 MAX_JPEG_PIXELS = 160_000_000
 """The same of a JPEG that is decoded at the size that is needed: a progressive one is still
@@ -26,11 +40,15 @@ held whole as coefficients, about 3 bytes each. Chosen."""
 MAX_PICTURE_BYTES = 100_000_000
 """Size of a picture file. Chosen."""
 
-FORMATS = ("PNG", "JPEG", "WEBP", "GIF", "BMP", "TIFF")
+FORMATS = ("PNG", "JPEG", "WEBP", "GIF", "BMP", "TIFF", "AVIF")
 """Kinds that are opened, whatever the file's ending says."""
 
-PICTURE_ENDINGS = (".png", ".jpg", ".jpeg", ".webp", ".gif", ".bmp", ".tif", ".tiff")
+PICTURE_ENDINGS = (
+    ".png", ".jpg", ".jpeg", ".jfif", ".webp", ".avif", ".gif", ".bmp", ".tif", ".tiff",
+)  # fmt: skip
 """Endings of files that are read as pictures, in lower case."""
+
+_HEAVY = ("WEBP", "AVIF")
 
 _EMBEDDABLE = ("PNG", "JPEG", "WEBP", "GIF")
 _DEEP_GREY = 65_535.0
@@ -53,6 +71,8 @@ _FAILURES = (
     zlib.error,
 )
 """What Pillow's decoders raise on broken files."""
+
+_ONE_AT_A_TIME = threading.RLock()
 
 Pixels = npt.NDArray[np.uint8]
 
@@ -110,10 +130,16 @@ def decode_picture(data: bytes, longest_px: int) -> Picture:
     """
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
-        with opened(data) as image:
-            whole = eight_bit(ImageOps.exif_transpose(image))
-            small = _shrunk(whole, longest_px)
-            return Picture(np.asarray(small), max(whole.size) / max(small.size))
+        with opened(data, shrinking=True) as image:
+            whole, lies = image.size, orientation(image)
+            size = fitting(whole, longest_px)
+            if size == whole:
+                small = eight_bit(image)
+            else:
+                image.draft(None, size)
+                small = shrunk(image, size, averageable)
+            pixels = np.asarray(upright(small, lies).convert("RGBA"))
+            return Picture(pixels, max(whole) / max(size))
 
 
 @contextmanager
@@ -140,25 +166,36 @@ def opened(data: bytes, *, shrinking: bool = False) -> Iterator[Image.Image]:
     ...     image.size
     (30, 20)
     """
+    most = MAX_PIXELS
     try:
         with Image.open(BytesIO(data), formats=FORMATS) as image:
-            most = MAX_JPEG_PIXELS if shrinking and image.format == "JPEG" else MAX_PIXELS
+            is_reduced = shrinking and image.format == "JPEG"
+            most = MAX_JPEG_PIXELS if is_reduced else _most_pixels(image)
             _check_size(image.size, most)
-            yield image
+            is_large = image.width * image.height > (MAX_PIXELS if is_reduced else LARGE_PIXELS)
+            with _ONE_AT_A_TIME if is_large else nullcontext():
+                yield image
     except UnidentifiedImageError:
         raise UnfitError("is not a picture that can be read; give PNG, JPEG or WebP") from None
     except Image.DecompressionBombError:
-        raise UnfitError(
-            _too_large("far more", MAX_JPEG_PIXELS if shrinking else MAX_PIXELS)
-        ) from None
+        raise UnfitError(_too_large("far more", most)) from None
     except _FAILURES as error:
         reason = " ".join(str(error).split())[:120] or type(error).__name__
         raise UnfitError(f"is a broken picture ({reason}); save it again") from None
 
 
+def _most_pixels(image: Image.Image) -> int:
+    return MAX_HEAVY_PIXELS if image.format in _HEAVY else MAX_PIXELS
+
+
 def _check_size(size: tuple[int, int], most_pixels: int) -> None:
     if size[0] * size[1] > most_pixels:
         raise UnfitError(_too_large(f"{size[0]} x {size[1]}", most_pixels))
+    if max(size) > MAX_SIDE_PX:
+        raise UnfitError(
+            f"has {size[0]} x {size[1]} pixels; {MAX_SIDE_PX:,} on a side are the most, so scale "
+            "it down"
+        )
 
 
 def _too_large(met: str, most_pixels: int) -> str:
@@ -185,12 +222,20 @@ def eight_bit(image: Image.Image, mode: str = "RGBA") -> Image.Image:
     return Image.fromarray(grey)
 
 
-def _shrunk(image: Image.Image, longest_px: int) -> Image.Image:
-    """RGBA of an eight-bit picture, ``longest_px`` long at most."""
-    factor = longest_px / max(image.size)
-    if factor >= 1:
-        return image.convert("RGBA")
-    size = max(1, round(image.width * factor)), max(1, round(image.height * factor))
+def fitting(size: tuple[int, int], longest_px: int) -> tuple[int, int]:
+    """Width and height of a picture that is ``longest_px`` long at most.
+
+    Examples
+    --------
+    >>> fitting((300, 2), 100), fitting((30, 20), 100)
+    ((100, 1), (30, 20))
+    """
+    factor = min(1.0, longest_px / max(size))
+    return max(1, round(size[0] * factor)), max(1, round(size[1] * factor))
+
+
+def averageable(image: Image.Image) -> Image.Image:
+    """Picture in a mode whose values may be averaged: grey, or weighted by its opacity."""
+    plain = eight_bit(image)
     # Pillow weighs colours by alpha only in this mode: else edges darken.
-    weighted = image if image.mode == "L" else image.convert("RGBa")
-    return weighted.resize(size, Image.Resampling.BOX).convert("RGBA")
+    return plain if plain.mode == "L" else plain.convert("RGBa")

@@ -11,9 +11,11 @@ from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
+from packwork.readers.pictures.photographic import looks_photographic
 from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
-from packwork.readers.regions import clean_union
-from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.pictures.transparency import LEAST_CLEAR_OF_MASK, decides, solidity
+from packwork.readers.regions import NEARLY_ALL, clean_union, tell_if_full
+from packwork.readers.unfit import UnfitError, naming, notice
 
 MASK_PX = 2_048
 """Longer side at which a mask is traced; finer ones are shrunk first. Chosen."""
@@ -22,7 +24,12 @@ SMALLEST_SIDE_PX = 8
 """Shorter side of a mask that is taken for one. Chosen."""
 
 _LUMINANCE = (0.299, 0.587, 0.114)
-_UNIFORM = 0.02
+_WHY_FULL = {
+    True: "its transparency says what is inside; make all clear that is not to be filled, or "
+    "give black on white without transparency",
+    False: "nearly all of it is dark, and dark is inside; paint what is to be filled black on "
+    "white",
+}
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,10 +44,12 @@ class TracedMask:
 def trace_mask(path: str | Path) -> TracedMask:
     """Region of a picture that says inside (dark) or outside (light).
 
-    Where its transparency is not uniform, that decides instead: opaque is inside. An
-    all-dark mask is the whole canvas. The contour follows the half-way level to a
-    fraction of a pixel and is simplified to 0.2 px; the stairs of hard-edged masks are
-    taken for the straight edges within a pixel of them.
+    Where a real share of it is clear, that decides instead: opaque is inside; a few
+    translucent pixels count as the light page behind them. An all-dark mask is the whole
+    canvas. The contour follows the half-way level to a fraction of a pixel and is simplified
+    to 0.2 px; the stairs of hard-edged masks are taken for the straight edges within a pixel
+    of them. A notice tells of a mask that fills nearly all of its page, is dark all along its
+    edge or looks like a photograph.
 
     Raises
     ------
@@ -82,18 +91,35 @@ def mask_of_pixels(pixels: Pixels) -> TracedMask:
             f"has only {columns} x {rows} pixels; a mask needs at least "
             f"{SMALLEST_SIDE_PX} on each side, better some hundreds"
         )
-    inside = _insideness(pixels)
+    solid = solidity(pixels)
+    inside = solid * _darkness(pixels)
+    by_alpha = decides(solid, LEAST_CLEAR_OF_MASK)
+    if by_alpha or (inside.max() < 0.5 and solid.min() < 0.5):
+        inside, by_alpha = solid, True
     if inside.max() < 0.5:
         raise UnfitError(
             "is all light, and dark is inside; paint the region to fill black on white"
         )
     region = clean_union(outline_of_coverage(inside), speck=SPECK)
+    _tell(inside, region.area / inside.size, by_alpha=by_alpha)
     return TracedMask(region, float(columns), float(rows))
 
 
-def _insideness(pixels: Pixels) -> FloatArray:
-    """How far each pixel is inside, 0..1."""
-    alpha = pixels[:, :, 3] / 255.0
-    if np.ptp(alpha) > _UNIFORM:
-        return np.asarray(alpha)
+def _darkness(pixels: Pixels) -> FloatArray:
     return np.asarray(1.0 - pixels[:, :, :3] @ np.array(_LUMINANCE) / 255.0)
+
+
+def _tell(inside: FloatArray, share: float, *, by_alpha: bool) -> None:
+    """Notice what was probably not meant as a mask, or not so."""
+    if not by_alpha and looks_photographic(inside):
+        notice(
+            "looks like a photograph, of which the dark parts are filled; to place items round "
+            "what it shows use around:IMAGE, to fill a shape give its black silhouette on white"
+        )
+    elif share > NEARLY_ALL:
+        tell_if_full(share, _WHY_FULL[by_alpha])
+    elif not by_alpha and min(side.min() for side in (inside[[0, -1]], inside[:, [0, -1]])) > 0.5:
+        notice(
+            "is dark all along its edge, and dark is inside; if the light shape is to be filled, "
+            "invert the picture"
+        )

@@ -19,6 +19,7 @@ from packwork.readers.pictures.decode import (
     Pixels,
     decode_picture,
 )
+from packwork.readers.pictures.transparency import LEAST_CLEAR_OF_ITEM, decides, solidity
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.item import Item, PictureArt
@@ -45,7 +46,7 @@ SIMPLIFY_PX = 0.2
 def read_picture(path: str | Path, holes: Holes = "fill") -> Item:
     """Item of a PNG, JPEG, WebP, GIF, BMP or TIFF file, its units the file's pixels.
 
-    Where the picture has transparency, that decides; else a plain background is taken
+    Where a real share of the picture is clear, that decides; else a plain background is taken
     away, flooding from the border; else the whole rectangle is the item, as for photos.
 
     Raises
@@ -154,7 +155,7 @@ def cut_out(pixels: Pixels) -> Pixels:
     alpha = pixels[:, :, 3]
     if alpha.max() == 0:
         raise UnfitError("is fully transparent; give a picture that shows something")
-    if np.ptp(alpha) > BACKGROUND_TOLERANCE:
+    if decides(solidity(pixels), LEAST_CLEAR_OF_ITEM):
         return pixels
     colour = _plain_background(pixels)
     if colour is None:
@@ -201,7 +202,7 @@ def _without_background(pixels: Pixels, colour: FloatArray, opaque: FloatArray) 
     own = (pixels[:, :, :3] - (1 - share) * colour) / np.maximum(share, 1 / 255)
     result = pixels.copy()
     result[:, :, :3] = np.clip(np.where(share > 0, own, 0), 0, 255).round()
-    result[:, :, 3] = np.round(255 * opaque)
+    result[:, :, 3] = np.round(pixels[:, :, 3] * opaque)
     return result
 
 

@@ -11,7 +11,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, silhouette
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
-from packwork.readers.regions import clean_union
+from packwork.readers.regions import clean_union, tell_if_full
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.ink import Ink
 from packwork.readers.svg.trace import TRACE_PX, page_picture
@@ -19,6 +19,11 @@ from packwork.readers.svg.walk import Page
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
+
+_WHY_FULL = (
+    "all that is painted counts; take out the sheet behind the shape, or say page for the whole "
+    "sheet"
+)
 
 WHOLE_PAGE = 0.999
 """Share of the page from which a drawing counts as painted all over. Chosen."""
@@ -59,6 +64,7 @@ def container_of_svg(data: bytes, name: str, source: str, side: float | None = N
             left, top, right, bottom = 0.0, 0.0, drawing.page.width, drawing.page.height
             if region.area > WHOLE_PAGE * (right * bottom):
                 region = _dark_part(drawing.root, drawing.page)
+            tell_if_full(region.area / (right * bottom), _WHY_FULL)
         canvas = (left, top, right - left, bottom - top)
         unit = stated_unit(drawing.root) if side is None else None
         if unit is not None:
