@@ -1,10 +1,13 @@
-"""What all tests share: how hypothesis searches, and a seeded generator."""
+"""What all tests share: how hypothesis searches, a seeded generator, machines with their fonts."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from hypothesis import HealthCheck, settings
+
+from made_fonts import make_font_folders
+from packwork.fonts import FOLDERS
 
 # Kernels compile on their first call, and run uncompiled under NUMBA_DISABLE_JIT=1: no
 # example may fail for being slow. Search wider with `--hypothesis-profile=explore`.
@@ -18,3 +21,16 @@ settings.load_profile("check")
 def rng() -> np.random.Generator:
     """Generator with a fixed seed, new for each test."""
     return np.random.default_rng(20_250_711)
+
+
+@pytest.fixture(scope="session")
+def font_folders(tmp_path_factory: pytest.TempPathFactory) -> dict[str, str]:
+    """Machines by name (no fonts, DejaVu only, many fonts), each with its font folders."""
+    return make_font_folders(tmp_path_factory.mktemp("machines"))
+
+
+@pytest.fixture(params=["no fonts", "DejaVu only", "many fonts"])
+def machine(request, font_folders, monkeypatch) -> str:
+    """Each kind of machine in turn: its name, fonts looked for in its folders alone."""
+    monkeypatch.setenv(FOLDERS, font_folders[request.param])
+    return request.param

@@ -1,16 +1,26 @@
-"""Small fonts made for tests: one whose weight varies, one whose glyph is a picture."""
+"""Small fonts made for tests, and folders of them as machines have them.
+
+One font's weight varies, one's glyph is a picture, others are the bundled one by another name.
+"""
 
 from __future__ import annotations
 
 import io
+import os
+from pathlib import Path
 
 from fontTools.fontBuilder import FontBuilder
 from fontTools.pens.ttGlyphPen import TTGlyphPen
-from fontTools.ttLib import newTable
+from fontTools.ttLib import TTFont, newTable
 from fontTools.ttLib.tables.sbixGlyph import Glyph
 from fontTools.ttLib.tables.sbixStrike import Strike
 from fontTools.ttLib.tables.TupleVariation import TupleVariation
 
+from packwork.fonts import bundled_file
+
+SCRIPTS = Path(__file__).parent / "readers" / "fonts"
+DEJAVU = ("DejaVu Sans", "DejaVu Sans Mono", "DejaVu Serif")
+OTHERS = ("Arial", "Times New Roman", "Courier New", "Liberation Sans", "Noto Sans")
 EMOJI = "\U0001f600"
 STRIKE_PX = 64
 
@@ -68,3 +78,29 @@ def emoji_font(picture: bytes) -> bytes:
     file = io.BytesIO()
     builder.save(file)
     return file.getvalue()
+
+
+def renamed_font(family: str) -> bytes:
+    """The bundled font under the name of another family."""
+    font = TTFont(bundled_file())
+    for record in list(font["name"].names):
+        if record.nameID in (1, 16):
+            font["name"].setName(
+                family, record.nameID, record.platformID, record.platEncID, record.langID
+            )
+    file = io.BytesIO()
+    font.save(file)
+    return file.getvalue()
+
+
+def make_font_folders(folder: Path) -> dict[str, str]:
+    """Machines by name, each with the folders that ``PACKWORK_FONTS`` is to name."""
+    machines = {"no fonts": (), "DejaVu only": DEJAVU, "many fonts": (*DEJAVU, *OTHERS)}
+    for machine, families in machines.items():
+        (folder / machine).mkdir()
+        for family in families:
+            (folder / machine / f"{family}.otf").write_bytes(renamed_font(family))
+    (folder / "many fonts" / "broken.ttf").write_bytes(b"\0\1\0\0nonsense")
+    found = {machine: str(folder / machine) for machine in machines}
+    found["many fonts"] += os.pathsep + str(SCRIPTS)
+    return found

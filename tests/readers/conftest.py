@@ -11,16 +11,22 @@ import resvg_py
 import shapely
 from PIL import Image
 
+from packwork.fonts import fonts_of
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.raster.coverage import Rasteriser
+from packwork.raster.drawing import font_options
 from packwork.scene.item import Item, VectorArt
 
 SIDE_PX = 500
 
 
 def alpha_by_resvg(text: str, **size: int) -> np.ndarray:
-    data = bytes(resvg_py.svg_to_bytes(svg_string=text, dpi=96.0, **size))
+    fonts = fonts_of(text)
+    options = font_options(fonts) if fonts else {}
+    data = bytes(
+        resvg_py.svg_to_bytes(svg_string=text, dpi=96.0, skip_system_fonts=True, **options, **size)
+    )
     return np.asarray(Image.open(BytesIO(data)).convert("RGBA"))[:, :, 3] / 255.0
 
 

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import struct
 
 import pytest
 import shapely
 
-from packwork.readers.svg import fonts, lettering
+from made_fonts import renamed_font
+from packwork import fonts
+from packwork.readers.svg import lettering
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.typeface.face import bundled_typeface
 from packwork.scene.item import VectorArt
@@ -16,12 +19,7 @@ SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999
 BUNDLED = 'font-family="Inter Display"'
 
 
-@pytest.fixture(autouse=True)
-def bundled_font_only(monkeypatch):
-    monkeypatch.setattr(fonts, "_folders", list)
-    fonts.installed_families.cache_clear()
-    yield
-    fonts.installed_families.cache_clear()
+pytestmark = pytest.mark.usefixtures("machine")
 
 
 def item_of(body: str, page: str = 'viewBox="0 0 100 100"'):
@@ -77,7 +75,7 @@ def test_a_missing_font_is_named_once(caplog):
     item = item_of(body.format(40) + body.format(80))
     assert item.ink.area > 100
     assert caplog.text.count("sign.svg: the font 'Gill Nowhere' is not installed") == 1
-    assert "'Inter Display'" in caplog.text
+    assert f"set in {fonts.fonts_for([], '').serif!r}" in caplog.text
 
 
 def test_text_on_a_path(art_iou):
@@ -125,25 +123,56 @@ def test_many_texts_stay_text(monkeypatch, caplog):
     assert "some of its text stays text" in caplog.text
 
 
-def test_families_in_order_of_the_wish():
+def test_text_that_stays_text_is_drawn_and_measured(art_iou):
+    item = item_of('<defs><text id="t" y="60" font-size="40">HO</text></defs><use href="#t"/>')
+    assert "<text" in markup(item)
+    assert item.ink.area > 400
+    assert art_iou(item) > 0.97
+
+
+def test_text_in_masks_and_patterns_is_drawn():
+    cut = item_of(
+        '<mask id="m"><text y="60" font-size="40" fill="white">HO</text></mask>'
+        '<rect width="100" height="100" mask="url(#m)"/>'
+    )
+    assert 400 < cut.ink.area < 2_000
+
+
+def test_families_in_order_of_the_wish(machine):
     assert fonts.family_names(" 'A  B' ,, \"C\",serif") == ["A B", "C", "serif"]
-    choice = fonts.choose_fonts(["inter display, Arial", "serif"], "a")
-    assert choice.replaced == {}
-    assert choice.fonts.serif == fonts.BUNDLED_FAMILY
-    assert not choice.fonts.with_installed
-    assert fonts.choose_fonts([], "漢").fonts.with_installed
+    assert fonts.replaced_families(["inter display, Arial", "serif"]) == {}
+    serif = {
+        "no fonts": fonts.BUNDLED_FAMILY,
+        "DejaVu only": "DejaVu Serif",
+        "many fonts": "Times New Roman",
+    }[machine]
+    assert fonts.fonts_for([], "a").serif == serif
+    assert fonts.replaced_families(["Gill Nowhere"]) == {"Gill Nowhere": serif}
+
+
+def test_letters_that_few_fonts_have_get_them_all():
+    plain, rare = (fonts.fonts_for([], text).files for text in "a漢")
+    everything = {file for files in fonts.installed_families().values() for file in files}
+    assert set(rare) == everything
+    assert set(plain) <= everything
+
+
+def test_only_the_letters_of_texts_count():
+    svg = '<svg><title>漢</title><text font-family="&quot;Inter Display&quot;">{}</text></svg>'
+    wishes = ['"Inter Display"']
+    assert fonts.fonts_of(svg.format("a")) == fonts.fonts_for(wishes, "a")
+    assert fonts.fonts_of(svg.format("<tspan>&#28450;</tspan>")) == fonts.fonts_for(wishes, "漢")
+    assert fonts.fonts_of("<svg><title>text</title></svg>") is None
 
 
 def test_fonts_are_found_in_folders(tmp_path, monkeypatch):
     (tmp_path / "inner").mkdir()
-    with open(fonts._bundled_file(), "rb") as font:  # noqa: PTH123
-        data = font.read()
-    renamed = data.replace("Display".encode("utf-16-be"), "Dingbat".encode("utf-16-be"))
-    (tmp_path / "inner" / "a.OTF").write_bytes(renamed)
+    (tmp_path / "inner" / "a.OTF").write_bytes(renamed_font("Inter Dingbat"))
     (tmp_path / "notes.txt").write_text("none")
-    monkeypatch.setattr(fonts, "_folders", lambda: [tmp_path, tmp_path / "nowhere"])
-    fonts.installed_families.cache_clear()
-    assert "inter dingbat" in fonts.installed_families()
+    monkeypatch.setenv(fonts.FOLDERS, os.pathsep.join([str(tmp_path), str(tmp_path / "nowhere")]))
+    assert set(fonts.installed_families()) == {"inter dingbat", "inter display"}
+    monkeypatch.delenv(fonts.FOLDERS)
+    assert "inter dingbat" not in fonts.installed_families()
 
 
 @pytest.mark.parametrize(

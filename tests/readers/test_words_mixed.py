@@ -48,6 +48,16 @@ def test_a_font_that_has_all_of_a_word_draws_all_of_it() -> None:
     assert len({run.font for run in fonts.lettering(["office"]).runs}) == 1
 
 
+def test_words_are_set_by_the_fonts_that_a_machine_has(machine: str) -> None:
+    fonts = open_fonts([])
+    assert not fonts.lettering(["honey"]).region.is_empty
+    if machine == "many fonts":
+        assert not fonts.lettering(["ภาษา"]).region.is_empty
+    else:
+        with pytest.raises(UnfitError, match=r"no font installed has [ภาษา]"):
+            fonts.lettering(["ภาษา"])
+
+
 def test_a_character_that_no_font_has_is_named() -> None:
     with pytest.raises(UnfitError, match="has 中"):
         open_fonts([INTER]).lettering(["go中"])

@@ -8,6 +8,7 @@ import pytest
 import resvg_py
 
 from packwork.errors import RecipeError, WriteError
+from packwork.geometry.affine import identity
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
 from packwork.writers.frame import MAX_SIDE_PX, picture_frame
@@ -56,6 +57,20 @@ def test_transparent_background(three: Layout, read_picture: ReadPicture) -> Non
     picture = read_picture(png_bytes(three, 80, PngOptions(background="transparent")))
     assert picture[0, 0].tolist() == [0, 0, 0, 0]
     assert read_picture(png_bytes(three, 80))[0, 0].tolist() == [255, 255, 255, 255]
+
+
+@pytest.mark.usefixtures("machine")
+@pytest.mark.parametrize("family", ["No Such", "serif", "DejaVu Sans"])
+def test_letters_are_painted_whatever_fonts_there_are(
+    three: Layout, read_picture: ReadPicture, family: str
+) -> None:
+    letters = f'<text font-family="{family}" font-size="20" text-anchor="middle" y="8">HO</text>'
+    lettered = Item(
+        "sign", "", three.items[0].outline, three.items[0].ink, VectorArt(letters, identity())
+    )
+    layout = replace(three, items=(lettered,) * len(three.items))
+    picture = read_picture(png_bytes(layout, 160))
+    assert (picture[..., :3].max(axis=2) < 128).mean() > 0.02
 
 
 @pytest.mark.parametrize("longer_side_px", [0, -5, MAX_SIDE_PX + 1])

@@ -2,44 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any
+
+from packwork.fonts import Fonts, fonts_of
 
 _DPI = 96
 _LONGEST_REASON = 160
 
 
-@dataclass(frozen=True, kw_only=True)
-class Fonts:
-    """What the letters of a document may be set in.
-
-    Parameters
-    ----------
-    files
-        Font files to choose from.
-    serif, sans_serif, monospace
-        Families that the generic names stand for; ``serif`` also stands in for a family
-        that is not there.
-    with_installed
-        Whether letters that none of the files has may come from any installed font.
-    """
-
-    files: tuple[str, ...]
-    serif: str
-    sans_serif: str
-    monospace: str
-    with_installed: bool = False
-
-
-def drawn_png(document: str, fonts: Fonts | None = None) -> bytes:
+def drawn_png(document: str) -> bytes:
     """PNG of an SVG document at its own size; it must be one of ours or a cleaned one.
+
+    Its letters are set in fonts that we choose, from where we look for them.
 
     Parameters
     ----------
     document
         Complete, as text.
-    fonts
-        For its letters; the installed ones if none are given.
 
     Raises
     ------
@@ -54,10 +33,12 @@ def drawn_png(document: str, fonts: Fonts | None = None) -> bytes:
     import resvg_py
 
     # Fonts are looked up only where text is drawn: that takes longer than the rest.
-    plain: dict[str, Any] = {"skip_system_fonts": "<text" not in document}
+    fonts = fonts_of(document)
+    options = font_options(fonts) if fonts else {}
     try:
-        options = plain if fonts is None else _font_options(fonts)
-        picture = resvg_py.svg_to_bytes(svg_string=document, dpi=_DPI, **options)
+        picture = resvg_py.svg_to_bytes(
+            svg_string=document, dpi=_DPI, skip_system_fonts=True, **options
+        )
     except BaseException as error:
         # A panic of the native library is no Exception, and no reason to end the program.
         if not isinstance(error, ValueError) and type(error).__name__ != "PanicException":
@@ -66,9 +47,16 @@ def drawn_png(document: str, fonts: Fonts | None = None) -> bytes:
     return bytes(picture)
 
 
-def _font_options(fonts: Fonts) -> dict[str, Any]:
+def font_options(fonts: Fonts) -> dict[str, Any]:
+    """The same, as resvg's options are called.
+
+    Examples
+    --------
+    >>> from packwork.fonts import fonts_for
+    >>> font_options(fonts_for([], "a"))["font_files"][-1]
+    '...InterDisplay-Black.otf'
+    """
     return {
-        "skip_system_fonts": not fonts.with_installed,
         "font_files": list(fonts.files),
         "font_family": fonts.serif,
         "serif_family": fonts.serif,

@@ -14,12 +14,11 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 import shapely
 
+from packwork.fonts import replaced_families
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
-from packwork.raster.drawing import Fonts
 from packwork.readers.gate.references import elements_by_id
 from packwork.readers.gate.vocabulary import NEVER_DRAWN
-from packwork.readers.svg.fonts import choose_fonts
 from packwork.readers.svg.lengths import parse_length, parse_numbers
 from packwork.readers.svg.page import Page
 from packwork.readers.svg.painted import PlacedText
@@ -90,27 +89,25 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
 
 
 def _set(texts: Sequence[PlacedText], letters: str, root: ET.Element, page: Page | None) -> None:
-    choice = choose_fonts(_wishes(texts), letters)
-    for wanted, found in choice.replaced.items():
+    for wanted, found in replaced_families(_wishes(texts)).items():
         notice(f"the font {wanted!r} is not installed; its letters are set in {found!r}")
     letter_px = min(float(LETTER_PX), math.sqrt(MAX_PIXELS / max(1, len(letters))))
     by_id = elements_by_id(root)
     for text in texts:
-        _replace(text, page, by_id, choice.fonts, letter_px)
+        _replace(text, page, by_id, letter_px)
 
 
 def _replace(
     text: PlacedText,
     page: Page | None,
     by_id: dict[str, ET.Element],
-    fonts: Fonts,
     letter_px: float,
 ) -> None:
     """Turn a text into a path, or a group of paths if its letters differ in paint."""
     element = text.element
     paths: list[ET.Element] = []
     for paint in paints_of(element):
-        data = _outlines(stage_of(text, paint, by_id), text, _view(text, page), fonts, letter_px)
+        data = _outlines(stage_of(text, paint, by_id), text, _view(text, page), letter_px)
         if data:
             paths.append(ET.Element("path", {**dict(paint), "fill-rule": "evenodd", "d": data}))
     kept = {name: value for name, value in element.attrib.items() if name in PLACED}
@@ -123,21 +120,19 @@ def _replace(
         element.extend(paths)
 
 
-def _outlines(
-    stage: ET.Element, text: PlacedText, view: Part | None, fonts: Fonts, letter_px: float
-) -> str:
+def _outlines(stage: ET.Element, text: PlacedText, view: Part | None, letter_px: float) -> str:
     """Path data of what the stage shows, in the text's own units; empty if nothing."""
     from packwork.readers.pictures.contours import contour_region
 
     page = Page(*text.viewport, affine.identity())
-    part = view and inked(coverage(stage, page, view, FIND_PX, fonts), view)
+    part = view and inked(coverage(stage, page, view, FIND_PX), view)
     if part is None:
         return ""
     letters = len("".join(text.element.itertext()))
     px = max(math.sqrt(part[2] * part[3] / letters) / letter_px, max(part[2:]) / MAX_SIDE_PX)
     side = max(1, math.ceil(max(part[2:]) / px))
     px = max(part[2:]) / side
-    traced = contour_region(coverage(stage, page, part, side, fonts), _SIMPLIFY_PX)
+    traced = contour_region(coverage(stage, page, part, side), _SIMPLIFY_PX)
     placed = shapely.transform(traced, lambda points: points * px + part[:2])
     return path_data(placed, px * _STEP_PX)
 

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.raster.drawing import Fonts, drawn_png
+from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import document
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.svg.page import Page
@@ -26,9 +26,7 @@ Part: TypeAlias = tuple[float, float, float, float]
 """Left, top, width and height in CSS pixels."""
 
 
-def coverage(
-    root: ET.Element, page: Page, part: Part, longest_px: int, fonts: Fonts | None = None
-) -> FloatArray:
+def coverage(root: ET.Element, page: Page, part: Part, longest_px: int) -> FloatArray:
     """Opacity 0..1 of one part of the page, its longer side ``longest_px`` pixels.
 
     Raises
@@ -43,7 +41,7 @@ def coverage(
     >>> float(coverage(root, read_page(root), (0.0, 0.0, 20.0, 20.0), 4).sum())
     4.0
     """
-    picture = page_picture(root, page, part, longest_px, fonts)
+    picture = page_picture(root, page, part, longest_px)
     pixels = decode_picture(picture, longest_px).pixels
     return np.asarray(pixels[:, :, 3], dtype=np.float64) / 255.0
 
@@ -72,7 +70,6 @@ def page_picture(
     page: Page,
     part: Part | None = None,
     longest_px: int = TRACE_PX,
-    fonts: Fonts | None = None,
 ) -> bytes:
     """PNG of one part of the page, or all of it, its longer side ``longest_px`` pixels.
 
@@ -104,10 +101,10 @@ def page_picture(
         },
     )
     outer.append(inner)
-    return render(outer, fonts)
+    return render(outer)
 
 
-def render(root: ET.Element, fonts: Fonts | None = None) -> bytes:
+def render(root: ET.Element) -> bytes:
     """PNG of a clean drawing at its own size; nothing but clean drawings may come here.
 
     Raises
@@ -121,6 +118,6 @@ def render(root: ET.Element, fonts: Fonts | None = None) -> bytes:
     b'PNG'
     """
     try:
-        return drawn_png(document(root), fonts)
+        return drawn_png(document(root))
     except ValueError as error:
         raise UnfitError(f"cannot be rendered ({error}); save it as plain SVG") from None

@@ -12,7 +12,6 @@ from shapely.geometry import Polygon
 
 from packwork.geometry.polygon import Region
 from packwork.readers.gate.vocabulary import TEXTS, TRACED
-from packwork.readers.svg.fonts import fonts_for
 from packwork.readers.svg.ink import TracedInk
 from packwork.readers.svg.page import Page
 from packwork.readers.svg.render import TRACE_PX as TRACE_PX
@@ -108,7 +107,7 @@ def _traced(twin: ET.Element, page: Page, part: Part, work: Work) -> Region:
     from packwork.readers.pictures.contours import contour_region
 
     side = work.side(TRACE_PX, max(part[2:]))
-    opacity = coverage(twin, page, part, side, fonts_for(twin))
+    opacity = coverage(twin, page, part, side)
     # What a mask lets through faintly is a shape all the same.
     traced = contour_region(opacity / max(float(opacity.max()), _FAINTEST), _SIMPLIFY_PX)
     px = max(part[2:]) / side

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.fonts import installed_families
 from packwork.readers.files import exists, read_bytes
-from packwork.readers.svg.fonts import installed_families
 from packwork.readers.typeface.face import (
     MAX_FONT_BYTES,
     UNKNOWN_LANGUAGE,

@@ -1,23 +1,27 @@
-"""Which font files the letters of a drawing need, and which families are not there.
+"""Fonts of this machine: the one place that looks for them, for all that draws letters.
 
-Fonts are looked up here, once, and handed to the renderer by name: it would read all of
-them for every picture, and tells nobody which one it missed.
+The folders of the system are searched, or those that ``PACKWORK_FONTS`` names instead of
+them. What is found is handed to the renderer by file: it would read all fonts for every
+picture, looks elsewhere than we do, and tells nobody which family it missed.
 """
 
 from __future__ import annotations
 
+import html
 import os
+import re
 import struct
 import sys
-import xml.etree.ElementTree as ET
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from pathlib import Path
 from typing import BinaryIO
 
-from packwork.raster.drawing import Fonts
+FOLDERS = "PACKWORK_FONTS"
+"""Environment variable: folders, separated as in ``PATH``, that are searched for fonts
+instead of the system's."""
 
 MAX_FILES = 5_000
 """Font files that are looked at. A well-equipped studio has as many. Chosen."""
@@ -31,6 +35,8 @@ BUNDLED_FAMILY = "Inter Display"
 _ENDINGS = frozenset({".ttf", ".otf", ".ttc", ".otc"})
 _MOST_FACES = 64
 _FAMILY, _WHOLE_FAMILY = 1, 16
+_TAG = re.compile(r"<[^>]*>")
+_WISH = re.compile(r"""\bfont-family=("[^"]*"|'[^']*')""")
 _PLAIN_LETTERS = "\u024f"
 _GENERIC = {
     "serif": ("Times New Roman", "Times", "Liberation Serif", "DejaVu Serif", "Noto Serif"),
@@ -42,75 +48,91 @@ _OTHER_GENERIC = frozenset(
 )
 
 
-@dataclass(frozen=True)
-class FontChoice:
-    """Fonts for a drawing.
+@dataclass(frozen=True, kw_only=True)
+class Fonts:
+    """What the letters of a document are set in.
 
     Parameters
     ----------
-    fonts
-        To be handed to the renderer.
-    replaced
-        Families that are not there, each with the one that stands in for it.
+    files
+        Font files to choose from.
+    serif, sans_serif, monospace
+        Families that the generic names stand for; ``serif`` also stands in for a family
+        that is not there.
     """
 
-    fonts: Fonts
-    replaced: Mapping[str, str]
+    files: tuple[str, ...]
+    serif: str
+    sans_serif: str
+    monospace: str
 
 
-def choose_fonts(wishes: Iterable[str], letters: str) -> FontChoice:
+def fonts_of(document: str) -> Fonts | None:
+    """Fonts for whatever text there is in an SVG document; None if there is none.
+
+    Parameters
+    ----------
+    document
+        One of ours or a cleaned one: families stand in attributes, no text in another.
+
+    Examples
+    --------
+    >>> fonts_of("<svg><text font-family='Inter Display'>a</text></svg>").files
+    ('...InterDisplay-Black.otf',)
+    >>> fonts_of("<svg/>") is None
+    True
+    """
+    _, *after = document.split("<text")
+    if not after:
+        return None
+    wishes = dict.fromkeys(html.unescape(wish[1:-1]) for wish in _WISH.findall(document))
+    texts = "<text".join(part.partition("</text>")[0] for part in after)
+    return fonts_for(wishes, html.unescape(_TAG.sub("", texts)))
+
+
+def fonts_for(wishes: Iterable[str], letters: str) -> Fonts:
     """Fonts for lists of families as ``font-family`` writes them.
 
-    The installed font of a family is taken, else that of the next one in the list, else a
-    serif one; where nothing is installed, the bundled font.
+    Of each list the first family that is installed; where nothing is, the bundled font. If
+    there are letters that few fonts have, all fonts, for the renderer to choose from.
 
     Parameters
     ----------
     wishes
-        One list of families for each style of the drawing.
+        One list of families for each style of the document.
     letters
         All that is to be set.
 
     Examples
     --------
-    >>> choice = choose_fonts(["'No Such Font'"], "abc")
-    >>> list(choice.replaced)
-    ['No Such Font']
+    >>> fonts_for(["Inter Display"], "abc").files
+    ('...InterDisplay-Black.otf',)
     """
     installed = installed_families()
     generic = {name: _first(names, installed) for name, names in _GENERIC.items()}
-    needed = set(generic.values())
-    replaced: dict[str, str] = {}
-    for names in map(family_names, wishes):
-        known = [name for name in names if name.lower() in installed or _is_generic(name)]
-        found = known[0] if known else generic["serif"]
-        needed.add(generic.get(found.lower(), found))
-        if names and found != names[0]:
-            replaced[names[0]] = generic.get(found.lower(), found)
-    files = [file for name in sorted(needed) for file in installed.get(name.lower(), ())]
-    fonts = Fonts(
-        files=(*files, _bundled_file()),
+    needed = [*generic.values(), *(_stand_in(family_names(wish)) for wish in wishes)]
+    if any(letter > _PLAIN_LETTERS for letter in letters):
+        needed += sorted(installed)
+    files = [file for name in needed for file in installed.get(name.lower(), ())]
+    return Fonts(
+        files=tuple(dict.fromkeys((*files, bundled_file()))),
         serif=generic["serif"],
         sans_serif=generic["sans-serif"],
         monospace=generic["monospace"],
-        with_installed=any(letter > _PLAIN_LETTERS for letter in letters),
     )
-    return FontChoice(fonts, replaced)
 
 
-def fonts_for(root: ET.Element) -> Fonts | None:
-    """Fonts for whatever text there is in a clean drawing; None if there is none.
+def replaced_families(wishes: Iterable[str]) -> dict[str, str]:
+    """Families that are wished for and not there, each with the one that stands in for it.
 
     Examples
     --------
-    >>> fonts_for(ET.Element("svg")) is None
-    True
+    >>> list(replaced_families(["'No Such Font'", "Inter Display"]))
+    ['No Such Font']
     """
-    texts = list(root.iter("text"))
-    if not texts:
-        return None
-    wishes = [e.attrib["font-family"] for e in root.iter() if "font-family" in e.attrib]
-    return choose_fonts(wishes, "".join(letter for t in texts for letter in t.itertext())).fonts
+    lists = [names for wish in wishes if (names := family_names(wish))]
+    pairs = ((names[0], _stand_in(names)) for names in lists)
+    return {name: found for name, found in pairs if found != name and not _is_generic(name)}
 
 
 def family_names(wish: str) -> list[str]:
@@ -124,14 +146,23 @@ def family_names(wish: str) -> list[str]:
     return [name for part in wish.split(",") if (name := " ".join(part.split()).strip("'\""))]
 
 
-@cache
 def installed_families() -> Mapping[str, tuple[str, ...]]:
     """Font files of this machine by family, in lower case; the bundled font is among them.
 
     Looked up once. Files that are no fonts are passed over.
+
+    Examples
+    --------
+    >>> "inter display" in installed_families()
+    True
     """
+    return _families_in(tuple(_folders()))
+
+
+@cache
+def _families_in(folders: tuple[Path, ...]) -> Mapping[str, tuple[str, ...]]:
     found: dict[str, list[str]] = {}
-    for file in (_bundled_file(), *_font_files()):
+    for file in (bundled_file(), *_font_files(folders)):
         for family in family_of(file):
             found.setdefault(family.lower(), []).append(file)
     return {family: tuple(files) for family, files in found.items()}
@@ -142,7 +173,7 @@ def family_of(file: str) -> set[str]:
 
     Examples
     --------
-    >>> sorted(family_of(_bundled_file()))
+    >>> sorted(family_of(bundled_file()))
     ['Inter Display']
     """
     try:
@@ -156,18 +187,34 @@ def _first(names: Iterable[str], installed: Mapping[str, tuple[str, ...]]) -> st
     return next((name for name in names if name.lower() in installed), BUNDLED_FAMILY)
 
 
+def _stand_in(names: Sequence[str]) -> str:
+    """Family that a list of wishes comes to."""
+    installed = installed_families()
+    known = (name for name in names if name.lower() in installed or _is_generic(name))
+    found = next(known, "serif")
+    generic = _GENERIC.get(found.lower())
+    return found if generic is None else _first(generic, installed)
+
+
 def _is_generic(name: str) -> bool:
     return name.lower() in _GENERIC or name.lower() in _OTHER_GENERIC
 
 
-def _bundled_file() -> str:
+def bundled_file() -> str:
+    """Place of the bundled font.
+
+    Examples
+    --------
+    >>> bundled_file()
+    '...InterDisplay-Black.otf'
+    """
     folder = resources.files("packwork.bundled").joinpath("fonts")
     return str(folder.joinpath("InterDisplay-Black.otf"))
 
 
-def _font_files() -> list[str]:
+def _font_files(folders: Iterable[Path]) -> list[str]:
     files: list[str] = []
-    for folder in _folders():
+    for folder in folders:
         for place, _, names in os.walk(folder):
             fonts = [name for name in sorted(names) if Path(name).suffix.lower() in _ENDINGS]
             files += [str(Path(place, name)) for name in fonts]
@@ -177,12 +224,14 @@ def _font_files() -> list[str]:
 
 
 def _folders() -> list[Path]:
-    """Where this system keeps its fonts."""
+    """Where fonts are looked for: as the environment says, else where this system has them."""
+    if own := os.environ.get(FOLDERS):
+        return [Path(folder) for folder in own.split(os.pathsep) if folder]
     home = Path("~").expanduser()
     if sys.platform == "win32":
         windows = Path(os.environ.get("WINDIR", r"C:\Windows"), "Fonts")
-        own = Path(os.environ.get("LOCALAPPDATA", home), "Microsoft", "Windows", "Fonts")
-        return [windows, own]
+        users = Path(os.environ.get("LOCALAPPDATA", home), "Microsoft", "Windows", "Fonts")
+        return [windows, users]
     if sys.platform == "darwin":
         return [Path("/System/Library/Fonts"), Path("/Library/Fonts"), home / "Library" / "Fonts"]
     return [
