@@ -11,6 +11,7 @@ import packwork as pw
 from packwork.pipeline import Letters, fill, read, words_recipe
 from packwork.pipeline.letters import with_readable, without_hopeless
 from packwork.readers.words.items import EM_PX
+from packwork.scene.pose import Poses
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft"}
 WEIGHTS = {f"word{k}": 1.0 / k for k in range(1, 13)}
@@ -55,6 +56,19 @@ def test_the_largest_word_is_held_down_in_proportion_and_certified() -> None:
 def test_both_bounds_leave_out_what_proportions_forbid() -> None:
     run = fill(words_recipe("circle", WEIGHTS, smallest=5, largest=20, **QUICK))
     assert [item.name for item in run.layout.items] == ["word1", "word2", "word3", "word4"]
+
+
+def test_words_that_are_left_out_leave_the_shares_of_kinds() -> None:
+    share = {"words": 0.8, "items": 0.2}
+    bounds = {"smallest": "20pt", "share": share}
+    job = read(words_recipe("circle", WEIGHTS, add=["star", "moon"], **bounds, **QUICK))
+    heights = np.sqrt(job.weights / np.array([item.outline.area for item in job.items]))
+    zero = np.zeros(len(job.items))
+    fewer = with_readable(job, Poses(zero, zero, zero, heights / heights.max()), 1)
+    assert fewer.words is not None
+    count = len(fewer.words.items)
+    assert count < len(WEIGHTS)
+    assert fewer.weights[:count].sum() == pytest.approx(0.8)
 
 
 def test_letters_count_in_the_unit_of_the_canvas() -> None:

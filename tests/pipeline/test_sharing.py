@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 from PIL import Image
 
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.pictures import share_of_kinds
-from packwork.pipeline.sharing import kind
+from packwork.pipeline import read, words_recipe
+from packwork.pipeline.sharing import kinds_of
 
 WORDS = {"honey": 3, "bear": 2, "bee": 1}
 QUICK = {"effort": "draft", "levels": "50", "seed": 0}
@@ -25,7 +25,8 @@ def album(tmp_path: Path) -> Path:
 
 
 def areas_by_kind(layout: pw.Layout) -> dict[str, float]:
-    kinds = np.array([kind(item, WORDS) for item in layout.items])
+    words = [item for item in layout.items if item.text is not None]
+    kinds = kinds_of(layout.items, words)
     return {name: float(layout.areas[kinds == name].sum()) for name in ("words", "photos", "items")}
 
 
@@ -40,6 +41,30 @@ def test_areas_are_in_the_shares_asked_for(album: Path) -> None:
     assert found == pytest.approx({"words": 0.5, "photos": 0.3, "items": 0.2}, rel=1e-6)
     heights = {item.name: layout.poses.scale[k] for k, item in enumerate(layout.items)}
     assert heights["honey"] / heights["bee"] == pytest.approx(3)
+
+
+def test_an_icon_called_as_a_word_is_has_its_own_area_and_colours() -> None:
+    weights = {"bear": 3.0, "star": 2.0, "owl": 1.0}
+    layout = pw.words("circle", weights, add=["star", "moon"], color_by="weight", **QUICK)
+    assert [item.name for item in layout.items] == ["bear", "star", "owl", "star", "moon"]
+    word, icon, other = (layout.areas[k] for k in (1, 3, 4))
+    assert icon == pytest.approx(other)
+    assert icon != pytest.approx(word, rel=0.1)
+    scales = layout.poses.scale[:3]
+    assert scales / scales[-1] == pytest.approx([3, 2, 1])
+    assert layout.items[3].art == pw.read_items(["star"])[0].art
+
+
+def test_shares_count_an_icon_called_as_a_word_is_as_an_icon() -> None:
+    recipe = words_recipe("circle", {"star": 2, "owl": 1}, add=["star"], share="words=3,items=1")
+    job = read(recipe)
+    assert job.weights[:2].sum() == pytest.approx(0.75)
+    assert job.weights[2] == pytest.approx(0.25)
+
+
+def test_words_have_no_other_weights() -> None:
+    with pytest.raises(RecipeError, match="weights: words have the weights of their source"):
+        read(words_recipe("circle", WORDS, weights={"honey": 2}))
 
 
 def test_items_that_were_read_are_mixed_in_with_photos(album: Path) -> None:

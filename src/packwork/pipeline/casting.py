@@ -45,17 +45,23 @@ class Cast:
     weights: FloatArray
 
 
-def cast(recipe: Recipe, items: Sequence[Item]) -> Cast:
+def cast(recipe: Recipe, items: Sequence[Item], areas: FloatArray | None = None) -> Cast:
     """Copies of items in turn, and what the rules ask of each.
 
     A rule that pins both x and y is for one copy of each item that it names: the first
     that no such rule before it has taken. All others are for all copies.
+
+    Parameters
+    ----------
+    areas
+        ``(n,)`` share of area of each item, in place of the recipe's table.
 
     Raises
     ------
     RecipeError
         If rules name nobody, ask for more than the count, or pin one copy twice.
     """
+    shares = item_weights(items, recipe.weights) if areas is None else areas
     said = voices(recipe)
     whom = [_whom(rule, voice, items) for voice, rule in said]
     which = turns(_counts(said, whom, len(items)), recipe.count)
@@ -70,7 +76,7 @@ def cast(recipe: Recipe, items: Sequence[Item]) -> Cast:
             for k in copies:
                 asked[k] = asked[k].heard(rule, voice)
     chosen = tuple(items[k] for k in which)
-    return Cast(chosen, tuple(asked), _weights(chosen, asked, recipe))
+    return Cast(chosen, tuple(asked), _weights(shares[which], asked))
 
 
 def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item] | None) -> Cast:
@@ -79,14 +85,17 @@ def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item] | None) -
     Raises
     ------
     RecipeError
-        As for :func:`cast`.
+        As for :func:`cast`, and if the recipe has a table of weights besides.
     """
+    if recipe.weights is not None:
+        raise RecipeError(
+            "weights",
+            "words have the weights of their source; give items beside them theirs by rules",
+        )
     others = tuple(added or ())
     middling = BOX_OVER_INK * float(np.median(words.areas))
-    areas = dict.fromkeys((item.name for item in others), middling)
-    pairs = zip(words.items, words.areas.tolist(), strict=True)
-    areas |= {item.name: area for item, area in pairs}
-    return cast(recipe.model_copy(update={"weights": areas}), (*words.items, *others))
+    areas = np.append(words.areas, np.full(len(others), middling))
+    return cast(recipe, (*words.items, *others), areas)
 
 
 def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:
@@ -176,10 +185,9 @@ def kinds(items: Sequence[Item]) -> IntArray:
     return np.asarray(numbers, dtype=np.int64)
 
 
-def _weights(items: Sequence[Item], asked: Sequence[Asked], recipe: Recipe) -> FloatArray:
-    """Weights of the table, those of the rules in their place, not too far apart."""
-    table = item_weights(items, recipe.weights)
-    pairs = zip(asked, table.tolist(), strict=True)
+def _weights(shares: FloatArray, asked: Sequence[Asked]) -> FloatArray:
+    """Shares of the copies, weights of the rules in their place, not too far apart."""
+    pairs = zip(asked, shares.tolist(), strict=True)
     found = np.array([one.values.get("weight", weight) for one, weight in pairs])
     if found.max() / found.min() > WIDEST_WEIGHTS:
         raise RecipeError(

@@ -248,8 +248,8 @@ class _Run:
 
 def _scales_of(sorts: Sequence[Item], exact: Finished, job: Job) -> FloatArray:
     """``(n,)`` scale that each sort's own item has in the layout."""
-    known = dict(zip((item.name for item in job.items), exact.poses.scale, strict=True))
-    return np.array([known[item.name] for item in sorts])
+    known = dict(zip(job.items, exact.poses.scale, strict=True))
+    return np.array([known[item] for item in sorts])
 
 
 def _styled(asked: Asked | None) -> Asked:

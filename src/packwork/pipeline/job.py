@@ -185,8 +185,8 @@ def read(
             )
         else:
             region = no_container(recipe, chosen) if room is None else room
-        names = () if words is None else {item.name for item in words.items}
-        weights = shared_out(chosen.items, chosen.weights, names, recipe.share)
+        spoken = () if words is None else words.items
+        weights = shared_out(chosen.items, chosen.weights, spoken, recipe.share)
         forces_of(recipe.force or (), chosen.items, weights, region)
         regions = read_regions(chosen.asked, region)
         earlier = None if recipe.layout_file is None else read_layout(recipe.layout_file)

@@ -51,13 +51,13 @@ def legible(job: Job, layout: Layout) -> Layout:
     if behind is None:
         return layout
     ground = ground_luminance(layout.container, behind)
-    words = set() if job.words is None else {item.name for item in job.words.items}
+    words = set() if job.words is None else set(job.words.items)
     under = luminances_under(layout, ground)
     # One colour for all: halos of two colours look like a mistake.
     halo = "white" if np.mean(under) < BRIGHT else "black"
     items = tuple(
-        _told_apart(item, pair, TEXT if item.name in words else GRAPHIC, halo)
-        for item, pair in zip(layout.items, under, strict=True)
+        _told_apart(item, pair, TEXT if original in words else GRAPHIC, halo)
+        for item, original, pair in zip(layout.items, job.items, under, strict=True)
     )
     return replace(layout, items=items)
 

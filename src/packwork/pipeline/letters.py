@@ -20,6 +20,7 @@ from packwork.pipeline.casting import cast_words
 from packwork.pipeline.finishing import finished
 from packwork.pipeline.job import Job
 from packwork.pipeline.regions import read_regions
+from packwork.pipeline.sharing import shared_out
 from packwork.progress import Observer, Stop
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead
 from packwork.scene.pose import Poses
@@ -145,12 +146,13 @@ def _recast(job: Job, words: WordsRead) -> Job:
     before = {id(item) for item in (() if job.words is None else job.words.items)}
     others = {id(item): item for item in job.items if id(item) not in before}
     chosen = cast_words(job.recipe, words, list(others.values()))
+    weights = shared_out(chosen.items, chosen.weights, words.items, job.recipe.share)
     gone = before - {id(item) for item in words.items}
     return replace(
         job,
         items=chosen.items,
         asked=chosen.asked,
-        weights=chosen.weights,
+        weights=weights,
         regions=read_regions(chosen.asked, job.container),
         fillers=tuple(item for item in job.fillers if id(item) not in gone),
         words=words,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
@@ -14,7 +15,7 @@ from packwork.scene.item import Item, PhotoArt
 def shared_out(
     items: Sequence[Item],
     weights: FloatArray,
-    words: Collection[str],
+    words: Collection[Item],
     share: Mapping[str, float] | None,
 ) -> FloatArray:
     """``(n,)`` weights whose sums over words, photos and other items are in the shares asked.
@@ -24,7 +25,7 @@ def shared_out(
     weights
         ``(n,)`` as asked within each kind.
     words
-        Names of the words among the items.
+        The words among the items. Not their names, which others may have too.
     share
         By kind: words, photos, items. None leaves the weights as they are.
 
@@ -39,12 +40,12 @@ def shared_out(
     >>> from packwork.scene.item import FlatArt
     >>> ink = Outline.from_rings([np.array([[0.0, 0], [1, 0], [1, 1]])])
     >>> items = [Item(name, name, ink, ink, FlatArt()) for name in ("fox", "star", "moon")]
-    >>> shared_out(items, np.ones(3), {"fox"}, {"words": 3, "items": 1}).tolist()
+    >>> shared_out(items, np.ones(3), items[:1], {"words": 3, "items": 1}).tolist()
     [0.75, 0.125, 0.125]
     """
     if share is None:
         return weights
-    kinds = np.array([kind(item, words) for item in items])
+    kinds = kinds_of(items, words)
     _check_kinds(set(kinds.tolist()), set(share))
     total = sum(share.values())
     result = weights.copy()
@@ -54,11 +55,22 @@ def shared_out(
     return result
 
 
-def kind(item: Item, words: Collection[str]) -> str:
-    """What an item counts as: words, photos or items."""
-    if isinstance(item.art, PhotoArt):
-        return "photos"
-    return "words" if item.name in words else "items"
+def kinds_of(items: Sequence[Item], words: Collection[Item]) -> NDArray[np.str_]:
+    """``(n,)`` what each item counts as: words, photos or items.
+
+    Examples
+    --------
+    >>> kinds_of([], []).tolist()
+    []
+    """
+    known = set(words)
+    return np.array([_kind(item, known) for item in items], dtype=np.str_)
+
+
+def _kind(item: Item, words: Collection[Item]) -> str:
+    if item in words:
+        return "words"
+    return "photos" if isinstance(item.art, PhotoArt) else "items"
 
 
 def _check_kinds(there: set[str], asked: set[str]) -> None:

@@ -55,9 +55,10 @@ def word_colours(recipe: Recipe, read: WordsRead | None, layout: Layout) -> list
     """
     if read is None or recipe.words is None or recipe.words.color_by is None:
         return None
-    named = dict(zip((i.name for i in read.items), read.words, strict=True))
+    # Not by name: an icon may be called as a word is.
+    said = dict(zip(read.items, read.words, strict=True))
     # Emoji in colours of their own keep them.
-    words = [named.get(item.name) if has_one_colour(item.art) else None for item in layout.items]
+    words = [said.get(item) if has_one_colour(item.art) else None for item in layout.items]
     by = recipe.words.color_by
     if callable(by):
         return _by_function(words, by, recipe)
