@@ -29,6 +29,10 @@ class ReadError(PackworkError):
         super().__init__(f"{self.file}: {problem}")
 
 
+class RowsLostError(ReadError):
+    """Rows of a table that hold data, but none that could be used: the others were read."""
+
+
 class WriteError(PackworkError):
     """An output could not be written; nothing was left half-written."""
 

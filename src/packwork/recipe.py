@@ -22,6 +22,7 @@ from packwork.pictures import Pictured
 from packwork.piles import Moving
 from packwork.presets import PRESETS
 from packwork.readers.charts.options import ChartOptions
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
 from packwork.refusals import length_asked, refusal
 from packwork.rules import MAX_COUNT, Rotation, Rule, as_text, hero_rule, rotation_text
@@ -54,7 +55,7 @@ DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
 
 
-class Recipe(Pictured, Moving):
+class Recipe(Pictured, Moving, TableFormat):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     container: str

@@ -131,7 +131,7 @@ def test_a_long_table_is_cut_and_what_reads_the_same_is_added_up(tmp_path: Path)
         ("", "holds no words"),
         ("bear", "line 1: needs a word and a weight"),
         ("bear,0", "line 1: a weight must be a positive number, not '0'"),
-        ("bear,1\nfox,-2", "line 2: a weight must be a positive number"),
+        ("bear,-1\nfox,-2", "line 1: a weight must be a positive number"),
         ("bear,nan", "positive number"),
         ("word,weight\nbear,many", "line 2"),
         ('"bear,1', "is not CSV"),

@@ -12,6 +12,7 @@ from packwork.recipe import Recipe
 from packwork.writers.film.options import FilmOptions
 
 PLACING = "What is placed"
+TABLES = "How tables are written"
 GAPS = "What fills the voids"
 SOLVING = "How it is solved"
 WRITING = "What is written"
@@ -52,6 +53,9 @@ Output = Annotated[
 Count = Annotated[int | None, flag("count", "-n", "--count", panel=PLACING)]
 Font = Annotated[str | None, flag("font", panel=PLACING)]
 Canvas = Annotated[str | None, flag("canvas", panel=PLACING)]
+Delimiter = Annotated[str | None, flag("delimiter", panel=TABLES)]
+Decimal = Annotated[Literal[".", ","] | None, flag("decimal", panel=TABLES)]
+Encoding = Annotated[str | None, flag("encoding", panel=TABLES)]
 Sizes = Annotated[Literal["free", "shared", "fixed"], flag("sizes", panel=PLACING)]
 SizeRatio = Annotated[float, flag("size_ratio", panel=PLACING)]
 Stretch = Annotated[float, flag("stretch", panel=PLACING)]

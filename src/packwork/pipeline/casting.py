@@ -12,6 +12,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.asking import Asked, Voice, named, voices
 from packwork.readers.charts.chart import ChartRead
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.weights import read_weights
 from packwork.readers.words.items import WordsRead
 from packwork.recipe import Recipe
@@ -61,7 +62,7 @@ def cast(recipe: Recipe, items: Sequence[Item], areas: FloatArray | None = None)
     RecipeError
         If rules name nobody, ask for more than the count, or pin one copy twice.
     """
-    shares = item_weights(items, recipe.weights) if areas is None else areas
+    shares = item_weights(items, recipe.weights, recipe) if areas is None else areas
     said = voices(recipe)
     whom = [_whom(rule, voice, items) for voice, rule in said]
     which = turns(_counts(said, whom, len(items)), recipe.count)
@@ -154,8 +155,17 @@ def turns(counts: Sequence[int | None], total: int | None) -> IntArray:
     return np.asarray(whose[np.lexsort((whose, rounds))])
 
 
-def item_weights(items: Sequence[Item], weights: str | Mapping[str, float] | None) -> FloatArray:
+def item_weights(
+    items: Sequence[Item],
+    weights: str | Mapping[str, float] | None,
+    asked: TableFormat | None = None,
+) -> FloatArray:
     """``(n,)`` share of area of each item, by its name or its file's; 1 where none is given.
+
+    Parameters
+    ----------
+    asked
+        How a table of them is written, where that was said.
 
     Raises
     ------
@@ -164,7 +174,7 @@ def item_weights(items: Sequence[Item], weights: str | Mapping[str, float] | Non
     """
     if weights is None:
         return np.ones(len(items))
-    table = read_weights(weights) if isinstance(weights, str) else weights
+    table = read_weights(weights, asked) if isinstance(weights, str) else weights
     names = {item.name for item in items}
     files = {Path(item.source).name for item in items}
     for name, weight in table.items():

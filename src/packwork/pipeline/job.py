@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.errors import PackworkError, ReadError, RecipeError
+from packwork.errors import PackworkError, RecipeError
 from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.asking import Asked
 from packwork.pipeline.casting import cast, cast_chart, cast_words
@@ -163,15 +163,18 @@ def read(
     skipped: tuple[PackworkError, ...] = ()
     with clock.time("read"):
         room, mouths = _container(recipe, container)
-        words = None if recipe.words is None else read_word_items(recipe.words, recipe.holes)
+        words = (
+            None if recipe.words is None else read_word_items(recipe.words, recipe.holes, recipe)
+        )
         check_colours(recipe, () if words is None else words.words)
         chart = None if recipe.chart is None else _chart(recipe)
         items, skipped = (None, ()) if chart is not None else _items(recipe, items)
         if chart is not None:
             chosen = cast_chart(recipe, chart)
-            skipped += tuple(ReadError(chart.table.name, notice) for notice in chart.notices)
+            skipped += chart.told
         elif words is not None:
             chosen = cast_words(recipe, words, items)
+            skipped += words.told
         else:
             chosen = cast(recipe, items or ())
         frame, cells, single = None, None, None
@@ -220,7 +223,7 @@ def read(
 def _chart(recipe: Recipe) -> ChartRead:
     """Marks of the recipe's chart, whose colours are known to be enough."""
     assert recipe.chart is not None  # noqa: S101 - who asks has a chart
-    chart = read_chart(recipe.chart, recipe.holes)
+    chart = read_chart(recipe.chart, recipe.holes, recipe)
     chart_colours(recipe, chart)
     return chart
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from packwork.errors import PackworkError
+from packwork.errors import PackworkError, RowsLostError
 from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.job import Job
 from packwork.scene.layout import Layout
@@ -126,7 +126,8 @@ class Run:
     @property
     def is_as_asked(self) -> bool:
         """Whether all that was asked is met."""
-        return self.certified and not (self.filling and self.filling.is_short)
+        has_lost = any(isinstance(error, RowsLostError) for error in self.skipped)
+        return self.certified and not has_lost and not (self.filling and self.filling.is_short)
 
     @property
     def is_rough(self) -> bool:

@@ -2,28 +2,37 @@
 
 from __future__ import annotations
 
-import csv
-import io
-import math
+import logging
 from pathlib import Path
 
 from packwork.errors import ReadError
-from packwork.readers.files import read_text
+from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.pairs import Pair, read_pairs
 
 MAX_TABLE_BYTES = 5_000_000
 """Size of a table. Chosen."""
 
+MOST_NAMED = 6
+"""Repeated rows that a notice names. Chosen."""
 
-def read_weights(path: str | Path) -> dict[str, float]:
+_LOG = logging.getLogger("packwork")
+
+
+def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str, float]:
     r"""Weights by item name, in the file's order.
 
-    The file has two columns, ``name,weight``, in UTF-8; that very line may stand on top.
+    The file has two columns, ``name,weight``; a line that names them may stand on top.
+
+    Parameters
+    ----------
+    asked
+        How it is written, where that was said.
 
     Raises
     ------
     ReadError
         With the line's number, if a weight is not a positive finite number, a name is
-        missing or stands twice, or a line has other than two cells.
+        missing or stands there with two weights.
 
     Examples
     --------
@@ -34,37 +43,31 @@ def read_weights(path: str | Path) -> dict[str, float]:
     ...     read_weights(file)
     {'bear': 2.0, 'fox': 0.5}
     """
-    reader = csv.reader(io.StringIO(read_text(path, MAX_TABLE_BYTES), newline=""), strict=True)
+    table = read_pairs(str(path), MAX_TABLE_BYTES, asked or TableFormat())
     weights: dict[str, float] = {}
-    try:
-        for cells in reader:
-            row = [cell.strip() for cell in cells]
-            if not any(row) or (not weights and _is_header(row)):
-                continue
-            name, weight = _entry(path, reader.line_num, row)
-            if name in weights:
-                raise ReadError(path, f"line {reader.line_num}: {name!r} stands there twice")
-            weights[name] = weight
-    except csv.Error as error:
-        raise ReadError(path, f"line {reader.line_num}: is not CSV ({error})") from None
+    twice = []
+    for pair in table.rows:
+        _check(path, pair)
+        if pair.name in weights:
+            twice.append(f"{pair.name[:40]!r} ({pair.where})")
+        known = weights.setdefault(pair.name, pair.number)
+        if known != pair.number:
+            raise ReadError(
+                path,
+                f"{pair.where}: {pair.name!r} stands there twice, as {known:g} and as "
+                f"{pair.number:g}; give it one weight",
+            )
     if not weights:
         raise ReadError(path, "holds no weights; give lines such as bear,2")
+    repeated = f"says the same again of {', '.join(twice[:MOST_NAMED])}; that counts once"
+    for notice in (*table.notices, *([repeated] if twice else [])):
+        _LOG.warning("%s: %s", path, notice)
     return weights
 
 
-def _is_header(row: list[str]) -> bool:
-    return len(row) == 2 and row[1].lower() == "weight"
-
-
-def _entry(path: str | Path, line: int, row: list[str]) -> tuple[str, float]:
-    if len(row) != 2 or not row[0]:
-        raise ReadError(path, f"line {line}: needs a name and a weight, as in bear,2")
-    try:
-        weight = float(row[1])
-    except ValueError:
-        weight = math.nan
-    if not (math.isfinite(weight) and weight > 0):
-        raise ReadError(
-            path, f"line {line}: a weight must be a positive number, not {row[1][:20]!r}"
-        )
-    return row[0], weight
+def _check(path: str | Path, pair: Pair) -> None:
+    if not pair.name or pair.written is None:
+        raise ReadError(path, f"{pair.where}: needs a name and a weight, as in bear,2")
+    if not pair.is_sound:
+        met = repr(str(pair.written)[:20])
+        raise ReadError(path, f"{pair.where}: a weight must be a positive number, not {met}")

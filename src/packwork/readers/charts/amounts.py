@@ -10,7 +10,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
-from packwork.readers.charts.columns import LARGE, round_up, shown, sizes
+from packwork.readers.charts.columns import LARGE, Sizes, round_up, shown, sizes
 from packwork.readers.charts.groups import Groups
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.table import Row, Table
@@ -37,12 +37,15 @@ class Amounts:
         ``(n,)`` number of each one's group; zeros where there are none.
     notices
         What was left out, a sentence each.
+    lost
+        Those of them about rows with data.
     """
 
     rows: list[Row]
     amounts: FloatArray
     groups: IntArray
     notices: Sequence[str]
+    lost: Sequence[str] = ()
 
 
 def read_amounts(table: Table, options: ChartOptions, groups: Groups | None) -> Amounts:
@@ -55,9 +58,10 @@ def read_amounts(table: Table, options: ChartOptions, groups: Groups | None) -> 
     """
     member = [0] * len(table.rows) if groups is None else groups.of_row
     if options.size_by is not None:
-        found, said = sizes(table, options.size_by, options.label_by)
+        sized = sizes(table, options.size_by, options.label_by)
     else:
-        found, said = dict.fromkeys(range(len(table.rows)), 1.0), []
+        sized = Sizes(dict.fromkeys(range(len(table.rows)), 1.0))
+    found = sized.of_row
     which = [k for k in found if member[k] >= 0]
     if not which:
         raise RecipeError("by", f"no row has both a group in {options.by!r} and a size")
@@ -67,7 +71,8 @@ def read_amounts(table: Table, options: ChartOptions, groups: Groups | None) -> 
         [table.rows[k] for k in which],
         np.array([found[k] for k in which]),
         np.array([member[k] for k in which], dtype=np.int64),
-        said,
+        sized.notices,
+        sized.lost,
     )
 
 

@@ -9,15 +9,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.errors import ReadError, RecipeError
+from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.readers.charts.amounts import marks_of, read_amounts
 from packwork.readers.charts.columns import categories, is_numeric, shown
 from packwork.readers.charts.groups import Groups, read_groups
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.charts.part import part_of
+from packwork.readers.charts.rows import oddities, read_chart_table
 from packwork.readers.items import read_items
 from packwork.readers.regions import Holes
-from packwork.readers.tables.table import Row, Table, read_table
+from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.table import Row, Table
 from packwork.scene.datum import Datum
 from packwork.scene.item import Item
 from packwork.scene.label import MAX_LENGTH, Label
@@ -60,7 +62,9 @@ class ChartRead:
     is_ordered
         Whether groups stand on a scale, so that a few names tell all.
     notices
-        What was left out or put together, a sentence each.
+        What was left out, put together or is odd, a sentence each.
+    lost
+        Those of them about rows with data that are left out.
     """
 
     items: tuple[Item, ...]
@@ -75,6 +79,15 @@ class ChartRead:
     group_of: IntArray
     is_ordered: bool
     notices: tuple[str, ...]
+    lost: tuple[str, ...]
+
+    @property
+    def told(self) -> tuple[ReadError, ...]:
+        """The notices, those of lost rows as such."""
+        name = self.table.name
+        return tuple(
+            (RowsLostError if text in self.lost else ReadError)(name, text) for text in self.notices
+        )
 
     def some(self, marks: IntArray) -> ChartRead:
         """The same chart with some of its marks."""
@@ -90,8 +103,15 @@ class ChartRead:
         )
 
 
-def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
+def read_chart(
+    options: ChartOptions, holes: Holes = "fill", asked: TableFormat | None = None
+) -> ChartRead:
     """Marks of a chart.
+
+    Parameters
+    ----------
+    asked
+        How the table is written, where that was said.
 
     Raises
     ------
@@ -109,11 +129,7 @@ def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
     >>> chart.notices
     ('left out 1 row of 3 whose t is 0: Fiji',)
     """
-    table = read_table(options.data)
-    for key in ("size_by", "color_by", "mark_by", "label_by", "by"):
-        column = getattr(options, key)
-        if column is not None:
-            table.check_column(key, column)
+    table = read_chart_table(options, asked or TableFormat())
     groups = read_groups(table, options)
     shown_rows = read_amounts(table, options, groups)
     rows, amounts = shown_rows.rows, shown_rows.amounts
@@ -127,10 +143,20 @@ def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
     )
     colour_of = _per_mark(colours, owner)
     everything = tuple(
-        dict.fromkeys((*shown_rows.notices, *(groups.notices if groups else ()), *more, *told))
+        dict.fromkeys(
+            (
+                *table.notices,
+                *shown_rows.notices,
+                *(groups.notices if groups else ()),
+                *oddities(table, options),
+                *more,
+                *told,
+            )
+        )
     )
+    lost = tuple(dict.fromkeys((*shown_rows.lost, *(groups.lost if groups else ()))))
     for notice in everything:
-        _LOG.warning("%s", notice)
+        _LOG.warning("%s", f"{table.name}: {notice}" if notice in table.notices else notice)
     values = amounts[owner] if options.unit is None else options.unit * shares
     names, group_of = _groups_of_marks(groups, shown_rows.groups[owner])
     in_group = [names[k] for k in group_of] if names else [""] * len(items)
@@ -151,6 +177,7 @@ def read_chart(options: ChartOptions, holes: Holes = "fill") -> ChartRead:
         group_of=group_of,
         is_ordered=groups is not None and groups.is_ordered,
         notices=everything,
+        lost=lost,
     )
 
 

@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.readers.tables.table import Row, Table
+from packwork.readers.tables.written import Written, is_date
 
 MOST_NAMED = 6
 """Rows that a notice names. Chosen."""
@@ -50,6 +52,8 @@ def as_number(cell: Any) -> float:
 
 
 def _float(cell: Any) -> float:
+    if isinstance(cell, Written):
+        return cell.number
     if isinstance(cell, bool):
         return math.nan
     try:
@@ -112,8 +116,27 @@ def categories(rows: Sequence[Row], column: str) -> tuple[list[str], list[str]]:
     return [common[shown(row.get(column)).casefold()] for row in rows], told
 
 
-def sizes(table: Table, column: str, label_by: str | None) -> tuple[dict[int, float], list[str]]:
-    """Positive number of each row that has one, and a sentence about each sort of the others.
+@dataclass(frozen=True, eq=False)
+class Sizes:
+    """Positive numbers of a column.
+
+    Parameters
+    ----------
+    of_row
+        Of each row that has one.
+    notices
+        A sentence about each sort of rows that have none.
+    lost
+        Those of them about rows that hold something else.
+    """
+
+    of_row: dict[int, float]
+    notices: tuple[str, ...] = ()
+    lost: tuple[str, ...] = ()
+
+
+def sizes(table: Table, column: str, label_by: str | None) -> Sizes:
+    """Positive number of each row that has one, and what has to be told of the others.
 
     Raises
     ------
@@ -123,8 +146,9 @@ def sizes(table: Table, column: str, label_by: str | None) -> tuple[dict[int, fl
     Examples
     --------
     >>> rows = ({"a": 2}, {"a": 0}, {"a": -1}, {"a": "n"})
-    >>> sizes(Table("data", ("a",), rows), "a", None)[1][0]
-    'left out 1 row of 4 whose a is 0: row 2'
+    >>> found = sizes(Table("data", ("a",), rows), "a", None)
+    >>> found.notices[0], found.lost[0]
+    ('left out 1 row of 4 whose a is 0: row 2', 'left out 1 row of 4 whose a is negative: row 3')
     """
     found: dict[int, float] = {}
     odd: dict[str, list[int]] = {}
@@ -136,7 +160,16 @@ def sizes(table: Table, column: str, label_by: str | None) -> tuple[dict[int, fl
             found[k] = value
     if not found:
         raise RecipeError("size_by", _why_none(table, column, odd))
-    return found, [left_out(table, column, why, which, label_by) for why, which in odd.items()]
+    said = {why: left_out(table, column, why, which, label_by) for why, which in odd.items()}
+    return Sizes(
+        found,
+        tuple(said.values()),
+        tuple(text for why, text in said.items() if why not in _EMPTY),
+    )
+
+
+_EMPTY = frozenset({"is missing", "is 0"})
+"""What of a size leaves nothing to be shown."""
 
 
 def left_out(
@@ -172,7 +205,7 @@ def _size(cell: Any) -> tuple[str, float]:
         return "is missing", math.nan
     value = _float(cell)
     if math.isnan(value):
-        return "is no number", value
+        return "is a date" if is_date(str(cell)) else "is no number", value
     if value == 0:
         return "is 0", value
     if not 1 / FARTHEST <= abs(value) <= FARTHEST:
@@ -181,7 +214,7 @@ def _size(cell: Any) -> tuple[str, float]:
 
 
 def _why_none(table: Table, column: str, odd: Mapping[str, Sequence[int]]) -> str:
-    if set(odd) <= {"is no number", "is missing"} and "is no number" in odd:
+    if set(odd) <= {"is no number", "is missing", "is a date"} and "is no number" in odd:
         met = shown(table.rows[odd["is no number"][0]].get(column))[:30]
         numeric = [name for name in table.columns if is_numeric(table.rows, name)]
         hint = f"those of numbers are {', '.join(numeric[:12])}" if numeric else "none has numbers"

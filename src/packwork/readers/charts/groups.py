@@ -53,6 +53,8 @@ class Groups:
         Whether they ascend.
     notices
         What was left out or put together, a sentence each.
+    lost
+        Those of them about rows that say something of a group.
     """
 
     names: tuple[str, ...]
@@ -60,6 +62,7 @@ class Groups:
     has_steps: bool
     is_ordered: bool
     notices: tuple[str, ...]
+    lost: tuple[str, ...] = ()
 
 
 def read_groups(table: Table, options: ChartOptions) -> Groups | None:
@@ -137,7 +140,7 @@ def _steps(table: Table, column: str, step: float, label_by: str | None) -> Grou
         -1 if math.isnan(number) else math.floor(number / step + ROUNDING) - first
         for number in numbers
     )
-    said = []
+    said = {}
     for why, is_so in (("is missing", True), ("is no number", False)):
         which = [
             k
@@ -145,8 +148,9 @@ def _steps(table: Table, column: str, step: float, label_by: str | None) -> Grou
             if number < 0 and is_missing(table.rows[k].get(column)) == is_so
         ]
         if which:
-            said.append(left_out(table, column, why, which, label_by))
-    return Groups(names, of_row, True, True, tuple(said))
+            said[why] = left_out(table, column, why, which, label_by)
+    lost = tuple(text for why, text in said.items() if why != "is missing")
+    return Groups(names, of_row, True, True, tuple(said.values()), lost)
 
 
 def _step_name(begin: float, step: float, numbers: Sequence[float]) -> str:

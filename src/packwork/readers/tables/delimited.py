@@ -1,18 +1,177 @@
-"""Lines of cells: CSV and TSV."""
+"""Lines of cells: CSV and TSV, as programs and spreadsheets write them."""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 from packwork.errors import ReadError
+from packwork.readers.tables.decoding import decoded
+from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.written import is_number_like
 
 ENDINGS = {".csv": ",", ".tsv": "\t", ".tab": "\t"}
-"""What parts the cells of a line, by the file's ending."""
+"""What parts the cells of a line, by the file's ending, where the lines do not show it."""
+
+DELIMITERS = (",", ";", "\t", "|")
+"""What is looked for."""
 
 MOST_ROWS = 1_000_000
 """Rows of one table. Chosen."""
+
+MOST_CELLS = 5_000_000
+"""Cells of one table: some sixty bytes each in memory, and as much for the row that holds it.
+Derived."""
+
+SAMPLE_LINES = 200
+"""Lines by which the delimiter is told. More take longer and tell little more. Chosen."""
+
+SAMPLE_LETTERS = 200_000
+"""Letters of these at most: lines may be long. Chosen."""
+
+_DECLARED = re.compile(r'"?sep=(.)"?[ \t]*\r?(?:\n|$)', re.IGNORECASE)
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """A file of lines of cells, its letters and its delimiter known.
+
+    Parameters
+    ----------
+    file
+        For messages.
+    text
+        Without a line that only says what the delimiter is.
+    delimiter
+        What parts cells.
+    skipped
+        Lines of the file before the text.
+    notice
+        What has to be told of how it was read; empty if nothing.
+    """
+
+    file: str
+    text: str
+    delimiter: str
+    skipped: int = 0
+    notice: str = ""
+
+    def lines(self) -> Iterator[tuple[int, list[str]]]:
+        """Number and cells of each line that is not empty, as :func:`lines_of_cells`."""
+        for number, cells in lines_of_cells(self.text, self.file, self.delimiter):
+            yield number + self.skipped, cells
+
+
+def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> Sheet:
+    r"""A file's lines of cells; its first line may be ``sep=;``, as Excel has it.
+
+    Raises
+    ------
+    ReadError
+        If it is no text, or several delimiters part its lines alike.
+
+    Examples
+    --------
+    >>> sheet = read_sheet(b"sep=|\nbear|2,5\n", "t.csv", ".csv", TableFormat())
+    >>> list(sheet.lines())
+    [(2, ['bear', '2,5'])]
+    """
+    read = decoded(data, file, asked.encoding)
+    text, skipped, said = read.text, 0, asked.delimiter
+    declared = _DECLARED.match(text)
+    if declared is not None:
+        text, skipped = text[declared.end() :], 1
+        said = said or declared[1]
+    delimiter = said or delimiter_of(text, file, ENDINGS.get(ending, ","))
+    return Sheet(file, text, delimiter, skipped, read.notice)
+
+
+def delimiter_of(text: str, file: str, usual: str) -> str:
+    r"""What parts the lines of a text into equally many cells.
+
+    Of several the one within whose cells the others stand in numbers alone, as the commas of
+    ``bear;2,5`` do. Where none parts all lines alike, the usual one.
+
+    Raises
+    ------
+    ReadError
+        If there are several.
+
+    Examples
+    --------
+    >>> delimiter_of("land;kg\nPeru, south;1,5\n", "t.csv", ",")
+    ';'
+    >>> delimiter_of("bear;2,5\nfox;1,5\n", "t.csv", ",")
+    ';'
+    """
+    sample = _sample(text)
+    parted = {mark: _parted(sample, mark) for mark in DELIMITERS}
+    alike = [mark for mark, rows in parted.items() if rows and _is_even(rows)]
+    plain = [mark for mark in alike if _explains(parted[mark], mark)] or alike
+    if len(plain) > 1:
+        named = " or ".join(f"--delimiter {_name(mark)}" for mark in plain)
+        raise ReadError(file, f"may be parted by {_list(plain)}; say which: {named}")
+    if plain:
+        return plain[0]
+    wide = [mark for mark, rows in parted.items() if rows and len(rows[0]) > 1]
+    return usual if usual in wide or not wide else wide[0]
+
+
+def _sample(text: str) -> str:
+    """The first lines of a text, none cut."""
+    head = text[:SAMPLE_LETTERS]
+    lines = head.splitlines(keepends=True)
+    if len(head) < len(text) and len(lines) > 1:
+        lines.pop()
+    return "".join(lines[:SAMPLE_LINES])
+
+
+def _parted(sample: str, delimiter: str) -> list[list[str]]:
+    """Rows of a sample, those of nothing left out; none if it is no CSV of that delimiter."""
+    reader = csv.reader(io.StringIO(sample, newline=""), delimiter=delimiter)
+    try:
+        rows = [[cell.strip() for cell in cells] for cells in reader]
+    except csv.Error:
+        return []
+    return [row for row in rows if any(row)]
+
+
+def _is_even(rows: Sequence[Sequence[str]]) -> bool:
+    """Whether all rows have several cells, equally many but for empty ones at their ends."""
+    first = len(_trimmed(rows[0]))
+    return first > 1 and all(
+        len(_trimmed(row)) <= first <= len(row) or first == len(_trimmed(row)) for row in rows
+    )
+
+
+def _trimmed(row: Sequence[str]) -> Sequence[str]:
+    end = len(row)
+    while end and not row[end - 1]:
+        end -= 1
+    return row[:end]
+
+
+def _explains(rows: Sequence[Sequence[str]], delimiter: str) -> bool:
+    """Whether other delimiters stand only in the first line and within numbers."""
+    others = [mark for mark in DELIMITERS if mark != delimiter]
+    return all(
+        is_number_like(cell)
+        for row in rows[1:] or rows
+        for cell in row
+        if any(mark in cell for mark in others)
+    )
+
+
+def _name(delimiter: str) -> str:
+    return {"\t": "tab", ";": '";"', "|": '"|"'}.get(delimiter, delimiter)
+
+
+def _list(delimiters: Sequence[str]) -> str:
+    names = {",": "commas", ";": "semicolons", "\t": "tabs", "|": "bars"}
+    return " or ".join(names[mark] for mark in delimiters)
 
 
 def lines_of_cells(text: str, file: str, separator: str) -> Iterator[tuple[int, list[str]]]:
@@ -29,13 +188,14 @@ def lines_of_cells(text: str, file: str, separator: str) -> Iterator[tuple[int, 
     [(1, ['a', 'b']), (3, ['1', '2'])]
     """
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
-    found = 0
+    found, held = 0, 0
     try:
         for cells in reader:
             row = [cell.strip() for cell in cells]
             if any(row):
-                found += 1
+                found, held = found + 1, held + len(row)
                 check_rows(found - 1, file)
+                check_cells(held, file)
                 yield reader.line_num, row
     except csv.Error as error:
         raise ReadError(file, f"line {reader.line_num}: is not CSV ({error})") from None
@@ -51,3 +211,15 @@ def check_rows(count: int, file: str) -> None:
     """
     if count > MOST_ROWS:
         raise ReadError(file, f"has more than {MOST_ROWS:,} rows; give fewer")
+
+
+def check_cells(count: int, file: str) -> None:
+    """Refuse more cells than ``MOST_CELLS``.
+
+    Raises
+    ------
+    ReadError
+        Saying how many there may be.
+    """
+    if count > MOST_CELLS:
+        raise ReadError(file, f"has more than {MOST_CELLS:,} cells; give fewer rows or columns")

@@ -1,43 +1,16 @@
-"""Tables of pandas and its like: files that only it reads, and its frames."""
+"""Tables of pandas and its like."""
 
 from __future__ import annotations
 
-import importlib
-import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence, Sized
 from typing import Any
 
-from packwork.errors import ReadError, RecipeError
-
-_MOST_REASON = 120
-
-
-def rows_of_parquet(file: str, data: bytes) -> list[dict[str, Any]]:
-    """Rows of a Parquet file, read by pandas.
-
-    Raises
-    ------
-    ReadError
-        If it is none, or pandas or what it reads Parquet with is not installed.
-    """
-    try:
-        pandas = importlib.import_module("pandas")
-        importlib.import_module("pyarrow")
-    except ModuleNotFoundError as error:
-        if error.name not in {"pandas", "pyarrow"}:
-            raise
-        raise ReadError(
-            file, "needs pandas and pyarrow; install them: pip install packwork[data], or give CSV"
-        ) from None
-    try:
-        frame = pandas.read_parquet(io.BytesIO(data))
-    except (ValueError, OSError) as error:
-        raise ReadError(file, f"is not Parquet ({str(error)[:_MOST_REASON]})") from None
-    return rows_of_frame(frame)
+from packwork.errors import RecipeError
+from packwork.readers.tables.delimited import MOST_ROWS
 
 
 def rows_of_frame(data: Any) -> list[dict[str, Any]]:
-    """Rows of a data frame (by its ``to_dict``), of a dict of columns, or of a list of dicts.
+    """Rows of a data frame (by its ``to_dict`` or ``to_dicts``), a dict of columns, or dicts.
 
     Raises
     ------
@@ -49,17 +22,21 @@ def rows_of_frame(data: Any) -> list[dict[str, Any]]:
     >>> rows_of_frame({"land": ["Peru", "Kenya"], "kg": [2, 3]})
     [{'land': 'Peru', 'kg': 2}, {'land': 'Kenya', 'kg': 3}]
     """
-    if hasattr(data, "to_dict") and hasattr(data, "columns"):
-        return [_plain(row) for row in data.to_dict("records")]
+    if isinstance(data, Sized) and len(data) > MOST_ROWS:
+        raise RecipeError("data", f"has {len(data):,} rows; {MOST_ROWS:,} are the most")
+    if hasattr(data, "columns") and hasattr(data, "to_dicts"):
+        return [plain_row(row) for row in data.to_dicts()]
+    if hasattr(data, "columns") and hasattr(data, "to_dict"):
+        return [plain_row(row) for row in data.to_dict("records")]
     if isinstance(data, Mapping):
         if not all(_is_column(cells) for cells in data.values()):
             raise RecipeError("data", "use a list of cells for each column, all equally long")
         columns = {str(name): list(cells) for name, cells in data.items()}
         if len({len(cells) for cells in columns.values()}) == 1:
             rows = zip(*columns.values(), strict=True)
-            return [_plain(dict(zip(columns, cells, strict=True))) for cells in rows]
+            return [plain_row(dict(zip(columns, cells, strict=True))) for cells in rows]
     elif isinstance(data, Sequence) and all(isinstance(row, Mapping) for row in data):
-        return [_plain(row) for row in data]
+        return [plain_row(row) for row in data]
     raise RecipeError(
         "data", "use a file, a data frame, or rows such as [{'land': 'Peru', 'kg': 2}]"
     )
@@ -69,8 +46,15 @@ def _is_column(cells: Any) -> bool:
     return isinstance(cells, Iterable) and not isinstance(cells, str | bytes)
 
 
-def _plain(row: Mapping[Any, Any]) -> dict[str, Any]:
-    """Cells that files can hold: numbers and truth as they are, all else as its text."""
+def plain_row(row: Mapping[Any, Any]) -> dict[str, Any]:
+    """Cells that files can hold: numbers and truth as they are, all else as its text.
+
+    Examples
+    --------
+    >>> import datetime
+    >>> plain_row({"n": 2, "day": datetime.date(2024, 5, 1), "x": float("nan")})
+    {'n': 2, 'day': '2024-05-01', 'x': None}
+    """
     return {str(key): _cell(cell) for key, cell in row.items()}
 
 

@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.files import read_bytes, read_text
-from packwork.readers.tables.delimited import ENDINGS, check_rows, lines_of_cells
-from packwork.readers.tables.frames import rows_of_parquet
+from packwork.readers.files import read_bytes
+from packwork.readers.tables.delimited import ENDINGS, Sheet, check_rows, read_sheet
+from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.frames import plain_row
+from packwork.readers.tables.json_rows import read_json
+from packwork.readers.tables.parquet import rows_of_parquet
+from packwork.readers.tables.written import Written, figure, written_numbers
 
-MAX_TABLE_BYTES = 256_000_000
-"""Size of a table's file: a million rows of a few hundred letters. Chosen."""
+MAX_TABLE_BYTES = 128_000_000
+"""Size of a table's file: a million rows of a hundred letters, which take, as text, four times
+that at most. Derived from a gigabyte in all."""
 
 JSON = ".json"
 PARQUET = (".parquet", ".pq")
+
+SPREADSHEETS = (".xlsx", ".xls", ".xlsm", ".ods", ".numbers")
+"""Files that hold several tables, pictures and macros."""
 
 Row: TypeAlias = dict[str, Any]
 
@@ -34,11 +41,18 @@ class Table:
         In the order of the file.
     rows
         Cells by column; those that are not there are missing.
+    usual_decimal
+        What parts the fraction of a number in a cell of text, where its column does not tell;
+        empty where that has to be asked.
+    notices
+        What has to be told of how it was read.
     """
 
     name: str
     columns: tuple[str, ...]
     rows: tuple[Row, ...]
+    usual_decimal: str = "."
+    notices: tuple[str, ...] = ()
 
     def check_column(self, key: str, column: str) -> None:
         """Refuse a column that is not there.
@@ -58,9 +72,61 @@ class Table:
             there = ", ".join(self.columns[:20])
             raise RecipeError(key, f"there is no column {column[:40]!r}; there are {there}")
 
+    def with_numbers(self, column: str, decimal: str | None, *, whole: bool) -> Table:
+        """The same table, where the texts of a column know which numbers they are.
 
-def read_table(data: str | Sequence[Row]) -> Table:
+        Parameters
+        ----------
+        decimal
+            What parts a fraction in any case; None to tell it from the column.
+        whole
+            Whether the column is one of numbers only if all that it holds are some: so
+            categories such as ``1.200`` need no decision.
+
+        Raises
+        ------
+        ReadError
+            If how the numbers are written is not plain.
+
+        Examples
+        --------
+        >>> table = Table("data", ("kg",), ({"kg": "1,5"}, {"kg": "2 kg"}))
+        >>> [row["kg"].number for row in table.with_numbers("kg", None, whole=False).rows]
+        [1.5, nan]
+        """
+        cells = [row.get(column) for row in self.rows]
+        if not any(isinstance(cell, str) for cell in cells):
+            return self
+        try:
+            numbers = written_numbers(
+                cells, self.name, column, usual=self.usual_decimal, asked=decimal
+            )
+        except ReadError:
+            if whole and not all(_may_be_number(cell) for cell in cells):
+                return self
+            raise
+        rows = tuple(
+            {**row, column: Written(cell, number)} if isinstance(cell, str) else row
+            for row, cell, number in zip(self.rows, cells, numbers, strict=True)
+        )
+        return replace(self, rows=rows)
+
+
+def _may_be_number(cell: Any) -> bool:
+    return not isinstance(cell, str) or not cell or figure(cell) is not None
+
+
+def read_table(
+    data: str | Sequence[Row], asked: TableFormat | None = None, needed: Iterable[str] = ()
+) -> Table:
     """Table of a file (.csv, .tsv, .json, .parquet), or of rows.
+
+    Parameters
+    ----------
+    asked
+        How it is written, where that was said.
+    needed
+        Columns that are read of large files in any case.
 
     Raises
     ------
@@ -74,42 +140,56 @@ def read_table(data: str | Sequence[Row]) -> Table:
     """
     if not isinstance(data, str):
         return _table("data", data)
+    said = asked or TableFormat()
     ending = Path(data).suffix.lower()
     if ending in PARQUET:
-        return _table(data, rows_of_parquet(data, read_bytes(data, MAX_TABLE_BYTES)))
+        rows = rows_of_parquet(data, read_bytes(data, MAX_TABLE_BYTES), needed)
+        return _table(data, [plain_row(row) for row in rows])
     if ending == JSON:
-        return _table(data, _rows_of_json(read_text(data, MAX_TABLE_BYTES), data))
+        return _table(data, _rows_of_json(read_json(data, said), data))
     if ending in ENDINGS:
-        return _table(data, _rows_of_csv(read_text(data, MAX_TABLE_BYTES), data, ENDINGS[ending]))
+        sheet = read_sheet(read_bytes(data, MAX_TABLE_BYTES), data, ending, said)
+        table = _table(data, _rows_of_sheet(sheet))
+        usual = "." if sheet.delimiter == "," else ""
+        told = (sheet.notice,) if sheet.notice else ()
+        return replace(table, usual_decimal=usual, notices=told)
     known = ", ".join((*ENDINGS, JSON, PARQUET[0]))
+    if ending in SPREADSHEETS:
+        raise ReadError(data, "is a spreadsheet; save the sheet as CSV (UTF-8) and give that")
     raise ReadError(data, f"is no table; give a file that ends in {known}")
 
 
-def _rows_of_csv(text: str, file: str, separator: str) -> list[Row]:
-    lines = iter(lines_of_cells(text, file, separator))
-    _, names = next(lines, (0, []))
+def _rows_of_sheet(sheet: Sheet) -> list[Row]:
+    """Rows by the columns that the first line names; empty cells at the ends are none."""
+    lines = iter(sheet.lines())
+    first, cells = next(lines, (1, []))
+    names = [" ".join(name.split()) for name in cells]
+    while names and not names[-1]:
+        names.pop()
+    names = [name or f"column {k}" for k, name in enumerate(names, start=1)]
     if len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
-        raise ReadError(file, f"line 1: names the column {twice[:40]!r} twice; name each once")
+        raise ReadError(
+            sheet.file, f"line {first}: names the column {twice[:40]!r} twice; name each once"
+        )
     rows = []
-    for number, cells in lines:
-        if len(cells) > len(names):
+    for number, row in lines:
+        if any(row[len(names) :]):
             raise ReadError(
-                file, f"line {number}: has {len(cells)} cells, the first line names {len(names)}"
+                sheet.file,
+                f"line {number}: has {len(row)} cells, the first line names {len(names)}; quote "
+                "cells that hold the delimiter, and begin with the names of all columns",
             )
-        rows.append(dict(zip(names, cells, strict=False)))
+        rows.append(dict(zip(names, row, strict=False)))
     return rows
 
 
-def _rows_of_json(text: str, file: str) -> list[Row]:
+def _rows_of_json(data: Any, file: str) -> list[Row]:
     """Rows of ``[{"land": "Peru"}]`` or of columns ``{"land": ["Peru"]}``."""
-    try:
-        data = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise ReadError(file, f"is not JSON ({error})") from None
     if isinstance(data, dict) and data and all(isinstance(v, list) for v in data.values()):
         lengths = {len(values) for values in data.values()}
         if len(lengths) == 1:
+            check_rows(lengths.pop(), file)
             return [
                 dict(zip(data, cells, strict=True)) for cells in zip(*data.values(), strict=True)
             ]
@@ -118,10 +198,9 @@ def _rows_of_json(text: str, file: str) -> list[Row]:
     raise ReadError(file, 'holds no rows; give [{"land": "Peru", "kg": 2}] or {"land": ["Peru"]}')
 
 
-def _table(name: str, rows: Iterable[Mapping[str, Any]]) -> Table:
-    kept = tuple({str(key): cell for key, cell in row.items()} for row in rows)
-    check_rows(len(kept), name)
-    if not kept:
+def _table(name: str, rows: Sequence[Row]) -> Table:
+    check_rows(len(rows), name)
+    if not rows:
         raise ReadError(name, "has no rows; give a line of column names, then one for each row")
-    columns = tuple(dict.fromkeys(key for row in kept for key in row))
-    return Table(name, columns, kept)
+    columns = tuple(dict.fromkeys(key for row in rows for key in row))
+    return Table(name, columns, tuple(rows))

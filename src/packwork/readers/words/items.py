@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -14,6 +15,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.regions import Holes, centred, clean_union
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.typeface.fonts import Fonts, open_fonts
 from packwork.readers.typeface.lettering import Lettering
 from packwork.readers.typeface.pictures import Picture
@@ -40,6 +42,8 @@ INK = "#2d3748"
 WIDEST_HEIGHTS = 1_000.0
 """Largest height of letters over the smallest; the smallest could not be seen. Chosen."""
 
+_LOG = logging.getLogger("packwork")
+
 
 @dataclass(frozen=True, eq=False)
 class WordsRead:
@@ -57,6 +61,8 @@ class WordsRead:
         Words that could not be set, each with the reason.
     found
         How many different words there were; the largest are kept.
+    told
+        What has to be told of how the source was read, and of rows that are left out.
     """
 
     items: tuple[Item, ...]
@@ -64,10 +70,18 @@ class WordsRead:
     words: tuple[Word, ...]
     undrawn: Mapping[str, str]
     found: int
+    told: tuple[ReadError, ...] = ()
 
 
-def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
+def read_word_items(
+    options: WordOptions, holes: Holes = "fill", asked: TableFormat | None = None
+) -> WordsRead:
     """Items of the words that a source holds.
+
+    Parameters
+    ----------
+    asked
+        How a table is written, where that was said.
 
     Raises
     ------
@@ -86,8 +100,10 @@ def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
     items: list[Item] = []
     words: list[Word] = []
     undrawn: dict[str, str] = {}
-    ranked = ranked_words(options)
-    for word in ranked[: options.count]:
+    ranked = ranked_words(options, asked)
+    for one in ranked.told:
+        _LOG.warning("%s", one)
+    for word in ranked.words[: options.count]:
         try:
             items.append(word_item(word, fonts, holes))
             words.append(word)
@@ -102,7 +118,8 @@ def read_word_items(options: WordOptions, holes: Holes = "fill") -> WordsRead:
         area_shares(items, weights, options.weight_is),
         tuple(words),
         undrawn,
-        len(ranked),
+        len(ranked.words),
+        ranked.told,
     )
 
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
-from packwork.errors import ReadError
+from packwork.errors import ReadError, RowsLostError
 from packwork.readers.files import exists, read_bytes
+from packwork.readers.tables.decoding import Decoded, decoded
 from packwork.readers.tables.delimited import ENDINGS
+from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.counting import (
     count_forms,
     folded,
@@ -25,7 +27,7 @@ from packwork.readers.words.stop_words import (
     own_stop_words,
     stop_words,
 )
-from packwork.readers.words.table import rows_of_csv, rows_of_json
+from packwork.readers.words.table import read_word_table
 from packwork.readers.words.tokens import matches, sentences
 from packwork.readers.words.word import Word, sound
 
@@ -38,11 +40,32 @@ STANDARD_INPUT = "-"
 _TEXT_ENDINGS = frozenset({".txt", ".md", ".rst", ".text", ".json", *ENDINGS})
 
 
-def read_words(options: WordOptions) -> list[Word]:
+@dataclass(frozen=True, eq=False)
+class Ranked:
+    """Words that could be set, the largest weights first.
+
+    Parameters
+    ----------
+    words
+        Each once.
+    told
+        What has to be told of how the source was read, and of rows that are left out.
+    """
+
+    words: tuple[Word, ...]
+    told: tuple[ReadError, ...] = ()
+
+
+def read_words(options: WordOptions, asked: TableFormat | None = None) -> list[Word]:
     """Words of a text, a table, standard input or a dict: the largest weights first.
 
     Of tables nothing is left out but what ``stopwords`` names. Words that weigh the same
     come in the order of the text.
+
+    Parameters
+    ----------
+    asked
+        How a table is written, where that was said.
 
     Raises
     ------
@@ -57,10 +80,10 @@ def read_words(options: WordOptions) -> list[Word]:
     >>> [(word.text, word.weight) for word in read_words(WordOptions(source=text, count=3))]
     [('bear', 3.0), ('bees', 2.0), ('honey', 2.0)]
     """
-    return ranked_words(options)[: options.count]
+    return list(ranked_words(options, asked).words[: options.count])
 
 
-def ranked_words(options: WordOptions) -> list[Word]:
+def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Ranked:
     """All words that could be set, more than ``count`` if there are, as :func:`read_words`.
 
     Raises
@@ -70,26 +93,32 @@ def ranked_words(options: WordOptions) -> list[Word]:
 
     Examples
     --------
-    >>> len(ranked_words(WordOptions(source={"bear": 2, "fox": 1}, count=1)))
+    >>> len(ranked_words(WordOptions(source={"bear": 2, "fox": 1}, count=1)).words)
     2
     """
-    cased = [_cased(word, options.case) for word in _words(options)]
+    read = _words(options, asked or TableFormat())
+    cased = [_cased(word, options.case) for word in read.words]
     ranked = sorted(_merged(cased), key=lambda word: -word.weight)
     if not ranked:
         raise ReadError(_name(options), "holds no words that could be set")
-    return ranked
+    return replace(read, words=tuple(ranked))
 
 
-def _words(options: WordOptions) -> list[Word]:
+def _words(options: WordOptions, asked: TableFormat) -> Ranked:
     source = options.source
     stops = own_stop_words(options.stopwords)
     if isinstance(source, dict):
-        rows = [Word(word, weight) for word, weight in source.items()]
+        read = Ranked(tuple(Word(word, weight) for word, weight in source.items()))
     elif _is_table(source):
-        rows = _rows(source)
+        read = _rows(source, asked)
     else:
-        return _counted(_text(source), options, stops)
-    return [word for word in rows if word.text.casefold() not in stops]
+        text = _text(source, asked)
+        words = _counted(text.text, options, stops)
+        return Ranked(
+            tuple(words), (ReadError(_name(options), text.notice),) if text.notice else ()
+        )
+    kept = tuple(word for word in read.words if word.text.casefold() not in stops)
+    return replace(read, words=kept)
 
 
 def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]:
@@ -140,44 +169,30 @@ def _is_long(word: str, options: WordOptions) -> bool:
     return len(word) >= options.min_word_length or "\uac00" <= word <= "\ud7a3"
 
 
-def _rows(source: str) -> list[Word]:
-    text, ending = _decoded(read_bytes(source, MAX_BYTES), source), Path(source).suffix.lower()
-    words = (
-        rows_of_json(text, source)
-        if ending == ".json"
-        else rows_of_csv(text, source, ENDINGS[ending])
-    )
-    if not words:
+def _rows(source: str, asked: TableFormat) -> Ranked:
+    table = read_word_table(source, MAX_BYTES, asked)
+    if not table.words:
         raise ReadError(source, "holds no words; give lines such as bear,2")
-    return words
+    told = [ReadError(source, notice) for notice in table.notices]
+    return Ranked(table.words, (*told, *(RowsLostError(source, text) for text in table.lost)))
 
 
-def _text(source: str) -> str:
+def _text(source: str, asked: TableFormat) -> Decoded:
     if source == STANDARD_INPUT:
         data = sys.stdin.buffer.read(MAX_BYTES + 1)
         if len(data) > MAX_BYTES:
             raise ReadError("standard input", f"is larger than {MAX_BYTES / 1e6:g} MB")
-        return _decoded(data, "standard input")
+        return decoded(data, "standard input", asked.encoding)
     if not source.strip():
         raise ReadError("source", "is empty; give a text, or a table of word,weight")
     if exists(source):
-        return _decoded(read_bytes(source, MAX_BYTES), source)
+        return decoded(read_bytes(source, MAX_BYTES), source, asked.encoding)
     if len(source.split()) < 2 or Path(source[-20:]).suffix.lower() in _TEXT_ENDINGS:
         raise ReadError(
             source[:80],
             "there is no such file; give a text, a table of word,weight, or - for stdin",
         )
-    return source
-
-
-def _decoded(data: bytes, name: str) -> str:
-    for mark, encoding in ((b"\xff\xfe", "utf-16"), (b"\xfe\xff", "utf-16")):
-        if data.startswith(mark):
-            return data.decode(encoding, errors="replace")
-    try:
-        return data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise ReadError(name, "is not text in UTF-8; save it with that encoding") from None
+    return Decoded(source)
 
 
 def _is_table(source: str) -> bool:

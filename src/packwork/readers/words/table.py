@@ -2,111 +2,112 @@
 
 from __future__ import annotations
 
-import json
-import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from packwork.errors import ReadError
-from packwork.readers.tables.delimited import check_rows, lines_of_cells
+from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.pairs import Pair, read_pairs
+from packwork.readers.tables.totals import total_row
 from packwork.readers.words.word import Word
 
-WORD_COLUMNS = ("word", "text", "name", "term", "label", "key")
-WEIGHT_COLUMNS = ("weight", "count", "frequency", "freq", "value", "size", "n")
-"""Names under which tables of others keep the two; else the first and second column."""
+MOST_NAMED = 6
+"""Rows that a notice names. Chosen."""
 
 
-def rows_of_csv(text: str, file: str, separator: str) -> list[Word]:
-    r"""Words of lines ``word,weight``, further columns under the names of the first line.
+@dataclass(frozen=True, eq=False)
+class TableRead:
+    """Words of a table.
+
+    Parameters
+    ----------
+    words
+        One per row that has a word and a weight.
+    notices
+        What has to be told of how it was read.
+    lost
+        What has to be told of rows with data that are left out.
+    """
+
+    words: tuple[Word, ...]
+    notices: tuple[str, ...] = ()
+    lost: tuple[str, ...] = ()
+
+
+def read_word_table(file: str, most_bytes: int, asked: TableFormat) -> TableRead:
+    r"""Words of lines ``word,weight``, or of JSON as ``{"bear": 2}``.
+
+    Further columns go under the names of the first line. Rows without a word, or without a
+    positive number, are left out and named.
 
     Raises
     ------
     ReadError
-        With the line's number, if a word or a weight is missing or no positive number.
+        If it is no table, or no row has both.
 
     Examples
     --------
-    >>> rows_of_csv("word,weight,kind\nbear,2,animal\n", "t.csv", ",")
-    [Word(text='bear', weight=2.0, columns={'kind': 'animal'})]
-    >>> rows_of_csv("bear\t2\n", "t.tsv", "\t")[0].weight
-    2.0
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "t.csv")
+    ...     _ = path.write_text("word,weight,kind\nbear,2,animal\nfox,,\n")
+    ...     read = read_word_table(str(path), 1_000, TableFormat())
+    >>> read.words
+    (Word(text='bear', weight=2.0, columns={'kind': 'animal'}),)
+    >>> read.notices
+    ('left out 1 row of 2 without a weight: fox (line 3)',)
     """
-    words: list[Word] = []
-    names: Sequence[str] | None = None
-    for line, row in lines_of_cells(text, file, separator):
-        if names is None:
-            names = row if _is_header(row) else ["word", "weight"]
-            if names is row:
-                continue
-        words.append(_word(dict(zip(names, row, strict=False)), file, f"line {line}"))
-    return words
+    table = read_pairs(file, most_bytes, asked)
+    sound = [pair for pair in table.rows if pair.is_sound]
+    odd = [pair for pair in table.rows if not pair.is_sound]
+    if odd and not sound:
+        raise ReadError(file, f"{odd[0].where}: {_wanted(odd[0])}")
+    said: dict[str, list[Pair]] = {}
+    for pair in odd:
+        said.setdefault(_why(pair), []).append(pair)
+    count = len(table.rows)
+    notices = {why: _left_out(why, which, count) for why, which in said.items()}
+    told = [text for why, text in notices.items() if why in _EMPTY]
+    total = total_row([pair.name for pair in sound], [pair.number for pair in sound])
+    if total is not None:
+        told.append(
+            f"{sound[total].name[:40]!r} ({sound[total].where}) looks like the sum of the others; "
+            "it is a word as they are: take it out of the table if it is none"
+        )
+    return TableRead(
+        tuple(Word(pair.name, pair.number, dict(pair.others)) for pair in sound),
+        (*table.notices, *told),
+        tuple(text for why, text in notices.items() if why not in _EMPTY),
+    )
 
 
-def rows_of_json(text: str, file: str) -> list[Word]:
-    """Words of ``{"bear": 2}``, ``[["bear", 2]]`` or ``[{"word": "bear", "weight": 2}]``.
-
-    Raises
-    ------
-    ReadError
-        If it is none of these.
-
-    Examples
-    --------
-    >>> rows_of_json('{"bear": 2}', "t.json") == rows_of_json('[["bear", 2]]', "t.json")
-    True
-    """
-    try:
-        data = json.loads(text)
-    except (ValueError, RecursionError) as error:
-        raise ReadError(file, f"is not JSON ({error})") from None
-    words: list[Word] = []
-    for number, entry in enumerate(_entries(data, file), start=1):
-        words.append(_word(entry, file, f"entry {number}"))
-        check_rows(len(words), file)
-    return words
+_EMPTY = frozenset({"without a weight", "whose weight is 0"})
+"""Why rows are left out that say nothing."""
 
 
-def _entries(data: Any, file: str) -> Iterable[Mapping[str, Any]]:
-    if isinstance(data, dict):
-        return _pairs(data.items())
-    if isinstance(data, list) and all(isinstance(entry, dict) for entry in data):
-        return data
-    if isinstance(data, list) and all(isinstance(e, list) and len(e) == 2 for e in data):
-        return _pairs(data)
-    raise ReadError(file, 'holds no words; give {"bear": 2, "fox": 1} or [["bear", 2]]')
+def _why(pair: Pair) -> str:
+    if not pair.name:
+        return "without a word"
+    if pair.written is None:
+        return "without a weight"
+    if pair.number == 0:
+        return "whose weight is 0"
+    return "whose weight is negative" if pair.number < 0 else "whose weight is no number"
 
 
-def _pairs(pairs: Iterable[Sequence[Any]]) -> Iterator[Mapping[str, Any]]:
-    return ({"word": word, "weight": weight} for word, weight in pairs)
+def _wanted(pair: Pair) -> str:
+    if not pair.name or pair.written is None:
+        return "needs a word and a weight, as in bear,2"
+    return f"a weight must be a positive number, not {str(pair.written)[:20]!r}"
 
 
-def _is_header(row: Sequence[str]) -> bool:
-    return len(row) > 1 and not any(map(_is_number, row))
-
-
-def _is_number(cell: str) -> bool:
-    try:
-        float(cell)
-    except ValueError:
-        return False
-    return True
-
-
-def _word(row: Mapping[str, Any], file: str, where: str) -> Word:
-    keys = list(row)
-    by_name = {key.strip().lower(): key for key in keys}
-    first = next((by_name[n] for n in WORD_COLUMNS if n in by_name), keys[0] if keys else "")
-    rest = [key for key in keys if key != first]
-    second = next((by_name[n] for n in WEIGHT_COLUMNS if n in by_name), rest[0] if rest else "")
-    text, weight = row.get(first), row.get(second)
-    if not isinstance(text, str) or not text.strip() or weight is None:
-        raise ReadError(file, f"{where}: needs a word and a weight, as in bear,2")
-    try:
-        value = float(weight)
-    except (TypeError, ValueError):
-        value = math.nan
-    if not (math.isfinite(value) and value > 0) or isinstance(weight, bool):
-        met = repr(str(weight)[:20])
-        raise ReadError(file, f"{where}: a weight must be a positive number, not {met}")
-    others = {key: str(row[key]) for key in rest if key != second}
-    return Word(text.strip(), value, others)
+def _left_out(why: str, which: Sequence[Pair], count: int) -> str:
+    """Sentence about rows that are not set."""
+    named = ", ".join(
+        f"{pair.name[:40]} ({pair.where})" if pair.name else pair.where
+        for pair in which[:MOST_NAMED]
+    )
+    more = f" and {len(which) - MOST_NAMED} more" if len(which) > MOST_NAMED else ""
+    rows = "1 row" if len(which) == 1 else f"{len(which)} rows"
+    return f"left out {rows} of {count} {why}: {named}{more}"

@@ -1,0 +1,164 @@
+"""Tables of names and numbers: words and their weights, items and theirs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from packwork.errors import ReadError
+from packwork.readers.files import read_bytes
+from packwork.readers.tables.delimited import Sheet, check_rows, read_sheet
+from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.json_rows import read_json
+from packwork.readers.tables.written import is_number_like, written_numbers
+
+NAME_COLUMNS = ("word", "text", "name", "term", "label", "key")
+NUMBER_COLUMNS = ("weight", "count", "frequency", "freq", "value", "size", "n")
+"""Names under which tables of others keep the two; else the first and second column."""
+
+
+@dataclass(frozen=True)
+class Pair:
+    """A row of such a table.
+
+    Parameters
+    ----------
+    name
+        Empty where there is none.
+    number
+        NaN where there is none.
+    written
+        The number as it stands in the file; None where nothing does.
+    where
+        ``line 3``, for messages.
+    others
+        What else the row says, by column.
+    """
+
+    name: str
+    number: float
+    written: Any
+    where: str
+    others: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def is_sound(self) -> bool:
+        """Whether there is a name, and a positive number."""
+        return bool(self.name) and math.isfinite(self.number) and self.number > 0
+
+
+@dataclass(frozen=True, eq=False)
+class Pairs:
+    """Rows of a table of names and numbers, and what has to be told of how they were read."""
+
+    rows: tuple[Pair, ...]
+    notices: tuple[str, ...] = ()
+
+
+def read_pairs(file: str, most_bytes: int, asked: TableFormat) -> Pairs:
+    r"""Names and numbers of a file: lines of cells, or JSON.
+
+    Its first line may name the columns, and then there may be more of them.
+
+    Raises
+    ------
+    ReadError
+        If it is no such table, or how its numbers are written is not plain.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "t.csv")
+    ...     _ = path.write_text("Tier;Zahl\nBär;1.200,5\n", encoding="cp1252")
+    ...     read = read_pairs(str(path), 1_000, TableFormat())
+    >>> [(pair.name, pair.number, pair.where) for pair in read.rows]
+    [('Bär', 1200.5, 'line 2')]
+    """
+    ending = Path(file).suffix.lower()
+    if ending == ".json":
+        return _pairs(_entries(read_json(file, asked), file), file, asked, usual=".")
+    sheet = read_sheet(read_bytes(file, most_bytes), file, ending, asked)
+    usual = "." if sheet.delimiter == "," else ""
+    found = _pairs(_rows(sheet), file, asked, usual)
+    return Pairs(found.rows, (sheet.notice,) if sheet.notice else ())
+
+
+def _rows(sheet: Sheet) -> list[tuple[str, Mapping[str, Any]]]:
+    """Place and cells of each line, by column."""
+    lines = list(sheet.lines())
+    if not lines:
+        return []
+    first = lines[0][1]
+    named = len(first) > 1 and not any(map(is_number_like, first))
+    names = [" ".join(name.split()) for name in first] if named else ["word", "weight"]
+    rows: list[tuple[str, Mapping[str, Any]]] = []
+    for line, cells in lines[1:] if named else lines:
+        if any(cells[len(names) :]):
+            raise ReadError(
+                sheet.file,
+                f"line {line}: has {len(cells)} cells, not {len(names)}; quote those that hold the "
+                'delimiter, as "1,5", and name further columns in the first line',
+            )
+        rows.append((f"line {line}", dict(zip(names, cells, strict=False))))
+    return rows
+
+
+def _entries(data: Any, file: str) -> list[tuple[str, Mapping[str, Any]]]:
+    """Entries of ``{"bear": 2}``, ``[["bear", 2]]`` or ``[{"word": "bear", "weight": 2}]``."""
+    if isinstance(data, dict):
+        data = list(data.items())
+    if isinstance(data, list):
+        check_rows(len(data), file)
+        if all(isinstance(entry, dict) for entry in data):
+            return [(f"entry {k}", entry) for k, entry in enumerate(data, start=1)]
+        if all(isinstance(entry, list | tuple) and len(entry) == 2 for entry in data):
+            return [
+                (f"entry {k}", {"word": word, "weight": weight})
+                for k, (word, weight) in enumerate(data, start=1)
+            ]
+    raise ReadError(file, 'holds no words; give {"bear": 2, "fox": 1} or [["bear", 2]]')
+
+
+def _pairs(
+    rows: Sequence[tuple[str, Mapping[str, Any]]], file: str, asked: TableFormat, usual: str
+) -> Pairs:
+    columns = [_columns(row) for _, row in rows]
+    cells = [row.get(second) for (_, row), (_, second) in zip(rows, columns, strict=True)]
+    name = next((second for _, second in columns), "weight")
+    numbers = written_numbers(cells, file, name, usual=usual, asked=asked.decimal)
+    return Pairs(
+        tuple(
+            Pair(
+                name=_name(row.get(first)),
+                number=number,
+                written=None if cell is None or not str(cell).strip() else cell,
+                where=where,
+                others={key: str(row[key]) for key in row if key not in (first, second)},
+            )
+            for (where, row), (first, second), cell, number in zip(
+                rows, columns, cells, numbers, strict=True
+            )
+        )
+    )
+
+
+def _name(cell: Any) -> str:
+    return " ".join(cell.split()) if isinstance(cell, str) else ""
+
+
+def _columns(row: Mapping[str, Any]) -> tuple[str, str]:
+    """Which column has the names, and which the numbers."""
+    keys = list(row)
+    by_name = {str(key).strip().lower(): key for key in keys}
+    first = _first(NAME_COLUMNS, by_name) or (keys[0] if keys else "")
+    rest = [key for key in keys if key != first]
+    wanted = _first(NUMBER_COLUMNS, by_name)
+    return first, wanted if wanted in rest else rest[0] if rest else ""
+
+
+def _first(names: Iterable[str], by_name: Mapping[str, str]) -> str | None:
+    return next((by_name[name] for name in names if name in by_name), None)

@@ -1,0 +1,283 @@
+"""Tables as spreadsheets write them: letters, delimiters, numbers."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from packwork.errors import ReadError, RecipeError, RowsLostError
+from packwork.readers.charts.chart import ChartRead, read_chart
+from packwork.readers.charts.options import ChartOptions
+from packwork.readers.tables.decoding import decoded
+from packwork.readers.tables.delimited import delimiter_of
+from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.table import read_table
+from packwork.readers.tables.written import is_number_like, written_numbers
+from packwork.readers.weights import read_weights
+from packwork.readers.words.items import read_word_items
+from packwork.readers.words.options import WordOptions
+from packwork.readers.words.source import read_words
+from packwork.recipe import make_recipe
+
+EXCEL = "Land;Menge\r\n\r\nPerú;1.234,5\r\nMalí;12,25\r\n;;\r\nKenia;0,75;\r\n"
+AMOUNTS = {"Perú": 1234.5, "Malí": 12.25, "Kenia": 0.75}
+
+
+def marks(file: Path | str, asked: TableFormat | None = None, **options: str) -> ChartRead:
+    said = {"size_by": "Menge", "label_by": "Land", **options}
+    return read_chart(ChartOptions(data=str(file), **said), asked=asked)
+
+
+def amounts(read: ChartRead) -> dict[str, float]:
+    return dict(zip((item.name for item in read.items), read.values.tolist(), strict=True))
+
+
+@pytest.mark.parametrize(
+    "encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "utf-16-be", "utf-32", "cp1252"]
+)
+def test_all_readers_read_what_excel_writes(encoding: str, tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_bytes(EXCEL.encode(encoding))
+    assert amounts(marks(file)) == AMOUNTS
+    assert {word.text: word.weight for word in read_words(WordOptions(source=str(file)))} == AMOUNTS
+    assert read_weights(file) == AMOUNTS
+
+
+@pytest.mark.parametrize(
+    ("encoding", "text"),
+    [
+        ("cp1252", "Österreich;Dänemark;Türkei;Großbritannien"),
+        ("cp1252", "Müller;García;Søren;François;Ångström"),
+        ("cp1252", "Crème brûlée;€ 12"),
+        ("cp1250", "Wejście;Łódź;Kraków;ilość"),
+        ("cp1250", "Česko;Řecko;Německo;množství"),
+        ("cp1251", "Страна;Россия;Соединённые Штаты"),
+        ("cp1251", "УКРАЇНА;НІМЕЧЧИНА"),
+        ("cp1253", "Ελλάδα;Γερμανία;Ισπανία"),
+        ("cp1254", "Türkiye;İspanya;Kıbrıs;Bağdat"),
+    ],
+)
+def test_the_encodings_of_windows_are_told_by_their_letters(encoding: str, text: str) -> None:
+    read = decoded(text.encode(encoding), "t.csv")
+    assert read.text == text
+    assert f"Windows-{encoding[2:]}" in read.notice
+
+
+@pytest.mark.parametrize("encoding", ["koi8-r", "shift_jis", "gb18030", "cp437"])
+def test_other_encodings_are_asked_for_and_taken_when_named(encoding: str) -> None:
+    text = {"shift_jis": "日本;ドイツ", "gb18030": "德国;中国", "cp437": "España;México"}.get(
+        encoding, "Россия;Германия"
+    )
+    with pytest.raises(ReadError, match=r"not text in UTF-8; .* --encoding cp1252"):
+        decoded(text.encode(encoding), "t.csv")
+    assert decoded(text.encode(encoding), "t.csv", encoding).text == text
+    with pytest.raises(ReadError, match="not text in ASCII"):
+        decoded(text.encode(encoding), "t.csv", "ascii")
+
+
+@pytest.mark.parametrize(
+    ("text", "delimiter"),
+    [
+        ("a;b\n1,5;2\n", ";"),
+        ("bear;1,5\nfox;2,5\n", ";"),
+        ("bear\t1,5\nfox\t2,5\n", "\t"),
+        ("a|b\n1|2\n", "|"),
+        ('a,b\n"1;2",3\n', ","),
+        ("a;b;\n1;2;\n3;4;\n", ";"),
+        ("a;b\n1\n2;3\n", ";"),
+        ("land;kg, net\nPeru;1,5\nMali;2,5\n", ";"),
+        ("word\nbear\n", ","),
+        ('a;b\n"Côte\nd\'Ivoire";2\n', ";"),
+    ],
+)
+def test_the_delimiter_parts_all_lines_alike(text: str, delimiter: str) -> None:
+    assert delimiter_of(text, "t.csv", ",") == delimiter
+
+
+def test_delimiters_that_part_lines_alike_are_asked_for(tmp_path: Path) -> None:
+    text = "a,b;c\nx,y;z\nu,v;w\n"
+    with pytest.raises(ReadError, match=r'commas or semicolons; .* --delimiter , or .* ";"'):
+        delimiter_of(text, "t.csv", ",")
+    file = tmp_path / "t.csv"
+    file.write_text(text, encoding="utf-8")
+    assert read_table(str(file), TableFormat(delimiter=";")).columns == ("a,b", "c")
+    assert read_table(str(file), TableFormat(delimiter="comma")).columns == ("a", "b;c")
+
+
+def test_a_first_line_may_say_the_delimiter(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text('sep=|\nLand|Menge\n"a|b"|2\n', encoding="utf-8")
+    assert amounts(marks(file)) == {"a|b": 2.0}
+    file.write_text("sep=|\nLand|Menge\na|2|3\n", encoding="utf-8")
+    with pytest.raises(ReadError, match="line 3: has 3 cells, the first line names 2; quote"):
+        read_table(str(file))
+
+
+@pytest.mark.parametrize(
+    ("cells", "numbers"),
+    [
+        (["1.234,5", "2"], [1234.5, 2.0]),
+        (["1,234.5", "1,234"], [1234.5, 1234.0]),
+        (["1 234,5", "7 000", "1\u202f000"], [1234.5, 7000.0, 1000.0]),
+        (["1'234.50", "2\u2019000"], [1234.5, 2000.0]),
+        (["1.234.567", "1.000"], [1234567.0, 1000.0]),
+        (["12,34,567.5"], [1234567.5]),
+        (["€ 12,50", "3,00 €", "4"], [12.5, 3.0, 4.0]),
+        (["CHF 1'200.-", "R$ 5", "$1"][:1], [1200.0]),
+        (["12 %", "3,5%"], [12.0, 3.5]),
+        (["(1,234.50)", "-5", "\u22127", "8-"], [-1234.5, -5.0, -7.0, -8.0]),
+        (["0,123", "1,234"], [0.123, 1.234]),
+        ([" 5\u00a0", "+3", "1e3", ".5"], [5.0, 3.0, 1000.0, 0.5]),
+        ([2, 3.5, True], [2.0, 3.5, float("nan")]),
+    ],
+)
+def test_numbers_as_people_write_them(cells: list[object], numbers: list[float]) -> None:
+    assert written_numbers(cells, "t.csv", "n") == pytest.approx(numbers, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    "cell",
+    ["1.2.2024", "2024-03-01", "3/2024", "12:30", "5 kg", "1,23,45", "--5", "k.A.", "1_000", "(5"],
+)
+def test_what_is_no_number_is_none(cell: str) -> None:
+    assert written_numbers([cell, "2"], "t.csv", "n") == pytest.approx(
+        [float("nan"), 2.0], nan_ok=True
+    )
+
+
+def test_months_are_no_numbers() -> None:
+    cells = ["03.2024", "11.2023"]
+    assert written_numbers(cells, "t.csv", "n") == pytest.approx([float("nan")] * 2, nan_ok=True)
+
+
+@pytest.mark.parametrize(
+    ("cells", "problem"),
+    [
+        (["1.200", "3.400"], r"'1.200' in column 'n' may be 1.2 or 1,200; .* --decimal"),
+        (["1,5", "2.5"], r"holds both '1,5' and '2.5'; .* --decimal , or --decimal \."),
+        (["12 %", "0,3"], "holds both '12 %' and '0,3'; write all in one unit"),
+        (["€ 5", "$ 3"], "holds both '€ 5' and '\\$ 3'; write all in one unit"),
+    ],
+)
+def test_what_may_be_read_in_two_ways_is_asked(cells: list[str], problem: str) -> None:
+    with pytest.raises(ReadError, match=problem):
+        written_numbers(cells, "t.csv", "n")
+
+
+def test_the_answer_is_taken() -> None:
+    assert written_numbers(["1.200"], "t", "n", asked=",") == [1200.0]
+    assert written_numbers(["1.200"], "t", "n", asked=".") == [1.2]
+    # Between commas a point parts the fraction: else most tables would have to be asked about.
+    assert written_numbers(["1.200"], "t", "n", usual=".") == [1.2]
+
+
+def test_cells_of_json_and_frames_keep_the_same_rules(tmp_path: Path) -> None:
+    rows = [{"Land": "Peru", "Menge": "1.234,5"}, {"Land": "Mali", "Menge": "€ 2"}]
+    file = tmp_path / "t.json"
+    file.write_text(json.dumps(rows), encoding="utf-8")
+    assert amounts(marks(file)) == {"Peru": 1234.5, "Mali": 2.0}
+    framed = read_chart(ChartOptions(data=rows, size_by="Menge", label_by="Land"))
+    assert amounts(framed) == {"Peru": 1234.5, "Mali": 2.0}
+    assert framed.rows[0]["Menge"] == "1.234,5"
+    file.write_text(json.dumps({"bear": "1.234,5", "fox": 2}), encoding="utf-8")
+    assert read_weights(file) == {"bear": 1234.5, "fox": 2.0}
+
+
+def test_colours_and_groups_are_numbers_by_the_same_rules(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("Land;Menge;g\nA;1;1,5\nB;2;0,5\nC;3;1,5\n", encoding="utf-8")
+    assert marks(file, color_by="g").is_ramp
+    assert marks(file, by="g").groups == ("0.5", "1.5")
+    # Categories that only look a little like numbers need no answer.
+    file.write_text("Land;Menge;g\nA;1;1.200\nB;2;none\n", encoding="utf-8")
+    assert not marks(file, color_by="g").is_ramp
+
+
+def test_rows_with_data_that_are_left_out_are_named_and_count(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("Land;Menge\nA;1\nB;\nC;0\nD;k.A.\nE;(5)\nF;1.2.2024\nG;2\n", encoding="utf-8")
+    read = marks(file)
+    lost = [str(error) for error in read.told if isinstance(error, RowsLostError)]
+    assert [text.rpartition("whose ")[2] for text in lost] == [
+        "Menge is no number: D", "Menge is negative: E", "Menge is a date: F"
+    ]  # fmt: skip
+    assert len(read.told) == 5
+    words = read_word_items(WordOptions(source=str(file)))
+    assert [item.name for item in words.items] == ["G", "A"]
+    lost = [str(error) for error in words.told if isinstance(error, RowsLostError)]
+    assert len(lost) == 2
+    assert "whose weight is no number: D (line 5), F (line 7)" in lost[0]
+
+
+def test_rows_that_repeat_or_add_up_others_are_told(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("Land;Menge\nA;1\nB;2\nA;1\nSumme:;4\n", encoding="utf-8")
+    told = " | ".join(marks(file).notices)
+    assert "1 row says the same as another in all columns, and is shown too: A" in told
+    assert "row 4 (Summe:) looks like the sum of the others" in told
+    words = read_word_items(WordOptions(source=str(file)))
+    assert any("looks like the sum" in str(error) for error in words.told)
+
+
+def test_a_weight_may_stand_there_twice_if_it_is_the_same(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("name;weight\na;1,5\nb;2\na;1,5\n", encoding="utf-8")
+    assert read_weights(file) == {"a": 1.5, "b": 2.0}
+    assert "says the same again of 'a' (line 4); that counts once" in caplog.text
+
+
+def test_numbers_with_a_comma_are_not_cut_at_it(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("bear,1,5\nfox,2,5\n", encoding="utf-8")
+    with pytest.raises(ReadError, match="has 3 cells, not 2; quote those"):
+        read_words(WordOptions(source=str(file)))
+
+
+def test_names_of_columns_are_one_line_and_empty_ones_have_numbers(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text('"Menge\nkg";;Land;\n1;x;A;\n', encoding="utf-8")
+    assert read_table(str(file)).columns == ("Menge kg", "column 2", "Land")
+
+
+def test_spreadsheets_are_named_as_such() -> None:
+    with pytest.raises(ReadError, match="is a spreadsheet; save the sheet as CSV"):
+        read_table("numbers.xlsx")
+
+
+@pytest.mark.parametrize(
+    ("key", "value", "problem"),
+    [
+        ("delimiter", ";;", "use one character"),
+        ("decimal", "x", r"'\.' or ','"),
+        ("encoding", "utf-99", "use a name such as"),
+        ("encoding", "base64", "use a name such as"),
+    ],
+)
+def test_formats_without_a_meaning_are_refused(key: str, value: str, problem: str) -> None:
+    with pytest.raises(RecipeError, match=f"{key}: .*{problem}"):
+        make_recipe(container="circle", **{key: value})
+
+
+@settings(deadline=None, max_examples=200)
+@given(st.lists(st.text("0123456789., '%€-()+eE ", max_size=12), max_size=6))
+def test_any_cells_are_numbers_or_refused(cells: list[str]) -> None:
+    try:
+        found = written_numbers(cells, "t.csv", "n")
+    except ReadError:
+        return
+    assert len(found) == len(cells)
+    for cell, number in zip(cells, found, strict=True):
+        assert number != number or is_number_like(cell)
+
+
+@settings(deadline=None, max_examples=100)
+@given(st.floats(1e-6, 1e12), st.sampled_from(".,"), st.sampled_from(["", " ", "\u00a0"]))
+def test_what_is_written_with_groups_is_read_back(number: float, decimal: str, group: str) -> None:
+    text = f"{number:,.4f}".replace(",", "g").replace(".", decimal).replace("g", group)
+    assert written_numbers([text], "t", "n", asked=decimal) == [float(f"{number:.4f}")]
