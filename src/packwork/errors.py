@@ -61,3 +61,7 @@ class RecipeError(PackworkError):
 
 class ShapeError(PackworkError, ValueError):
     """An array or a geometry does not have the form that is needed."""
+
+
+class UnresolvedError(ShapeError):
+    """Outlines so close that no set operation tells them apart, on the coarsest grid neither."""

@@ -23,6 +23,10 @@ PER_INCH = {"px": 96.0, "mm": 25.4, "cm": 2.54, "in": 1.0, "pt": 72.0, "pc": 6.0
 NUMBER = r"(?>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)"
 """Pattern of one number. Atomic: hostile runs of digits are never tried twice."""
 
+SHORTEST, LONGEST = 1e-9, 1e9
+"""Numbers that a length or a place may state, but for 0, whatever its unit: beyond them products
+of lengths overflow or vanish. Chosen."""
+
 _LENGTH = re.compile(rf"({NUMBER})\s*(%|[a-zA-Z]*)")
 
 DEFAULT_SIDE = 600.0
@@ -60,6 +64,19 @@ def split_length(text: str) -> tuple[float, str] | None:
     return None if match is None else (float(match.group(1)), match.group(2).lower())
 
 
+def is_length(text: str) -> bool:
+    """Whether a text is a length, perhaps negative, that can be computed with.
+
+    Examples
+    --------
+    >>> is_length("-2mm"), is_length("0%"), is_length("1e308%"), is_length("2 furlongs")
+    (True, True, False, False)
+    """
+    number, unit = split_length(text) or (math.nan, "")
+    is_known = unit in ("", "%") or unit in UNITS
+    return is_known and (number == 0 or SHORTEST <= abs(number) <= LONGEST)
+
+
 def as_unit(text: object) -> Unit | None:
     """The canvas unit of that name; None if there is none.
 
@@ -93,7 +110,7 @@ def parse_length(text: str, unit: str, whole: float) -> float:
     Raises
     ------
     ValueError
-        If it is no length, not finite or below zero.
+        If it is no length, below zero, or beyond ``SHORTEST`` and ``LONGEST``.
 
     Examples
     --------
@@ -109,8 +126,10 @@ def parse_length(text: str, unit: str, whole: float) -> float:
         length = convert(number, own or unit, unit)
     else:
         length = math.nan
-    if not 0 <= length < math.inf:
-        raise ValueError(f"use a length such as 4, 1mm, 3pt, 0.1in or 1%, not {text!r}")
+    if not length >= 0:
+        raise ValueError(f"use a length such as 4, 1mm, 3pt, 0.1in or 1%, not {text[:40]!r}")
+    if not is_length(text):
+        raise ValueError(f"use a length of {SHORTEST:g} to {LONGEST:g}, or 0, not {text[:40]!r}")
     return length
 
 

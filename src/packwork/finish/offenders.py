@@ -10,6 +10,7 @@ import shapely
 
 from packwork.finish.detail import Detail
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference, intersection
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
@@ -52,6 +53,8 @@ def find_offenders(
     >>> [(o.item, o.other, o.overlap_cu2) for o in found]
     [(0, 1, 1.0)]
     """
+    if len(outlines) == 0:
+        return ()
     zero = np.zeros(len(poses))
     places = np.column_stack([poses.x, poses.y, zero, zero])
     arrangement = Detail(outlines, container.outline, poses).arrangement(places)
@@ -65,8 +68,8 @@ def _offender(
     first = outlines[i].mapped(poses.matrix(i)).region
     if j == len(outlines):
         whole = container.outline.region
-        outside = float(shapely.difference(first, whole).area)
+        outside = float(difference(first, whole).area)
         return Offender(i, None, outside, float(shapely.distance(whole.boundary, first)))
     second = outlines[j].mapped(poses.matrix(j)).region
-    shared = float(shapely.intersection(first, second).area)
+    shared = float(intersection(first, second).area)
     return Offender(i, j, shared, float(shapely.distance(first, second)))

@@ -23,6 +23,7 @@ from packwork.fit.knots import best_chain
 from packwork.fit.loops import without_loops
 from packwork.fit.shares import FEWEST, shared_curves
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import signed_area
 from packwork.geometry.simplify import simplified
 
@@ -223,6 +224,6 @@ def _ending(
 def _result(
     outline: Outline, chains: Sequence[FloatArray], found: Outline, ending: Ending, kept: int
 ) -> FittedOutline:
-    shared = outline.region.intersection(found.region).area
+    shared = intersection(outline.region, found.region).area
     iou = shared / (outline.area + found.area - shared)
     return FittedOutline(tuple(chains), found, float(iou), ending, kept)

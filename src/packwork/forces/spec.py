@@ -11,7 +11,7 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import BeforeValidator
 
 from packwork.errors import RecipeError
-from packwork.units import NUMBER, split_length
+from packwork.units import LONGEST, NUMBER, is_length, split_length
 
 DIRECTIONS = {"right": 0.0, "down": 90.0, "left": 180.0, "up": 270.0}
 """Degrees, clockwise on screen."""
@@ -146,7 +146,9 @@ def _balance(said: list[str], text: str) -> dict[str, Any]:
         return {"axis": place[0], "places": (CENTRE,)}
     if len(place) != 1 or not is_pair(place[0]):
         raise RecipeError(
-            "force", f"use balance with centre, X,Y, horizontal or vertical, not {text[:60]!r}"
+            "force",
+            "use balance with centre, X,Y (lengths up to "
+            f"{LONGEST:g}), horizontal or vertical, not {text[:60]!r}",
         )
     return {"places": (place[0],)}
 
@@ -159,8 +161,8 @@ def is_pair(word: str) -> bool:
     >>> is_pair("50%,2mm"), is_pair("50%")
     (True, False)
     """
-    parts = [split_length(part) for part in word.split(",")]
-    return len(parts) == 2 and all(part is not None and math.isfinite(part[0]) for part in parts)
+    parts = word.split(",")
+    return len(parts) == 2 and all(map(is_length, parts))
 
 
 def _nothing_more(said: list[str], text: str) -> None:
@@ -189,7 +191,7 @@ def _key(key: str, value: str) -> dict[str, Any]:
         return {"by_weight": True}
     length = split_length(value)
     if key == "reach":
-        if length is None or not 0 < length[0] < math.inf:
+        if length is None or not (is_length(value) and length[0] > 0):
             raise RecipeError("force", f"reach: use a length such as 30%, not {value[:40]!r}")
         return {"reach": value}
     strength = math.nan if length is None or length[1] else length[0]

@@ -8,12 +8,12 @@ from functools import cached_property
 
 import numpy as np
 import shapely
-from shapely.geometry import LinearRing, MultiLineString, MultiPolygon, Polygon
+from shapely.geometry import LinearRing, MultiPolygon, Polygon
 
 from packwork.arrays import FloatArray, IntArray, as_points, as_starts
 from packwork.errors import ShapeError
 from packwork.geometry import affine
-from packwork.geometry.polygon import Region, oriented_rings, silhouette
+from packwork.geometry.polygon import Region, enclosed, oriented_rings, silhouette
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,10 +127,7 @@ class Outline:
         if shape is not None:
             return shape
         # Even-odd nesting of rings that do not cross: holes, and islands inside holes.
-        rings = MultiLineString([LinearRing(r) for r in self.rings])
-        # GEOS tries corners that touch with numbers that are none; its answer has none.
-        with np.errstate(invalid="ignore"):
-            return shapely.build_area(rings)
+        return enclosed([LinearRing(r) for r in self.rings])
 
     def _in_order(self) -> Region | None:
         """Region whose holes follow the rings that they lie in, as readers make them.

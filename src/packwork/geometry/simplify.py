@@ -10,7 +10,7 @@ from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region, polygon_parts
+from packwork.geometry.overlay import Region, buffered, polygon_parts, simplify
 
 
 def simplified(outline: Outline, tolerance: float) -> Outline:
@@ -34,9 +34,9 @@ def simplified(outline: Outline, tolerance: float) -> Outline:
         return outline
     # The plain algorithm is ten times faster; where it lets rings cross or drops one,
     # the careful one is asked.
-    region = shapely.simplify(outline.region, tolerance, preserve_topology=False)
+    region = simplify(outline.region, tolerance, keeps_topology=False)
     if not region.is_valid or _ring_count(region) != len(outline.rings):
-        region = shapely.simplify(outline.region, tolerance, preserve_topology=True)
+        region = simplify(outline.region, tolerance, keeps_topology=True)
     if not polygon_parts(region):
         return outline
     return Outline.from_region(region)
@@ -61,8 +61,8 @@ def closed(outline: Outline, radius: float) -> Outline:
     """
     if radius <= 0:
         return outline
-    region = shapely.buffer(outline.region, radius, quad_segs=4)
-    region = shapely.buffer(region, -radius, quad_segs=4)
+    region = buffered(outline.region, radius, quad_segs=4)
+    region = buffered(region, -radius, quad_segs=4)
     if not polygon_parts(region):
         return outline
     found = Outline.from_region(region)
@@ -86,7 +86,7 @@ def grown(outline: Outline, distance: float) -> Outline:
     """
     if distance == 0:
         return outline
-    region = shapely.buffer(outline.region, distance, quad_segs=4)
+    region = buffered(outline.region, distance, quad_segs=4)
     return Outline.from_region(region) if polygon_parts(region) else outline
 
 

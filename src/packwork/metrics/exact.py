@@ -14,7 +14,14 @@ import shapely
 from packwork.arrays import IntArray
 from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region, polygon_parts
+from packwork.geometry.overlay import (
+    Region,
+    difference,
+    intersection,
+    polygon_parts,
+    union,
+    valid,
+)
 
 _Regions: TypeAlias = npt.NDArray[Any]
 
@@ -127,7 +134,7 @@ def exact_coverage(outlines: Sequence[Outline], container: Outline) -> float:
 
 
 def _container_region(container: Outline) -> Region:
-    whole = _valid(container.region)
+    whole = valid(container.region)
     if whole.area <= 0:
         raise ShapeError("the container has no area; give a region that can be filled")
     shapely.prepare(whole)
@@ -137,15 +144,8 @@ def _container_region(container: Outline) -> Region:
 def _regions(outlines: Sequence[Outline]) -> _Regions:
     """Valid regions."""
     regions = np.empty(len(outlines), dtype=object)
-    regions[:] = [_valid(outline.region) for outline in outlines]
+    regions[:] = [valid(outline.region) for outline in outlines]
     return regions
-
-
-def _valid(region: Region) -> Region:
-    if region.is_valid:
-        return region
-    # Repairs may leave whiskers, lines without area: only polygons count.
-    return shapely.union_all(polygon_parts(shapely.make_valid(region)))
 
 
 def _meeting_pairs(regions: _Regions) -> IntArray:
@@ -170,7 +170,7 @@ def _merged(regions: _Regions, pairs: IntArray) -> _Regions:
     order = np.argsort(group, kind="stable")
     members = np.split(order, np.cumsum(np.bincount(group, minlength=count))[:-1])
     merged = np.empty(count, dtype=object)
-    merged[:] = [regions[m[0]] if len(m) == 1 else shapely.union_all(regions[m]) for m in members]
+    merged[:] = [regions[m[0]] if len(m) == 1 else union(regions[m]) for m in members]
     return merged
 
 
@@ -179,18 +179,18 @@ def _covered_and_outside(merged: _Regions, whole: Region) -> tuple[float, float]
     within = shapely.covers(whole, merged)
     crossing = merged[~within]
     # Both are computed, not one taken off the other: a sliver would drown in rounding.
-    covered = shapely.area(merged[within]).sum() + _total(shapely.intersection(crossing, whole))
-    return float(covered), _total(shapely.difference(crossing, whole))
+    covered = shapely.area(merged[within]).sum() + _total(intersection(crossing, whole))
+    return float(covered), _total(difference(crossing, whole))
 
 
 def _overlap_area(regions: _Regions, pairs: IntArray) -> float:
     """Area in two or more regions: the union of what pairs share, counted once."""
     if pairs.size == 0:
         return 0.0
-    shared = shapely.intersection(regions[pairs[:, 0]], regions[pairs[:, 1]])
+    shared = intersection(regions[pairs[:, 0]], regions[pairs[:, 1]])
     # Regions that only touch share points and lines, which have no part in the union.
     solid = [part for s in shared[shapely.area(shared) > 0] for part in polygon_parts(s)]
-    return float(shapely.union_all(solid).area)
+    return float(union(solid).area)
 
 
 def _total(regions: _Regions) -> float:

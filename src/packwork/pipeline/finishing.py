@@ -7,7 +7,6 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ShapeError
@@ -15,6 +14,7 @@ from packwork.finish.finish import Finished, finish
 from packwork.finish.options import HAIR, FinishOptions
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference, union
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Unplaced
@@ -217,9 +217,9 @@ def without(whole: Outline, walls: Sequence[Outline]) -> Outline:
     """A region less the items that stand in it."""
     if not walls:
         return whole
-    solid = shapely.union_all([wall.region for wall in walls])
+    solid = union([wall.region for wall in walls])
     try:
-        return Outline.from_region(shapely.difference(whole.region, solid))
+        return Outline.from_region(difference(whole.region, solid))
     except ShapeError:
         return whole
 

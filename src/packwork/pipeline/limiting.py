@@ -9,6 +9,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
+from packwork.geometry.overlay import difference, intersection
 from packwork.geometry.polygon import Region
 from packwork.pipeline.asking import Voice
 from packwork.pipeline.casting import kinds
@@ -103,7 +104,7 @@ def check_poses(job: Job, container: Container, poses: Poses, limits: Limits) ->
             continue
         home, words = container.outline.region, "the container"
         if k in homes:
-            home = home.intersection(homes[k].zone.outline.region)
+            home = intersection(home, homes[k].zone.outline.region)
             words = f"its region {homes[k].words}"
         _check_place(job, k, home, words, limits)
         if "size" in one.pin:
@@ -133,7 +134,7 @@ def _check_room(job: Job, k: int, home: Region, words: str, poses: Poses, limits
     beyond = max(area - home.area, 0.0)
     if one.is_placed and not np.isnan(limits.angle[k]):
         placed = item.outline.mapped(poses.matrix(k)).region
-        beyond = shapely.difference(placed, home).area
+        beyond = difference(placed, home).area
     if beyond > STICKS_OUT * area:
         share = f"{100 * beyond / area:.2g} % of it lies outside {words}"
         raise one.voices["pin.size"].error(
@@ -147,7 +148,7 @@ def _check_pairs(job: Job, poses: Poses, limits: Limits) -> None:
     least = replace(poses, scale=np.where(limits.smallest > 0, limits.smallest, poses.scale))
     regions = {k: job.items[k].outline.mapped(least.matrix(k)).region for k in pinned}
     for a, b in combinations(pinned, 2):
-        shared = shapely.intersection(regions[a], regions[b]).area
+        shared = intersection(regions[a], regions[b]).area
         allowed = STICKS_OUT if limits.held[[a, b], :4].all() else COVERED
         if shared > allowed * min(regions[a].area, regions[b].area):
             voice, other = (job.asked[k].voices["pin.x"] for k in (b, a))

@@ -11,7 +11,9 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import intersection, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts
+from packwork.geometry.snapping import sound
 from packwork.piles import Side
 from packwork.scene.container import Container
 from packwork.units import CanvasSize
@@ -84,14 +86,14 @@ def opened(
     canvas = math.hypot(container.width, container.height)
     beyond = [region, *(_swept(gate, way * canvas) for gate, way in gates)]
     sheet = shapely.box(0, 0, container.width, container.height)
-    whole = shapely.union_all([region, *(shapely.intersection(b, sheet) for b in beyond[1:])])
+    whole = union([region, *(intersection(b, sheet) for b in beyond[1:])])
     needed = discs_cu2 / LOOSE / len(gates)
     far = [
         _swept(gate, way * (canvas + needed / max(_breadth(gate, way), 1e-9 * canvas)))
         for gate, way in gates
     ]
-    inside = replace(container, outline=Outline.from_region(_solid(whole)))
-    return Opened(inside, Outline.from_region(_solid(shapely.union_all([whole, *far]))))
+    inside = replace(container, outline=Outline.from_region(sound(_solid(whole))))
+    return Opened(inside, Outline.from_region(sound(_solid(union([whole, *far])))))
 
 
 def nowhere(size: CanvasSize | None, radii_cu: FloatArray) -> Container:
@@ -124,7 +126,7 @@ def _lid(region: Region, side: Side) -> Region:
         "left": (left, top, left + wide, bottom),
         "right": (right - wide, top, right, bottom),
     }
-    return shapely.intersection(region, shapely.box(*boxes[side]))
+    return intersection(region, shapely.box(*boxes[side]))
 
 
 def _outward(region: Region, mouth: FloatArray) -> FloatArray:
@@ -137,7 +139,7 @@ def _outward(region: Region, mouth: FloatArray) -> FloatArray:
         for way in (LID * length * normal, -LID * length * normal)
     ]
     # The side on which less of the container lies.
-    inner = [shapely.intersection(region, strip).area for strip in strips]
+    inner = [intersection(region, strip).area for strip in strips]
     if inner[0] == inner[1]:
         return (
             normal
@@ -158,7 +160,7 @@ def _swept(gate: Region, way: FloatArray) -> Region:
         a, b = line[:-1], line[1:]
         corners = np.stack([a, b, b + way, a + way, a], axis=1)
         quads += [q for q in shapely.polygons(corners) if q.area > 0]
-    return shapely.union_all([*polygon_parts(gate), *quads])
+    return union([*polygon_parts(gate), *quads])
 
 
 def _breadth(gate: Region, way: FloatArray) -> float:
@@ -170,4 +172,4 @@ def _breadth(gate: Region, way: FloatArray) -> float:
 def _solid(region: Region) -> Region:
     """The same without slits that rounding leaves between parts."""
     parts = polygon_parts(region)
-    return shapely.union_all([shapely.Polygon(part.exterior, part.interiors) for part in parts])
+    return union([shapely.Polygon(part.exterior, part.interiors) for part in parts])

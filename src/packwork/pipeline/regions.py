@@ -12,6 +12,7 @@ import shapely
 from packwork.errors import ShapeError
 from packwork.geometry import polygon
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import intersection
 from packwork.pipeline.asking import Asked, Voice
 from packwork.readers.container import read_container
 from packwork.scene.container import Container
@@ -81,6 +82,6 @@ def _region(given: str | tuple[str | float, ...], container: Container) -> polyg
 
 def _common(region: polygon.Region, container: Container) -> Outline | None:
     try:
-        return Outline.from_region(shapely.intersection(region, container.outline.region))
+        return Outline.from_region(intersection(region, container.outline.region))
     except ShapeError:
         return None

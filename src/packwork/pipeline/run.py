@@ -6,8 +6,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from shapely.errors import GEOSException
 
 from packwork.arrays import IntArray
+from packwork.errors import ReadError, UnresolvedError
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.affine import similarity
@@ -72,7 +74,21 @@ def fill(
 def run(
     job: Job, observer: Observer | None = None, stop: Stop = never, record: bool = False
 ) -> Run:
-    """Solve and measure what was read; the second half of :func:`fill`."""
+    """Solve and measure what was read; the second half of :func:`fill`.
+
+    Raises
+    ------
+    ReadError
+        Naming the container, if outlines lie too close for any set operation.
+    """
+    try:
+        return _run(job, observer, stop, record)
+    except (UnresolvedError, GEOSException) as error:
+        why = error if isinstance(error, UnresolvedError) else f"cannot be resolved: {error}"
+        raise ReadError(job.container.source, str(why)) from error
+
+
+def _run(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
     if job.recipe.pile is not None:
         return _heaped(job, job.recipe.pile, observer, stop, record)
     if job.cells is not None:

@@ -11,6 +11,7 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.finish.offenders import Offender, find_offenders
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -95,7 +96,7 @@ def _away(
             push[j] -= apart
             continue
         region = outlines[i].mapped(poses.matrix(i)).region
-        outside = shapely.difference(region, container.outline.region)
+        outside = difference(region, container.outline.region)
         if outside.area > 0:
             push[i] += here - shapely.get_coordinates(outside.centroid)[0]
     return np.sign(push)

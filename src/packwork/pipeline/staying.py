@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-import shapely
 
 from packwork.forces.bonds import Home
 from packwork.forces.forces import BondForce, Forces
+from packwork.geometry.overlay import symmetric_difference
 from packwork.pipeline.beginning import new_items, who_is_who
 from packwork.pipeline.job import Job
 from packwork.scene.canvas import brought_over
@@ -35,7 +35,7 @@ def needs_no_levels(job: Job) -> bool:
     before, now = job.earlier.container, job.container
     if before.canvas != now.canvas:
         return False
-    changed = shapely.symmetric_difference(before.outline.region, now.outline.region).area
+    changed = symmetric_difference(before.outline.region, now.outline.region).area
     return bool(changed < SAME * now.outline.area)
 
 

@@ -10,6 +10,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, polygon_parts, silhouette, united
+from packwork.geometry.snapping import sound, without_clefts
 from packwork.readers.unfit import UnfitError, notice
 
 Holes: TypeAlias = Literal["fill", "keep"]
@@ -43,7 +44,7 @@ def clean_union(*regions: Region, speck: float = SPECK) -> Region:
     >>> clean_union(shapely.box(0, 0, 1, 1), shapely.box(5, 5, 5.0001, 5.0001)).area
     1.0
     """
-    whole = united(regions)
+    whole = sound(united(regions))
     if whole.area == 0:
         raise UnfitError("paints no area; give at least one filled or stroked shape")
     left, top, right, bottom = whole.bounds
@@ -91,7 +92,8 @@ def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
     >>> outline.bounds, place[:, 2].tolist()
     ((-1.0, -2.0, 1.0, 2.0), [-3.0, -4.0])
     """
-    outline = Outline.from_region(silhouette(ink) if holes == "fill" else ink)
+    shape = silhouette(without_clefts(silhouette(ink))) if holes == "fill" else ink
+    outline = Outline.from_region(shape)
     x, y = outline.centroid
     place = affine.similarity(-float(x), -float(y), 0.0, 1.0)
     return outline.mapped(place), Outline.from_region(ink).mapped(place), place

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import numpy as np
-import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import oriented_rings, polygon_parts
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
@@ -150,7 +150,7 @@ def _promise(layout: Layout) -> tuple[str, ...]:
 
 def _bare_rings(item: Item) -> list[FloatArray]:
     """Edges of what is not drawn inside an item's outline, in its own units."""
-    bare = shapely.difference(item.outline.region, item.ink.region)
+    bare = difference(item.outline.region, item.ink.region)
     least = _SLIVER * item.outline.area
     parts = [part for part in polygon_parts(bare) if part.area > least]
     return [ring for part in parts for ring in oriented_rings(part)]

@@ -18,7 +18,7 @@ import numpy as np
 import shapely
 
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region, polygon_parts
+from packwork.geometry.overlay import Region, polygon_parts, valid
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.writers.notation import decimals
@@ -142,7 +142,7 @@ def _feature(properties: dict[str, Any], outline: Outline, digits: int) -> dict[
 def _geometry(region: Region, digits: int) -> dict[str, Any]:
     rounded = shapely.transform(region, lambda points: np.round(points, digits))
     # Rings that all but touch may cross once they are rounded: then all digits are needed.
-    kept = rounded if rounded.is_valid else region
+    kept = rounded if rounded.is_valid else valid(region)
     polygons = [_rings(p) for p in polygon_parts(kept)]
     if len(polygons) == 1:
         return {"type": "Polygon", "coordinates": polygons[0]}

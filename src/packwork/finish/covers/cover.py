@@ -6,7 +6,15 @@ import shapely
 
 from packwork.finish.covers import _kernels
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region, polygon_parts
+from packwork.geometry.overlay import (
+    Region,
+    buffered,
+    difference,
+    polygon_parts,
+    simplify,
+    union,
+    valid,
+)
 
 MARGIN = 0.1
 """Share of the tolerance that goes into a plain simplification first, and into the margin
@@ -38,8 +46,7 @@ def covering(region: Region, tolerance: float) -> Region:
     """
     if tolerance <= 0:
         return region
-    if not region.is_valid:
-        region = shapely.make_valid(region)
+    region = valid(region)
     loose = _grown(region, MARGIN * tolerance)
     rings = [_kernels.shed(ring, tolerance) for ring in Outline.from_region(loose).rings]
     if min(map(len, rings)) >= 3:
@@ -55,13 +62,11 @@ def _grown(region: Region, tolerance: float) -> Region:
     """Region simplified, then grown by as much."""
     # The plain algorithm is ten times faster; where it lets rings cross, the careful one is
     # asked. Rings that it drops are holes, or the cover would not hold all.
-    fewer = shapely.simplify(region, tolerance, preserve_topology=False)
+    fewer = simplify(region, tolerance, keeps_topology=False)
     if not fewer.is_valid:
-        fewer = shapely.simplify(region, tolerance, preserve_topology=True)
+        fewer = simplify(region, tolerance, keeps_topology=True)
     for margin in MARGINS:
-        cover = shapely.buffer(
-            fewer, margin * tolerance, join_style="mitre", mitre_limit=MITRE_LIMIT
-        )
+        cover = buffered(fewer, margin * tolerance, join_style="mitre", mitre_limit=MITRE_LIMIT)
         if cover.is_valid and cover.covers(region):
             return cover
     return region
@@ -78,7 +83,7 @@ def lining(region: Region, tolerance: float) -> Region:
     """
     if tolerance <= 0:
         return region
-    frame = shapely.box(*region.bounds).buffer(8 * tolerance, join_style="mitre")
-    inside = shapely.difference(frame, covering(frame.difference(region), tolerance))
+    frame = buffered(shapely.box(*region.bounds), 8 * tolerance, join_style="mitre")
+    inside = difference(frame, covering(difference(frame, region), tolerance))
     parts = polygon_parts(inside)
-    return shapely.union_all(parts) if parts else region
+    return union(parts) if parts else region

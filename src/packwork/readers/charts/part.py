@@ -9,7 +9,9 @@ import shapely
 
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
+from packwork.geometry.snapping import sound
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
 
 
@@ -23,10 +25,10 @@ def part_of(item: Item, share: float) -> Item:
     (-0.5, -1.0, 0.5, 1.0)
     """
     at = _cut(item.outline.region, share)
-    outline = Outline.from_region(_left(item.outline.region, at))
+    outline = Outline.from_region(sound(_left(item.outline.region, at)))
     x, y = (float(value) for value in outline.centroid)
     place = affine.similarity(-x, -y, 0.0, 1.0)
-    ink = _left(item.ink.region, at)
+    ink = sound(_left(item.ink.region, at))
     inked = outline if ink.area == 0 else Outline.from_region(ink)
     return replace(
         item,
@@ -54,7 +56,7 @@ def _left(region: Region, at: float) -> Region:
     left, top, _, bottom = region.bounds
     if at <= left:
         return shapely.Polygon()
-    return shapely.intersection(region, shapely.box(left, top, at, bottom))
+    return intersection(region, shapely.box(left, top, at, bottom))
 
 
 def _cut_art(item: Item, at: float, x: float, y: float) -> FlatArt | VectorArt:

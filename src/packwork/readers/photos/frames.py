@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from packwork.geometry import affine
+from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
 from packwork.readers.photos.developing import Negative, Window, developed
 from packwork.readers.photos.options import PhotoOptions
@@ -78,7 +79,7 @@ def _rounded(full: Window, radius: float) -> Region:
     left, top, right, bottom = full
     xs, ys = (left + radius, right - radius), (top + radius, bottom - radius)
     middles = shapely.multipoints([(x, y) for x in xs for y in ys])
-    return shapely.buffer(middles.convex_hull, radius, quad_segs=CORNER_SEGMENTS)
+    return buffered(middles.convex_hull, radius, quad_segs=CORNER_SEGMENTS)
 
 
 def _shaped(shape: str, full: Window) -> tuple[Window, Region]:
@@ -113,6 +114,4 @@ def _bordered(picture: Region, width: float) -> Region:
         return picture
     is_box = picture.area > (1 - 1e-9) * shapely.box(*picture.bounds).area
     join = "mitre" if is_box else "round"
-    return shapely.buffer(
-        picture, width, quad_segs=CORNER_SEGMENTS, join_style=join, mitre_limit=MITRE
-    )
+    return buffered(picture, width, quad_segs=CORNER_SEGMENTS, join_style=join, mitre_limit=MITRE)

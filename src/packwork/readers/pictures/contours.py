@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-import shapely
 
 from packwork.arrays import FloatArray
+from packwork.geometry.overlay import simplify
 from packwork.geometry.polygon import Region, oriented_rings, region, signed_area
 from packwork.readers.pictures.stairs import without_stairs
 from packwork.readers.unfit import UnfitError
@@ -53,7 +53,7 @@ def contour_region(coverage: FloatArray, simplify_px: float) -> Region:
     if has_hard_edges(coverage):
         return region([without_stairs(ring) for ring in rings], "evenodd")
     traced = region(rings, "evenodd")
-    simple = shapely.simplify(traced, simplify_px, preserve_topology=True)
+    simple = simplify(traced, simplify_px, keeps_topology=True)
     return simple if simple.is_valid and oriented_rings(simple) else traced
 
 

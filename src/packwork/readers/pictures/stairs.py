@@ -13,6 +13,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.geometry.overlay import simplify
 
 STAIR_PX = 1.0
 """Distance within which the stairs of a straight edge lie from a chord between two of
@@ -52,7 +53,9 @@ def _cut(ring: FloatArray) -> tuple[FloatArray, IntArray]:
     """Closed ring that begins at a far corner, and the indices where it turns."""
     start = int(np.hypot(*(ring - ring.mean(axis=0)).T).argmax())
     turned = np.concatenate([np.roll(ring, -start, axis=0), ring[start : start + 1]])
-    kept = shapely.get_coordinates(shapely.simplify(shapely.LineString(turned), STAIR_PX))
+    kept = shapely.get_coordinates(
+        simplify(shapely.LineString(turned), STAIR_PX, keeps_topology=True)
+    )
     cuts, place = [0], 0
     for point in kept[1:]:
         place += 1 + int((turned[place + 1 :] == point).all(axis=1).argmax())

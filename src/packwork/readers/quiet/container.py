@@ -10,7 +10,9 @@ import shapely
 from packwork.errors import ReadError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import Region
+from packwork.geometry.snapping import sound
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.photos.developing import Negative, inspected
 from packwork.readers.photos.photo import Photograph
@@ -83,9 +85,9 @@ def container_around(
     to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
     region = shapely.transform(quiet.region, lambda points: affine.apply(to_canvas, points))
     for kept in options.keep_clear:
-        region = shapely.difference(region, _kept_clear(kept, size, read_region))
+        region = difference(region, _kept_clear(kept, size, read_region))
     try:
-        outline = Outline.from_region(region)
+        outline = Outline.from_region(sound(region))
     except ShapeError:
         raise ReadError(
             file, "has no quiet part outside of what is to be kept clear; raise the quiet share"

@@ -15,6 +15,7 @@ import shapely
 from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
+from packwork.geometry.overlay import simplify, union
 from packwork.geometry.polygon import Region
 from packwork.readers.svg.dashing import dashed
 from packwork.readers.svg.path_data import SubPath
@@ -115,7 +116,7 @@ def open_stroke(fine: FloatArray, pen: Pen, tolerance: float) -> Region:
         return plain
     line = np.concatenate([fine[[first // 2]], thin[1:-1], fine[[len(fine) - 1 - last // 2]]])
     body = stroke_region(line, False, replace(pen, cap="butt"), tolerance)
-    return shapely.union_all([body, *caps])
+    return union([body, *caps])
 
 
 def _end(line: FloatArray, corner: FloatArray) -> int:
@@ -143,5 +144,5 @@ def _way(start: FloatArray, end: FloatArray) -> FloatArray:
 def _thinned(line: FloatArray, tolerance: float) -> FloatArray:
     if len(line) < 3:
         return line
-    thin = shapely.simplify(shapely.LineString(line), tolerance * (1 - 1 / FINER))
+    thin = simplify(shapely.LineString(line), tolerance * (1 - 1 / FINER), keeps_topology=True)
     return np.asarray(shapely.get_coordinates(thin))

@@ -10,6 +10,7 @@ from functools import cached_property
 
 from shapely.errors import GEOSException
 
+from packwork.errors import ShapeError
 from packwork.readers.gate.door import admit
 from packwork.readers.svg.compare import LEAST_AGREEMENT, Comparison
 from packwork.readers.svg.extent import drawing_box
@@ -111,7 +112,7 @@ def _compared(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Dra
         drawing = Drawing(root, page, painted_ink(shapes), shapes)
         comparison = Comparison(root, page, drawing.ink.body, drawing.work)
         share = comparison.agreement(drawing.ink.whole)
-    except (TooRichError, GEOSException) as problem:
+    except (TooRichError, GEOSException, ShapeError) as problem:
         traced = _traced(root, page, shapes)
         why = problem.what if isinstance(problem, TooRichError) else "has edges too close to tell"
         notice(f"is traced from its picture, for it {why}")

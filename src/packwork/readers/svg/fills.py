@@ -13,7 +13,7 @@ import shapely
 from shapely.geometry import LinearRing, MultiLineString, Polygon
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.geometry.polygon import FillRule, Region, region, signed_area
+from packwork.geometry.polygon import FillRule, Region, enclosed, region, signed_area
 from packwork.readers.svg.crossings import Allowance
 from packwork.readers.unfit import TooRichError
 
@@ -63,9 +63,8 @@ def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) ->
     if len(kept) == 1:
         return Polygon(kept[0])
     if rule == "nonzero":
-        edges = [ring for ring, is_edge in zip(kept, _are_edges(kept), strict=True) if is_edge]
-        together = MultiLineString(edges)
-    return shapely.build_area(together)
+        kept = [ring for ring, is_edge in zip(kept, _are_edges(kept), strict=True) if is_edge]
+    return enclosed(kept)
 
 
 def _check_nesting(rings: Sequence[LinearRing]) -> None:

@@ -8,11 +8,11 @@ from typing import final
 
 import numpy as np
 import shapely
-from shapely.errors import GEOSException
 from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.overlay import buffered, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.svg.centre_lines import FinePoints, piece_strokes
 from packwork.readers.svg.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
@@ -31,9 +31,6 @@ posters. Chosen."""
 BRIDGED_SHARE = 0.1
 """Gap of a dashed line, as a share of the drawing's extent, up to which an outline passes
 over it. Larger fills real openings, smaller lets items into dotted frames. Chosen."""
-
-_GRID = 0.01
-"""Cells of the grid that settles edges too close for GEOS, in tolerances."""
 
 _FLAT = 1e-12
 """Determinant of a map, over its squared stretch, below which it leaves no area."""
@@ -97,11 +94,7 @@ class Follower:
             return several[0]
         if several:
             self._union_allowance.spend(_rings(several))
-        try:
-            return shapely.union_all(several)
-        except GEOSException:
-            # Rarely, GEOS meets edges that it cannot tell apart: on a grid it can.
-            return shapely.union_all(several, grid_size=_GRID * self._tolerance)
+        return union(several)
 
     def fill(self, shape: Painted) -> Region:
         """What shows of the fill, whatever its paint."""
@@ -115,7 +108,7 @@ class Follower:
         """Whether the page or a viewport cuts off some of the shape."""
         if shape.window is None or is_inside(shape.window, whole_box(shape, is_safe=True)):
             return False
-        slack = shape.window.buffer(self._tolerance, join_style="mitre")
+        slack = buffered(shape.window, self._tolerance, join_style="mitre")
         painted = [self._whole_fill(shape)] if shape.painting.has_fill else []
         if shape.painting.has_stroke:
             painted.append(self._whole_stroke(shape, is_bridged=False))
@@ -129,11 +122,7 @@ class Follower:
         return painted
 
     def _clipped(self, painted: Region, window: Region) -> Region:
-        try:
-            common = shapely.intersection(painted, window)
-        except GEOSException:
-            common = shapely.intersection(painted, window, grid_size=_GRID * self._tolerance)
-        return self.united(polygon_parts(common))
+        return self.united(polygon_parts(intersection(painted, window)))
 
     def _let_through(self, clip: Clip) -> Region:
         if clip not in self._clips:

@@ -15,6 +15,7 @@ import shapely
 from shapely.geometry import LinearRing, LineString, Point, Polygon
 
 from packwork.arrays import FloatArray
+from packwork.geometry.overlay import buffered, union
 from packwork.geometry.polygon import Region
 
 MAX_QUARTER_STEPS = 64
@@ -76,14 +77,15 @@ def stroke_region(points: FloatArray, is_closed: bool, pen: Pen, tolerance: floa
     # A ring of two points is a line there and back.
     is_ring = is_closed and len(line) > 2
     path = LinearRing(line) if is_ring else LineString(line)
-    painted = path.buffer(
+    painted = buffered(
+        path,
         pen.width / 2,
         quad_segs=_quarter_steps(pen.width / 2, tolerance),
         cap_style=_CAPS.get(pen.cap, "flat"),
         join_style=_JOINS.get(pen.join, "bevel"),
     )
     spikes = [] if pen.join in _JOINS else _mitres(line, is_ring, pen, tolerance)
-    return shapely.union_all([painted, *spikes]) if spikes else painted
+    return union([painted, *spikes]) if spikes else painted
 
 
 def _distinct(points: FloatArray, is_closed: bool) -> FloatArray:
@@ -100,7 +102,7 @@ def _dot(at: FloatArray, pen: Pen, tolerance: float) -> Region:
     """Mark of a piece without length."""
     half = pen.width / 2
     if pen.cap == "round":
-        return Point(at).buffer(half, quad_segs=_quarter_steps(half, tolerance))
+        return buffered(Point(at), half, quad_segs=_quarter_steps(half, tolerance))
     if pen.cap == "square":
         return shapely.box(*(at - half), *(at + half))
     return Polygon()

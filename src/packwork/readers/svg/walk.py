@@ -11,6 +11,7 @@ from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
 from packwork.readers.gate.references import elements_by_id, paint_server
 from packwork.readers.gate.sanitise import HREF
@@ -258,4 +259,4 @@ class _Walk:
 def _narrowed(window: Region | None, place: FloatArray, width: float, height: float) -> Region:
     corners = np.array([(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)])
     box = Polygon(affine.apply(place, corners))
-    return box if window is None else shapely.intersection(window, box)
+    return box if window is None else intersection(window, box)

@@ -8,6 +8,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
+from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
@@ -65,4 +66,4 @@ def walled_container(source: str, side: float | None) -> tuple[Container, FloatA
 
 def _inside(line: Line) -> Region:
     points = line.points
-    return shapely.make_valid(shapely.Polygon(points)) if len(points) > 2 else shapely.Polygon()
+    return valid(shapely.Polygon(points)) if len(points) > 2 else shapely.Polygon()

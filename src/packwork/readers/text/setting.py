@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 import shapely
 from shapely import affinity
 
+from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region
 from packwork.readers.text.face import Letter, named
 from packwork.readers.unfit import UnfitError
@@ -75,7 +76,7 @@ def set_lines(lines: Sequence[str], letters: Mapping[str, Letter]) -> Region:
         left, low, right, high = ink.bounds
         placed.append(affinity.translate(ink, -(left + right) / 2, top - low))
         top += high - low + LINE_GAP
-    return shapely.union_all(placed)
+    return union(placed)
 
 
 def _set_line(line: str, letters: Mapping[str, Letter]) -> Region:
@@ -91,7 +92,7 @@ def _set_line(line: str, letters: Mapping[str, Letter]) -> Region:
         x += push + letter.advance
     if not pieces:
         raise UnfitError(f"draws nothing for {line!r}; choose another font")
-    return shapely.union_all(pieces)
+    return union(pieces)
 
 
 def _push(before: Region, after: Region) -> float:

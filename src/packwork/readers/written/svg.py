@@ -23,7 +23,7 @@ from packwork.geometry.polygon import Region, silhouette
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
-from packwork.readers.regions import clean_union
+from packwork.readers.regions import SPECK, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.lengths import parse_length
@@ -37,6 +37,10 @@ from packwork.units import Unit, convert
 FLATTENING = 1e-6
 """Largest distance of a curve from its chords, as a share of the canvas. Chosen: a tenth of
 the finest gap that a finish keeps."""
+
+_SPECK = 1.5 * SPECK
+"""Specks that are passed over: somewhat larger ones than where items are read, as one that was
+left out there may seem larger when it is followed more finely."""
 
 _SAME = 1e-9
 _SPACE = "{http://www.w3.org/2000/svg}"
@@ -154,7 +158,7 @@ class _Drawings:
         document = ET.Element(f"{_SPACE}svg")
         document.extend(elements)
         drawing = read_drawing(ET.tostring(document), tolerance=FLATTENING * self._side / size)
-        return clean_union(drawing.ink.body)
+        return clean_union(drawing.ink.body, speck=_SPECK)
 
 
 def _found(

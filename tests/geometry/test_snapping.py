@@ -1,0 +1,65 @@
+"""Rings keep clear of themselves, so that no digit that is rounded away matters."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.strategies import ring_sets
+
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import region
+from packwork.geometry.snapping import CLEFT, STEP, sound, without_clefts
+
+_SIZES = st.sampled_from([1e-3, 1.0, 1e6])
+_SLIPS = st.sampled_from([0.0, 1e-13, 1e-9, 1e-7, 1e-5])
+
+
+@given(ring_sets(), _SIZES, _SLIPS, st.integers(0, 99), st.booleans())
+@settings(deadline=None, max_examples=80)
+def test_sound_regions_stay_valid_when_turned_and_rounded(
+    rings: list[np.ndarray], size: float, slip: float, seed: int, doubled: bool
+) -> None:
+    rng = np.random.default_rng(seed)
+    # Each ring twice, a hair apart: edges that all but coincide.
+    both = [*rings, *(ring[::-1] + slip for ring in rings)] if doubled else rings
+    wild = region([size * (r + rng.normal(0, slip, r.shape)) for r in both], "evenodd")
+    clean = sound(wild)
+    if clean.area == 0:
+        return
+    left, top, right, bottom = clean.bounds
+    extent = max(right - left, bottom - top)
+    assert shapely.minimum_clearance(clean) >= 0.49 * STEP * extent
+    assert abs(clean.area - wild.area) <= 20 * STEP * extent * max(wild.length, extent)
+    outline = Outline.from_region(clean)
+    for angle in rng.uniform(0, 6.28, 3):
+        placed = outline.mapped(affine.similarity(70.0, 30.0, float(angle), 50.0 / extent))
+        assert placed.region.is_valid
+        assert shapely.transform(placed.region, lambda p: np.round(p, 7)).is_valid
+
+
+def test_a_ring_that_all_but_touches_itself_is_parted() -> None:
+    # Two squares joined by a neck without width.
+    neck = 1e-13
+    shape = shapely.Polygon(
+        [(0, 0), (2, 0), (2, 1 - neck), (3, 1), (3, 0), (5, 0), (5, 2), (3, 2), (3, 1 + neck),
+         (2, 1 + neck), (2, 2), (0, 2)]
+    )  # fmt: skip
+    assert shape.is_valid
+    assert sound(shape).geom_type == "MultiPolygon"
+    assert abs(sound(shape).area - 8) < 1e-5
+
+
+def test_a_bay_whose_mouth_a_file_could_close_is_filled() -> None:
+    ring = shapely.box(0, 0, 10, 10) - shapely.box(2, 2, 8, 8)
+    for mouth, is_filled in ((0.1 * CLEFT, True), (5 * CLEFT, False)):
+        slit = ring - shapely.box(5, -1, 5 + 10 * mouth, 5)
+        assert (without_clefts(slit).area > 90) is is_filled
+
+
+def test_a_sound_region_is_left_alone() -> None:
+    star = shapely.Point(0, 0).buffer(3.0)
+    assert sound(star) is star
+    assert without_clefts(star) is star
