@@ -35,7 +35,8 @@ PARAMETERS = [
 ]
 WRITING_OPTIONS = {
     "output", "pixels", "background", "show_container", "flatten", "report", "diagnose",
-    "save_recipe", "quiet", "loss", "show_saliency", "film", *FilmOptions.model_fields,
+    "save_recipe", "no_clobber", "quiet", "loss", "show_saliency", "film",
+    *FilmOptions.model_fields,
 }  # fmt: skip
 
 ELSEWHERE = {"losses", "rules", "words", "chart", "photos", "share", "pile", "film"}

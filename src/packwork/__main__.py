@@ -12,6 +12,7 @@ INTERRUPTED = 130
 
 def main() -> None:
     """Run the command line; Ctrl-C while it still loads is one line too."""
+    _leave_working_folder()
     try:
         from packwork.cli import app
 
@@ -27,6 +28,19 @@ def main() -> None:
         if end.code == INTERRUPTED:
             _end_stopped()
         raise
+
+
+def _leave_working_folder() -> None:
+    """Take the working folder, which ``python -m`` looks in first, out of where modules are found.
+
+    What lies there may come from anywhere, and a file of the name of a package that is not
+    installed would be run in its place. Where this package itself lies there, it stays.
+    """
+    here = os.path.realpath(sys.path[0] or os.curdir)
+    package = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))  # noqa: PTH120
+    with contextlib.suppress(OSError):
+        if not sys.flags.safe_path and here == os.path.realpath(os.curdir) and here != package:
+            del sys.path[0]
 
 
 def _end_stopped() -> None:

@@ -6,11 +6,12 @@ import math
 from collections.abc import Mapping
 from typing import Annotated
 
-from pydantic import Field, field_validator
+from pydantic import BeforeValidator, Field, field_validator
 
 from packwork.errors import RecipeError
 from packwork.options import Options
 from packwork.readers.photos.options import PhotoOptions
+from packwork.units import parse_share
 
 _EXAMPLE = "use shares such as words=50%,photos=30%,items=20%"
 
@@ -53,9 +54,9 @@ class Pictured(Options):
     photos: PhotoOptions | None = None
     """Photographs to place: which, and what becomes of their edges (``packwork photos``)."""
 
-    quiet_share: Annotated[float, Field(ge=0.02, le=0.98)] = 0.4
-    """Of a container around:IMAGE: the share of the picture that is filled, that in which least
-    is to be seen."""
+    quiet_share: Annotated[float, Field(ge=0.02, le=0.98), BeforeValidator(parse_share)] = 0.4
+    """Of a container around:IMAGE: the share of the picture that is filled, as 0.4 or 40%: that
+    in which least is to be seen."""
 
     keep_clear: tuple[str, ...] | None = None
     """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or

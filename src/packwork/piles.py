@@ -10,6 +10,7 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 from packwork.errors import RecipeError
 from packwork.forces.spec import ForceTexts, is_pair
 from packwork.options import Options
+from packwork.recipe_paths import split_words
 from packwork.refusals import length_asked
 
 Side: TypeAlias = Literal["top", "bottom", "left", "right"]
@@ -58,7 +59,7 @@ def parse_emitter(text: str) -> Emitter:
     >>> parse_emitter("top").side, parse_emitter("10%,0 90%,0").points
     ('top', ('10%,0', '90%,0'))
     """
-    words = text.split()
+    words = split_words(text)
     side = next((side for side in get_args(Side) if words == [side]), None)
     if side is not None:
         return Emitter(side=side)

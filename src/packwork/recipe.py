@@ -34,7 +34,7 @@ from packwork.solve.options import (
     SolveOptions,
 )
 from packwork.start.options import StartOptions
-from packwork.units import CanvasSize, canvas_size
+from packwork.units import CanvasSize, canvas_size, parse_share
 from packwork.writers.film.options import FilmOptions
 
 if TYPE_CHECKING:
@@ -142,9 +142,9 @@ class Recipe(Pictured, Moving, TableFormat):
     """exact: after the levels, items are moved, turned and sized in exact geometry until
     nothing overlaps and nothing sticks out; none: what the levels gave, not certified."""
 
-    target_coverage: Annotated[float, Field(gt=0, lt=1)] | None = None
-    """Share of the container to cover, as 0.94: smaller copies are put into the voids, round by
-    round, until it is reached or nothing more fits."""
+    target_coverage: Annotated[float, Field(gt=0, lt=1), BeforeValidator(parse_share)] | None = None
+    """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids,
+    round by round, until it is reached or nothing more fits."""
 
     max_items: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
     """Most items in all once smaller copies have been put into the voids. Default: 1000."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Mapping, Sequence
 from typing import Any, get_args
@@ -10,6 +9,7 @@ from typing import Any, get_args
 from pydantic import BaseModel, ValidationError
 
 from packwork.errors import RecipeError
+from packwork.synonyms import key_meant
 from packwork.units import parse_length
 
 _PLAIN_WORDS = {
@@ -70,8 +70,8 @@ def refusal(
 
 def _unknown(within: Sequence[int | str], key: str, known: list[str]) -> str:
     met = str(within[-1]) if within else key
-    close = difflib.get_close_matches(met, known, n=1)
-    hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(known)}"
+    meant = key_meant(met, known)
+    hint = f"did you mean {meant}?" if meant else f"there are {', '.join(known)}"
     if not within:
         return f"no such option; {hint}"
     return f"{_where(within[:-1])}there is no {met!r}; {hint}"

@@ -133,6 +133,20 @@ def parse_length(text: str, unit: str, whole: float) -> float:
     return length
 
 
+def parse_share(value: object) -> object:
+    """Share of one of ``94%``, ``"0.94"`` or ``0.94``; anything else as it is.
+
+    Examples
+    --------
+    >>> parse_share("94 %"), parse_share(".94"), parse_share(0.5), parse_share("wide")
+    (0.94, 0.94, 0.5, 'wide')
+    """
+    met = split_length(value) if isinstance(value, str) else None
+    if met is None or met[1] not in {"", "%"}:
+        return value
+    return round(met[0] / 100, 12) if met[1] else met[0]
+
+
 @dataclass(frozen=True)
 class CanvasSize:
     """What is asked of a canvas.

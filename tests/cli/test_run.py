@@ -103,6 +103,8 @@ def test_hero_palette_and_apart_on_the_command_line(folder, packwork) -> None:
         ("container = ", "is not TOML"),
         ('container = "heart"\ncuont = 3', "did you mean count?"),
         ("count = 3", "container: must be given"),
+        ('container = "heart"\ngap = 3', "gap: no such option; did you mean padding?"),
+        ('container = "heart"\nequal = true', 'did you mean sizes = "shared"?'),
         ('container = "heart"\ncount = 0', "r.toml: count: must be at least 1, not 0"),
         ('container = "heart"\nlevels = []', "levels"),
         ('container = "heart"\nrules = 3', "r.toml: rules: must be a list of tables"),

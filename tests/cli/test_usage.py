@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from typer.testing import Result
@@ -19,7 +21,23 @@ Command = Callable[..., Result]
         ("fill heart --cuont 3", "no such option: --cuont"),
         ("fill heart -n", "requires an argument"),
         ("fill heart -n many", "invalid value for '-n' / '--count'"),
-        ("fil heart", "no such command 'fil'"),
+        ("fil heart", "no such command 'fil'; did you mean fill?"),
+        ("fill heart --gap 3", "no such option: --gap; did you mean --padding?"),
+        ("fill heart --margin 3", "did you mean --padding?"),
+        ("fill heart --colors red", "did you mean --palette?"),
+        ("fill heart --number 3", "did you mean --count?"),
+        ("fill heart --equal", "did you mean --sizes shared?"),
+        ("fill heart --coverage .9", "did you mean --target-coverage?"),
+        ("fill --mask a.png", "did you mean the first argument, CONTAINER?"),
+        ("words heart a.txt --max-words 9", "did you mean --count?"),
+        ("words heart a.txt --background_color red", "did you mean --background?"),
+        ("words heart a.txt --collocations", "did you mean --phrases?"),
+        ("chart heart a.csv --group-by x", "did you mean --by?"),
+        ("pile square --width 9", "did you mean --canvas?"),
+        ("collage heart", "did you mean fill?"),
+        ("wordcloud a.txt", "did you mean words?"),
+        ("pack heart", "did you mean fill?"),
+        ("qqqq heart", "no such command 'qqqq'; see packwork --help"),
         ("measure", "missing argument"),
     ],
 )
@@ -34,3 +52,17 @@ def test_wrong_use_is_one_line(packwork: Command, line: str, said: str) -> None:
 
 def test_no_command_shows_the_help(packwork: Command) -> None:
     assert "Usage: packwork" in packwork("").output
+
+
+@pytest.mark.parametrize("share", ["1%", "0.01", ".01", "1 %"])
+def test_a_share_may_be_in_percent(packwork: Command, share: str) -> None:
+    line = "fill circle star -n 2 --levels 16 --epochs 2 -q --report a.json --target-coverage"
+    result = packwork(line, share)
+    assert result.exit_code == 0, result.output
+    assert json.loads(Path("a.json").read_text(encoding="utf-8"))["filling"]["target"] == 0.01
+
+
+def test_a_share_of_more_than_all_is_refused(packwork: Command) -> None:
+    result = packwork("fill circle star --target-coverage 94")
+    assert result.exit_code == 2
+    assert "--target-coverage: must be less than 1, not 94" in result.stderr

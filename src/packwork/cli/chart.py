@@ -84,6 +84,7 @@ def chart(
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
+    no_clobber: shared.NoClobber = False,
     quiet: shared.Quiet = False,
 ) -> None:
     """Show a table's rows, a mark for each, sizes in proportion to numbers.
@@ -136,6 +137,6 @@ def chart(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
             pixels=pixels, background=background, show_container=show_container, flatten=flatten,
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
-            film_pixels=film_pixels, recipes=recipe.film,
+            film_pixels=film_pixels, recipes=recipe.film, no_clobber=no_clobber,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

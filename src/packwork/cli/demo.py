@@ -31,6 +31,7 @@ def demo(
         typer.Argument(metavar="[NAME]", help=NAMES),
     ] = "bear",
     folder: Annotated[Path, typer.Option("--folder", help="Where the pictures go.")] = Path("out"),
+    no_clobber: shared.NoClobber = False,
     quiet: shared.Quiet = False,
 ) -> None:
     """Make a collage of the built-in icons and write it as SVG and PNG.
@@ -45,11 +46,11 @@ def demo(
         if name == TEASER:
             from packwork.cli.teaser import make_teaser
 
-            raise typer.Exit(make_teaser(folder, quiet))
+            raise typer.Exit(make_teaser(folder, quiet, no_clobber=no_clobber))
         from packwork.cli.running import Outputs, run_and_write
         from packwork.writers import write_options
 
         recipe = make_recipe(container=f"builtin:{name}", **DEMOS.get(name, {"count": 100}))
         files = [folder / f"{name}{ending}" for ending in (".svg", ".png", ".geojson")]
-        outputs = Outputs(files=files, options=write_options())
+        outputs = Outputs(files=files, options=write_options(), keeps_files=no_clobber)
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

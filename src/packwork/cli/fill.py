@@ -9,7 +9,6 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
-from packwork.cli.saliency import write_saliency
 from packwork.recipe import make_recipe
 
 DEFAULT_OUTPUT = Path("collage.svg")
@@ -85,6 +84,7 @@ def fill(
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
+    no_clobber: shared.NoClobber = False,
     quiet: shared.Quiet = False,
 ) -> None:
     """Fill a container with items.
@@ -139,11 +139,11 @@ def fill(
         )
         from packwork.cli.running import outputs_asked, run_and_write
 
-        write_saliency(recipe, show_saliency)
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
             pixels=pixels, background=background, show_container=show_container, flatten=flatten,
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
-            film_pixels=film_pixels, recipes=recipe.film,
+            film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
+            no_clobber=no_clobber,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -21,6 +21,7 @@ def measure(
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     pixels: shared.Pixels = 1_600,
+    no_clobber: shared.NoClobber = False,
     quiet: shared.Quiet = False,
 ) -> None:
     """Measure a saved layout: coverage, overlap, what sticks out, evenness, gaps.
@@ -34,15 +35,22 @@ def measure(
     """
     with clear_errors():
         from packwork import writers
+        from packwork.cli.existing import check_new
         from packwork.cli.show import Paper, certificate_line, metrics_table, printing
+        from packwork.inputs import check_no_input
         from packwork.metrics.certificate import Promise, broken
         from packwork.metrics.measure import measure as measure_layout
         from packwork.readers.written.read import read_written
 
-        for path in (report, diagnose):
-            if path is not None:
-                writers.check_writable(path)
+        outputs = [path for path in (report, diagnose) if path is not None]
+        for path in outputs:
+            writers.check_writable(path)
+        writers.check_outputs(outputs)
+        if no_clobber:
+            check_new(outputs)
         found = read_written(layout)
+        for path in outputs:
+            check_no_input(path)
         measured = measure_layout(found)
         metrics = measured.as_dict()
         promise = Promise.of(found.manifest)

@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 import typer
 
 from packwork.recipe import Recipe
+from packwork.units import parse_share
 from packwork.writers.film.options import FilmOptions
 
 PLACING = "What is placed"
@@ -19,11 +20,14 @@ WRITING = "What is written"
 FILMING = "What is filmed"
 
 
-def flag(field: str, *names: str, panel: str) -> Any:
+def flag(field: str, *names: str, panel: str, **more: Any) -> Any:
     """Typer option whose help is the recipe field's own description."""
     described = Recipe.model_fields[field].description or ""
     return typer.Option(
-        *(names or (f"--{field.replace('_', '-')}",)), help=described, rich_help_panel=panel
+        *(names or (f"--{field.replace('_', '-')}",)),
+        help=described,
+        rich_help_panel=panel,
+        **more,
     )
 
 
@@ -45,8 +49,8 @@ Output = Annotated[
     typer.Option(
         "-o",
         "--output",
-        help="File to write; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format. "
-        "May be given several times.",
+        help="File to write; the ending (.svg, .png, .jpg, .webp, .tif, .pdf, .dxf, .geojson) "
+        "picks the format. May be given several times.",
         rich_help_panel=WRITING,
     ),
 ]
@@ -73,7 +77,9 @@ AddedPhotos = Annotated[
         rich_help_panel=PLACING,
     ),
 ]
-QuietShare = Annotated[float, flag("quiet_share", panel=PLACING)]
+QuietShare = Annotated[
+    float, flag("quiet_share", panel=PLACING, parser=parse_share, metavar="SHARE")
+]
 KeepClear = Annotated[list[str] | None, flag("keep_clear", panel=PLACING)]
 ShowSaliency = Annotated[
     Path | None,
@@ -91,7 +97,9 @@ OutlineChoice = Annotated[Literal["exact", "fitted", "hull"], flag("outline", pa
 Strict = Annotated[bool, flag("strict", "--strict", panel=PLACING)]
 Seed = Annotated[int, flag("seed", panel=SOLVING)]
 Finish = Annotated[Literal["exact", "none"], flag("finish", panel=SOLVING)]
-TargetCoverage = Annotated[float | None, flag("target_coverage", panel=GAPS)]
+TargetCoverage = Annotated[
+    float | None, flag("target_coverage", panel=GAPS, parser=parse_share, metavar="SHARE")
+]
 MaxItems = Annotated[int | None, flag("max_items", panel=GAPS)]
 Smallest = Annotated[str | None, flag("smallest", panel=GAPS)]
 Filler = Annotated[list[str] | None, flag("filler", panel=GAPS)]
@@ -188,6 +196,14 @@ SaveRecipe = Annotated[
         rich_help_panel=WRITING,
     ),
 ]
+NoClobber = Annotated[
+    bool,
+    typer.Option(
+        "--no-clobber",
+        help="Keep files that are there already: refuse to run if one is to be written.",
+        rich_help_panel=WRITING,
+    ),
+]
 Quiet = Annotated[
     bool, typer.Option("-q", "--quiet", help="Print nothing but warnings and errors.")
 ]
@@ -230,6 +246,12 @@ def loss_weights(losses: list[str] | None) -> dict[str, float]:
             weights[name] = float(weight or 1)
         except ValueError:
             raise RecipeError("loss", f"use NAME=WEIGHT with a number, not {text!r}") from None
-    if any(":" in name for name in weights) and str(Path.cwd()) not in sys.path:
-        sys.path.append(str(Path.cwd()))
+    if any(":" in name for name in weights):
+        find_own_modules()
     return weights
+
+
+def find_own_modules() -> None:
+    """Let modules of the working folder be found, after all others."""
+    if str(Path.cwd()) not in sys.path:
+        sys.path.append(str(Path.cwd()))

@@ -9,7 +9,6 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
-from packwork.cli.saliency import write_saliency
 from packwork.readers.photos.options import PhotoOptions
 
 DEFAULT_OUTPUT = Path("photos.jpg")
@@ -95,6 +94,7 @@ def photos(
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
+    no_clobber: shared.NoClobber = False,
     quiet: shared.Quiet = False,
 ) -> None:
     """Fill a container with photographs.
@@ -148,11 +148,11 @@ def photos(
             start=start,
             losses=shared.loss_weights(loss),
         )
-        write_saliency(recipe, show_saliency)
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
             pixels=pixels, dpi=dpi, background=background, show_container=show_container,
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
-            film_pixels=film_pixels, recipes=recipe.film,
+            film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
+            no_clobber=no_clobber,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

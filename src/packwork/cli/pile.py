@@ -65,6 +65,7 @@ def pile(
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
+    no_clobber: shared.NoClobber = False,
     quiet: shared.Quiet = False,
 ) -> None:
     """Heap items of given sizes, under forces, until they are at rest.
@@ -107,6 +108,6 @@ def pile(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
             pixels=pixels, background=background, show_container=show_container, flatten=flatten,
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
-            film_pixels=film_pixels, recipes=recipe.film,
+            film_pixels=film_pixels, recipes=recipe.film, no_clobber=no_clobber,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

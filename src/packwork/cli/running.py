@@ -5,9 +5,11 @@ Imported only when a run begins, since it imports the whole pipeline.
 
 from __future__ import annotations
 
+import os
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +17,9 @@ import typer
 from rich.console import Console
 
 from packwork import pipeline, writers
+from packwork.cli.existing import check_new
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
+from packwork.cli.saliency import write_saliency
 from packwork.cli.show import (
     Paper,
     certificate_line,
@@ -28,17 +32,15 @@ from packwork.cli.show import (
     words_line,
 )
 from packwork.display.bar import TerminalBar
-from packwork.errors import WriteError
+from packwork.errors import PackworkError, WriteError
+from packwork.inputs import check_no_input
 from packwork.pipeline.filming import film_options
-from packwork.readers.quiet.container import AROUND
+from packwork.pipeline.job import NO_CONTAINER
 from packwork.recipe import Recipe
 from packwork.writers.film.options import FilmOptions
 
 MOST_NAMED = 5
 """Items without a place that are named on the terminal; a report names all. Chosen."""
-
-LONGEST_NAME = 255
-"""Characters of a file's name, on most systems."""
 
 COMPILING = "Compiling the kernels: once after each installation, up to 40 s ..."
 
@@ -55,8 +57,11 @@ class Outputs:
         How they are drawn.
     films, filming
         Films of the run, and how they are made.
-    report, diagnose, recipe
-        Measures (JSON), the diagnostic picture (PNG), the recipe (TOML); None for none.
+    report, diagnose, recipe, saliency
+        Measures (JSON), the diagnostic picture (PNG), the recipe (TOML), what stands out of the
+        container's picture (PNG); None for none.
+    keeps_files
+        Whether what is there already stays.
     """
 
     files: Sequence[Path]
@@ -66,19 +71,22 @@ class Outputs:
     report: Path | None = None
     diagnose: Path | None = None
     recipe: Path | None = None
+    saliency: Path | None = None
+    keeps_files: bool = False
 
     @property
     def sides(self) -> list[Path]:
         """What is written beside the layouts."""
-        return [side for side in (self.report, self.diagnose, self.recipe) if side is not None]
+        sides = (self.report, self.diagnose, self.recipe, self.saliency)
+        return [side for side in sides if side is not None]
 
     @property
     def every(self) -> list[Path]:
         """All files."""
         return [*self.files, *self.films, *self.sides]
 
-    def check(self, recipe: Recipe) -> None:
-        """Refuse paths that cannot be written, that collide, or that the run reads.
+    def check(self) -> None:
+        """Refuse paths that cannot be written or that collide.
 
         Raises
         ------
@@ -92,18 +100,33 @@ class Outputs:
         for side in self.sides:
             writers.check_writable(side)
         writers.check_outputs(self.every)
-        named = [recipe.container.removeprefix(AROUND), *recipe.items]
-        if recipe.photos is not None:
-            named += recipe.photos.sources
-        if recipe.words is not None and isinstance(recipe.words.source, str):
-            # A text itself is no file; nor could so long a name be one.
-            named.append(recipe.words.source[:LONGEST_NAME])
-        if recipe.chart is not None:
-            named += [*recipe.chart.mark, *([d] if isinstance(d := recipe.chart.data, str) else [])]
-        read = {Path(name).resolve() for name in named if "\0" not in name}
+        if self.keeps_files:
+            check_new(self.every)
+
+    def saved_recipe(self, recipe: Recipe) -> list[tuple[Path, bytes]]:
+        """The recipe's file, if one is asked for, and its bytes."""
+        if self.recipe is None:
+            return []
+        if self.filming.model_fields_set:
+            recipe = recipe.model_copy(update={"film": self.filming})
+        return [(self.recipe, writers.recipe_bytes(recipe.plain(), self.recipe.parent))]
+
+    def check_read(self, job: pipeline.Job) -> None:
+        """Refuse, once all is read, to write over any of it, and pictures that are too large.
+
+        Raises
+        ------
+        WriteError
+            Naming the output and the input.
+        RecipeError
+            About the pixels.
+        """
         for path in self.every:
-            if path.resolve() in read:
-                raise WriteError(path, "is read by this run too; write to another file")
+            check_no_input(path)
+        if job.recipe.container != NO_CONTAINER:
+            pictures = [*self.files, *([] if self.diagnose is None else [self.diagnose])]
+            for path in pictures:
+                writers.check_picture_size(path, job.container, self.options)
 
 
 def outputs_asked(
@@ -112,6 +135,8 @@ def outputs_asked(
     report: Path | None = None,
     diagnose: Path | None = None,
     recipe: Path | None = None,
+    saliency: Path | None = None,
+    no_clobber: bool = False,
     pixels: int = 1_600,
     dpi: float | None = None,
     background: str | None = None,
@@ -128,8 +153,10 @@ def outputs_asked(
     ----------
     files
         Layouts.
-    report, diagnose, recipe
+    report, diagnose, recipe, saliency
         As in :class:`Outputs`.
+    no_clobber
+        Refuse files that are there already.
     pixels, dpi, background, show_container, flatten, text
         How layouts are drawn, and films but for their size.
     film
@@ -152,6 +179,8 @@ def outputs_asked(
         report=report,
         diagnose=diagnose,
         recipe=recipe,
+        saliency=saliency,
+        keeps_files=no_clobber,
     )
 
 
@@ -163,12 +192,16 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     Returns
     -------
     int
-        The exit code: 0; 1 if an item was not placed or the result is not certified; 130 after
-        Ctrl-C.
+        The exit code: 0; 1 if an item was not placed, the result is not certified or one of its
+        files could not be drawn; 130 after Ctrl-C.
     """
-    outputs.check(recipe)
+    outputs.check()
     console = Paper(quiet=quiet, highlight=False)
     job = pipeline.read(recipe)
+    outputs.check_read(job)
+    # Beforehand, so that no run is lost to what its recipe holds.
+    saved = outputs.saved_recipe(recipe)
+    write_saliency(recipe, outputs.saliency)
     with notice_if_slow(console, COMPILING):
         pipeline.warm_up()
     bar = TerminalBar(console)
@@ -180,21 +213,30 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             began = time.perf_counter()
             films = _filmed(run, outputs, bar, interrupt)
         was_stopped = was_cut_short or len(films) < len(outputs.films)
-        results = _write(run, recipe, outputs, films, began)
+        drawn, undrawn = _drawn(run, outputs)
+        written = [*drawn, *saved, *films]
+        results = run.report(time.perf_counter() - began)
+        if outputs.report is not None:
+            written.append((outputs.report, writers.json_bytes(results)))
+        replaced = {path for path, _ in written if os.path.lexists(path)}
+        writers.write_all(written)
         interrupt.is_over = True
         _warn(run, was_cut_short)
-        written = [path for path in outputs.every if path not in outputs.films]
-        written += [path for path, _ in films]
+        for error in undrawn:
+            typer.echo(f"packwork: not written: {' '.join(str(error).split())}", err=True)
         try:
             with printing():
-                _show(results, written, console, run.layout.container.unit)
+                said = [
+                    f"{path} (replaced)" if path in replaced else f"{path}" for path, _ in written
+                ]
+                _show(results, said, console, run.layout.container.unit)
         except WriteError as error:
             # The files are there; that is what was asked for.
             typer.echo(f"packwork: {error}; all files are written", err=True)
         if was_cut_short:
             worth = "certified" if run.certified else "not certified"
             typer.echo(f"packwork: stopped by Ctrl-C; this is the best so far, {worth}", err=True)
-    return INTERRUPTED if was_stopped else 0 if run.is_as_asked else SHORTFALL
+    return INTERRUPTED if was_stopped else 0 if run.is_as_asked and not undrawn else SHORTFALL
 
 
 def _filmed(
@@ -224,29 +266,33 @@ def _filmed(
         return []
 
 
-def _write(
-    run: pipeline.Run,
-    recipe: Recipe,
-    outputs: Outputs,
-    films: Sequence[tuple[Path, bytes]],
-    began: float,
-) -> dict[str, Any]:
-    """Draw all, then write all, so that what fails leaves nothing; return the report."""
+def _drawn(
+    run: pipeline.Run, outputs: Outputs
+) -> tuple[list[tuple[Path, bytes]], list[PackworkError]]:
+    """Bytes of all layouts and the diagnostic picture, and what could not be drawn.
+
+    One format that fails takes none of the others with it.
+    """
     layout, options = run.layout, outputs.options
-    files = [(path, writers.encoded(layout, path, options)) for path in outputs.files]
+    makers: list[tuple[Path, Callable[[], bytes]]] = [
+        (path, partial(writers.encoded, layout, path, options)) for path in outputs.files
+    ]
     if outputs.diagnose is not None:
-        files.append((outputs.diagnose, writers.diagnose_png(layout, options.png_side_px)))
-    if outputs.recipe is not None:
-        kept = recipe
-        if outputs.filming.model_fields_set:
-            kept = recipe.model_copy(update={"film": outputs.filming})
-        saved = writers.recipe_bytes(kept.plain(), outputs.recipe.parent)
-        files.append((outputs.recipe, saved))
-    results = run.report(time.perf_counter() - began)
-    if outputs.report is not None:
-        files.append((outputs.report, writers.json_bytes(results)))
-    writers.write_all([*files, *films])
-    return results
+        makers.append(
+            (outputs.diagnose, partial(writers.diagnose_png, layout, options.png_side_px))
+        )
+    drawn: list[tuple[Path, bytes]] = []
+    failed: list[PackworkError] = []
+    for path, make in makers:
+        try:
+            drawn.append((path, make()))
+        except PackworkError as error:
+            failed.append(error)
+        except MemoryError:
+            failed.append(WriteError(path, "needs more memory than there is; try a smaller size"))
+    if not drawn and failed:
+        raise failed[0]
+    return drawn, failed
 
 
 def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
@@ -280,7 +326,7 @@ def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
         )
 
 
-def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console, unit: str) -> None:
+def _show(results: Mapping[str, Any], written: Sequence[str], console: Console, unit: str) -> None:
     console.print(metrics_table(results["metrics"], unit))
     console.print(
         f"{results['placed']} of {results['items']} items placed; "
@@ -297,5 +343,4 @@ def _show(results: Mapping[str, Any], outputs: Sequence[Path], console: Console,
     if results["pile"] is not None:
         console.print(pile_line(results["pile"]), style="dim")
     console.print(certificate_line(results["promised"], results["certified"]))
-    written = ", ".join(str(path) for path in outputs)
-    console.print(f"wrote {written}", soft_wrap=True, markup=False)
+    console.print(f"wrote {', '.join(written)}", soft_wrap=True, markup=False)

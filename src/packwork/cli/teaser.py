@@ -75,20 +75,26 @@ LETTERS = (
 """What the word is made of, from left to right."""
 
 
-def make_teaser(folder: Path, quiet: bool, letters: Sequence[Letter] = LETTERS) -> int:
+def make_teaser(
+    folder: Path, quiet: bool, letters: Sequence[Letter] = LETTERS, *, no_clobber: bool = False
+) -> int:
     """Fill all letters, write each, and all of them beside each other; the exit code."""
     from packwork import writers
+    from packwork.cli.existing import check_new
     from packwork.cli.failure import INTERRUPTED
     from packwork.cli.running import Outputs, run_and_write
 
     sheet = folder / "teaser.png"
     writers.check_output(sheet)
+    if no_clobber:
+        check_new([sheet])
     options = writers.write_options(pixels=2 * LETTER_PX, background=PAPER)
     pictures, codes = [], [0]
     for place, letter in enumerate(letters, start=1):
         stem = f"teaser-{place}-{letter.name}"
         files = [folder / f"{stem}{ending}" for ending in (".svg", ".png")]
-        codes.append(run_and_write(letter.recipe, Outputs(files=files, options=options), quiet))
+        outputs = Outputs(files=files, options=options, keeps_files=no_clobber)
+        codes.append(run_and_write(letter.recipe, outputs, quiet))
         if codes[-1] == INTERRUPTED:
             return INTERRUPTED
         pictures.append(files[-1])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 from typing import Any
 
@@ -9,6 +10,8 @@ import typer
 from typer.core import TyperGroup
 
 from packwork.cli.failure import BAD_INPUT, INTERRUPTED, clear_errors
+from packwork.inputs import noting_inputs
+from packwork.synonyms import command_meant, option_meant
 
 
 class OneLineGroup(TyperGroup):
@@ -23,8 +26,11 @@ class OneLineGroup(TyperGroup):
             return super().make_context(*args, **extra)
 
     def invoke(self, ctx: Any) -> Any:
-        """Find the command and run it; see ``typer.core.TyperGroup.invoke``."""
-        with clear_errors():
+        """Find the command and run it; see ``typer.core.TyperGroup.invoke``.
+
+        What it reads is noted, so that it writes over none of it.
+        """
+        with clear_errors(), noting_inputs():
             return super().invoke(ctx)
 
     def main(self, *args: Any, **extra: Any) -> Any:
@@ -49,9 +55,26 @@ class OneLineGroup(TyperGroup):
         sys.exit(code or 0)
 
 
+def _meant(error: Any, context: Any) -> str | None:
+    """What is wrong with an option or a command that is not known, and what may be meant."""
+    option = getattr(error, "option_name", None)
+    if type(error).__name__ == "NoSuchOption" and option and context is not None:
+        names = [
+            name for param in context.command.params for name in param.opts if name[:2] == "--"
+        ]
+        meant = option_meant(option, names)
+        return f"no such option: {option}" + (f"; did you mean {meant}?" if meant else "")
+    unknown = re.match(r"no such command '([^']*)'", str(error.format_message()), re.IGNORECASE)
+    if unknown is None:
+        return None
+    meant = command_meant(unknown[1])
+    return f"no such command '{unknown[1]}'" + (f"; did you mean {meant}?" if meant else "")
+
+
 def _line(error: Any) -> str:
     """What is wrong, and where to look up what would do."""
     said = " ".join(str(error.format_message()).replace("Value error, ", "").split()).rstrip(".")
     context = getattr(error, "ctx", None)
+    said = _meant(error, context) or said
     command = context.command_path if context is not None else "packwork"
     return f"{said[0].lower()}{said[1:]}; see {command} --help"

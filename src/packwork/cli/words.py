@@ -9,7 +9,6 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
-from packwork.cli.saliency import write_saliency
 from packwork.readers.words.options import WordOptions
 
 DEFAULT_OUTPUT = Path("words.svg")
@@ -113,6 +112,7 @@ def words(
     report: shared.Report = None,
     diagnose: shared.Diagnose = None,
     save_recipe: shared.SaveRecipe = None,
+    no_clobber: shared.NoClobber = False,
     quiet: shared.Quiet = False,
 ) -> None:
     """Fill a container with words.
@@ -179,11 +179,11 @@ def words(
             stay=stay,
             losses=shared.loss_weights(loss),
         )
-        write_saliency(recipe, show_saliency)
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
             pixels=pixels, background=background, show_container=show_container, flatten=flatten,
             text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
-            film_pixels=film_pixels, recipes=recipe.film,
+            film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
+            no_clobber=no_clobber,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

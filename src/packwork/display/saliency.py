@@ -11,8 +11,9 @@ from packwork.readers.container import read_container
 from packwork.readers.files import read_bytes
 from packwork.readers.photos.developing import developed, inspected
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
-from packwork.readers.quiet.container import AROUND, QuietOptions
+from packwork.readers.quiet.container import QuietOptions
 from packwork.readers.quiet.region import saliency_map
+from packwork.recipe_paths import AROUND
 
 SIDE_PX = 1_000
 """Longer side of the picture. Chosen."""

@@ -11,6 +11,7 @@ from typing import Annotated, Any, TypeAlias
 from pydantic import BeforeValidator
 
 from packwork.errors import RecipeError
+from packwork.recipe_paths import split_words
 from packwork.units import LONGEST, NUMBER, is_length, split_length
 
 DIRECTIONS = {"right": 0.0, "down": 90.0, "left": 180.0, "up": 270.0}
@@ -92,7 +93,7 @@ def parse_force(text: str) -> ForceSpec:
         ...
     packwork.errors.RecipeError: force: no force is called 'towrds'; did you mean towards?
     """
-    words = text.split()
+    words = split_words(text)
     if not words:
         raise RecipeError("force", f"is empty; use one of {', '.join(KINDS)}")
     said = [word for word in words[1:] if "=" not in word]

@@ -8,9 +8,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from packwork.errors import RecipeError
-from packwork.readers.quiet.container import AROUND
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe_paths import AROUND
 from packwork.refusals import refusal
 from packwork.scene.contrast import readable
 from packwork.scene.palette import palette_colours
@@ -55,7 +55,7 @@ def words_recipe(
     own = {key: options.pop(key) for key in list(options) if key in WordOptions.model_fields}
     asked = _word_options({"source": _plain_source(source), **own})
     chosen = {**DEFAULTS, **{key: value for key, value in options.items() if value is not None}}
-    chosen["palette"] = _palette(chosen.get("palette"), asked, container)
+    chosen["palette"] = words_colours(chosen.get("palette"), asked, container)
     return make_recipe(container=container, items=list(add), words=asked, **chosen)
 
 
@@ -80,8 +80,19 @@ def _plain_source(source: object) -> object:
         ) from None
 
 
-def _palette(palette: object, asked: WordOptions, container: str) -> tuple[str, ...]:
-    """Colours that can be read on the background; a picture is one word by word, later."""
+def words_colours(palette: object, asked: WordOptions, container: str) -> tuple[str, ...]:
+    """Colours that can be read on the background; a picture is one word by word, later.
+
+    Raises
+    ------
+    RecipeError
+        If the palette is unknown.
+
+    Examples
+    --------
+    >>> words_colours("yellow", WordOptions(source={"bear": 2}), "heart")
+    ('#999a1b',)
+    """
     default = PALETTE if asked.color_by is None else RAMP
     try:
         colours = palette_colours(default if palette is None else palette)

@@ -17,9 +17,6 @@ from packwork.readers.unfit import naming
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 
-BUILTIN = "builtin:"
-"""Before a name: the bundled shape, whatever files there are."""
-
 ALL_ICONS = "icons"
 """Name that stands for every bundled icon."""
 

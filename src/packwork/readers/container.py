@@ -5,14 +5,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from packwork.errors import ReadError
-from packwork.readers.builtin import BUILTIN, builtin_container, container_names
+from packwork.readers.builtin import builtin_container, container_names
 from packwork.readers.files import exists, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
-from packwork.readers.quiet.container import AROUND, QuietOptions, container_around
+from packwork.readers.quiet.container import QuietOptions, container_around
 from packwork.readers.svg.container import container_of_svg, placed_container
 from packwork.readers.text import PREFIX
+from packwork.recipe_paths import AROUND, BUILTIN
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side

@@ -6,6 +6,7 @@ import stat
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.inputs import note_input
 
 
 def read_bytes(path: str | Path, most: int) -> bytes:
@@ -27,6 +28,7 @@ def read_bytes(path: str | Path, most: int) -> bytes:
         mode = Path(path).stat().st_mode
         if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
             raise ReadError(path, "is a pipe or a device; give a file on disk")
+        note_input(path)
         with Path(path).open("rb") as file:
             data = file.read(most + 1)
     except FileNotFoundError:

@@ -9,12 +9,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from packwork.errors import ReadError
-from packwork.readers.builtin import ALL_ICONS, BUILTIN, builtin_item, icon_names, item_names
+from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
 from packwork.readers.files import exists
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.silhouette import read_picture
 from packwork.readers.regions import Holes
 from packwork.readers.svg.item import read_svg
+from packwork.recipe_paths import BUILTIN
 from packwork.scene.item import Item
 
 _LOG = logging.getLogger("packwork")
@@ -82,6 +83,9 @@ def read_items(
 
 
 def _read_source(source: str, holes: Holes, *, strict: bool) -> ItemsRead:
+    if not source.strip():
+        # As a path it would stand for the whole of the working folder.
+        raise ReadError("items", "an empty name stands for nothing; give a file or a folder")
     if source.startswith(BUILTIN):
         return _built_in(source.removeprefix(BUILTIN), holes)
     path = Path(source)

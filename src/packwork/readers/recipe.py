@@ -2,28 +2,52 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from packwork.errors import ReadError
+from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_text
-from packwork.readers.quiet.container import AROUND
+from packwork.recipe_paths import found_from, with_paths
 
 MAX_BYTES = 1_000_000
 """Largest recipe file. Chosen."""
 
+MOST_NESTED = 32
+"""Arrays and tables in each other, or parts of a key. Larger lets the parser recurse; a recipe has
+four. Chosen."""
 
-def read_recipe(path: str | Path) -> dict[str, Any]:
+_STRINGS = re.compile(
+    r'"""(?:\\.|[^\\])*?(?:"""|\Z)'
+    r"|'''.*?(?:'''|\Z)"
+    r'|"(?:\\[^\n]|[^"\\\n])*(?:"|$)'
+    r"|'[^'\n]*(?:'|$)"
+    r"|#[^\n]*",
+    re.DOTALL | re.MULTILINE,
+)
+"""Strings and comments, an open one to its line's or the file's end: no run is tried twice."""
+
+_BRACKETS = re.compile(r"[\[\]{}]")
+_PIECES = re.compile(r"[\[\]{}=,\n]")
+
+
+def read_recipe(path: str | Path, *, allow_code: bool = False) -> dict[str, Any]:
     """Options of a recipe file, paths in it taken from the file's own folder.
 
-    Names that are no files there (``heart``, ``builtin:icons``, ``text:HELLO``) stay as
-    they are. Which options there are, and what they may be, ``make_recipe`` checks.
+    A recipe may come from anywhere: code that it names is not run unless ``allow_code``.
+
+    Bundled names and texts (``heart``, ``builtin:icons``, ``text:HELLO``) stay as they are;
+    what is not there is not looked for elsewhere. Which options there are, and what they may
+    be, ``make_recipe`` checks.
 
     Raises
     ------
     ReadError
         If the file cannot be read or is not TOML.
+    RecipeError
+        If it names code that may not be run.
 
     Examples
     --------
@@ -35,60 +59,65 @@ def read_recipe(path: str | Path) -> dict[str, Any]:
     {'container': 'heart'}
     """
     text = read_text(path, MAX_BYTES)
+    check_nesting(path, text)
     try:
         options = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ReadError(path, f"is not TOML ({error}); give lines such as count = 100") from None
-    folder = Path(path).parent
-    for key in ("container", "weights", "start", "font"):
-        if isinstance(options.get(key), str):
-            options[key] = _found(options[key], folder)
-    for key in ("items", "keep_clear"):
-        if isinstance(options.get(key), list):
-            options[key] = [
-                _found(entry, folder) if isinstance(entry, str) else entry for entry in options[key]
-            ]
-    if isinstance(options.get("words"), dict):
-        _find_words(options["words"], folder)
-    if isinstance(options.get("chart"), dict):
-        _find_chart(options["chart"], folder)
-    if isinstance(options.get("photos"), dict):
-        _find_photos(options["photos"], folder)
-    rules = options.get("rules")
-    for rule in rules if isinstance(rules, list) else ():
-        if isinstance(rule, dict) and isinstance(rule.get("region"), str):
-            rule["region"] = _found(rule["region"], folder)
-    return options
+    except (ValueError, RecursionError) as error:
+        # Beside TOML's own errors: numbers of more digits than Python takes.
+        said = " ".join(str(error).split())[:200]
+        raise ReadError(path, f"is not TOML ({said}); give lines such as count = 100") from None
+    if not allow_code:
+        check_no_code(options)
+    return with_paths(options, found_from(Path(path).parent))
 
 
-def _find_words(words: dict[str, Any], folder: Path) -> None:
-    for key in ("source", "stopwords", "color_by"):
-        if isinstance(words.get(key), str):
-            words[key] = _found(words[key], folder)
-    if isinstance(words.get("fonts"), list):
-        words["fonts"] = [_found(f, folder) if isinstance(f, str) else f for f in words["fonts"]]
+def check_no_code(options: Mapping[str, Any]) -> None:
+    """Refuse options that name code: losses are all that can.
+
+    Raises
+    ------
+    RecipeError
+        Naming it.
+
+    Examples
+    --------
+    >>> check_no_code({"losses": {"mine:calm": 1}})
+    Traceback (most recent call last):
+    packwork.errors.RecipeError: losses: 'mine:calm' is code, which a recipe runs only with
+    --allow-code; give that if you trust whoever wrote both
+    """
+    losses = options.get("losses")
+    for name in losses if isinstance(losses, Mapping) else ():
+        if ":" in name:
+            raise RecipeError(
+                "losses",
+                f"{name[:80]!r} is code, which a recipe runs only with --allow-code; give that if "
+                "you trust whoever wrote both",
+            )
 
 
-def _find_chart(chart: dict[str, Any], folder: Path) -> None:
-    if isinstance(chart.get("data"), str):
-        chart["data"] = _found(chart["data"], folder)
-    if isinstance(chart.get("mark"), list):
-        chart["mark"] = [_found(m, folder) if isinstance(m, str) else m for m in chart["mark"]]
+def check_nesting(path: str | Path, text: str) -> None:
+    """Refuse tables and arrays in each other, and keys of parts, beyond what a recipe has.
 
+    The parser would recurse for each, or keep a table for each part of each key.
 
-def _find_photos(photos: dict[str, Any], folder: Path) -> None:
-    if isinstance(photos.get("shape"), str):
-        photos["shape"] = _found(photos["shape"], folder)
-    if isinstance(photos.get("sources"), list):
-        photos["sources"] = [
-            _found(s, folder) if isinstance(s, str) else s for s in photos["sources"]
-        ]
+    Raises
+    ------
+    ReadError
+        If there are more than ``MOST_NESTED``.
 
-
-def _found(name: str, folder: Path) -> str:
-    if name.startswith(AROUND):
-        return AROUND + _found(name.removeprefix(AROUND), folder)
-    try:
-        return str(folder / name) if (folder / name).exists() else name
-    except (OSError, ValueError):
-        return name
+    Examples
+    --------
+    >>> check_nesting("r.toml", "levels = " + 40 * "[")
+    Traceback (most recent call last):
+    packwork.errors.ReadError: r.toml: nests more than 32 arrays or tables; a recipe needs few
+    """
+    plain = _STRINGS.sub("''", text)
+    depth = deepest = 0
+    for bracket in _BRACKETS.findall(plain):
+        depth += 1 if bracket in "[{" else -1
+        deepest = max(deepest, depth)
+    # A key's part of a line, dots and all.
+    dots = max(piece.count(".") for piece in _PIECES.split(plain))
+    if max(deepest, dots) > MOST_NESTED:
+        raise ReadError(path, f"nests more than {MOST_NESTED} arrays or tables; a recipe needs few")

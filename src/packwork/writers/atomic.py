@@ -11,6 +11,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from packwork.errors import WriteError
+from packwork.inputs import check_no_input
 
 _REASONS = {
     errno.ENOSPC: "the disk is full; free some room or choose another folder",
@@ -33,8 +34,8 @@ def check_writable(path: str | Path) -> None:
     Raises
     ------
     WriteError
-        If it is a folder or a device, a protected file, or lies where nothing may be
-        written. Passing is no promise: the disk may fill up, rights may change.
+        If it is a folder or a device, a protected file, one that was read, or lies where
+        nothing may be written. Passing is no promise: the disk may fill up, rights may change.
 
     Examples
     --------
@@ -164,6 +165,7 @@ def _target(path: str | Path) -> Path:
 
 
 def _check_target(path: str | Path, target: Path) -> None:
+    check_no_input(path)
     try:
         mode = target.stat().st_mode
     except FileNotFoundError:

@@ -9,16 +9,18 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 from packwork.errors import RecipeError, WriteError
+from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.writers.atomic import check_writable, write_atomic
 from packwork.writers.dxf import dxf_bytes
 from packwork.writers.extras import check_extra
-from packwork.writers.frame import check_side, side_at
+from packwork.writers.frame import check_side, picture_frame, side_at
 from packwork.writers.geojson import geojson_text
 from packwork.writers.jpeg import jpeg_bytes
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.printing import DPI, SPARE, printed, printed_on_paper
+from packwork.writers.stills import check_webp_side, tiff_bytes, webp_bytes
 from packwork.writers.svg import SvgOptions, TextChoice, svg_text
 
 MOST_DPI = 2_400
@@ -88,6 +90,14 @@ def _jpeg(layout: Layout, options: WriteOptions) -> bytes:
     return jpeg_bytes(options.on_screen(layout), options.side_px(layout), options.png)
 
 
+def _webp(layout: Layout, options: WriteOptions) -> bytes:
+    return webp_bytes(options.on_screen(layout), options.side_px(layout), options.png)
+
+
+def _tiff(layout: Layout, options: WriteOptions) -> bytes:
+    return tiff_bytes(options.on_screen(layout), options.side_px(layout), options.png)
+
+
 def _pdf(layout: Layout, options: WriteOptions) -> bytes:
     return pdf_bytes(options.on_paper(layout), options.svg)
 
@@ -106,6 +116,9 @@ WRITERS: Mapping[str, Encoder] = MappingProxyType(
         ".png": _png,
         ".jpg": _jpeg,
         ".jpeg": _jpeg,
+        ".webp": _webp,
+        ".tif": _tiff,
+        ".tiff": _tiff,
         ".pdf": _pdf,
         ".dxf": _dxf,
         ".geojson": _geojson,
@@ -114,7 +127,10 @@ WRITERS: Mapping[str, Encoder] = MappingProxyType(
 )
 """File ending, in lower case, to the function that makes the file's bytes."""
 
-ONLY_FILMS = frozenset({".gif", ".apng", ".webp", ".mp4", ".webm"})
+PICTURES = frozenset({".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff"})
+"""Endings of pictures of pixels."""
+
+ONLY_FILMS = frozenset({".gif", ".apng", ".mp4", ".webm"})
 """Endings of pictures that move, which a layout alone is not."""
 
 
@@ -133,6 +149,33 @@ def check_output(path: str | Path) -> None:
     """
     _encoder(path)
     check_writable(path)
+
+
+def check_picture_size(path: str | Path, container: Container, options: WriteOptions) -> None:
+    """Refuse, before a run, pixels that no picture of a canvas may have.
+
+    Raises
+    ------
+    RecipeError
+        If the path's ending is that of a picture, and it would be too large.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> tile = Outline.from_rings([[[0, 0], [9, 0], [9, 9]]])
+    >>> check_picture_size(
+    ...     "a.png", Container("tile", "tile", tile, 9.0, 9.0), WriteOptions(png_side_px=13_000)
+    ... )
+    Traceback (most recent call last):
+    packwork.errors.RecipeError: pixels: 13000 x 13000 px are too many; a picture may have ...
+    """
+    ending = Path(path).suffix.lower()
+    if ending not in PICTURES:
+        return
+    side = options.png_side_px if options.dpi is None else side_at(container, options.dpi)
+    picture_frame(container, side)
+    if ending == ".webp":
+        check_webp_side(side)
 
 
 def write(layout: Layout, path: str | Path, options: WriteOptions | None = None) -> None:

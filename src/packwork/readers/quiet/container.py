@@ -19,12 +19,10 @@ from packwork.readers.photos.photo import Photograph
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.quiet.region import quiet_part
 from packwork.readers.unfit import naming
+from packwork.recipe_paths import AROUND
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import PhotoArt
 from packwork.units import CanvasSize, parse_length
-
-AROUND = "around:"
-"""Before a picture's name: its quiet part is the container."""
 
 QUIET_SHARE = 0.4
 """Share of the picture that is quiet, unless it is given. Chosen by eye."""

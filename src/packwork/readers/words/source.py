@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping
@@ -9,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from packwork.errors import ReadError, RowsLostError
+from packwork.inputs import note_input
 from packwork.readers.files import exists, read_bytes
 from packwork.readers.tables.decoding import Decoded, decoded
 from packwork.readers.tables.delimited import ENDINGS
@@ -179,7 +181,7 @@ def _rows(source: str, asked: TableFormat) -> Ranked:
 
 def _text(source: str, asked: TableFormat) -> Decoded:
     if source == STANDARD_INPUT:
-        data = sys.stdin.buffer.read(MAX_BYTES + 1)
+        data = _piped(MAX_BYTES + 1)
         if len(data) > MAX_BYTES:
             raise ReadError("standard input", f"is larger than {MAX_BYTES / 1e6:g} MB")
         return decoded(data, "standard input", asked.encoding)
@@ -193,6 +195,18 @@ def _text(source: str, asked: TableFormat) -> Decoded:
             "there is no such file; give a text, a table of word,weight, or - for stdin",
         )
     return Decoded(source)
+
+
+def _piped(most: int) -> bytes:
+    """What is piped into the program, at most so many bytes."""
+    if sys.stdin is None:
+        raise ReadError("standard input", "is closed; pipe a text in, or give a file")
+    with contextlib.suppress(OSError):  # a program that is called by another may have none
+        note_input(sys.stdin.fileno(), "standard input")
+    try:
+        return sys.stdin.buffer.read(most)
+    except OSError as error:
+        raise ReadError("standard input", f"cannot be read: {error.strerror}") from None
 
 
 def _is_table(source: str) -> bool:

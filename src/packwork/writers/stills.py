@@ -1,0 +1,97 @@
+"""Layouts as WebP and TIFF: the PNG that would be written, in another wrapping."""
+
+from __future__ import annotations
+
+import warnings
+from io import BytesIO
+from typing import TYPE_CHECKING, Any
+
+from packwork.errors import RecipeError
+from packwork.scene.layout import Layout
+from packwork.writers.frame import dots_per_inch
+from packwork.writers.png import PngOptions, png_bytes
+
+if TYPE_CHECKING:
+    from PIL import Image
+
+MOST_WEBP_PX = 16_383
+"""Longer side of a WebP at most. Derived: its header has 14 bits."""
+
+
+def webp_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
+    """WebP file of a layout, without loss, as :func:`packwork.writers.png.png_bytes` draws it.
+
+    Raises
+    ------
+    RecipeError
+        If the size is out of bounds.
+    WriteError
+        If the renderer cannot draw an item's art.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> import numpy as np
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> none = np.zeros(0)
+    >>> empty = Layout(
+    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
+    ... )
+    >>> webp_bytes(empty, 16)[8:12], tiff_bytes(empty, 16)[:2]
+    (b'WEBP', b'II')
+    """
+    check_webp_side(longer_side_px)
+    return _saved(_drawn(layout, longer_side_px, options), "WEBP", lossless=True, quality=80)
+
+
+def check_webp_side(longer_side_px: int) -> None:
+    """Refuse a size that no WebP has.
+
+    Raises
+    ------
+    RecipeError
+        About ``pixels``.
+
+    Examples
+    --------
+    >>> check_webp_side(1_600)
+    """
+    if longer_side_px > MOST_WEBP_PX:
+        raise RecipeError(
+            "pixels", f"a WebP is at most {MOST_WEBP_PX} px long, not {longer_side_px}; use a PNG"
+        )
+
+
+def tiff_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
+    """TIFF file of a layout, without loss; clear places stay clear, an opaque one has no alpha.
+
+    Raises
+    ------
+    RecipeError, WriteError
+        As :func:`webp_bytes`.
+    """
+    picture = _drawn(layout, longer_side_px, options)
+    if picture.getextrema()[-1] == (255, 255):
+        picture = picture.convert("RGB")
+    density = dots_per_inch(layout.container, longer_side_px)
+    known = {} if density is None else {"dpi": (density, density)}
+    return _saved(picture, "TIFF", compression="tiff_adobe_deflate", **known)
+
+
+def _drawn(layout: Layout, longer_side_px: int, options: PngOptions | None) -> Image.Image:
+    from PIL import Image
+
+    drawn = png_bytes(layout, longer_side_px, options)
+    with warnings.catch_warnings():
+        # The picture is ours: how large it may be was checked before it was drawn.
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        with Image.open(BytesIO(drawn)) as picture:
+            return picture.convert("RGBA")
+
+
+def _saved(picture: Image.Image, kind: str, **settings: Any) -> bytes:
+    file = BytesIO()
+    picture.save(file, kind, **settings)
+    return file.getvalue()
