@@ -52,6 +52,10 @@ class Written(str):
         made.number = number
         return made
 
+    def __getnewargs__(self) -> tuple[str, float]:  # type: ignore[override]
+        """Both, for copies."""
+        return str(self), self.number
+
 
 @dataclass(frozen=True)
 class Figure:
