@@ -80,6 +80,9 @@ def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
     table.add_row("covered twice", _percent(metrics["OO"]), _percent(exact.get("OO")), "OO")
     table.add_row("outside", _percent(metrics["EA"]), _percent(exact.get("EA")), "EA")
     table.add_row("unevenness of the gaps, px²", f"{metrics['LnU']:.1f}", "", "L-nU")
+    if "shape" in metrics:
+        table.add_row("its shape shows to", _percent(metrics["shape"]), "", "shape")
+        table.add_row("empty places", _percent(metrics["bare"]), "", "bare")
     gap = exact.get("min_gap")
     table.add_row(f"smallest gap, {unit}", "", "" if gap is None else f"{gap:.3g}", "")
     return table

@@ -9,6 +9,7 @@ import numpy as np
 
 from packwork.metrics.exact import ExactMetrics, exact_coverage, exact_metrics
 from packwork.metrics.pixel import PixelMetrics, pixel_metrics
+from packwork.metrics.shape import ShapeMetrics, shape_metrics
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 
@@ -26,11 +27,14 @@ class LayoutMetrics:
     ink
         Exact share of the container that is really drawn: holes and gaps of the items'
         appearance taken off.
+    seen
+        Whether the container's shape shows, of the outlines.
     """
 
     pixel: PixelMetrics
     exact: ExactMetrics
     ink: float
+    seen: ShapeMetrics
 
     def as_dict(self) -> dict[str, Any]:
         """Plain numbers under the names of the report."""
@@ -38,6 +42,7 @@ class LayoutMetrics:
         return {
             **asdict(self.pixel),
             "LC_ink": self.ink,
+            **asdict(self.seen),
             "exact": {
                 "LC": exact.coverage,
                 "OO": exact.overlap,
@@ -56,6 +61,7 @@ def measure(layout: Layout) -> LayoutMetrics:
         pixel=pixel_metrics(layout.outlines, layout.container),
         exact=exact,
         ink=_ink_coverage(layout, exact),
+        seen=shape_metrics(layout.outlines, layout.container),
     )
 
 
