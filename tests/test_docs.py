@@ -17,6 +17,7 @@ from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
 from packwork.metrics.pixel import PixelMetrics
+from packwork.metrics.shape import ShapeMetrics
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.words.options import WordOptions
@@ -53,9 +54,10 @@ def metric_names() -> list[str]:
     """Names of the report's measures, those in exact geometry together under ``exact``."""
     zeros = [
         dict.fromkeys((field.name for field in dataclasses.fields(kind)), 0.0)
-        for kind in (PixelMetrics, ExactMetrics)
+        for kind in (PixelMetrics, ExactMetrics, ShapeMetrics)
     ]
-    return list(LayoutMetrics(PixelMetrics(**zeros[0]), ExactMetrics(**zeros[1]), 0.0).as_dict())
+    pixel, exact, seen = PixelMetrics(**zeros[0]), ExactMetrics(**zeros[1]), ShapeMetrics(**zeros[2])
+    return list(LayoutMetrics(pixel, exact, 0.0, seen).as_dict())
 
 
 @pytest.mark.parametrize("name", COMMANDS)
