@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import logging
 import os
 import signal
 import sys
@@ -13,6 +14,7 @@ INTERRUPTED = 130
 def main() -> None:
     """Run the command line; Ctrl-C while it still loads is one line too."""
     _leave_working_folder()
+    _log_warnings()
     try:
         from packwork.cli import app
 
@@ -36,11 +38,17 @@ def _leave_working_folder() -> None:
     What lies there may come from anywhere, and a file of the name of a package that is not
     installed would be run in its place. Where this package itself lies there, it stays.
     """
-    here = os.path.realpath(sys.path[0] or os.curdir)
     package = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))  # noqa: PTH120
-    with contextlib.suppress(OSError):
+    with contextlib.suppress(OSError):  # a folder that has been deleted holds no modules
+        here = os.path.realpath(sys.path[0] or os.curdir)
         if not sys.flags.safe_path and here == os.path.realpath(os.curdir) and here != package:
             del sys.path[0]
+
+
+def _log_warnings() -> None:
+    """Keep to the log what libraries warn of: a person can do nothing about it."""
+    logging.captureWarnings(True)
+    logging.getLogger().addHandler(logging.NullHandler())
 
 
 def _end_stopped() -> None:

@@ -10,6 +10,7 @@ import logging
 import typer
 
 from packwork.cli.commands import MARKUP, LazyGroup
+from packwork.cli.terminal import say
 
 app = typer.Typer(
     name="packwork",
@@ -29,7 +30,7 @@ class _Notices(logging.Handler):
 
     def emit(self, record: logging.LogRecord) -> None:
         """Print one notice."""
-        typer.echo("packwork: " + " ".join(record.getMessage().split()), err=True)
+        say(" ".join(record.getMessage().split()))
 
 
 _NOTICES = _Notices(logging.WARNING)

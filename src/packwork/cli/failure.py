@@ -10,6 +10,7 @@ from types import FrameType
 
 import typer
 
+from packwork.cli.terminal import say
 from packwork.errors import PackworkError, RecipeError
 
 SHORTFALL = 1
@@ -37,11 +38,11 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
             line = f"{recipe}: {line}"
         elif isinstance(error, RecipeError) and error.key not in {"container", "items", "rules"}:
             line = "--" + error.key.replace("_", "-") + line.removeprefix(error.key)
-        typer.echo(f"packwork: {line}", err=True)
+        say(line)
         raise typer.Exit(BAD_INPUT) from None
     except KeyboardInterrupt as stop:
         said = str(stop) or "stopped before there was anything to write"
-        typer.echo(f"packwork: {said}", err=True)
+        say(said)
         raise typer.Exit(INTERRUPTED) from None
 
 

@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import SHORTFALL, clear_errors
+from packwork.cli.terminal import say
 
 
 def measure(
@@ -77,6 +78,6 @@ def measure(
             console.print(metrics_table(metrics, found.container.unit))
             console.print(certificate_line(promise is not None, not faults), soft_wrap=True)
         for fault in faults:
-            typer.echo(f"packwork: {layout}: {fault}", err=True)
+            say(f"{layout}: {fault}")
         if faults:
             raise typer.Exit(SHORTFALL)

@@ -13,7 +13,6 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-import typer
 from rich.console import Console
 
 from packwork import pipeline, writers
@@ -31,6 +30,7 @@ from packwork.cli.show import (
     seconds_line,
     words_line,
 )
+from packwork.cli.terminal import printable, say
 from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
@@ -223,19 +223,20 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         interrupt.is_over = True
         _warn(run, was_cut_short)
         for error in undrawn:
-            typer.echo(f"packwork: not written: {' '.join(str(error).split())}", err=True)
+            say(f"not written: {' '.join(str(error).split())}")
         try:
             with printing():
                 said = [
-                    f"{path} (replaced)" if path in replaced else f"{path}" for path, _ in written
+                    printable(f"{path} (replaced)" if path in replaced else f"{path}")
+                    for path, _ in written
                 ]
                 _show(results, said, console, run.layout.container.unit)
         except WriteError as error:
             # The files are there; that is what was asked for.
-            typer.echo(f"packwork: {error}; all files are written", err=True)
+            say(f"{error}; all files are written")
         if was_cut_short:
             worth = "certified" if run.certified else "not certified"
-            typer.echo(f"packwork: stopped by Ctrl-C; this is the best so far, {worth}", err=True)
+            say(f"stopped by Ctrl-C; this is the best so far, {worth}")
     return INTERRUPTED if was_stopped else 0 if run.is_as_asked and not undrawn else SHORTFALL
 
 
@@ -252,7 +253,7 @@ def _filmed(
 
     def encoded(path: Path) -> bytes:
         def tell(share: float) -> None:
-            bar.tell(share, f"film {path.name}")
+            bar.tell(share, printable(f"film {path.name}"))
             if interrupt.pressed and not was_pressed:
                 raise KeyboardInterrupt
 
@@ -262,7 +263,7 @@ def _filmed(
         return [(path, encoded(path)) for path in outputs.films]
     except KeyboardInterrupt:
         interrupt.pressed = True
-        typer.echo("packwork: stopped by Ctrl-C: no film was written", err=True)
+        say("stopped by Ctrl-C: no film was written")
         return []
 
 
@@ -297,32 +298,27 @@ def _drawn(
 
 def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
     for unplaced in run.unplaced[:MOST_NAMED]:
-        typer.echo(
-            f"packwork: not placed: {unplaced.item} (item {unplaced.index + 1}): {unplaced.reason}",
-            err=True,
-        )
+        say(f"not placed: {unplaced.item} (item {unplaced.index + 1}): {unplaced.reason}")
     more = len(run.unplaced) - MOST_NAMED
     if more > 0:
-        typer.echo(f"packwork: not placed: {more} more; --report names them all", err=True)
+        say(f"not placed: {more} more; --report names them all")
     share = float(run.layout.areas.sum()) / run.layout.container.outline.area
     if run.unplaced and share > 1:
-        typer.echo(
-            f"packwork: the items' area is {share:.1f} times the container's; "
-            "use fewer, a larger --canvas or --sizes free",
-            err=True,
+        say(
+            f"the items' area is {share:.1f} times the container's; "
+            "use fewer, a larger --canvas or --sizes free"
         )
     for fault in run.broken:
-        typer.echo(f"packwork: {fault}", err=True)
+        say(f"{fault}")
     if run.is_rough:
         exact = run.metrics.exact
         option = "--effort" if run.layout.manifest["recipe"]["time"] is None else "--time"
         remedy = f"try more {option}, fewer items or --sizes free"
         if was_cut_short:
             remedy = "let it run to its end"
-        typer.echo(
-            f"packwork: still rough: {100 * exact.overlap:.1f} % of the container is covered "
-            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; {remedy}",
-            err=True,
+        say(
+            f"still rough: {100 * exact.overlap:.1f} % of the container is covered "
+            f"twice, {100 * exact.exceeding:.1f} % as much lies outside; {remedy}"
         )
 
 

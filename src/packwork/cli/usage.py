@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 import sys
+from pathlib import Path
 from typing import Any
 
 import typer
 from typer.core import TyperGroup
 
 from packwork.cli.failure import BAD_INPUT, INTERRUPTED, clear_errors
+from packwork.cli.terminal import prepare_streams, say
+from packwork.errors import ReadError
 from packwork.inputs import noting_inputs
 from packwork.synonyms import command_meant, option_meant
 
@@ -31,11 +34,13 @@ class OneLineGroup(TyperGroup):
         What it reads is noted, so that it writes over none of it.
         """
         with clear_errors(), noting_inputs():
+            _check_folder()
             return super().invoke(ctx)
 
     def main(self, *args: Any, **extra: Any) -> Any:
         """Run a command line; see ``typer.core.TyperGroup.main``."""
         run: Any = super().main
+        prepare_streams()
         if not extra.pop("standalone_mode", True):
             return run(*args, **extra, standalone_mode=False)
         try:
@@ -50,9 +55,19 @@ class OneLineGroup(TyperGroup):
             if type(error).__name__ == "NoArgsIsHelpError":
                 typer.echo(error.format_message())
             else:
-                typer.echo(f"packwork: {_line(error)}", err=True)
+                say(_line(error))
             sys.exit(BAD_INPUT)
         sys.exit(code or 0)
+
+
+def _check_folder() -> None:
+    """Refuse to run in a folder that has been deleted: no name would lead anywhere."""
+    try:
+        Path.cwd()
+    except OSError:
+        raise ReadError(
+            "the current folder", "is there no more; go to another one (cd) and try again"
+        ) from None
 
 
 def _meant(error: Any, context: Any) -> str | None:

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import builtin_container, container_names
-from packwork.readers.files import exists, read_bytes, stem
+from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
@@ -94,7 +94,7 @@ def _container(
 
 def _container_of_file(path: Path, source: str, side: float | None) -> Container:
     ending = path.suffix.lower()
-    if path.is_dir():
+    if is_folder(path):
         raise ReadError(source, f"is a folder; a container is {_FORMS}")
     if ending == ".svg":
         return container_of_svg(read_bytes(path, MAX_BYTES), stem(path), source, side)

@@ -77,6 +77,20 @@ def exists(path: str | Path) -> bool:
         return False
 
 
+def is_folder(path: str | Path) -> bool:
+    """Whether a path is that of a folder; text that can be no name is none.
+
+    Examples
+    --------
+    >>> is_folder("."), is_folder("a" * 10_000)
+    (True, False)
+    """
+    try:
+        return Path(path).is_dir()
+    except (OSError, ValueError):
+        return False
+
+
 def stem(path: str | Path) -> str:
     """Name without folder and ending: what people call the item.
 

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
-from packwork.readers.files import exists
+from packwork.readers.files import exists, is_folder
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.silhouette import read_picture
 from packwork.readers.regions import Holes
@@ -89,11 +89,11 @@ def _read_source(source: str, holes: Holes, *, strict: bool) -> ItemsRead:
     if source.startswith(BUILTIN):
         return _built_in(source.removeprefix(BUILTIN), holes)
     path = Path(source)
-    if _is_folder(path):
+    if is_folder(path):
         if source in {ALL_ICONS, *item_names()}:
             _LOG.warning("%s: the folder here is meant; %s%s is bundled", source, BUILTIN, source)
         return _read_many(source, _files_in(path), holes, strict=strict)
-    if path.suffix.lower() in _READERS and (path.exists() or not glob.has_magic(source)):
+    if path.suffix.lower() in _READERS and (exists(path) or not glob.has_magic(source)):
         return ItemsRead((_READERS[path.suffix.lower()](source, holes),), ())
     if glob.has_magic(source):
         matches = sorted(f for f in glob.glob(source) if _is_readable(Path(f)))  # noqa: PTH207
@@ -135,13 +135,6 @@ def _files_in(folder: Path) -> list[str]:
 def _is_readable(path: Path) -> bool:
     is_shown = not path.name.startswith(".")
     return is_shown and path.suffix.lower() in _READERS and path.is_file()
-
-
-def _is_folder(path: Path) -> bool:
-    try:
-        return path.is_dir()
-    except (OSError, ValueError):
-        return False
 
 
 def _why_not(path: Path) -> str:

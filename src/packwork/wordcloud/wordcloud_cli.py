@@ -7,6 +7,7 @@ this one takes and writes is what ``wordcloud_cli`` takes and writes.
 from __future__ import annotations
 
 import argparse
+import io
 import re
 import sys
 from collections.abc import Sequence
@@ -18,13 +19,15 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from packwork.errors import PackworkError
+from packwork.errors import PackworkError, WriteError
+from packwork.inputs import note_input, noting_inputs
 from packwork.wordcloud.cloud import WordCloud
 from packwork.wordcloud.colours import (
     ImageColorGenerator,
     get_single_color_func,
     random_color_func,
 )
+from packwork.writers.atomic import check_writable, write_atomic
 
 STANDARD = "-"
 """Stands for standard input and output."""
@@ -115,6 +118,7 @@ def parse_args(arguments: Sequence[str]) -> tuple[dict[str, Any], str, IO[bytes]
     try:
         text = _text(values.pop("text"))
         if values["stopwords"]:
+            note_input(values["stopwords"])
             lines = Path(values["stopwords"]).read_text(encoding="utf-8").splitlines()
             values["stopwords"] = {line.strip() for line in lines}
         if values["mask"]:
@@ -141,12 +145,17 @@ def main(args: dict[str, Any], text: str, imagefile: IO[bytes]) -> None:
     >>> made.getvalue()[1:4]
     b'PNG'
     """
-    with imagefile:
-        try:
+    try:
+        with imagefile:
             image = WordCloud(**args).generate(text).to_image()
-        except (PackworkError, ValueError) as error:
-            raise SystemExit(f"packwork.wordcloud: {error}") from None
-        image.save(imagefile, format="png", optimize=True)
+            image.save(imagefile, format="png", optimize=True)
+    except (PackworkError, ValueError) as error:
+        raise SystemExit(f"packwork.wordcloud: {error}") from None
+    except OSError as error:
+        # Only standard output is written to as it comes.
+        raise SystemExit(
+            f"packwork.wordcloud: the picture cannot be written: {error.strerror}"
+        ) from None
 
 
 def run(arguments: Sequence[str]) -> None:
@@ -163,11 +172,12 @@ def run(arguments: Sequence[str]) -> None:
     Traceback (most recent call last):
     SystemExit: packwork.wordcloud: specify either a color mask or a color function
     """
-    try:
-        asked = parse_args(arguments)
-    except ValueError as error:
-        raise SystemExit(f"packwork.wordcloud: {error}") from None
-    main(*asked)
+    with noting_inputs():
+        try:
+            asked = parse_args(arguments)
+        except ValueError as error:
+            raise SystemExit(f"packwork.wordcloud: {error}") from None
+        main(*asked)
 
 
 def _pattern(text: str) -> str:
@@ -180,15 +190,37 @@ def _pattern(text: str) -> str:
 
 def _text(file: str) -> str:
     if file == STANDARD:
+        if sys.stdin is None:
+            raise OSError("standard input is closed; give a --text FILE")
         return sys.stdin.buffer.read().decode("utf-8")
+    note_input(file)
     return Path(file).read_text(encoding="utf-8")
 
 
+class _Picture(io.BytesIO):
+    """A file that comes to be as a whole, once all of it is there; until then an older stays."""
+
+    def __init__(self, path: str) -> None:
+        super().__init__()
+        check_writable(path)
+        self._path = path
+
+    def __exit__(self, kind: type[BaseException] | None, *rest: Any) -> None:
+        """Write what there is, unless something went wrong."""
+        if kind is None:
+            write_atomic(self._path, self.getvalue())
+        super().__exit__(kind, *rest)
+
+
 def _opened(file: str) -> IO[bytes]:
-    return sys.stdout.buffer if file == STANDARD else Path(file).open("wb")
+    try:
+        return sys.stdout.buffer if file == STANDARD else _Picture(file)
+    except WriteError as error:
+        raise OSError(str(error)) from None
 
 
 def _pixels(file: str) -> npt.NDArray[Any]:
+    note_input(file)
     with Image.open(file) as picture:
         return np.array(picture)
 

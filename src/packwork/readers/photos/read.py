@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from packwork.errors import ReadError
-from packwork.readers.files import exists
+from packwork.readers.files import exists, is_folder
 from packwork.readers.items import ItemsRead
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.photo import read_photo
@@ -97,7 +97,7 @@ def _threads() -> int:
 
 def _files(source: str) -> list[_Named]:
     path = Path(source)
-    if path.is_dir():
+    if is_folder(path):
         found = sorted(str(file) for file in path.iterdir() if _is_photo(file))
         return _several(source, found)
     if glob.has_magic(source) and not exists(path):
