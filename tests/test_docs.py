@@ -56,8 +56,8 @@ def metric_names() -> list[str]:
         dict.fromkeys((field.name for field in dataclasses.fields(kind)), 0.0)
         for kind in (PixelMetrics, ExactMetrics, ShapeMetrics)
     ]
-    pixel, exact, seen = PixelMetrics(**zeros[0]), ExactMetrics(**zeros[1]), ShapeMetrics(**zeros[2])
-    return list(LayoutMetrics(pixel, exact, 0.0, seen).as_dict())
+    pixel, exact = PixelMetrics(**zeros[0]), ExactMetrics(**zeros[1])
+    return list(LayoutMetrics(pixel, exact, 0.0, ShapeMetrics(**zeros[2])).as_dict())
 
 
 @pytest.mark.parametrize("name", COMMANDS)

@@ -25,7 +25,7 @@ from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
 from packwork.refusals import length_asked, refusal
-from packwork.rules import MAX_COUNT, Rotation, Rule, as_text, hero_rule, rotation_text
+from packwork.rules import MAX_COUNT, ItemCount, Rotation, Rule, as_text, hero_rule, rotation_text
 from packwork.solve.options import (
     MAX_STRETCH,
     ImageLossFunction,
@@ -73,9 +73,10 @@ class Recipe(Pictured, Moving, TableFormat):
 
     chart: ChartOptions | None = None
     """Rows of a table, a mark for each (``packwork chart``)."""
-    count: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
+    count: ItemCount | None = None
     """How many items in all; the given ones are repeated in turn. Default: one of each.
-    Of words: how many at most, those of the largest weights; default 100."""
+    Of words: how many at most, those of the largest weights; default 100. auto: as many as it
+    takes for the container's shape to show."""
 
     canvas: str | float | None = None
     """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as

@@ -6,7 +6,7 @@ import math
 import re
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import Annotated, Any, TypeAlias
+from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import (
     BeforeValidator,
@@ -21,6 +21,9 @@ from packwork.units import parse_length
 
 MAX_COUNT = 100_000
 """Most items in one run; more would not be seen on any sheet. Chosen."""
+
+ItemCount: TypeAlias = Annotated[int, Field(ge=1, le=MAX_COUNT)] | Literal["auto"]
+"""How many items there are, or auto: as many as the container takes."""
 
 WIDEST_SCALE = 100.0
 """By how much an item may be larger or smaller than the typical one. Chosen."""

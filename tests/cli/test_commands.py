@@ -420,3 +420,21 @@ def test_ctrl_c_before_there_is_anything_says_so(
     assert result.exit_code == 130
     assert result.stderr == "packwork: stopped before there was anything to write\n"
     assert not list(folder.iterdir())
+
+
+def test_a_shape_that_does_not_show_is_told_with_what_would_do(
+    folder: Path, packwork: Command
+) -> None:
+    result = packwork(f"fill cat star -n 2 {QUICK} -o out.svg --report report.json")
+    assert result.exit_code == 0
+    told = [line for line in result.stdout.splitlines() if "lies far from any item" in line]
+    report = json.loads((folder / "report.json").read_text(encoding="utf-8"))
+    assert [f"but {sentence}" for sentence in report["advice"]] == told
+    assert re.search(r"; -n \d+ would show it$", told[0])
+    assert report["metrics"]["bare"] > 0.05
+
+
+def test_the_number_of_items_may_be_found(folder: Path, packwork: Command) -> None:
+    result = packwork(f"fill circle star -n auto {QUICK} -o out.geojson")
+    assert item_count(folder / "out.geojson") == 20
+    assert "auto chose 20 items" in result.stdout

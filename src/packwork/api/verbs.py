@@ -45,8 +45,9 @@ def fill(
     record
         Keep the way of the items, for :meth:`Layout.save_film`.
     options
-        As on the command line: ``count``, ``font``, ``canvas``, ``seed``, ``sizes``,
-        ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``, ``holes``,
+        As on the command line: ``count`` (a number or ``"auto"``), ``font``, ``canvas``,
+        ``seed``, ``sizes``, ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``,
+        ``holes``,
         ``outline``, ``strict``, ``start``, ``effort``, ``epochs``, ``levels``,
         ``losses``, ``hero``, ``palette``, ``apart``; and ``rules`` about single items,
         tables as in a recipe file: ``[{"items": "star", "count": 3}]``.

@@ -54,7 +54,7 @@ Output = Annotated[
         rich_help_panel=WRITING,
     ),
 ]
-Count = Annotated[int | None, flag("count", "-n", "--count", panel=PLACING)]
+Count = Annotated[str | None, flag("count", "-n", "--count", panel=PLACING)]
 Font = Annotated[str | None, flag("font", panel=PLACING)]
 Canvas = Annotated[str | None, flag("canvas", panel=PLACING)]
 Delimiter = Annotated[str | None, flag("delimiter", panel=TABLES)]

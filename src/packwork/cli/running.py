@@ -332,6 +332,8 @@ def _show(results: Mapping[str, Any], written: Sequence[str], console: Console, 
     )
     if results["words"] is not None and results["words"]["found"] > results["words"]["asked"]:
         console.print(words_line(results["words"]), style="dim")
+    for remark in results["remarks"]:
+        console.print(remark, style="dim", soft_wrap=True)
     if results["beside"] is not None:
         console.print(f"{results['beside']} pairs of one kind lie side by side", style="dim")
     if results["filling"] is not None:
@@ -339,4 +341,6 @@ def _show(results: Mapping[str, Any], written: Sequence[str], console: Console, 
     if results["pile"] is not None:
         console.print(pile_line(results["pile"]), style="dim")
     console.print(certificate_line(results["promised"], results["certified"]))
+    for sentence in results["advice"]:
+        console.print(f"but {sentence}", soft_wrap=True)
     console.print(f"wrote {', '.join(written)}", soft_wrap=True, markup=False)

@@ -8,13 +8,12 @@ from functools import lru_cache
 
 import numpy as np
 
-from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.fields.thickness import Thickness, thickness
-from packwork.geometry.outline import Outline
 from packwork.metrics.shape import REACH
 from packwork.pipeline.given import given_scales
 from packwork.raster.membership import centre_count
+from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -39,9 +38,8 @@ LEAST, MOST = 20, 1_000
 """Fewest items that look like a fill, and most that are chosen without being asked: as many as
 voids are filled with. Chosen."""
 
-WORDS_COVER = 0.5
-"""Share of a container that words come to cover. Larger takes words for larger than they are,
-and finds more of them. Measured: 0.45 to 0.6."""
+FEWEST_WORDS = 60
+"""Words that a cloud has at least: fewer look like a list. Chosen by eye."""
 
 HEAP = 0.4
 """Area of a pile's items over the container's: it stands about two thirds high. Chosen."""
@@ -82,42 +80,27 @@ def items_needed(container: Container, recipe: Recipe) -> Needed:
     return Needed(int(np.clip(np.ceil(count), LEAST, MOST)), 2 * radius)
 
 
-def words_needed(container: Container, outlines: Sequence[Outline], areas: FloatArray) -> Needed:
-    """Words, the largest first, of which enough are small enough for all parts.
-
-    For every radius the words that are no larger must cover what larger ones cannot reach
-    (Hall's condition, of areas).
-
-    Parameters
-    ----------
-    outlines, areas
-        Of all words that there are, in item units, and their shares of area.
-    """
-    told = _told(container)[1]
-    scales = np.sqrt(areas / np.array([outline.area for outline in outlines]))
-    boxes = np.array([np.subtract(o.bounds[2:], o.bounds[:2]).prod() for o in outlines])
-    radii = np.sqrt(boxes / np.pi) * scales
-    px = np.sqrt(WORDS_COVER * container.outline.area) * _px_per_cu(container)
-    wanted = WORDS_COVER * (told.missing - MOST_MISSING)
-    for count in range(min(LEAST, len(areas)), len(areas)):
-        whole = float(areas[:count].sum())
-        order = np.argsort(radii[:count])
-        held = np.concatenate([[0.0], np.cumsum(areas[:count][order])]) / whole
-        of_size = radii[:count][order] * px / np.sqrt(whole)
-        small = held[np.searchsorted(of_size, told.radii_px, side="right")]
-        if (small * WORDS_COVER >= wanted).all():
-            return Needed(count, 2 * float(of_size[0]) / _px_per_cu(container))
-    return Needed(len(areas), 0.0)
+def words_needed(container: Container, recipe: Recipe) -> int:
+    """Words for which the container's shape shows."""
+    # Words are larger and smaller ones as they come, whether all keep their shares or not.
+    as_items = recipe.model_copy(update={"sizes": "free", "size_ratio": TYPICAL_RATIO})
+    return max(items_needed(container, as_items).count, FEWEST_WORDS)
 
 
-def heap_needed(
-    container: Container, recipe: Recipe, items: Sequence[Item], weights: FloatArray
-) -> Needed:
+def words_counted(recipe: Recipe, asked: WordOptions, container: Container | None) -> WordOptions:
+    """Options of a recipe's words, with a number in place of ``auto``."""
+    if asked.count != AUTO:
+        return asked
+    if container is None:
+        raise _no_container()
+    return asked.model_copy(update={"count": words_needed(container, recipe)})
+
+
+def heap_needed(container: Container, recipe: Recipe, items: Sequence[Item]) -> int:
     """Items of given sizes that heap up about two thirds high."""
-    scales = given_scales(recipe, items, weights, container.unit, container.side)
+    scales = given_scales(recipe, items, np.ones(len(items)), container.unit, container.side)
     own = np.array([item.outline.area for item in items]) * scales**2
-    count = int(np.clip(HEAP * container.outline.area / own.mean(), 1, MOST))
-    return Needed(count, 0.0)
+    return int(np.clip(HEAP * container.outline.area / own.mean(), 1, MOST))
 
 
 def counted(recipe: Recipe, container: Container | None, items: Sequence[Item]) -> Recipe:
@@ -131,12 +114,16 @@ def counted(recipe: Recipe, container: Container | None, items: Sequence[Item]) 
     if recipe.count != AUTO:
         return recipe
     if container is None:
-        raise RecipeError("count", "auto needs a container to fill; give a number such as 100")
+        raise _no_container()
     if recipe.pile is not None:
-        needed = heap_needed(container, recipe, items, np.ones(len(items)))
+        count = heap_needed(container, recipe, items)
     else:
-        needed = items_needed(container, recipe)
-    return recipe.model_copy(update={"count": max(needed.count, len(items))})
+        count = max(items_needed(container, recipe).count, len(items))
+    return recipe.model_copy(update={"count": count})
+
+
+def _no_container() -> RecipeError:
+    return RecipeError("count", "auto needs a container to fill; give a number such as 100")
 
 
 @lru_cache(maxsize=4)

@@ -17,6 +17,7 @@ from packwork.pipeline.asking import Asked
 from packwork.pipeline.casting import cast, cast_chart, cast_words
 from packwork.pipeline.cells import Cell
 from packwork.pipeline.chart_colours import chart_colours
+from packwork.pipeline.counting import counted, words_counted
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.framing import Frame
 from packwork.pipeline.given import no_container
@@ -163,9 +164,10 @@ def read(
     skipped: tuple[PackworkError, ...] = ()
     with clock.time("read"):
         room, mouths = _container(recipe, container)
-        words = (
-            None if recipe.words is None else read_word_items(recipe.words, recipe.holes, recipe)
-        )
+        words = None
+        if recipe.words is not None:
+            wanted = words_counted(recipe, recipe.words, room)
+            words = read_word_items(wanted, recipe.holes, recipe)
         check_colours(recipe, () if words is None else words.words)
         chart = None if recipe.chart is None else _chart(recipe)
         items, skipped = (None, ()) if chart is not None else _items(recipe, items)
@@ -176,7 +178,7 @@ def read(
             chosen = cast_words(recipe, words, items)
             skipped += words.told
         else:
-            chosen = cast(recipe, items or ())
+            chosen = cast(counted(recipe, room, items or ()), items or ())
         frame, cells, single = None, None, None
         if chart is not None:
             spread = spread_out(recipe, chart, room)

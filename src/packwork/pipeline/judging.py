@@ -8,6 +8,7 @@ from typing import Any
 
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.measure import measure
+from packwork.pipeline.advising import advice, remarks
 from packwork.pipeline.beside import same_kind_beside
 from packwork.pipeline.dressing import dressed
 from packwork.pipeline.job import Job
@@ -108,4 +109,6 @@ def judged(job: Job, found: Judged) -> Run:
         words=words,
         left_out=found.left_out,
         pile=found.pile,
+        remarks=remarks(job),
+        advice=advice(job, layout, metrics.seen),
     )

@@ -107,6 +107,10 @@ class Run:
         Unplaced items that are not in the layout.
     pile
         How the items lie, if they were heaped.
+    remarks
+        What the run chose by itself, a sentence each.
+    advice
+        What is poor although all that was asked holds, and what would do, a sentence each.
     """
 
     layout: Layout
@@ -122,6 +126,8 @@ class Run:
     words: WordsFound | None = None
     left_out: int = 0
     pile: Mapping[str, Any] | None = None
+    remarks: tuple[str, ...] = ()
+    advice: tuple[str, ...] = ()
 
     @property
     def is_as_asked(self) -> bool:
@@ -162,6 +168,8 @@ class Run:
             "filling": None if self.filling is None else asdict(self.filling),
             "words": None if self.words is None else asdict(self.words),
             "pile": None if self.pile is None else dict(self.pile),
+            "remarks": list(self.remarks),
+            "advice": list(self.advice),
             "ending": self.ending.value,
             "seed": self.layout.manifest["seed"],
         }

@@ -103,7 +103,7 @@ def read_word_items(
     ranked = ranked_words(options, asked)
     for one in ranked.told:
         _LOG.warning("%s", one)
-    for word in ranked.words[: options.count]:
+    for word in ranked.words[: options.most]:
         try:
             items.append(word_item(word, fonts, holes))
             words.append(word)

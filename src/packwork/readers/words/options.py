@@ -24,6 +24,10 @@ MOST_WORDS = 5_000
 """Words in one cloud; more could not be read on any sheet. Chosen."""
 
 
+MOST_BY_DEFAULT = 100
+"""The same unless asked: as many as can be read on a screen. Chosen."""
+
+
 class WordOptions(Options):
     """Where words come from and how they are set."""
 
@@ -31,8 +35,9 @@ class WordOptions(Options):
     """Text, a table of word,weight (.csv, .tsv, .json), or - for standard input; in Python
     also the text itself, or a dict of weights."""
 
-    count: Annotated[int, Field(ge=1, le=MOST_WORDS)] = 100
-    """How many words at most: those of the largest weights."""
+    count: Annotated[int, Field(ge=1, le=MOST_WORDS)] | Literal["auto"] = MOST_BY_DEFAULT
+    """How many words at most: those of the largest weights. auto: as many as it takes for the
+    container's shape to show."""
 
     min_count: Annotated[int, Field(ge=1)] = 1
     """How often a word must stand in the text."""
@@ -90,6 +95,11 @@ class WordOptions(Options):
 
     contrast: Annotated[float, Field(ge=1, le=21)] = 3.0
     """Least contrast of words and background, as WCAG counts it; 1 leaves colours alone."""
+
+    @property
+    def most(self) -> int:
+        """Words at most; where nobody has chosen how many, as many as by default."""
+        return self.count if isinstance(self.count, int) else MOST_BY_DEFAULT
 
     @property
     def paper(self) -> str | None:

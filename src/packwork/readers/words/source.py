@@ -82,7 +82,7 @@ def read_words(options: WordOptions, asked: TableFormat | None = None) -> list[W
     >>> [(word.text, word.weight) for word in read_words(WordOptions(source=text, count=3))]
     [('bear', 3.0), ('bees', 2.0), ('honey', 2.0)]
     """
-    return list(ranked_words(options, asked).words[: options.count])
+    return list(ranked_words(options, asked).words[: options.most])
 
 
 def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Ranked:
