@@ -1,4 +1,4 @@
-"""Compiled kernels: that none outlives those that it calls."""
+"""Compiled kernels: that none outlives those that it calls, and where they are kept."""
 
 from __future__ import annotations
 
@@ -9,107 +9,107 @@ from pathlib import Path
 
 import pytest
 
-import packwork
 from packwork import compiled
 
-PACKAGE = Path(packwork.__file__).parent
+NEEDS_JIT = pytest.mark.skipif(
+    bool(os.environ.get("NUMBA_DISABLE_JIT")), reason="nothing is compiled"
+)
 
-
-def test_all_modules_of_kernels_are_looked_at() -> None:
-    depths = [len(path.relative_to(PACKAGE).parents) - 1 for path in PACKAGE.rglob("_kernels.py")]
-    assert min(depths) >= 1
-    assert max(depths) <= compiled.DEEPEST
+CALLED = "from packwork.compiled import helper\n\n\n@helper\ndef called():\n    return {}\n"
+CALLING = (
+    "from somekernels.called._kernels import called\nfrom packwork.compiled import kernel\n\n\n"
+    "@kernel\ndef calling():\n    return called()\n"
+)
+PROGRAM = "from somekernels.calling._kernels import calling; print(calling())"
 
 
 @pytest.fixture
-def folder(tmp_path: Path) -> Path:
-    """A package of two modules of kernels, one of them compiled."""
-    for name in ("one", "deep/down"):
-        (tmp_path / name / "__pycache__").mkdir(parents=True)
-        (tmp_path / name / compiled.SOURCES).write_text("first", encoding="utf-8")
-    assert compiled.forget_stale(tmp_path)
-    for ending in ("nbi", "1.nbc", "pyc"):
-        (tmp_path / "one" / "__pycache__" / f"a.{ending}").touch()
-    return tmp_path
-
-
-def kept(folder: Path) -> set[str]:
-    return {path.name for path in (folder / "one" / "__pycache__").iterdir()}
-
-
-def test_what_is_compiled_of_the_same_kernels_is_kept(folder: Path) -> None:
-    assert not compiled.forget_stale(folder)
-    assert kept(folder) == {"a.nbi", "a.1.nbc", "a.pyc"}
-
-
-def test_a_change_of_one_kernel_forgets_what_others_were_compiled_to(folder: Path) -> None:
-    (folder / "deep" / "down" / compiled.SOURCES).write_text("second", encoding="utf-8")
-    assert compiled.forget_stale(folder)
-    assert kept(folder) == {"a.pyc"}
-    assert not compiled.forget_stale(folder)
-
-
-def test_where_nothing_may_be_written_nothing_is_said(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (folder / "one" / compiled.SOURCES).write_text("second", encoding="utf-8")
-
-    def refuse(*_: object, **__: object) -> None:
-        raise PermissionError
-
-    monkeypatch.setattr(Path, "unlink", refuse)
-    assert compiled.forget_stale(folder)
-    assert kept(folder) == {"a.nbi", "a.1.nbc", "a.pyc"}
-
-
-def test_a_damaged_mark_is_made_anew(folder: Path) -> None:
-    (folder / "__pycache__" / "kernels").write_bytes(b"\xff\xfe")
-    assert compiled.forget_stale(folder)
-    assert not compiled.forget_stale(folder)
-
-
-def test_one_file_that_stays_keeps_no_other(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    (folder / "one" / compiled.SOURCES).write_text("second", encoding="utf-8")
-    unlink = Path.unlink
-
-    def refuse(path: Path, missing_ok: bool = False) -> None:
-        if path.suffix == ".nbi":
-            raise PermissionError
-        unlink(path, missing_ok)
-
-    monkeypatch.setattr(Path, "unlink", refuse)
-    assert compiled.forget_stale(folder)
-    assert kept(folder) == {"a.nbi", "a.pyc"}
-
-
-CALLED = "from packwork.compiled import kernel\n\n\n@kernel\ndef called():\n    return {}\n"
-CALLING = (
-    "from {name}.called._kernels import called\nfrom packwork.compiled import kernel\n\n\n"
-    "@kernel\ndef calling():\n    return called()\n"
-)
-
-
-@pytest.mark.skipif(bool(os.environ.get("NUMBA_DISABLE_JIT")), reason="nothing is compiled")
-def test_a_kernel_that_was_kept_calls_the_others_as_they_are_now(tmp_path: Path) -> None:
+def package(tmp_path: Path) -> Path:
+    """A package of two modules of kernels, of which one calls the other."""
     package = tmp_path / "somekernels"
     for folder in (package, package / "called", package / "calling"):
         folder.mkdir()
         (folder / "__init__.py").touch()
-    (package / "calling" / "_kernels.py").write_text(CALLING.format(name=package.name))
+    (package / "calling" / "_kernels.py").write_text(CALLING)
+    (package / "called" / "_kernels.py").write_text(CALLED.format(1))
+    return package
 
-    def result(value: int) -> str:
-        (package / "called" / "_kernels.py").write_text(CALLED.format(value))
-        program = (
-            "from pathlib import Path; from packwork.compiled import forget_stale; "
-            f"forget_stale(Path({str(package)!r})); "
-            f"from {package.name}.calling._kernels import calling; print(calling())"
-        )
-        paths = os.pathsep.join([str(tmp_path), *filter(None, sys.path)])
-        environment = {**os.environ, "PYTHONPATH": paths}
-        environment.pop("NUMBA_CACHE_DIR", None)
-        return subprocess.run(
-            [sys.executable, "-c", program], env=environment, capture_output=True, text=True,
-            check=True,
-        ).stdout.strip()  # fmt: skip
 
-    assert [result(1), result(2)] == ["1", "2"]
+def call(package: Path, program: str = PROGRAM, **changes: str) -> tuple[str, str]:
+    """What a program prints that uses the package, and what on standard error."""
+    paths = os.pathsep.join([str(package.parent), *filter(None, sys.path)])
+    cache = {"PACKWORK_CACHE_DIR": str(package.parent / "cache")}
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={**os.environ, "PYTHONPATH": paths, **cache, **changes},
+        capture_output=True, text=True, check=True, cwd=package.parent,
+    )  # fmt: skip
+    return done.stdout.strip(), done.stderr
+
+
+def kept(package: Path) -> set[Path]:
+    return set((package.parent / "cache" / "packwork" / "kernels").iterdir())
+
+
+@NEEDS_JIT
+def test_what_is_compiled_is_kept_and_loaded_and_said_once(package: Path) -> None:
+    assert call(package) == ("1", f"{compiled.NOTICE}\n")
+    once = kept(package)
+    assert len(once) == 1
+    assert call(package) == ("1", "")
+    assert kept(package) == once
+
+
+@NEEDS_JIT
+def test_a_kernel_that_was_kept_calls_the_others_as_they_are_now(package: Path) -> None:
+    assert call(package)[0] == "1"
+    (package / "called" / "_kernels.py").write_text(CALLED.format(2))
+    assert call(package)[0] == "2"
+
+
+@NEEDS_JIT
+def test_the_same_kernels_elsewhere_are_not_compiled_again(package: Path, tmp_path: Path) -> None:
+    call(package)
+    elsewhere = tmp_path / "another" / package.name
+    elsewhere.parent.mkdir()
+    package.rename(elsewhere)
+    cache = str(package.parent / "cache")
+    assert call(elsewhere, PACKWORK_CACHE_DIR=cache) == ("1", "")
+
+
+@NEEDS_JIT
+def test_a_damaged_entry_is_compiled_anew(package: Path) -> None:
+    call(package)
+    (entry,) = kept(package)
+    entry.write_bytes(entry.read_bytes()[:-1])
+    assert call(package) == ("1", f"{compiled.NOTICE}\n")
+    assert call(package) == ("1", "")
+
+
+@NEEDS_JIT
+def test_nothing_is_kept_where_that_is_switched_off(package: Path) -> None:
+    assert call(package, PACKWORK_CACHE_DIR="off")[0] == "1"
+    assert not (package.parent / "cache").exists()
+    assert {path.name for path in package.parent.iterdir()} == {package.name}
+
+
+@NEEDS_JIT
+def test_listeners_are_told_in_place_of_the_log(package: Path) -> None:
+    program = (
+        "from packwork.compiled import listening\n"
+        "def tell(name, is_done): print(name.rpartition('.')[2], is_done)\n"
+        "with listening(tell):\n    " + PROGRAM.replace("; ", "\n    ")
+    )
+    said, errors = call(package, program)
+    assert (said, errors) == ("calling False\ncalling True\n1", "")
+
+
+def test_a_kernel_knows_the_text_of_all_that_it_calls(package: Path) -> None:
+    program = (
+        "import somekernels.calling._kernels\nfrom packwork.compiled import fingerprint\n"
+        "print(fingerprint('somekernels.calling._kernels'))"
+    )
+    first = call(package, program)[0]
+    assert call(package, program)[0] == first
+    (package / "called" / "_kernels.py").write_text(CALLED.format(2))
+    assert call(package, program)[0] != first

@@ -1,25 +1,65 @@
-"""The decorator of compiled kernels, and their cache, which holds none that is out of date.
+"""Decorators of compiled kernels, and their cache, which holds none that is out of date.
 
-Numba keeps what it compiled beside the sources, and compiles a kernel anew where its own file has
-changed. What it took over into a kernel from those that it calls, in other files, it does not
-look at: after such a change a caller would go on with the old one.
+Numba keeps compiled functions beside the sources, by the text of the one file each stands in. What
+it took over into a kernel from those that it calls, in other files, it does not look at; and where
+an installation may not be written to it looks for a home that a service may not have. So we keep
+them ourselves: one file a kernel and types, named by all that went into it, in a private folder
+(``packwork.folders``), since what is loaded from there is run.
 """
 
 from __future__ import annotations
 
+import ast
 import contextlib
+import functools
 import hashlib
-import os
-from pathlib import Path
-from typing import Any
+import inspect
+import logging
+import pickle
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any, Protocol
 
+import llvmlite
+import numba
 from numba import njit
+from numba.core import serialize
+from numba.core.caching import NullCache
+from numba.core.compiler import CompileResult
 
-SOURCES = "_kernels.py"
+from packwork.folders import Store
+
+MODULES = "_kernels"
 """Name of the modules that hold kernels."""
 
-DEEPEST = 3
-"""Folders that a module of kernels lies deep in the package at most; a test holds it to that."""
+FORM = 1
+"""Number of the form in which kernels are kept; a new one forgets all."""
+
+MOST_BYTES = 200_000_000
+"""Size of the cache: about a hundred times what one version of all kernels takes. Chosen."""
+
+OUTER = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
+"""Options of kernels that Python calls: without its lock, divisions by zero as in NumPy."""
+
+INNER = {**OUTER, "no_cpython_wrapper": True}
+"""Options of those that only kernels call, which need no way in from Python."""
+
+NOTICE = "compiling kernels, once after each installation: 10 to 40 s of one processor core"
+
+_LOG = logging.getLogger("packwork")
+
+STORE = Store("kernels", MOST_BYTES, variable="NUMBA_CACHE_DIR")
+
+
+class Listener(Protocol):
+    """Whoever wants to know what is compiled."""
+
+    def __call__(self, kernel: str, is_done: bool) -> None:
+        """Be told of a kernel that is about to be compiled, and once it is."""
+        ...
+
+
+_listeners: list[Listener] = []
 
 
 def kernel(function: Any = None, /, **options: Any) -> Any:
@@ -28,50 +68,131 @@ def kernel(function: Any = None, /, **options: Any) -> Any:
     Parameters
     ----------
     function
-        What is compiled; None where options are given, as for ``@kernel(inline="always")``.
+        What is compiled; None where options are given, as for ``@kernel(fastmath=True)``.
     **options
-        Of ``numba.njit``, beside those that all kernels have: cached, without Python's lock, and
-        with divisions by zero as in NumPy.
+        Of ``numba.njit``, beside ``OUTER``.
     """
-    return njit(function, cache=True, nogil=True, error_model="numpy", **options)
+    if function is None:
+        return functools.partial(kernel, **options)
+    compiled = njit(function, **{**OUTER, **options})
+    # Where compiling is switched off, that is the function itself.
+    if compiled is not function:
+        compiled._cache = KernelCache(function, {**OUTER, **options})
+    return compiled
 
 
-def forget_stale(folder: Path) -> bool:
-    """Delete what was compiled, inside a folder, of other kernels than those that lie there now.
+def helper(function: Any = None, /, **options: Any) -> Any:
+    """Compile a function into the kernels that call it, which keep it; Python cannot call it.
 
-    Where nothing may be written, nothing was kept there either. A cache that ``NUMBA_CACHE_DIR``
-    puts elsewhere is not looked at.
-
-    Returns
-    -------
-    bool
-        Whether there was anything out of date.
+    Parameters
+    ----------
+    function
+        What is compiled; None where options are given.
+    **options
+        Of ``numba.njit``, beside ``INNER``.
     """
-    mark = folder / "__pycache__" / "kernels"
-    fingerprint = _fingerprint(folder)
-    with contextlib.suppress(OSError):
-        if mark.read_bytes() == fingerprint:
-            return False
-    for compiled in folder.rglob("*.nb[ci]"):
-        with contextlib.suppress(OSError):
-            compiled.unlink(missing_ok=True)
-    with contextlib.suppress(OSError):
-        mark.parent.mkdir(exist_ok=True)
-        # Others may start at the same moment.
-        own = mark.with_name(f"{mark.name}-{os.getpid()}")
-        own.write_bytes(fingerprint)
-        own.replace(mark)
-    return True
+    if function is None:
+        return functools.partial(helper, **options)
+    return njit(function, **{**INNER, **options})
 
 
-def _fingerprint(folder: Path) -> bytes:
-    """One word for all kernels together, and for how they are compiled."""
-    whole = hashlib.sha256(Path(__file__).read_bytes())
-    for depth in range(1, DEEPEST + 1):
-        for path in sorted(folder.glob("*/" * depth + SOURCES)):
-            whole.update(path.relative_to(folder).as_posix().encode())
-            whole.update(path.read_bytes())
-    return whole.hexdigest().encode()
+def as_python(compiled: Any) -> Any:
+    """The function that a kernel or helper was made of, as Python runs it."""
+    return getattr(compiled, "py_func", compiled)
 
 
-forget_stale(Path(__file__).parent)
+@contextlib.contextmanager
+def listening(listener: Listener) -> Iterator[None]:
+    """Tell ``listener`` what is compiled while the block runs, in place of the log."""
+    _listeners.append(listener)
+    try:
+        yield
+    finally:
+        _listeners.remove(listener)
+
+
+@functools.cache
+def _tell_once() -> None:
+    _LOG.warning(NOTICE)
+
+
+def _tell(name: str, is_done: bool) -> None:
+    if not _listeners:
+        _tell_once()
+    for listener in _listeners:
+        listener(name, is_done)
+
+
+class KernelCache(NullCache):  # type: ignore[misc]
+    """What Numba asks for a kernel before it compiles one, and gives it afterwards.
+
+    Parameters
+    ----------
+    function
+        The kernel, not compiled.
+    options
+        How it is compiled.
+    """
+
+    def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
+        self._function = function
+        self._name = f"{function.__module__}.{function.__qualname__}"
+        self._options = repr(sorted(options.items(), key=lambda item: item[0]))
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Kernel for some types of arguments; None if it has to be compiled."""
+        target_context.refresh()
+        key = self._key(sig, target_context.codegen())
+        kept = None if key is None else STORE.get(key)
+        if kept is None:
+            _tell(self._name, is_done=False)
+            return None
+        return CompileResult._rebuild(target_context, *pickle.loads(kept))  # noqa: S301
+
+    def save_overload(self, sig: Any, cres: Any) -> None:
+        """Keep what was compiled."""
+        key = self._key(sig, cres.codegen)
+        if key is not None and not cres.library.has_dynamic_globals:
+            STORE.put(key, serialize.dumps(cres._reduce()))
+        _tell(self._name, is_done=True)
+
+    def _key(self, sig: Any, codegen: Any) -> str | None:
+        """All that a compiled kernel depends on; None where its text is not to be had."""
+        try:
+            text = fingerprint(self._function.__module__)
+        except OSError:
+            return None
+        parts = (
+            FORM, self._name, self._options, text,
+            tuple(map(repr, sig)), codegen.magic_tuple(), numba.config.OPT,
+            numba.__version__, llvmlite.__version__, sys.version,
+        )  # fmt: skip
+        return repr(parts)
+
+
+@functools.cache
+def fingerprint(module: str) -> str:
+    """One word for the text of a module of kernels and of all those that it calls.
+
+    Examples
+    --------
+    >>> import packwork.fields._kernels as kernels
+    >>> fingerprint(kernels.__name__) == fingerprint(kernels.__name__)
+    True
+    """
+    source = inspect.getsource(sys.modules[module])
+    whole = hashlib.sha256(source.encode())
+    for called in sorted(_called(source) - {module}):
+        whole.update(fingerprint(called).encode())
+    return whole.hexdigest()
+
+
+def _called(source: str) -> set[str]:
+    """Modules of kernels that one of them imports from."""
+    found = set()
+    for node in ast.walk(ast.parse(source)):
+        if isinstance(node, ast.ImportFrom) and node.module:
+            found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        if isinstance(node, ast.Import):
+            found |= {alias.name for alias in node.names}
+    return {name for name in found if name.endswith(MODULES) and name in sys.modules}

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 from packwork.finish.binding import _kernels as binding
 from packwork.finish.contact import _kernels as contact
 from packwork.finish.programme import _kernels as programme
@@ -85,7 +85,7 @@ class Wishes(NamedTuple):
     push: np.ndarray
 
 
-@kernel
+@helper
 def contacts(board, pairs, reach, slants):
     """Which pair each contact belongs to, and its numbers."""
     room = 24 * pairs.shape[0] + 256
@@ -97,7 +97,7 @@ def contacts(board, pairs, reach, slants):
         room = count
 
 
-@kernel
+@helper
 def _motion(board, i, nx, ny, x, y, sign, out):
     """Write how fast a point of an item goes along a normal, for each unknown."""
     ex, ey = x - board.places[i, 0], y - board.places[i, 1]
@@ -107,7 +107,7 @@ def _motion(board, i, nx, ny, x, y, sign, out):
     out[3] = sign * (ex * nx + ey * ny) / arm
 
 
-@kernel
+@helper
 def conditions(board, pairs, who, numbers, where, trust, gap):
     """Contacts as rows of a programme, lengths in units of ``trust``.
 
@@ -147,9 +147,12 @@ def conditions(board, pairs, who, numbers, where, trust, gap):
 def freedoms(board, wishes, items, trust):
     """Gains and bounds of the unknowns, lengths in units of ``trust``."""
     n = items.shape[0]
-    gain, low, high = np.zeros(4 * n), np.zeros(4 * n) - 1.0, np.zeros(4 * n) + 1.0
+    gain, low, high = np.empty(4 * n), np.empty(4 * n), np.empty(4 * n)
     for k in range(n):
         i = items[k]
+        for c in range(2):
+            low[4 * k + c], high[4 * k + c] = -1.0, 1.0
+        gain[4 * k + 2] = 0.0
         turn, growth = board.places[i, 2], board.places[i, 3]
         most = trust / contact.arm(board, i)
         gain[4 * k], gain[4 * k + 1] = wishes.push[i, 0] * trust, wishes.push[i, 1] * trust
@@ -171,7 +174,7 @@ def freedoms(board, wishes, items, trust):
     return gain, low, high
 
 
-@kernel
+@helper
 def strike(board, pairs, gap, changed, struck, room):
     """Mark solids in conflict; only pairs of which one has ``changed`` can be. How many."""
     count = 0
@@ -187,7 +190,7 @@ def strike(board, pairs, gap, changed, struck, room):
     return count
 
 
-@kernel
+@helper
 def _solids(pairs, marks):
     """Solids of some pairs, each once; ``marks``, one for each of all, are lost."""
     for p in range(pairs.shape[0]):
@@ -203,7 +206,7 @@ def _solids(pairs, marks):
     return found[:count]
 
 
-@kernel
+@helper
 def _settle_share(board, items, before, step, share, pairs, gap, unit):
     """Move by a share of a step; items in conflict are cut, then left where they were."""
     # Only what is in the pairs is looked at: work must not grow with all solids.
@@ -256,7 +259,7 @@ def settle(board, items, step, pairs, gap, trust):
     return -1
 
 
-@kernel
+@helper
 def near_contacts(board, items, pairs, trust, gap, hair):
     """Contacts within reach of a step, each solid's number in the programme, the gap to keep."""
     slants = np.empty(pairs.shape[0])
@@ -280,12 +283,15 @@ def near_contacts(board, items, pairs, trust, gap, hair):
 
 
 @kernel
-def best_step(board, wishes, items, pairs, trust, gap, hair):
-    """Change of place of ``items`` that gains most and keeps the contacts apart, nearly."""
+def rows_of(board, items, pairs, trust, gap, hair):
+    """Rows of the programme that keep ``items`` apart, from each other and what stands still."""
     who, numbers, where, kept = near_contacts(board, items, pairs, trust, gap, hair)
-    rows = conditions(board, pairs, who, numbers, where, trust, kept)
-    gain, low, high = freedoms(board, wishes, items, trust)
-    z = programme.maximise(rows, gain, low, high, ACCURACY)
+    return conditions(board, pairs, who, numbers, where, trust, kept)
+
+
+@kernel
+def step_of(board, items, z, trust):
+    """Change of place of ``items`` that the unknowns of a programme stand for."""
     step = np.empty((items.shape[0], 4))
     for k in range(items.shape[0]):
         arm = contact.arm(board, items[k])

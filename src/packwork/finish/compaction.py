@@ -6,9 +6,10 @@ import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.finish import _kernels
-from packwork.finish._kernels import RETURN_WEIGHT, TRAVEL, Wishes
+from packwork.finish._kernels import ACCURACY, RETURN_WEIGHT, TRAVEL, Wishes
 from packwork.finish.arrangement import Arrangement
 from packwork.finish.contact import _kernels as contact
+from packwork.finish.programme import _kernels as programme
 
 
 def compact(
@@ -40,7 +41,10 @@ def compact(
     """
     board = arrangement.board
     pairs = contact.pairs_of(board.boxes, items, gap + TRAVEL * trust)
-    step = _kernels.best_step(board, wishes, items, pairs, trust, gap, hair)
+    # One after another, not in one kernel: what several steps share is compiled once.
+    rows = _kernels.rows_of(board, items, pairs, trust, gap, hair)
+    z = programme.maximise(rows, *_kernels.freedoms(board, wishes, items, trust), ACCURACY)
+    step = _kernels.step_of(board, items, z, trust)
     return bool(_kernels.settle(board, items, step, pairs, gap, trust) >= 0)
 
 

@@ -59,7 +59,7 @@ def free_room(
     corner = np.array([left, top])
 
     def image(points: FloatArray, starts: IntArray) -> Image:
-        return coverage((points - corner) * px_per_cu, starts, shape)
+        return coverage((points - corner) * px_per_cu, starts, shape, np.float32)
 
     inside = image(arrangement.container.points, arrangement.container.starts)
     taken = image(*arrangement.rings(items)) if len(items) else np.zeros(shape)

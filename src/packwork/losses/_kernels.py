@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 
 
 @kernel
@@ -42,7 +42,7 @@ def adjoint(
     buffer[container.shape[0]] = 0.0
 
 
-@kernel
+@helper
 def _add_gaps(swept, container, running, line):
     """Next row of the running sum; ``line`` gains its empty container."""
     for c in range(running.shape[0]):
@@ -52,7 +52,7 @@ def _add_gaps(swept, container, running, line):
         line[c] += max(gap, 0 * gap)
 
 
-@kernel
+@helper
 def _price(swept, container, running, line, outside, excess, one, row):
     """Next row of the running sum to its adjoint; ``line`` is what covering pays."""
     for c in range(running.shape[0]):
@@ -64,7 +64,7 @@ def _price(swept, container, running, line, outside, excess, one, row):
         row[c] = base + (excess if density > one else -line[c] * inside)
 
 
-@kernel
+@helper
 def _fold(line, factor, blocks):
     """Sum ``line`` over blocks of ``factor``; the last may be cut off.
 
@@ -77,7 +77,7 @@ def _fold(line, factor, blocks):
             blocks[b] += line[b * factor + k]
 
 
-@kernel
+@helper
 def _unfold(blocks, factor, reward, line):
     """Write each block's value plus ``reward`` to all of its pixels."""
     width = line.shape[0]

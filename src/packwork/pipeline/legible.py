@@ -83,7 +83,7 @@ def luminances_under(layout: Layout, ground: FloatArray) -> list[tuple[float, fl
     scale = GROUND_PX / layout.container.side
     found = []
     for ink in layout.inks:
-        share = coverage(ink.points * scale, ink.starts, ground.shape)
+        share = coverage(ink.points * scale, ink.starts, ground.shape, np.float32)
         seen = ground[share >= min(0.5, float(share.max()))]
         low, high = np.percentile(seen, [DARKEST, BRIGHTEST])
         found.append((float(low), float(high)))

@@ -169,7 +169,7 @@ def _by_picture(
         if word is None:
             found.append(None)
             continue
-        weights = coverage(ink.points * scale, ink.starts, shape).astype(np.float64)
+        weights = coverage(ink.points * scale, ink.starts, shape, np.float32).astype(np.float64)
         weights = weights * pixels[..., 3]
         total = float(weights.sum())
         mean = np.tensordot(weights, pixels[..., :3], 2) / total if total > 0 else np.zeros(3)

@@ -14,7 +14,9 @@ buffer's own precision, in any order, and a closed ring leaves exactly zero behi
 
 from __future__ import annotations
 
-from packwork.compiled import kernel
+import numpy as np
+
+from packwork.compiled import helper, kernel
 
 SPARE_ROWS = 3
 """Rows of the accumulation buffer beyond the image's: one for what falls off its lower
@@ -32,7 +34,7 @@ ABOVE = -2
 canvas are recorded as -1."""
 
 
-@kernel(inline="always")
+@helper(forceinline=True)
 def _walk(
     x0, y0, x1, y1, u_begin, u_end, cell_x, cell_y, end_x, end_y,
     x_magic, area_magic, width, buffer, cells, leaves, k,
@@ -94,7 +96,7 @@ def _walk(
     return k + 1
 
 
-@kernel
+@helper
 def _walk_above(x0, x1, u_begin, u_end, x_magic, width, buffer, cells, leaves, k):
     """Deposit a piece above the canvas: it covers its columns from row 0 on."""
     dx = x1 - x0
@@ -116,7 +118,7 @@ def _walk_above(x0, x1, u_begin, u_end, x_magic, width, buffer, cells, leaves, k
     return k + 1
 
 
-@kernel
+@helper
 def _walk_clipped(
     x0, y0, x1, y1, x_magic, area_magic, width, height, buffer, cells, leaves, k
 ):  # fmt: skip
@@ -182,7 +184,7 @@ def _walk_clipped(
     return k
 
 
-@kernel
+@helper
 def _lowest_row(points, begin, end, height):
     """Row just below a ring, and a few more, on the canvas."""
     lowest = 0.0
@@ -191,7 +193,7 @@ def _lowest_row(points, begin, end, height):
     return min(int(min(lowest, float(height))) + ROWS_AHEAD, height)
 
 
-@kernel(inline="always")
+@helper(forceinline=True)
 def _fetch(image, reached, until):
     """Read one pixel of each cache line from ``reached`` to ``until``; return their sum.
 
@@ -216,7 +218,8 @@ def sweep(
     ``width``, zero on entry. ``first[edge]`` receives where the record of an edge
     begins, edges counted as they are visited.
     """
-    k = 0
+    # A plain 0 has a type of its own, for which what is called would be compiled once more.
+    k = np.int64(0)
     edge = 0
     reached = 0
     fetched = 0.0

@@ -43,9 +43,10 @@ class Adam:
     def step(self, gradient: FloatArray, rate: float) -> FloatArray:
         """Change to add to the quantity, about ``rate`` long; the next call reuses it."""
         self._count += 1
+        # Columns of a wider array would need a kernel of their own.
         _kernels.adam(
-            gradient, self._mean, self._square, *self._decay, self._count, STILLNESS, rate,
-            self._change,
+            np.ascontiguousarray(gradient), self._mean, self._square, *self._decay, self._count,
+            STILLNESS, rate, self._change,
         )  # fmt: skip
         return self._change
 

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper
 from packwork.finish.contact import _kernels as contact
 
 
-@kernel
+@helper
 def contacts(board, pairs, reach, slants, who, numbers):
     """Write what keeps pairs apart; returns how many, counting on past the end.
 
@@ -23,7 +23,8 @@ def contacts(board, pairs, reach, slants, who, numbers):
     most = contact.most_points(board.starts, pairs)
     kept, edges = np.empty((2, most), np.int64), np.empty((2, 9, most))
     near = np.empty(most, np.bool_)
-    count = 0
+    # A plain 0 has a type of its own, for which what is called would be compiled once more.
+    count = np.int64(0)
     for k in range(pairs.shape[0]):
         i, j = pairs[k, 0], pairs[k, 1]
         if contact.are_apart(board.boxes, i, j, reach):
@@ -45,7 +46,7 @@ def contacts(board, pairs, reach, slants, who, numbers):
     return count
 
 
-@kernel
+@helper
 def _describe(board, kept, count, edges):
     """Write columns of what contacts need of edges.
 
@@ -68,7 +69,7 @@ def _describe(board, kept, count, edges):
         edges[7, k], edges[8, k] = points[v, 0], points[v, 1]
 
 
-@kernel
+@helper
 def _sift(own, a, others, count, reach, slant, has_corners, near):
     """Mark the edges that bind a vertex, but for corners nearly: few of many do.
 
@@ -98,7 +99,7 @@ def _sift(own, a, others, count, reach, slant, has_corners, near):
         )
 
 
-@kernel
+@helper
 def _meet(
     own, count_own, others, count_others, near, reach, slant, pair, side, who, numbers, count,
 ):  # fmt: skip

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 
 
 class Board(NamedTuple):
@@ -57,7 +57,7 @@ def put(board, items, places):
         box[0], box[1], box[2], box[3] = left, top, right, bottom
 
 
-@kernel
+@helper
 def arm(board, i):
     """Farthest point of an item from its origin, as large as it is now."""
     return board.arms[i] * math.exp(board.places[i, 3])
@@ -86,7 +86,7 @@ def near_pairs(boxes, order, reach, found):
     return count
 
 
-@kernel
+@helper
 def are_apart(boxes, i, j, reach):
     """Whether two boxes are farther apart than ``reach`` along an axis."""
     return (
@@ -97,7 +97,7 @@ def are_apart(boxes, i, j, reach):
     )
 
 
-@kernel
+@helper
 def _two_boxes(boxes, items):
     """Boxes about those of ``items`` near the first of them, and about those far from it."""
     middle = np.empty(2)
@@ -110,7 +110,9 @@ def _two_boxes(boxes, items):
         if away > most:
             farthest, most = items[k], away
     found = np.empty((2, 4))
-    found[:, :2], found[:, 2:] = np.inf, -np.inf
+    for a in range(2):
+        found[a, 0] = found[a, 1] = np.inf
+        found[a, 2] = found[a, 3] = -np.inf
     for k in range(items.shape[0]):
         box = boxes[items[k]]
         nearer = 0.0
@@ -124,7 +126,7 @@ def _two_boxes(boxes, items):
     return found
 
 
-@kernel
+@helper
 def _nearby(boxes, items, reach):
     """Items whose boxes may be within ``reach`` of one of ``items``, in their order."""
     about = _two_boxes(boxes, items)
@@ -175,7 +177,7 @@ def pairs_of(boxes, items, reach):
     return found[:count]
 
 
-@kernel
+@helper
 def cull(board, i, box, reach, kept):
     """Write the edges of a solid (by their first vertex) within ``reach`` of a box."""
     points = board.points
@@ -196,7 +198,7 @@ def cull(board, i, box, reach, kept):
     return count
 
 
-@kernel
+@helper
 def _to_edge_squared(x, y, points, v, w):
     """Squared distance of a point from the edge between two vertices."""
     dx, dy = points[w, 0] - points[v, 0], points[w, 1] - points[v, 1]
@@ -210,7 +212,7 @@ def _to_edge_squared(x, y, points, v, w):
     return ex * ex + ey * ey
 
 
-@kernel
+@helper
 def side(points, a, b, c):
     """Twice the signed area of the triangle of three vertices."""
     return (points[b, 0] - points[a, 0]) * (points[c, 1] - points[a, 1]) - (
@@ -218,7 +220,7 @@ def side(points, a, b, c):
     ) * (points[c, 0] - points[a, 0])
 
 
-@kernel
+@helper
 def _edges_squared(points, v, w, s, t, least):
     """Squared distance of two edges, 0 if they cross; ``least`` if it is not below that."""
     gap_x = max(
@@ -244,7 +246,7 @@ def _edges_squared(points, v, w, s, t, least):
     return min(least, _to_edge_squared(points[t, 0], points[t, 1], points, v, w))
 
 
-@kernel
+@helper
 def _winding(x, y, board, j):
     """How often the rings of a solid go round a point."""
     points, turns = board.points, 0
@@ -262,7 +264,7 @@ def _winding(x, y, board, j):
     return turns
 
 
-@kernel
+@helper
 def _is_in(board, v, j):
     """Whether a vertex lies in solid ``j``."""
     x, y = board.points[v, 0], board.points[v, 1]
@@ -270,7 +272,7 @@ def _is_in(board, v, j):
     return _winding(x, y, board, j) + (j == board.starts.shape[0] - 2) != 0
 
 
-@kernel
+@helper
 def _enters(board, kept, count, j):
     """Whether a ring has its first vertex in solid ``j``, of rings with edges near that."""
     is_container = j == board.starts.shape[0] - 2
@@ -288,7 +290,7 @@ def _enters(board, kept, count, j):
     return False
 
 
-@kernel
+@helper
 def most_points(starts, pairs):
     """Points of the solid of some pairs that has most: room for its edges."""
     most = 0
@@ -298,7 +300,7 @@ def most_points(starts, pairs):
     return most
 
 
-@kernel
+@helper
 def _sticks_out(boxes, i, j):
     """Whether a box is not within another one."""
     return (
@@ -309,7 +311,7 @@ def _sticks_out(boxes, i, j):
     )
 
 
-@kernel
+@helper
 def distance(board, i, j, reach, room):
     """Distance of two solids: 0 if they meet, ``reach`` if it is not below that.
 

@@ -6,11 +6,11 @@ import math
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 from packwork.finish.contact import _kernels as contact
 
 
-@kernel
+@helper
 def _change(points, after, before, v, corner):
     """How far the solid grows if vertex ``v`` of a bay, or the edge after ``v``, goes.
 

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 
 PRESSURES = (1e-1, 1e-2, 1e-3)
 """Weights of the circle's square, one after another. A smaller last one leaves less overlap, by
@@ -94,14 +94,14 @@ def front(radii, order, shift, aside):
     return discs
 
 
-@kernel
+@helper
 def _meet(x, y, own, discs, radii, j):
     """Whether a disc at a point meets another."""
     least = (own + radii[j]) * (1.0 - ROUNDING)
     return (x - discs[j, 0]) ** 2 + (y - discs[j, 1]) ** 2 < least * least
 
 
-@kernel
+@helper
 def _touching(discs, radii, order, k, pair, best):
     """Put disc ``order[k]`` where it touches a pair, if that is free and better.
 
@@ -135,7 +135,7 @@ def _touching(discs, radii, order, k, pair, best):
     return best
 
 
-@kernel
+@helper
 def _near(z, radii, skin):
     """``(k, 2)`` discs that are nearer to each other than ``skin``."""
     n = radii.shape[0]
@@ -159,7 +159,7 @@ def _near(z, radii, skin):
     return pairs[:count]
 
 
-@kernel
+@helper
 def _energy(z, radii, pairs, pressure, slope):
     """What discs and circle cost, ``z`` x and y of each and the circle's radius; its slope."""
     n = radii.shape[0]
@@ -195,7 +195,7 @@ def _energy(z, radii, pairs, pressure, slope):
     return total
 
 
-@kernel
+@helper
 def _way_down(slope, steps, bends, count, way):
     """Write the direction that the last steps and their changes of slope propose."""
     shares = np.empty(MEMORY)
@@ -215,7 +215,7 @@ def _way_down(slope, steps, bends, count, way):
         way += (shares[k] - np.dot(bends[k], way) / np.dot(steps[k], bends[k])) * steps[k]
 
 
-@kernel
+@helper
 def _descend(z, radii, pressure, most):
     """Go down the energy, in place."""
     n = z.shape[0]
@@ -287,7 +287,7 @@ def squeeze(discs, radii):
     return circle_of(discs, radii)
 
 
-@kernel
+@helper
 def _into_hole(discs, radii, circle, draws):
     """Put one of the rim's discs where there is most room for it, in place."""
     n = radii.shape[0]
@@ -315,7 +315,7 @@ def _into_hole(discs, radii, circle, draws):
     discs[chosen, 0], discs[chosen, 1] = x, y
 
 
-@kernel
+@helper
 def _shake(discs, radii, circle, draws):
     """Move the discs near a place at random, in place."""
     mean = radii.mean()

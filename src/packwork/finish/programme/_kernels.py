@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 
 MOST_STEPS = 30
 """Newton steps at most. Programmes of this kind take 7 to 15. Tried."""
@@ -62,7 +62,7 @@ class Iterate(NamedTuple):
     toll: np.ndarray
 
 
-@kernel(fastmath={"reassoc", "contract"})
+@helper(fastmath={"reassoc", "contract"})
 def _dot(a, i, b, j, count):
     total = 0.0
     for k in range(count):
@@ -70,7 +70,7 @@ def _dot(a, i, b, j, count):
     return total
 
 
-@kernel
+@helper
 def envelope(first, second, count):
     """First item that each item shares a row with, in its own order; and the band's width."""
     begins = np.empty(count, np.int64)
@@ -86,7 +86,7 @@ def envelope(first, second, count):
     return begins, width
 
 
-@kernel
+@helper
 def _normal(rows, weights, diagonal, width, band):
     """Write the weighted sum of the rows' squares plus a diagonal."""
     for r in range(diagonal.shape[0]):
@@ -112,7 +112,7 @@ def _normal(rows, weights, diagonal, width, band):
                 band[4 * high + c, width + 4 * (low - high) + d - c] += left * row[before + d]
 
 
-@kernel
+@helper
 def factorise(band, begins, width):
     """Cholesky factor in place; False if the matrix is not positive definite."""
     for r in range(band.shape[0]):
@@ -131,7 +131,7 @@ def factorise(band, begins, width):
     return True
 
 
-@kernel
+@helper
 def substitute(band, begins, width, right):
     """Solve in place, given the factor."""
     for r in range(band.shape[0]):
@@ -144,7 +144,7 @@ def substitute(band, begins, width, right):
             right[c] -= band[r, width + c - r] * right[r]
 
 
-@kernel
+@helper
 def _row(rows, z, k):
     """Product of a row with the unknowns."""
     i, j = 4 * rows.first[k], 4 * rows.second[k]
@@ -157,7 +157,7 @@ def _row(rows, z, k):
     return total
 
 
-@kernel
+@helper
 def _add_row(rows, k, weight, out):
     i, j = 4 * rows.first[k], 4 * rows.second[k]
     for c in range(4):
@@ -167,12 +167,14 @@ def _add_row(rows, k, weight, out):
             out[j + c] += rows.coefficients[k, 4 + c] * weight
 
 
-@kernel
+@helper
 def _direction(rows, now, step, band, begins, width, off_rows, off_cost, centring):
     """Newton direction towards ``centring``, less the second-order terms of the last one."""
     n, m = step.z.shape[0], now.slack.shape[0]
     rest_rows, rest = np.empty(m), np.empty((n, 2))
-    right = -off_cost
+    right = np.empty(n)
+    for r in range(n):
+        right[r] = -off_cost[r]
     for k in range(m):
         rest_rows[k] = centring - now.slack[k] * now.price[k] - step.slack[k] * step.price[k]
         weight = -(rest_rows[k] + now.price[k] * off_rows[k]) / now.slack[k]
@@ -193,27 +195,27 @@ def _direction(rows, now, step, band, begins, width, off_rows, off_cost, centrin
         step.price[k] = (rest_rows[k] - now.price[k] * step.slack[k]) / now.slack[k]
 
 
-@kernel
+@helper
 def _length(value, change, most):
-    """How far numbers may go along their change and stay above zero, ``most`` at most."""
-    for k in range(value.shape[0]):
-        if change[k] < 0.0:
-            most = min(most, -value[k] / change[k])
-    return most
+    """How far a number may go along its change and stay above zero, ``most`` at most."""
+    return min(most, -value / change) if change < 0.0 else most
 
 
-@kernel
+@helper
 def _lengths(now, step):
     """How far unknowns and prices may go along a direction."""
-    whole = 1.0 / STEP_BACK
-    primal = _length(now.slack, step.slack, whole)
-    primal = _length(now.room.ravel(), step.room.ravel(), primal)
-    dual = _length(now.price, step.price, whole)
-    dual = _length(now.toll.ravel(), step.toll.ravel(), dual)
+    primal = dual = 1.0 / STEP_BACK
+    for k in range(now.slack.shape[0]):
+        primal = _length(now.slack[k], step.slack[k], primal)
+        dual = _length(now.price[k], step.price[k], dual)
+    for r in range(now.z.shape[0]):
+        for s in range(2):
+            primal = _length(now.room[r, s], step.room[r, s], primal)
+            dual = _length(now.toll[r, s], step.toll[r, s], dual)
     return STEP_BACK * primal, STEP_BACK * dual
 
 
-@kernel
+@helper
 def _advance(now, step, primal, dual):
     for k in range(now.slack.shape[0]):
         now.slack[k] += primal * step.slack[k]
@@ -225,7 +227,7 @@ def _advance(now, step, primal, dual):
             now.toll[r, s] += dual * step.toll[r, s]
 
 
-@kernel
+@helper
 def _barrier(now, step, primal, dual):
     """Mean product of rooms and prices after a step."""
     total = 0.0
@@ -239,12 +241,12 @@ def _barrier(now, step, primal, dual):
     return total / (now.slack.shape[0] + 2 * now.z.shape[0])
 
 
-@kernel
+@helper
 def _iterate(m, n):
     return Iterate(np.zeros(n), np.zeros(m), np.zeros(m), np.zeros((n, 2)), np.zeros((n, 2)))
 
 
-@kernel
+@helper
 def _begin(rows, low, high, now):
     """First iterate: standing still, as far as the bounds leave room on both sides."""
     for r in range(now.z.shape[0]):
@@ -258,7 +260,7 @@ def _begin(rows, low, high, now):
         now.price[k] = FIRST_BARRIER / now.slack[k]
 
 
-@kernel
+@helper
 def _clear(step):
     for k in range(step.slack.shape[0]):
         step.slack[k] = 0.0

@@ -1,4 +1,4 @@
-"""One step down a potential: contacts, the linear programme over them, the exact check.
+"""One step down a potential: what its linear programme aims at, and the exact check.
 
 Sizes stay as they are. What the programme took for straight and was not is kept out by a
 condition that bends keep away from; items that meet all the same stay where they were.
@@ -8,14 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 from packwork.finish import _kernels as rounds
 from packwork.finish.contact import _kernels as contact
 from packwork.finish.programme import _kernels as programme
-
-ACCURACY = 0.05
-"""Share of the way down that a programme may miss. Smaller costs time; larger leaves items
-hanging in the middle of their room. Tried."""
 
 ASIDE = 0.5
 """Bound of a move across the slope, trust regions, where an item goes straight along an axis.
@@ -35,24 +31,14 @@ HALVINGS = 4
 
 
 @kernel
-def best_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair):
-    """Change of place of ``items`` that goes down most and keeps the contacts apart, nearly.
+def freedoms(board, slope, backmost, foremost, items, trust):
+    """Gains and bounds of the unknowns, lengths in units of ``trust``.
 
     ``slope``: ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each of
     ``items``; ``backmost``, ``foremost``: bounds of the turn of every solid.
     """
-    who, numbers, where, kept = rounds.near_contacts(board, items, pairs, trust, gap, hair)
-    rows = rounds.conditions(board, pairs, who, numbers, where, trust, kept)
-    gain, low, high = _freedoms(board, slope, backmost, foremost, items, trust)
-    z = programme.maximise(rows, gain, low, high, ACCURACY)
-    return _lengthened(board, items, z, low, high, trust)
-
-
-@kernel
-def _freedoms(board, slope, backmost, foremost, items, trust):
-    """Gains and bounds of the unknowns, lengths in units of ``trust``."""
     n = items.shape[0]
-    gain, low, high = np.zeros(4 * n), np.zeros(4 * n) - 1.0, np.zeros(4 * n) + 1.0
+    gain, low, high = np.zeros(4 * n), np.zeros(4 * n), np.zeros(4 * n)
     for k in range(n):
         i = items[k]
         most = trust / contact.arm(board, i)
@@ -65,20 +51,7 @@ def _freedoms(board, slope, backmost, foremost, items, trust):
         turn = board.places[i, 2]
         low[4 * k + 2] = min(max((backmost[i] - turn) / most, -1.0), 0.0)
         high[4 * k + 2] = max(min((foremost[i] - turn) / most, 1.0), 0.0)
-        low[4 * k + 3] = high[4 * k + 3] = 0.0
     return gain, low, high
-
-
-@kernel
-def _lengthened(board, items, z, low, high, trust):
-    """Change of place that the unknowns stand for."""
-    step = np.zeros((items.shape[0], 4))
-    for k in range(items.shape[0]):
-        for c in range(3):
-            # An interior point is a little off its bounds: what may not turn would.
-            share = min(max(z[4 * k + c], low[4 * k + c]), high[4 * k + c])
-            step[k, c] = share * trust / (contact.arm(board, items[k]) if c > 1 else 1.0)
-    return step
 
 
 @kernel
@@ -92,7 +65,7 @@ def circle_about(board, items, centre):
     return np.sqrt(most)
 
 
-@kernel
+@helper
 def _tops(board, items, centre, least, who, numbers):
     """Write the points farther off than ``least`` that are farther than those beside them.
 
@@ -118,7 +91,7 @@ def _tops(board, items, centre, least, who, numbers):
 
 
 @kernel
-def _with_circle(board, items, rows, centre, circle, trust):
+def with_circle(board, items, rows, centre, circle, trust):
     """Rows and those that keep ``items`` in a circle, whose radius is one item more."""
     n, m = items.shape[0], rows.first.shape[0]
     room = 16 * n + 64
@@ -145,27 +118,7 @@ def _with_circle(board, items, rows, centre, circle, trust):
     return programme.Rows(first, second, coefficients, limits)
 
 
-@kernel
-def round_step(board, slope, backmost, foremost, items, pairs, trust, gap, hair, centre, weight):
-    """The same where a smaller circle about ``centre`` is worth ``weight`` a canvas unit."""
-    n = items.shape[0]
-    who, numbers, where, kept = rounds.near_contacts(board, items, pairs, trust, gap, hair)
-    rows = rounds.conditions(board, pairs, who, numbers, where, trust, kept)
-    circle = circle_about(board, items, centre)
-    rows = _with_circle(board, items, rows, centre, circle, trust)
-    gain, low, high = np.zeros(4 * n + 4), np.zeros(4 * n + 4), np.zeros(4 * n + 4)
-    own = _freedoms(board, slope, backmost, foremost, items, trust)
-    gain[: 4 * n], low[: 4 * n], high[: 4 * n] = own
-    # What makes room for others may go anywhere.
-    for k in range(n):
-        for c in range(2):
-            low[4 * k + c], high[4 * k + c] = -1.0, 1.0
-    gain[4 * n], low[4 * n] = -weight, -1.0
-    z = programme.maximise(rows, gain, low, high, ACCURACY)
-    return _lengthened(board, items, z, low, high, trust)
-
-
-@kernel
+@helper
 def _move_share(board, items, before, step, share, pairs, gap):
     """Move by a share of a step; items in conflict go half as far, then back.
 

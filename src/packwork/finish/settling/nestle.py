@@ -58,7 +58,7 @@ class Nest:
         self._corner = np.array([left, top])
 
         def image(points: FloatArray, starts: IntArray) -> Image:
-            return coverage((points - self._corner) * self._px_per_cu, starts, shape)
+            return coverage((points - self._corner) * self._px_per_cu, starts, shape, np.float32)
 
         free = image(arrangement.container.points, arrangement.container.starts) > 1 - FAINT
         if len(standing):

@@ -12,6 +12,7 @@ from packwork.finish.arrangement import Arrangement
 from packwork.finish.blocks import blocks
 from packwork.finish.contact import _kernels as contact
 from packwork.finish.settling import _kernels
+from packwork.finish.settling.steps import downward, inward
 from packwork.forces.forces import Forces, Pull
 from packwork.progress import Stop
 
@@ -197,13 +198,11 @@ class Settling:
         height = self._cost(items)
         pairs = contact.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
         if self.centre is None:
-            step = _kernels.best_step(
-                board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair
-            )
+            step = downward(board, slopes, self._turns, items, pairs, trust, self._gap, self._hair)
         else:
             worth = ROUNDNESS * float(self.areas[self.active].sum())
-            step = _kernels.round_step(
-                board, slopes, *self._turns, items, pairs, trust, self._gap, self._hair,
+            step = inward(
+                board, slopes, self._turns, items, pairs, trust, self._gap, self._hair,
                 self.centre, worth,
             )  # fmt: skip
         _kernels.move(board, items, step, pairs, self._gap)

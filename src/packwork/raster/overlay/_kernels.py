@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 
 
 @kernel
@@ -49,7 +49,7 @@ def lay(image, texture, inverse):
             image[row, column, 3] = np.uint8(np.int32(alpha + kept * under + half))
 
 
-@kernel(inline="always")
+@helper(inline="always")
 def _mixed(texture, i, j, k, w_00, w_01, w_10, w_11):
     """One channel between four pixels."""
     return (
@@ -60,7 +60,7 @@ def _mixed(texture, i, j, k, w_00, w_01, w_10, w_11):
     )
 
 
-@kernel
+@helper
 def _rows(inverse, wide, high, rows):
     """Rows of the image that a texture may reach."""
     det = inverse[0, 0] * inverse[1, 1] - inverse[0, 1] * inverse[1, 0]
@@ -73,7 +73,7 @@ def _rows(inverse, wide, high, rows):
     return max(int(max(top, 0.0)) - 1, 0), min(int(max(min(bottom, rows), -1.0)) + 2, rows)
 
 
-@kernel
+@helper
 def _span(at_zero, slope, least, most, left, right):
     """Part of ``left`` to ``right`` where ``at_zero + slope * x`` is from least to most."""
     if abs(slope) < 1e-12:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.compiled import kernel
+from packwork.compiled import helper, kernel
 
 ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
 ONE = np.uint64(1)
@@ -22,7 +22,7 @@ def smear(rows, top, bottom):
                 rows[y, k, i] = rows[y, k - 1, i] | _from(rows[y, k - 1], i + whole, part)
 
 
-@kernel
+@helper
 def _from(row, i, part):
     """Return 64 pixels of a row, from bit ``part`` of its word ``i`` on."""
     words = len(row)

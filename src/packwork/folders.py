@@ -1,0 +1,240 @@
+"""Folders of our own for what may be lost: private, bounded, never the current one.
+
+What lies in them is trusted by whoever reads it, so nobody else may have written it: a folder
+that is not ours alone, or that others could swap for theirs, is passed over.
+"""
+
+from __future__ import annotations
+
+import atexit
+import contextlib
+import functools
+import hashlib
+import os
+import secrets
+import shutil
+import stat
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import final
+
+VARIABLE = "PACKWORK_CACHE_DIR"
+"""Environment variable that names the folder; ``off`` keeps nothing beyond a run."""
+
+OFF = "off"
+
+NAME = "packwork"
+
+DIGEST_BYTES = 32
+"""Length of a SHA-256, which stands before each entry."""
+
+PUTS_BETWEEN = 256
+"""Entries written between two looks at the size of all. Larger overshoots, smaller spends time
+on looking. Chosen."""
+
+HALF_WRITTEN_SECONDS = 3600.0
+"""Age at which an unfinished entry is what a process left that was killed. Chosen."""
+
+
+@final
+class Store:
+    """Entries by their keys, in a folder of our own; whatever goes wrong, an entry is not there.
+
+    Parameters
+    ----------
+    name
+        Of the folder, inside ours.
+    most_bytes
+        Size of all entries, beyond which those that were not used for longest go.
+    variable
+        Another environment variable that may name the folder in which ours lies.
+
+    Examples
+    --------
+    >>> store = Store("examples", 1_000_000)
+    >>> store.get("never-put") is None
+    True
+    """
+
+    def __init__(self, name: str, most_bytes: int, variable: str | None = None) -> None:
+        self._name, self._most, self._variable = name, most_bytes, variable
+        self._puts = 0
+
+    @property
+    def folder(self) -> Path | None:
+        """Where the entries lie; None where none can be kept."""
+        return private_folder(self._name, self._variable)
+
+    def get(self, key: str) -> bytes | None:
+        """Entry of a key; None if there is none, or not the one that was put."""
+        path = self._path(key)
+        if path is None:
+            return None
+        try:
+            whole = path.read_bytes()
+        except OSError:
+            return None
+        digest, data = whole[:DIGEST_BYTES], whole[DIGEST_BYTES:]
+        if hashlib.sha256(data).digest() != digest:
+            _remove(path)
+            return None
+        with contextlib.suppress(OSError):
+            os.utime(path)
+        return data
+
+    def put(self, key: str, data: bytes) -> None:
+        """Keep an entry in one step, if that can be done."""
+        path = self._path(key)
+        if path is None:
+            return
+        if self._puts % PUTS_BETWEEN == 0:
+            self._shorten(path.parent)
+        self._puts += 1
+        beside = path.with_name(f"{secrets.token_hex(8)}.part")
+        try:
+            beside.write_bytes(hashlib.sha256(data).digest() + data)
+            beside.replace(path)
+        except OSError:
+            _remove(beside)
+
+    def _path(self, key: str) -> Path | None:
+        folder = self.folder
+        return None if folder is None else folder / hashlib.sha256(key.encode()).hexdigest()
+
+    def _shorten(self, folder: Path) -> None:
+        """Remove what was not used for longest, until half of what there may be is left."""
+        found: list[tuple[float, int, Path]] = []
+        with contextlib.suppress(OSError):
+            for path in folder.iterdir():
+                with contextlib.suppress(OSError):
+                    status = path.lstat()
+                    found.append((status.st_mtime, status.st_size, path))
+        for used, _, path in found:
+            if path.suffix == ".part" and time.time() - used > HALF_WRITTEN_SECONDS:
+                _remove(path)
+        total = sum(size for _, size, _ in found)
+        if total <= self._most:
+            return
+        for _, size, path in sorted(found):
+            if total <= self._most // 2:
+                break
+            _remove(path)
+            total -= size
+
+
+def private_folder(name: str, variable: str | None = None) -> Path | None:
+    """Folder of ours that nobody else may write to; made if it is missing.
+
+    It lies where ``PACKWORK_CACHE_DIR`` says, else where ``variable`` does, else where the
+    system keeps caches, else, for a user without a home, in a temporary folder.
+
+    Parameters
+    ----------
+    name
+        Of the folder, inside ours.
+    variable
+        Another environment variable that may name the folder in which ours lies.
+
+    Returns
+    -------
+    Path | None
+        None where nothing may be kept: ``PACKWORK_CACHE_DIR=off``, or no place is private.
+    """
+    asked = (os.environ.get(VARIABLE), os.environ.get(variable) if variable else None)
+    system = tuple(os.environ.get(key) for key in ("XDG_CACHE_HOME", "LOCALAPPDATA", "HOME"))
+    return _private_folder(name, asked, system)
+
+
+@functools.lru_cache(maxsize=32)
+def _private_folder(
+    name: str, asked: tuple[str | None, ...], system: tuple[str | None, ...]
+) -> Path | None:
+    if asked[0] == OFF:
+        return None
+    for parent in _candidates(asked):
+        folder = parent / name
+        with contextlib.suppress(OSError):
+            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            if is_private(folder) and _takes_files(folder):
+                return folder
+    return _temporary(name)
+
+
+def _candidates(asked: tuple[str | None, ...]) -> Iterator[Path]:
+    """Folders to try, none of them relative: such a one would be somebody's current folder."""
+    for place in asked:
+        if place and Path(place).is_absolute():
+            yield Path(place) / NAME
+    cache = _system_cache()
+    if cache is not None and cache.is_absolute():
+        yield cache / NAME
+    # Without a usable temporary folder Python takes the current one.
+    temporary = Path(tempfile.gettempdir())
+    if temporary.is_absolute() and temporary != Path.cwd():
+        yield temporary / f"{NAME}-{os.getuid() if hasattr(os, 'getuid') else 'cache'}"
+
+
+def _system_cache() -> Path | None:
+    if sys.platform == "win32":
+        local = os.environ.get("LOCALAPPDATA")
+        return Path(local) if local else None
+    if sys.platform != "darwin" and (chosen := os.environ.get("XDG_CACHE_HOME")):
+        return Path(chosen)
+    # A user without an entry in the list of users has no home.
+    with contextlib.suppress(RuntimeError):
+        return Path.home() / ("Library/Caches" if sys.platform == "darwin" else ".cache")
+    return None
+
+
+def is_private(folder: Path) -> bool:
+    """Whether only we may write into a folder, and nobody could put another in its place.
+
+    Windows keeps what lies in a user's folders from others; there all are taken as private.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     is_private(Path(folder))
+    True
+    """
+    if not hasattr(os, "geteuid"):
+        return True
+    status = folder.lstat()
+    if not stat.S_ISDIR(status.st_mode) or status.st_uid != os.geteuid():
+        return False
+    if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+        return False
+    for above in Path(os.path.realpath(folder)).parents:
+        status = above.stat()
+        is_shared = status.st_mode & stat.S_IWOTH and not status.st_mode & stat.S_ISVTX
+        if is_shared or status.st_uid not in {0, os.geteuid()}:
+            return False
+    return True
+
+
+def _takes_files(folder: Path) -> bool:
+    """Whether a file can be written there: rights alone do not tell of read-only disks."""
+    with tempfile.TemporaryFile(dir=folder):
+        return True
+
+
+def _temporary(name: str) -> Path | None:
+    """A folder for this process alone, removed at its end."""
+    try:
+        folder = Path(tempfile.mkdtemp(prefix=f"{NAME}-{name}-"))
+    except OSError:
+        return None
+    if folder.parent == Path.cwd():
+        shutil.rmtree(folder, ignore_errors=True)
+        return None
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    return folder
+
+
+def _remove(path: Path) -> None:
+    with contextlib.suppress(OSError):
+        path.unlink()

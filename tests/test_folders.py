@@ -1,0 +1,153 @@
+"""Folders for what may be lost: whose they are, where, and what is in them."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import pytest
+
+from packwork import folders
+from packwork.folders import Store, is_private, private_folder
+
+POSIX = pytest.mark.skipif(not hasattr(os, "geteuid"), reason="Windows knows no such rights")
+NOBODY = 54_321
+"""Number of a user that is in no list of users."""
+
+
+@pytest.fixture
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv(folders.VARIABLE, str(tmp_path / "mine"))
+    return tmp_path / "mine"
+
+
+def test_an_entry_comes_back_and_only_as_it_was_put(place: Path) -> None:
+    store = Store("some", 1_000)
+    assert store.get("a") is None
+    store.put("a", b"whole")
+    assert store.get("a") == b"whole"
+    assert store.get("b") is None
+    (entry,) = (place / "packwork" / "some").iterdir()
+    entry.write_bytes(entry.read_bytes()[:-1] + b"?")
+    assert store.get("a") is None
+    assert not entry.exists()
+
+
+def test_what_was_not_used_for_longest_goes_first(place: Path) -> None:
+    store = Store("some", 400)
+    for number in range(4):
+        store.put(str(number), bytes(100))
+    folder = place / "packwork" / "some"
+    old = folder / "abc.part"
+    old.touch()
+    for path in folder.iterdir():
+        os.utime(path, (1_000, 1_000))
+    assert store.get("2") is not None
+    # Another process, which looks at the size before its first entry.
+    Store("some", 400).put("new", b"")
+    assert not old.exists()
+    assert [store.get(key) is not None for key in ("0", "1", "2", "3", "new")].count(True) == 2
+    assert store.get("2") is not None
+
+
+def test_nothing_is_kept_where_that_is_switched_off(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv(folders.VARIABLE, "off")
+    assert private_folder("some") is None
+    store = Store("some", 1_000)
+    store.put("a", b"")
+    assert store.get("a") is None
+
+
+def test_another_variable_is_heeded_after_ours(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.delenv(folders.VARIABLE, raising=False)
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "theirs"))
+    assert private_folder("k", "NUMBA_CACHE_DIR") == tmp_path / "theirs" / "packwork" / "k"
+    monkeypatch.setenv(folders.VARIABLE, str(tmp_path / "ours"))
+    assert private_folder("k", "NUMBA_CACHE_DIR") == tmp_path / "ours" / "packwork" / "k"
+
+
+def test_a_relative_folder_is_passed_over(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv(folders.VARIABLE, "here")
+    monkeypatch.setenv("XDG_CACHE_HOME", "~")
+    found = private_folder("some")
+    assert found is not None
+    assert tmp_path not in found.parents
+    assert not list(tmp_path.iterdir())
+
+
+@POSIX
+def test_folders_that_others_may_write_to_are_not_private(tmp_path: Path) -> None:
+    mine = tmp_path / "mine"
+    mine.mkdir(mode=0o700)
+    assert is_private(mine)
+    link = tmp_path / "link"
+    link.symlink_to(mine)
+    assert not is_private(link)
+    mine.chmod(0o770)
+    assert not is_private(mine)
+    mine.chmod(0o700)
+    tmp_path.chmod(0o777)
+    assert not is_private(mine)
+    # Where only owners may rename what is theirs, as in /tmp.
+    tmp_path.chmod(0o1777)
+    assert is_private(mine)
+
+
+@POSIX
+def test_a_folder_that_is_not_ours_alone_is_not_used(place: Path) -> None:
+    (place / "packwork" / "some").mkdir(parents=True)
+    (place / "packwork" / "some").chmod(0o777)
+    found = private_folder("some")
+    assert found != place / "packwork" / "some"
+
+
+PROGRAM = (
+    "import os, pwd, sys\n"
+    "from packwork.folders import private_folder\n"
+    "if len(sys.argv) > 1: os.setgid(int(sys.argv[1])); os.setuid(int(sys.argv[1]))\n"
+    "print(private_folder('some'))"
+)
+
+
+def found_by(tmp_path: Path, *arguments: str, **environment: str) -> Path:
+    """Folder that a process of its own finds, with nothing but this environment."""
+    (tmp_path / "current").mkdir(exist_ok=True)
+    source = str(Path(folders.__file__).parents[1])
+    done = subprocess.run(
+        [sys.executable, "-c", PROGRAM, *arguments],
+        env={"PYTHONPATH": source, **environment},
+        cwd=tmp_path / "current", capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    assert not list((tmp_path / "current").iterdir())
+    return Path(done.stdout.strip())
+
+
+@POSIX
+def test_a_home_that_cannot_be_written_to_gives_way_to_a_temporary_folder(tmp_path: Path) -> None:
+    (tmp_path / "no-folder").touch()
+    found = found_by(tmp_path, HOME=str(tmp_path / "no-folder"), TMPDIR=str(tmp_path))
+    assert found == tmp_path / f"packwork-{os.getuid()}" / "some"
+    # Where that is somebody else's, one for this process alone, which is gone with it.
+    (tmp_path / f"packwork-{os.getuid()}" / "some").chmod(0o777)
+    found = found_by(tmp_path, HOME=str(tmp_path / "no-folder"), TMPDIR=str(tmp_path))
+    assert found.parent == tmp_path
+    assert not found.exists()
+
+
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root may")
+def test_a_user_in_no_list_has_a_folder_too() -> None:
+    with tempfile.TemporaryDirectory(dir="/tmp") as folder:
+        own = Path(folder)
+        (own / "temporary").mkdir()
+        (own / "temporary").chmod(0o1777)
+        own.chmod(0o755)
+        (own / "current").mkdir()
+        found = found_by(own, str(NOBODY), TMPDIR=str(own / "temporary"))
+        assert found == own / "temporary" / f"packwork-{NOBODY}" / "some"
+        assert found.stat().st_uid == NOBODY
