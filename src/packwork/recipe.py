@@ -24,6 +24,7 @@ from packwork.presets import PRESETS
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
+from packwork.reading import Interpreted
 from packwork.refusals import length_asked, refusal
 from packwork.rules import MAX_COUNT, ItemCount, Rotation, Rule, as_text, hero_rule, rotation_text
 from packwork.solve.options import (
@@ -55,7 +56,7 @@ DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
 
 
-class Recipe(Pictured, Moving, TableFormat):
+class Recipe(Pictured, Moving, TableFormat, Interpreted):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     container: str

@@ -76,7 +76,6 @@ def test_line_drawing_is_filled(svg_file):
         ("nowhere.png", "no such file"),
         ("hart", "no built-in container of that name; did you mean heart"),
         ("around:a.png", "no such file"),
-        ("none", "not known yet; give a PNG"),
         ("\0", "no built-in container"),
     ],
 )

@@ -92,11 +92,11 @@ def test_a_disc_is_a_disc_however_it_is_stored(saved, caplog, name):
 
 @pytest.mark.parametrize("name", [n for n in MASKS if n != "even opacity"])
 def test_an_item_of_the_same_picture_is_the_disc_too(saved, name):
-    assert read_picture(saved(MASKS[name])).outline.area == pytest.approx(DISC, rel=0.02)
+    assert read_picture(saved(MASKS[name])).item.outline.area == pytest.approx(DISC, rel=0.02)
 
 
 def test_an_evenly_translucent_item_stays_translucent(saved):
-    item = read_picture(saved(MASKS["even opacity"]))
+    item = read_picture(saved(MASKS["even opacity"])).item
     assert item.outline.area == pytest.approx(DISC, rel=0.02)
     with Image.open(BytesIO(item.art.png)) as drawn:
         assert drawn.getextrema()[3] == (0, 90)
@@ -113,7 +113,7 @@ def test_the_corners_of_a_card_are_its_outline(saved):
     draw = ImageDraw.Draw(card)
     draw.rounded_rectangle([0, 0, 249, 349], 15, fill="white")
     draw.ellipse([75, 125, 175, 225], fill="red")
-    item = read_picture(saved(card))
+    item = read_picture(saved(card)).item
     assert item.outline.area == pytest.approx(250 * 350 - (4 - np.pi) * 15**2, rel=0.01)
 
 

@@ -37,7 +37,7 @@ def compared(body: str, page: str = 'viewBox="0 0 100 100"'):
 def test_what_shows_nothing_is_not_taken_for_ink(tmp_path, caplog):
     file = tmp_path / "veil.svg"
     file.write_bytes(svg(f'{CLEAR}<rect width="99" height="99" fill="url(#g)"/>{DOT}'))
-    item = read_svg(file)
+    item = read_svg(file).item
     assert item.ink.area == pytest.approx(np.pi * 400, rel=1e-3)
     assert "veil.svg: is traced from its picture, with which its shapes" in caplog.text
     assert "agree to 12.8% only" in caplog.text

@@ -12,6 +12,7 @@ from packwork.display.bar import bar_for, shown
 from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
+from packwork.reading import Interpreted
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -47,8 +48,8 @@ def fill(
     options
         As on the command line: ``count`` (a number or ``"auto"``), ``font``, ``canvas``,
         ``seed``, ``sizes``, ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``,
-        ``holes``,
-        ``outline``, ``strict``, ``start``, ``effort``, ``epochs``, ``levels``,
+        ``holes``, ``outline``, ``strict``, ``trim``, ``keep_page``, ``close_gaps``,
+        ``alpha_threshold``, ``start``, ``effort``, ``epochs``, ``levels``,
         ``losses``, ``hero``, ``palette``, ``apart``; and ``rules`` about single items,
         tables as in a recipe file: ``[{"items": "star", "count": 3}]``.
 
@@ -226,6 +227,8 @@ def read_items(
     *,
     holes: Literal["fill", "keep"] = "fill",
     strict: bool = False,
+    keep_page: bool | None = None,
+    alpha_threshold: float = 0.5,
 ) -> list[Item]:
     """Items from SVGs, pictures, folders of them, globs or built-in names.
 
@@ -239,6 +242,8 @@ def read_items(
         ``"keep"`` lets small items sit in the holes of large ones.
     strict
         Refuse a folder with an unusable file.
+    keep_page, alpha_threshold
+        As for :func:`fill`.
 
     Raises
     ------
@@ -251,11 +256,18 @@ def read_items(
     ['circle', 'star']
     """
     several = [sources] if isinstance(sources, str | Path) else list(sources)
-    return list(item_reader.read_items(several, holes=holes, strict=strict).items)
+    how = Interpreted(keep_page=keep_page, alpha_threshold=alpha_threshold).read_options
+    return list(item_reader.read_items(several, holes=holes, strict=strict, reading=how).items)
 
 
 def read_container(
-    source: str | Path, *, canvas: str | float | None = None, font: str | Path | None = None
+    source: str | Path,
+    *,
+    canvas: str | float | None = None,
+    font: str | Path | None = None,
+    trim: bool | None = None,
+    close_gaps: str = "auto",
+    alpha_threshold: float = 0.5,
 ) -> Container:
     """Container from a mask, an SVG, ``text:WORD`` or a built-in name.
 
@@ -268,6 +280,8 @@ def read_container(
         ``"A4"``). None: an SVG in mm, cm, in or pt keeps its size, any other is 600 px.
     font
         Font file for ``text:WORD``; the bundled one if None.
+    trim, close_gaps, alpha_threshold
+        As for :func:`fill`.
 
     Raises
     ------
@@ -281,7 +295,8 @@ def read_container(
     >>> read_container("circle").width
     600.0
     """
-    return _read_container(str(source), canvas, font)
+    how = Interpreted(trim=trim, close_gaps=close_gaps, alpha_threshold=alpha_threshold)
+    return _read_container(str(source), canvas, font, reading=how.read_options)
 
 
 def _run(
@@ -311,5 +326,8 @@ def _as_items(given: Sequence[str | Path | Item], recipe: Recipe) -> list[Item] 
         if isinstance(entry, Item):
             chosen.append(entry)
         else:
-            chosen += read_items(entry, holes=recipe.holes, strict=recipe.strict)
+            chosen += read_items(
+                entry, holes=recipe.holes, strict=recipe.strict, keep_page=recipe.keep_page,
+                alpha_threshold=recipe.alpha_threshold,
+            )  # fmt: skip
     return chosen

@@ -50,6 +50,10 @@ def pile(
     holes: shared.Holes = "fill",
     strict: shared.Strict = False,
     start: shared.Start = "distance-field",
+    trim: shared.Trim = None,
+    keep_page: shared.KeepPage = None,
+    close_gaps: shared.CloseGaps = "auto",
+    alpha_threshold: shared.AlphaThreshold = 0.5,
     seed: shared.Seed = 0,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
@@ -102,6 +106,10 @@ def pile(
             holes=holes,
             strict=strict,
             start=start,
+            trim=trim,
+            keep_page=keep_page,
+            close_gaps=close_gaps,
+            alpha_threshold=alpha_threshold,
             seed=seed,
         )
         outputs = outputs_asked(

@@ -12,6 +12,7 @@ from packwork.geometry.outline import Outline
 from packwork.piles import Emitter, PileOptions, parse_emitter
 from packwork.pipeline.forcing import point_at
 from packwork.readers.container import read_container
+from packwork.readers.options import AS_DRAWN
 from packwork.readers.svg.curve import read_curve
 from packwork.scene.container import Container
 from packwork.units import CanvasSize
@@ -77,7 +78,7 @@ def _edge(emitter: Emitter, container: Container, radius: float) -> tuple[FloatA
 def _places(emitter: Emitter, container: Container) -> FloatArray:
     if emitter.region is not None:
         size = CanvasSize(container.width, container.height, container.unit)
-        return _within(read_container(emitter.region, size).outline)
+        return _within(read_container(emitter.region, size, reading=AS_DRAWN).outline)
     if emitter.file is not None:
         begins, ends = read_curve(emitter.file, container.width, container.height)
     else:

@@ -225,7 +225,7 @@ def read(
 def _chart(recipe: Recipe) -> ChartRead:
     """Marks of the recipe's chart, whose colours are known to be enough."""
     assert recipe.chart is not None  # noqa: S101 - who asks has a chart
-    chart = read_chart(recipe.chart, recipe.holes, recipe)
+    chart = read_chart(recipe.chart, recipe.holes, recipe, recipe.read_options)
     chart_colours(recipe, chart)
     return chart
 
@@ -247,7 +247,9 @@ def _items(
     # Items are mixed in with words and photos only if they were named.
     is_alone = recipe.words is None and recipe.photos is None
     if is_alone or ("items" in recipe.model_fields_set and recipe.items):
-        found = read_items(recipe.items, holes=recipe.holes, strict=recipe.strict)
+        found = read_items(
+            recipe.items, holes=recipe.holes, strict=recipe.strict, reading=recipe.read_options
+        )
         items, skipped = (*items, *found.items), (*skipped, *found.skipped)
     return items or None, skipped
 
@@ -292,12 +294,15 @@ def _container(
         return None, None
     if recipe.pile is not None and Path(recipe.container).suffix.lower() == ".svg":
         size = recipe.canvas_size
-        walled = walled_container(recipe.container, None if size is None else size.side)
+        walled = walled_container(
+            recipe.container, None if size is None else size.side, recipe.read_options
+        )
         if walled is not None:
             placed = on_canvas(walled[0], size)
             return placed, _brought_along(walled[1], walled[0], placed)
     quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
-    return read_container(recipe.container, recipe.canvas_size, recipe.font, quiet), None
+    size, how = recipe.canvas_size, recipe.read_options
+    return read_container(recipe.container, size, recipe.font, quiet, how), None
 
 
 def _brought_along(points: FloatArray, before: Container, after: Container) -> FloatArray:
@@ -315,5 +320,7 @@ def _fillers(
         return (), ()
     if not recipe.filler:
         return tuple(items), ()
-    found = read_items(recipe.filler, holes=recipe.holes, strict=recipe.strict)
+    found = read_items(
+        recipe.filler, holes=recipe.holes, strict=recipe.strict, reading=recipe.read_options
+    )
     return found.items, found.skipped

@@ -15,6 +15,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import intersection
 from packwork.pipeline.asking import Asked, Voice
 from packwork.readers.container import read_container
+from packwork.readers.options import AS_DRAWN
 from packwork.scene.container import Container
 from packwork.scene.limits import Zone
 from packwork.units import CanvasSize, parse_length
@@ -71,7 +72,7 @@ def _plain(length: str | float) -> str:
 def _region(given: str | tuple[str | float, ...], container: Container) -> polygon.Region:
     if isinstance(given, str):
         size = CanvasSize(container.width, container.height, container.unit)
-        return read_container(given, size).outline.region
+        return read_container(given, size, reading=AS_DRAWN).outline.region
     wholes = (container.width, container.height) * 2
     left, top, width, height = (
         parse_length(str(side), container.unit, whole)

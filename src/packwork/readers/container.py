@@ -4,23 +4,34 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from packwork.errors import ReadError
+from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.quiet.container import QuietOptions, container_around
+from packwork.readers.slits import closed_slits
 from packwork.readers.svg.container import container_of_svg, placed_container
 from packwork.readers.text import PREFIX
+from packwork.readers.trimming import canvas_box
+from packwork.readers.unfit import naming
 from packwork.recipe_paths import AROUND, BUILTIN
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
 
 _FORMS = (
-    "a PNG or JPEG mask, an SVG, text:WORD, around:IMAGE or a built-in name such as circle or heart"
+    "a PNG or JPEG mask, an SVG, text:WORD, around:IMAGE or a built-in name such as circle, heart "
+    "or page"
 )
+
+SHEETS = ("page", "none")
+"""Names of the whole sheet; of piles and charts, ``none`` is no container at all."""
 
 
 def read_container(
@@ -28,6 +39,7 @@ def read_container(
     canvas: str | float | CanvasSize | None = None,
     font: str | Path | None = None,
     quiet: QuietOptions | None = None,
+    reading: ReadOptions | None = None,
 ) -> Container:
     """Container of a mask, an SVG, ``text:WORD``, ``around:IMAGE`` or a built-in name.
 
@@ -42,6 +54,8 @@ def read_container(
         Font file for ``text:WORD``; the bundled one if None.
     quiet
         Which part of the picture ``around:IMAGE`` is; 40 % of it if None.
+    reading
+        How a file is understood; by itself if None.
 
     Raises
     ------
@@ -59,15 +73,36 @@ def read_container(
     (200.0, 150.0, 'mm', (25.0, 0.0, 175.0, 150.0))
     """
     size = canvas_size(canvas) if isinstance(canvas, str | int | float) else canvas
-    container = _container(str(source), None if size is None else size.side, font, quiet)
+    if str(source) in SHEETS and not exists(source):
+        return _sheet(str(source), size)
+    reading = reading or ReadOptions()
+    side = None if size is None else size.side
+    container = _container(str(source), side, font, quiet, reading)
     if size is not None:
-        return on_canvas(container, size)
-    check_side(container.side, container.unit)
-    return container
+        container = on_canvas(container, size)
+    else:
+        check_side(container.side, container.unit)
+    if not exists(Path(container.source)):
+        return container
+    with naming(container.source):
+        return closed_slits(container, reading.close_gaps)
+
+
+def _sheet(name: str, size: CanvasSize | None) -> Container:
+    """All of a canvas."""
+    whole = CanvasSize(DEFAULT_SIDE, None, "px") if size is None else size
+    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    width, height = whole.width, whole.height or whole.width
+    outline = Outline.from_rings([corners * (width, height)])
+    return Container(name, name, outline, width, height, whole.unit)
 
 
 def _container(
-    text: str, side: float | None, font: str | Path | None, quiet: QuietOptions | None
+    text: str,
+    side: float | None,
+    font: str | Path | None,
+    quiet: QuietOptions | None,
+    reading: ReadOptions,
 ) -> Container:
     """Container whose canvas is ``side`` long; None lets the file decide."""
     if text.startswith(BUILTIN):
@@ -75,16 +110,14 @@ def _container(
     path = Path(text)
     # A folder or a note that happens to be called "heart" is not what was meant.
     if exists(path) and not (path.suffix == "" and text in container_names()):
-        return _container_of_file(path, text, side)
+        return _container_of_file(path, text, side, reading)
     if text.startswith(PREFIX):
         # Only words need the font library.
         from packwork.readers.text.container import container_of_words
 
         return container_of_words(text, side or DEFAULT_SIDE, font)
     if text.startswith(AROUND):
-        return container_around(text, side or DEFAULT_SIDE, quiet or QuietOptions(), read_container)
-    if text == "none":
-        raise ReadError(text, f"this form of container is not known yet; give {_FORMS}")
+        return container_around(text, side or DEFAULT_SIDE, quiet or QuietOptions(), _as_drawn)
     if path.suffix.lower() in {".svg", *PICTURE_ENDINGS} or len(path.parts) > 1:
         known = path.stem in container_names() and len(path.parts) == 1
         hint = f"; the built-in shape is {path.stem}" if known else ""
@@ -92,14 +125,23 @@ def _container(
     return builtin_container(text, side or DEFAULT_SIDE)
 
 
-def _container_of_file(path: Path, source: str, side: float | None) -> Container:
+def _as_drawn(source: str, size: CanvasSize) -> Container:
+    return read_container(source, size, reading=AS_DRAWN)
+
+
+def _container_of_file(
+    path: Path, source: str, side: float | None, reading: ReadOptions
+) -> Container:
     ending = path.suffix.lower()
     if is_folder(path):
         raise ReadError(source, f"is a folder; a container is {_FORMS}")
     if ending == ".svg":
-        return container_of_svg(read_bytes(path, MAX_BYTES), stem(path), source, side)
+        data = read_bytes(path, MAX_BYTES)
+        return container_of_svg(data, stem(path), source, side, reading)
     if ending in PICTURE_ENDINGS:
-        mask = trace_mask(path)
-        canvas = (0.0, 0.0, mask.width, mask.height)
+        mask = trace_mask(path, reading.alpha_threshold)
+        with naming(source):
+            page = mask.width, mask.height
+            canvas = canvas_box(mask.region.bounds, page, reading.trim, None)
         return placed_container(stem(path), source, mask.region, canvas, side or DEFAULT_SIDE)
     raise ReadError(source, f"has the unknown ending {ending!r}; a container is {_FORMS}")

@@ -7,10 +7,13 @@ import logging
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeAlias
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
 from packwork.readers.files import exists, is_folder
+from packwork.readers.options import ReadOptions
+from packwork.readers.pages import Read, agreed
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.silhouette import read_picture
 from packwork.readers.regions import Holes
@@ -20,7 +23,7 @@ from packwork.scene.item import Item
 
 _LOG = logging.getLogger("packwork")
 
-_READERS: dict[str, Callable[[str, Holes], Item]] = {
+_READERS: dict[str, Callable[[str, Holes, ReadOptions], Read]] = {
     ".svg": read_svg,
     **dict.fromkeys(PICTURE_ENDINGS, read_picture),
 }
@@ -42,8 +45,28 @@ class ItemsRead:
     skipped: tuple[ReadError, ...]
 
 
+@dataclass(frozen=True)
+class _Asked:
+    """What is asked of all files of a run."""
+
+    holes: Holes
+    reading: ReadOptions
+    strict: bool
+
+    def read(self, file: str) -> Read:
+        """One file, by the reader of its ending."""
+        return _READERS[Path(file).suffix.lower()](file, self.holes, self.reading)
+
+
+_Found: TypeAlias = tuple[list[Read], list[ReadError]]
+
+
 def read_items(
-    sources: str | Path | Iterable[str | Path], *, holes: Holes = "fill", strict: bool = False
+    sources: str | Path | Iterable[str | Path],
+    *,
+    holes: Holes = "fill",
+    strict: bool = False,
+    reading: ReadOptions | None = None,
 ) -> ItemsRead:
     """Items of files, folders (not the folders inside), patterns and built-in names.
 
@@ -59,6 +82,8 @@ def read_items(
         Whether outlines are silhouettes (``fill``) or keep their holes (``keep``).
     strict
         Whether an unusable file among many is an error too.
+    reading
+        How files are understood; by themselves if None.
 
     Raises
     ------
@@ -71,58 +96,59 @@ def read_items(
     ['circle', 'star']
     """
     many = [sources] if isinstance(sources, str | Path) else list(sources)
-    items: list[Item] = []
+    asked = _Asked(holes, reading or ReadOptions(), strict)
+    reads: list[Read] = []
     skipped: list[ReadError] = []
     for source in many:
-        found = _read_source(str(source), holes, strict=strict)
-        items += found.items
-        skipped += found.skipped
-    if not items:
+        found, left_out = _read_source(str(source), asked)
+        reads += found
+        skipped += left_out
+    if not reads:
         raise ReadError("items", "none were given; give a file, a folder or a built-in name")
-    return ItemsRead(tuple(items), tuple(skipped))
+    return ItemsRead(tuple(agreed(reads)), tuple(skipped))
 
 
-def _read_source(source: str, holes: Holes, *, strict: bool) -> ItemsRead:
+def _read_source(source: str, asked: _Asked) -> _Found:
     if not source.strip():
         # As a path it would stand for the whole of the working folder.
         raise ReadError("items", "an empty name stands for nothing; give a file or a folder")
     if source.startswith(BUILTIN):
-        return _built_in(source.removeprefix(BUILTIN), holes)
+        return _built_in(source.removeprefix(BUILTIN), asked)
     path = Path(source)
     if is_folder(path):
         if source in {ALL_ICONS, *item_names()}:
             _LOG.warning("%s: the folder here is meant; %s%s is bundled", source, BUILTIN, source)
-        return _read_many(source, _files_in(path), holes, strict=strict)
+        return _read_many(source, _files_in(path), asked)
     if path.suffix.lower() in _READERS and (exists(path) or not glob.has_magic(source)):
-        return ItemsRead((_READERS[path.suffix.lower()](source, holes),), ())
+        return [asked.read(source)], []
     if glob.has_magic(source):
         matches = sorted(f for f in glob.glob(source) if _is_readable(Path(f)))  # noqa: PTH207
-        return _read_many(source, matches, holes, strict=strict)
+        return _read_many(source, matches, asked)
     if exists(path) or len(path.parts) > 1:
         raise ReadError(source, _why_not(path))
-    return _built_in(source, holes)
+    return _built_in(source, asked)
 
 
-def _built_in(name: str, holes: Holes) -> ItemsRead:
+def _built_in(name: str, asked: _Asked) -> _Found:
     names = icon_names() if name == ALL_ICONS else [name]
-    return ItemsRead(tuple(builtin_item(n, holes) for n in names), ())
+    return [Read(builtin_item(n, asked.holes)) for n in names], []
 
 
-def _read_many(source: str, files: list[str], holes: Holes, *, strict: bool) -> ItemsRead:
-    items: list[Item] = []
+def _read_many(source: str, files: list[str], asked: _Asked) -> _Found:
+    reads: list[Read] = []
     skipped: list[ReadError] = []
     for file in files:
         try:
-            items.append(_READERS[Path(file).suffix.lower()](file, holes))
+            reads.append(asked.read(file))
         except ReadError as error:
-            if strict:
+            if asked.strict:
                 raise
             skipped.append(error)
-    if not items:
+    if not reads:
         raise ReadError(source, _why_none(skipped))
     for refusal in skipped:
         _LOG.warning("left out %s", refusal)
-    return ItemsRead(tuple(items), tuple(skipped))
+    return reads, skipped
 
 
 def _files_in(folder: Path) -> list[str]:

@@ -52,12 +52,15 @@ class PictureArt:
         Its size in pixels.
     matrix
         2 x 3 map from its pixels (x right, y down) to the item's own units.
+    is_traced
+        Whether the outline is another one than where its opacity passes one half.
     """
 
     png: bytes
     width: int
     height: int
     matrix: FloatArray
+    is_traced: bool = False
 
 
 class Original(Protocol):

@@ -84,7 +84,8 @@ def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
         head = attributes({**own, **told, "transform": place + matrix_text(art.matrix)})
         return f"<g{head}>{art.markup}</g>"
     if isinstance(art, PictureArt):
-        head = attributes({**own, "transform": place + matrix_text(art.matrix)})
+        told = {"data-outline": _outline(item, art.matrix, digits)} if art.is_traced else {}
+        head = attributes({**own, **told, "transform": place + matrix_text(art.matrix)})
         return f"<image{head}{_picture(art)}/>"
     head = attributes({**own, "transform": place})
     return f'<path{head} fill-rule="evenodd" d="{path_data(item.ink, digits)}"/>'

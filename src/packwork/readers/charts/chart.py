@@ -17,6 +17,7 @@ from packwork.readers.charts.options import ChartOptions
 from packwork.readers.charts.part import part_of
 from packwork.readers.charts.rows import oddities, read_chart_table
 from packwork.readers.items import read_items
+from packwork.readers.options import ReadOptions
 from packwork.readers.regions import Holes
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table
@@ -104,7 +105,10 @@ class ChartRead:
 
 
 def read_chart(
-    options: ChartOptions, holes: Holes = "fill", asked: TableFormat | None = None
+    options: ChartOptions,
+    holes: Holes = "fill",
+    asked: TableFormat | None = None,
+    reading: ReadOptions | None = None,
 ) -> ChartRead:
     """Marks of a chart.
 
@@ -135,7 +139,7 @@ def read_chart(
     rows, amounts = shown_rows.rows, shown_rows.amounts
     owner, shares = marks_of(amounts, options)
     kinds, more = _categories(rows, options.mark_by)
-    marks = _drawings(options, kinds, holes)
+    marks = _drawings(options, kinds, holes, reading)
     is_ramp = options.color_by is not None and is_numeric(rows, options.color_by)
     colours, told = _categories(rows, None if is_ramp else options.color_by)
     items = _items(
@@ -201,9 +205,13 @@ def _categories(rows: Sequence[Row], column: str | None) -> tuple[list[str] | No
     return (None, ()) if column is None else categories(rows, column)
 
 
-def _drawings(options: ChartOptions, kinds: Sequence[str] | None, holes: Holes) -> dict[str, Item]:
+def _drawings(
+    options: ChartOptions, kinds: Sequence[str] | None, holes: Holes, reading: ReadOptions | None
+) -> dict[str, Item]:
     """Mark of each category: that of its name, the others in turn."""
-    given = read_items(options.mark or SHAPES, holes=holes).items if kinds or options.mark else ()
+    given: tuple[Item, ...] = ()
+    if kinds or options.mark:
+        given = read_items(options.mark or SHAPES, holes=holes, reading=reading).items
     if kinds is None:
         if len(given) > 1:
             raise RecipeError("mark", f"gives {len(given)} marks; say which row has which: mark_by")

@@ -10,6 +10,7 @@ import shapely
 from packwork.geometry import affine
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
+from packwork.readers.options import AS_DRAWN
 from packwork.readers.photos.developing import Negative, Window, developed
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.pictures.silhouette import outline_of_cut_out
@@ -87,7 +88,7 @@ def _shaped(shape: str, full: Window) -> tuple[Window, Region]:
     # Containers may be parts of photos: they know this module.
     from packwork.readers.container import read_container
 
-    region = read_container(shape).outline.region
+    region = read_container(shape, reading=AS_DRAWN).outline.region
     left, top, right, bottom = region.bounds
     scale = min(full[2] / (right - left), full[3] / (bottom - top))
     middle = full[2] / 2 - scale * (left + right) / 2, full[3] / 2 - scale * (top + bottom) / 2

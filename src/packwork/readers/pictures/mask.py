@@ -10,10 +10,17 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes
+from packwork.readers.options import HALF
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
 from packwork.readers.pictures.photographic import looks_photographic
 from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
-from packwork.readers.pictures.transparency import LEAST_CLEAR_OF_MASK, decides, solidity
+from packwork.readers.pictures.transparency import (
+    LEAST_CLEAR_OF_MASK,
+    decides,
+    raised,
+    solidity,
+    tell_what_is_faint,
+)
 from packwork.readers.regions import NEARLY_ALL, clean_union, tell_if_full
 from packwork.readers.unfit import UnfitError, naming, notice
 
@@ -41,7 +48,7 @@ class TracedMask:
     height: float
 
 
-def trace_mask(path: str | Path) -> TracedMask:
+def trace_mask(path: str | Path, alpha_threshold: float = HALF) -> TracedMask:
     """Region of a picture that says inside (dark) or outside (light).
 
     Where a real share of it is clear, that decides instead: opaque is inside; a few
@@ -50,6 +57,11 @@ def trace_mask(path: str | Path) -> TracedMask:
     to 0.2 px; the stairs of hard-edged masks are taken for the straight edges within a pixel
     of them. A notice tells of a mask that fills nearly all of its page, is dark all along its
     edge or looks like a photograph.
+
+    Parameters
+    ----------
+    alpha_threshold
+        Opacity from which a pixel is inside, where transparency decides.
 
     Raises
     ------
@@ -68,10 +80,10 @@ def trace_mask(path: str | Path) -> TracedMask:
     """
     data = read_bytes(path, MAX_PICTURE_BYTES)
     with naming(str(path)):
-        return mask_of_pixels(decode_picture(data, MASK_PX).pixels)
+        return mask_of_pixels(decode_picture(data, MASK_PX).pixels, alpha_threshold)
 
 
-def mask_of_pixels(pixels: Pixels) -> TracedMask:
+def mask_of_pixels(pixels: Pixels, alpha_threshold: float = HALF) -> TracedMask:
     """Region of decoded RGBA pixels.
 
     Raises
@@ -95,7 +107,8 @@ def mask_of_pixels(pixels: Pixels) -> TracedMask:
     inside = solid * _darkness(pixels)
     by_alpha = decides(solid, LEAST_CLEAR_OF_MASK)
     if by_alpha or (inside.max() < 0.5 and solid.min() < 0.5):
-        inside, by_alpha = solid, True
+        inside, by_alpha = raised(solid, alpha_threshold), True
+        tell_what_is_faint(solid, alpha_threshold)
     if inside.max() < 0.5:
         raise UnfitError(
             "is all light, and dark is inside; paint the region to fill black on white"

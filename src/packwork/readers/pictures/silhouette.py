@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 
@@ -13,13 +14,21 @@ from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes, stem
+from packwork.readers.options import HALF, ReadOptions
+from packwork.readers.pages import PageFate, Read
 from packwork.readers.pictures.contours import contour_region
 from packwork.readers.pictures.decode import (
     MAX_PICTURE_BYTES,
     Pixels,
     decode_picture,
 )
-from packwork.readers.pictures.transparency import LEAST_CLEAR_OF_ITEM, decides, solidity
+from packwork.readers.pictures.transparency import (
+    LEAST_CLEAR_OF_ITEM,
+    decides,
+    raised,
+    solidity,
+    tell_what_is_faint,
+)
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.item import Item, PictureArt
@@ -43,8 +52,10 @@ SIMPLIFY_PX = 0.2
 """Largest distance of the outline from the traced contour, in pixels. Chosen."""
 
 
-def read_picture(path: str | Path, holes: Holes = "fill") -> Item:
-    """Item of a PNG, JPEG, WebP, GIF, BMP or TIFF file, its units the file's pixels.
+def read_picture(
+    path: str | Path, holes: Holes = "fill", reading: ReadOptions | None = None
+) -> Read:
+    """Item of a PNG, JPEG, WebP, AVIF, GIF, BMP or TIFF file, its units the file's pixels.
 
     Where a real share of the picture is clear, that decides; else a plain background is taken
     away, flooding from the border; else the whole rectangle is the item, as for photos.
@@ -60,10 +71,18 @@ def read_picture(path: str | Path, holes: Holes = "fill") -> Item:
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = Path(folder, "photo.png")
     ...     Image.linear_gradient("L").save(file)
-    ...     read_picture(file).outline.area
+    ...     read_picture(file).item.outline.area
     65536.0
     """
-    return item_of_picture(read_bytes(path, MAX_PICTURE_BYTES), stem(path), str(path), holes)
+    data, options = read_bytes(path, MAX_PICTURE_BYTES), reading or ReadOptions()
+    read = _read(data, stem(path), str(path), holes, options)
+    if options.keep_page is not None:
+        return replace(read, page=PageFate.NONE)
+
+    def again() -> Item:
+        return _read(data, stem(path), str(path), holes, replace(options, keep_page=True)).item
+
+    return replace(read, again=again)
 
 
 def item_of_picture(data: bytes, name: str, source: str, holes: Holes = "fill") -> Item:
@@ -80,26 +99,40 @@ def item_of_picture(data: bytes, name: str, source: str, holes: Holes = "fill") 
     Traceback (most recent call last):
     packwork.errors.ReadError: a.gif: is ...
     """
+    return _read(data, name, source, holes, ReadOptions()).item
+
+
+def _read(data: bytes, name: str, source: str, holes: Holes, options: ReadOptions) -> Read:
+    threshold = options.alpha_threshold
     with naming(source):
         picture = decode_picture(data, ART_PX)
-        pixels, (left, top) = _cropped(cut_out(picture.pixels))
+        whole = picture.pixels
+        object_ = whole if options.keep_page else cut_out(whole)
+        pixels, (left, top) = _cropped(object_)
+        tell_what_is_faint(solidity(pixels), threshold)
         # Of the very pixels that are written: whoever reads them again finds this outline.
-        ink = outline_of_cut_out(pixels)
+        ink = outline_of_cut_out(pixels, threshold)
         unit = picture.unit
         to_units = affine.similarity(left * unit, top * unit, 0.0, unit)
         scaled = shapely.transform(ink, lambda points: affine.apply(to_units, points))
         outline, centred_ink, place = centred(scaled, holes)
-        art = _art(pixels, affine.compose(place, to_units))
-    return Item(name, source, outline, centred_ink, art)
+        art = _art(pixels, affine.compose(place, to_units), is_traced=threshold != HALF)
+    item = Item(name, source, outline, centred_ink, art)
+    if object_ is not whole:
+        return Read(item, source, PageFate.CUT_AWAY)
+    is_whole = ink.area >= pixels.shape[0] * pixels.shape[1] - HALF
+    return Read(item, source, PageFate.FILLED if is_whole else PageFate.NONE)
 
 
-def outline_of_cut_out(pixels: Pixels) -> Region:
+def outline_of_cut_out(pixels: Pixels, threshold: float = HALF) -> Region:
     """Region, in pixels, that a picture shows whose opacity says what is its object.
 
     Parameters
     ----------
     pixels
         As :func:`cut_out` gave them, or what is left of them once clear borders are off.
+    threshold
+        Opacity from which a pixel is inside, as a share of the most opaque one's.
 
     Raises
     ------
@@ -113,8 +146,8 @@ def outline_of_cut_out(pixels: Pixels) -> Region:
     """
     alpha = pixels[:, :, 3].astype(np.float64)
     is_even = np.ptp(alpha) <= BACKGROUND_TOLERANCE
-    opaque = np.ones_like(alpha) if is_even else alpha / alpha.max()
-    return clean_union(outline_of_coverage(opaque), speck=SPECK)
+    opaque = np.ones_like(alpha) if is_even else solidity(pixels)
+    return clean_union(outline_of_coverage(raised(opaque, threshold)), speck=SPECK)
 
 
 def outline_of_coverage(coverage: FloatArray) -> Region:
@@ -214,7 +247,8 @@ def _cropped(pixels: Pixels) -> tuple[Pixels, tuple[int, int]]:
     return pixels[top : rows[-1] + 1, left : columns[-1] + 1], (left, top)
 
 
-def _art(pixels: Pixels, matrix: FloatArray) -> PictureArt:
+def _art(pixels: Pixels, matrix: FloatArray, *, is_traced: bool) -> PictureArt:
     file = BytesIO()
     Image.fromarray(pixels).save(file, "PNG")
-    return PictureArt(file.getvalue(), pixels.shape[1], pixels.shape[0], matrix)
+    width, height = pixels.shape[1], pixels.shape[0]
+    return PictureArt(file.getvalue(), width, height, matrix, is_traced)

@@ -6,6 +6,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.readers.pictures.decode import Pixels
+from packwork.readers.unfit import notice
 
 LEAST_CLEAR_OF_ITEM = 0.001
 """Share of an item's picture that is clear where its transparency decides. Larger takes the
@@ -16,7 +17,14 @@ LEAST_CLEAR_OF_MASK = 0.01
 """The same of a mask. Larger passes over small windows in a plate; smaller lets the rounded
 corners of a page hide what is painted on it. Chosen."""
 
+FAINT_SHARE = 0.05
+"""Painted area that is fainter than the threshold, edges left out, as a share of what is
+inside, from which it is told. Larger is silent about shadows, smaller speaks of soft edges.
+Chosen."""
+
 _FAINTEST = 1 / 255
+_SEEN = 10 / 255
+_EDGE_PX = 3
 
 
 def solidity(pixels: Pixels) -> FloatArray:
@@ -48,3 +56,33 @@ def decides(solid: FloatArray, least_clear: float) -> bool:
     (True, False)
     """
     return float(np.count_nonzero(solid < 0.5)) >= least_clear * solid.size
+
+
+def raised(solid: FloatArray, threshold: float) -> FloatArray:
+    """Opacities with the threshold brought to one half, where contours run.
+
+    Examples
+    --------
+    >>> raised(np.array([0.0, 0.1, 0.2, 1.0]), 0.2).tolist()
+    [0.0, 0.25, 0.5, 1.0]
+    """
+    if threshold == 0.5:
+        return solid
+    return np.interp(solid, [0.0, threshold, 1.0], [0.0, 0.5, 1.0])
+
+
+def tell_what_is_faint(solid: FloatArray, threshold: float) -> None:
+    """Notice that a real share of what is painted is fainter than the threshold."""
+    from scipy.ndimage import binary_dilation
+
+    inside = solid >= threshold
+    faint = (solid > _SEEN) & ~inside
+    if np.count_nonzero(faint) <= FAINT_SHARE * np.count_nonzero(inside):
+        return
+    faint &= ~binary_dilation(inside, np.ones((3, 3)), _EDGE_PX)
+    share = float(np.count_nonzero(faint)) / max(1.0, float(np.count_nonzero(inside)))
+    if share > FAINT_SHARE:
+        notice(
+            f"paints {share:.0%} of its area fainter than {threshold:g}, outside of its outline, "
+            "as shadows are; a smaller --alpha-threshold takes it in"
+        )

@@ -9,6 +9,7 @@ import shapely
 
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, silhouette
+from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.regions import clean_union, tell_if_full
@@ -16,6 +17,7 @@ from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.ink import Ink
 from packwork.readers.svg.trace import TRACE_PX, page_picture
 from packwork.readers.svg.walk import Page
+from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
@@ -29,7 +31,13 @@ WHOLE_PAGE = 0.999
 """Share of the page from which a drawing counts as painted all over. Chosen."""
 
 
-def container_of_svg(data: bytes, name: str, source: str, side: float | None = None) -> Container:
+def container_of_svg(
+    data: bytes,
+    name: str,
+    source: str,
+    side: float | None = None,
+    reading: ReadOptions = AS_DRAWN,
+) -> Container:
     """Container of an SVG's bytes, its canvas the page, scaled to ``side``.
 
     Without a side a page in mm, cm, in or pt keeps its size and unit; any other becomes
@@ -38,7 +46,7 @@ def container_of_svg(data: bytes, name: str, source: str, side: float | None = N
     Filled shapes count, with their holes and parts, and of shapes drawn as lines the
     inside. Where that is the whole page, as with a white sheet behind the drawing, its
     picture is taken for a mask: dark is inside. Without a page the canvas is the
-    region's box.
+    region's box; with one, as ``trimming.canvas_box`` has it.
 
     Raises
     ------
@@ -59,14 +67,16 @@ def container_of_svg(data: bytes, name: str, source: str, side: float | None = N
     with naming(source):
         drawing = read_drawing(data)
         region = _inside(drawing.ink)
-        left, top, right, bottom = region.bounds
-        if drawing.page is not None:
-            left, top, right, bottom = 0.0, 0.0, drawing.page.width, drawing.page.height
-            if region.area > WHOLE_PAGE * (right * bottom):
-                region = _dark_part(drawing.root, drawing.page)
-            tell_if_full(region.area / (right * bottom), _WHY_FULL)
-        canvas = (left, top, right - left, bottom - top)
         unit = stated_unit(drawing.root) if side is None else None
+        left, top, right, bottom = region.bounds
+        canvas = (left, top, right - left, bottom - top)
+        if drawing.page is not None:
+            page = drawing.page.width, drawing.page.height
+            if region.area > WHOLE_PAGE * page[0] * page[1]:
+                region = _dark_part(drawing.root, drawing.page)
+            else:
+                tell_if_full(region.area / (page[0] * page[1]), _WHY_FULL)
+            canvas = canvas_box(region.bounds, page, reading.trim, unit)
         if unit is not None:
             side = convert(max(canvas[2:]), "px", unit)
         placed = placed_container(name, source, region, canvas, side or DEFAULT_SIDE)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import copy
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from shapely.errors import GEOSException
 
 from packwork.errors import ShapeError
 from packwork.readers.gate.door import admit
+from packwork.readers.pages import PageFate
 from packwork.readers.svg.compare import LEAST_AGREEMENT, Comparison
 from packwork.readers.svg.extent import drawing_box
 from packwork.readers.svg.ink import Ink, painted_ink
@@ -45,12 +46,15 @@ class Drawing:
         In CSS pixels, right and down from the page's corner.
     shapes
         What it paints, as far as shapes tell.
+    sheet
+        What became of a white page behind all else.
     """
 
     root: ET.Element
     page: Page | None
     ink: Ink
     shapes: Sequence[Painted]
+    sheet: PageFate = PageFate.NONE
 
     @cached_property
     def work(self) -> Work:
@@ -63,6 +67,7 @@ def read_drawing(
     *,
     is_compared: bool = False,
     is_on_paper: bool = False,
+    keep_page: bool | None = None,
     tolerance: float | None = None,
 ) -> Drawing:
     """Drawing of an SVG file's bytes.
@@ -76,6 +81,8 @@ def read_drawing(
         from that where it differs, with a notice.
     is_on_paper
         Whether a white page behind all else is no part of it, as of items.
+    keep_page
+        Whether it stays all the same; None: as it looks.
     tolerance
         Largest distance of a curve from its chords, in CSS pixels, where that is to be
         finer than for placing; not of what is compared.
@@ -95,13 +102,16 @@ def read_drawing(
     page = read_page(root)
     set_in_outlines(root, page)
     shapes = painted_shapes(root, page)
+    sheet = PageFate.NONE
     if is_on_paper:
-        shapes = drop_sheet(root, page, shapes)
+        shapes, sheet = drop_sheet(root, page, shapes, keep_page)
     if needs_tracing(root):
-        return _traced(root, page, shapes)
-    if is_compared:
-        return _compared(root, page, shapes)
-    return Drawing(root, page, painted_ink(shapes, tolerance), shapes)
+        drawing = _traced(root, page, shapes)
+    elif is_compared:
+        drawing = _compared(root, page, shapes)
+    else:
+        drawing = Drawing(root, page, painted_ink(shapes, tolerance), shapes)
+    return replace(drawing, sheet=sheet)
 
 
 def _compared(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Drawing:

@@ -8,22 +8,25 @@ from pathlib import Path
 from packwork.geometry.outline import Outline
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.options import ReadOptions
+from packwork.readers.pages import PageFate, Read, agreed
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.glow import without_glow
 from packwork.readers.svg.ink import TracedInk
 from packwork.readers.svg.rounds import with_short_arcs
+from packwork.readers.svg.sheet import WHOLE_PAGE
 from packwork.readers.unfit import naming
 from packwork.scene.item import Item
 
 
-def read_svg(path: str | Path, holes: Holes = "fill") -> Item:
+def read_svg(path: str | Path, holes: Holes = "fill", reading: ReadOptions | None = None) -> Read:
     """Item of an SVG file, its units CSS pixels (96 to the inch).
 
     Curves and round strokes are flattened to ``follow.FLATTENING`` of the drawing's
     extent. Text, clips, masks and pictures are rendered and traced. A white page behind
-    all else is left out, which is said.
+    all else is left out, unless something on it touches its edges or it is to stay.
 
     Raises
     ------
@@ -36,11 +39,18 @@ def read_svg(path: str | Path, holes: Holes = "fill") -> Item:
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     file = Path(folder, "tile.svg")
     ...     _ = file.write_text('<svg viewBox="0 0 9 9"><rect width="4" height="2"/></svg>')
-    ...     read_svg(file).outline.bounds
+    ...     read_svg(file).item.outline.bounds
     (-2.0, -1.0, 2.0, 1.0)
     """
-    data = read_bytes(path, MAX_BYTES)
-    return item_of_svg(data, stem(path), str(path), holes, is_compared=True)
+    data, keep_page = read_bytes(path, MAX_BYTES), (reading or ReadOptions()).keep_page
+    read = _read(data, stem(path), str(path), holes, keep_page, is_compared=True)
+    if keep_page is not None:
+        return replace(read, page=PageFate.NONE)
+
+    def again() -> Item:
+        return _read(data, stem(path), str(path), holes, True, is_compared=True).item
+
+    return replace(read, again=again)
 
 
 def item_of_svg(
@@ -71,12 +81,23 @@ def item_of_svg(
     >>> len(item.outline.rings), len(item.ink.rings)
     (1, 2)
     """
+    return agreed([_read(data, name, source, holes, None, is_compared=is_compared)])[0]
+
+
+def _read(
+    data: bytes, name: str, source: str, holes: Holes, keep_page: bool | None, *, is_compared: bool
+) -> Read:
     with naming(source):
-        drawing = read_drawing(data, is_compared=is_compared, is_on_paper=True)
+        drawing = read_drawing(data, is_compared=is_compared, is_on_paper=True, keep_page=keep_page)
         outline, ink, place = centred(clean_union(drawing.ink.body), holes)
         if drawing.ink.body is not drawing.ink.whole:
             ink = Outline.from_region(clean_union(drawing.ink.whole)).mapped(place)
         root = with_short_arcs(without_glow(drawing))
         art = vector_art(root, drawing.page, is_cut=drawing.ink.is_cut, place=place)
         art = replace(art, is_traced=isinstance(drawing.ink, TracedInk))
-    return Item(name, source, outline, ink, art)
+    item = Item(name, source, outline, ink, art)
+    fate = drawing.sheet
+    if fate is PageFate.NONE and drawing.page is not None:
+        whole = drawing.page.width * drawing.page.height
+        fate = PageFate.FILLED if outline.area >= WHOLE_PAGE * whole else fate
+    return Read(item, source, fate)

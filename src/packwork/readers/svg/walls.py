@@ -12,10 +12,12 @@ from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.regions import clean_union
 from packwork.readers.svg.container import placed_container, stated_unit
 from packwork.readers.svg.curve import Line, lines_of
 from packwork.readers.svg.drawing import read_drawing
+from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, convert
@@ -24,7 +26,9 @@ LEAST_AREA = 1e-6
 """Share of the page below which what a path surrounds is nothing. Chosen."""
 
 
-def walled_container(source: str, side: float | None) -> tuple[Container, FloatArray] | None:
+def walled_container(
+    source: str, side: float | None, reading: ReadOptions = AS_DRAWN
+) -> tuple[Container, FloatArray] | None:
     """Container of an SVG's open paths, and its openings; None if it draws none.
 
     What an open path and the straight line between its ends surround is the container; that
@@ -54,14 +58,19 @@ def walled_container(source: str, side: float | None) -> tuple[Container, FloatA
         solid = [region for region in regions if region.area > LEAST_AREA * width * height]
         if not solid:
             raise UnfitError("its open paths surround nothing; draw walls with an opening")
-        if unit is not None:
-            side = convert(max(width, height), "px", unit)
-        side = side or DEFAULT_SIDE
-        canvas = (0.0, 0.0, width, height)
-        placed = placed_container(stem(source), source, clean_union(*solid), canvas, side)
         mouths = [line.points[[0, -1]] for line in lines if not line.is_closed]
-    scale = side / max(width, height)
-    return placed if unit is None else replace(placed, unit=unit), np.array(mouths) * scale
+        inside = clean_union(*solid)
+        canvas = (0.0, 0.0, width, height)
+        if page is not None:
+            canvas = canvas_box(inside.bounds, (width, height), reading.trim, unit)
+        left, top, *sides = canvas
+        if unit is not None:
+            side = convert(max(sides), "px", unit)
+        side = side or DEFAULT_SIDE
+        placed = placed_container(stem(source), source, inside, canvas, side)
+    scale = side / max(sides)
+    openings = (np.array(mouths) - (left, top)) * scale
+    return placed if unit is None else replace(placed, unit=unit), openings
 
 
 def _inside(line: Line) -> Region:

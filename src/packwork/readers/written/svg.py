@@ -141,12 +141,12 @@ class _Drawings:
         return source
 
     def _ink(self, source: ET.Element, own: FloatArray, size: float) -> Region:
-        if _tag(source) == "image":
-            return _placed(_picture(source), own)
         if "data-outline" in source.attrib:
             # Letters of a font may overlap, so non-zero; rings of outlines turn either way.
             path = _path(source.attrib["data-outline"], "nonzero")
             return _placed(self._followed([path], size * _size(own)), own)
+        if _tag(source) == "image":
+            return _placed(_picture(source), own)
         bare = copy.copy(source)
         bare.attrib = {key: v for key, v in source.attrib.items() if key != "transform"}
         return _placed(self._followed([bare], size * _size(own)), own)

@@ -1,0 +1,47 @@
+"""How files of containers and items are understood: a part of the recipe."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, field_validator
+
+from packwork.errors import RecipeError
+from packwork.options import Options
+from packwork.readers.options import GAPS_AUTO, GAPS_NONE, HALF, ReadOptions
+from packwork.refusals import length_asked
+
+
+class Interpreted(Options):
+    """What files do not say of themselves."""
+
+    trim: bool | None = None
+    """Leave out the page round a container's drawing (an SVG or a mask), or keep it. Default: left
+    out where the drawing takes less than a third of it across and down, but a page in mm, cm, in
+    or pt is kept. Items are their drawings in any case."""
+
+    keep_page: bool | None = None
+    """Whether the white page behind an item's drawing, or the plain background of a picture, is
+    part of it. Default: left out where it looks like a page (nothing on it touches its edges, and
+    most files of the same folder do not fill theirs)."""
+
+    close_gaps: str = GAPS_AUTO
+    """Slits of a container that are closed, as between the states of a map: auto (up to 0.2% of
+    its extent), none, or their width, a length as for the padding."""
+
+    alpha_threshold: Annotated[float, Field(gt=0, lt=1)] = HALF
+    """Opacity from which the paint of a picture belongs to its outline, as a share of its most
+    opaque pixel: smaller takes soft shadows in, larger leaves more of soft edges out."""
+
+    @field_validator("close_gaps", mode="before")
+    @classmethod
+    def _gaps_have_a_width(cls, value: object) -> object:
+        text = str(value)
+        if text not in (GAPS_AUTO, GAPS_NONE) and length_asked("close_gaps", text, "px", 1.0) < 0:
+            raise RecipeError("close_gaps", f"must be auto, none or a width, not {text[:40]!r}")
+        return text
+
+    @property
+    def read_options(self) -> ReadOptions:
+        """The same, for the readers."""
+        return ReadOptions(self.trim, self.close_gaps, self.keep_page, self.alpha_threshold)
