@@ -163,7 +163,7 @@ def test_a_run_that_is_stopped_has_what_it_has(container: str) -> None:
     done = pipeline.fill(recipe, stop=lambda: True)
     assert len(done.layout.items) + done.left_out == 8
     assert done.layout.manifest["ending"] == "the run was stopped before its last epoch"
-    assert done.certified == (not done.broken and not done.unplaced)
+    assert done.is_as_asked == (not done.broken and not done.unplaced)
 
 
 def test_groups_of_the_same_marks_lie_alike() -> None:

@@ -35,6 +35,10 @@ class Promise:
     gap: float = 0.0
     areas_in_shares: bool = False
 
+    def least_gap(self, side: float) -> float:
+        """Smallest distance that is certified on a canvas of that longer side."""
+        return max(self.gap, HAIR * side)
+
     @classmethod
     def of(cls, manifest: Mapping[str, Any]) -> Promise | None:
         """Promise that a manifest holds; None if it has none, or one that is no promise."""
@@ -64,7 +68,7 @@ def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, 
     ('the smallest gap is 0 instead of 0.0006 or more',)
     """
     unit, side = layout.container.unit, layout.container.side
-    least = max(promise.gap, HAIR * side)
+    least = promise.least_gap(side)
     found = []
     if exact.overlap_area > 0:
         found.append(f"items overlap by {exact.overlap_area:.3g} {unit}² in all")

@@ -46,7 +46,7 @@ def run_groups(job: Job, observer: Observer | None, stop: Stop) -> tuple[Run, In
     ending = Ending.STOPPED if stop() else Ending.DONE
     found = Judged(
         poses, done.method, None, Outcome(poses, ending), done.unplaced,
-        left_out=total - len(kept), faults=faults,
+        left_out=total - len(kept), faults=faults, numbers=kept,
     )  # fmt: skip
     return judged(smaller, found), kept
 

@@ -6,11 +6,15 @@ from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from typing import Any
 
+import numpy as np
+
+from packwork.arrays import IntArray
 from packwork.metrics.certificate import Promise, broken
-from packwork.metrics.measure import measure
+from packwork.metrics.measure import LayoutMetrics, measure
 from packwork.pipeline.advising import advice, remarks
 from packwork.pipeline.beside import same_kind_beside
 from packwork.pipeline.dressing import dressed
+from packwork.pipeline.dropping import left_out, named, without_some
 from packwork.pipeline.job import Job
 from packwork.pipeline.legend import legend_notes
 from packwork.pipeline.mark_labels import mark_labels
@@ -53,6 +57,8 @@ class Judged:
         How the items lie, if they were heaped.
     faults
         What else was asked and does not hold, a sentence each.
+    numbers
+        What the job's items are called by in ``unplaced``; None if by their places.
     """
 
     poses: Poses
@@ -64,25 +70,52 @@ class Judged:
     left_out: int = 0
     pile: Mapping[str, Any] | None = None
     faults: tuple[str, ...] = ()
+    numbers: IntArray | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class _Measured:
+    """A layout, what it is worth, and what of its promise does not hold."""
+
+    layout: Layout
+    metrics: LayoutMetrics
+    faults: tuple[str, ...]
+
+    @classmethod
+    def of(cls, job: Job, poses: Poses, promise: Promise | None) -> _Measured:
+        layout = Layout(job.container, job.items, poses, job.weights)
+        metrics = measure(layout)
+        faults = () if promise is None else broken(promise, layout, metrics.exact)
+        return cls(layout, metrics, faults)
 
 
 def judged(job: Job, found: Judged) -> Run:
-    """The run's result."""
+    """The run's result: of what cannot be certified, without it."""
     recipe, clock, limits = job.recipe, job.clock, found.limits
     is_exact = found.unplaced is not None
-    layout = Layout(job.container, job.items, found.poses, job.weights)
+    shares = recipe.sizes == "shared" and limits is None
+    promise = Promise(recipe.padding_cu(job.container), shares) if is_exact else None
+    total, numbers = len(job.items), found.numbers
     with clock.time("measure"):
-        metrics = measure(layout)
-        unplaced = found.unplaced or ()
-        if not unplaced and not (is_exact and metrics.exact.is_clean):
-            unplaced = find_unplaced(layout, limits)
-        unplaced += undrawn(job)
-        shares = recipe.sizes == "shared" and limits is None
-        promise = Promise(recipe.padding_cu(job.container), shares) if is_exact else None
-        faults = () if promise is None else broken(promise, layout, metrics.exact)
-        faults += found.faults
-        beside = None if limits is None else same_kind_beside(layout, limits.kinds)
-    certified = promise is not None and not faults and not unplaced
+        seen = _Measured.of(job, found.poses, promise)
+        known = found.unplaced or ()
+        kept: IntArray | None = None
+        if promise is not None and seen.faults:
+            names = np.arange(total) if numbers is None else numbers
+            held = [one.is_placed for one in job.asked]
+            gone = left_out(seen.layout, held, promise.least_gap(job.container.side))
+            known += named(gone, seen.layout, names)
+            job, kept = without_some(job, list(gone))
+            seen = _Measured.of(job, found.poses.some(kept), promise)
+        layout, metrics = seen.layout, seen.metrics
+        if not is_exact:
+            known = find_unplaced(layout, limits)
+        unplaced = known + undrawn(job, total)
+        faults = seen.faults + found.faults
+        kinds = None if limits is None else limits.kinds
+        kinds = kinds if kinds is None or kept is None else kinds[kept]
+        beside = None if limits is None else same_kind_beside(layout, kinds)
+    certified = promise is not None and not seen.faults and len(layout.items) > 0
     said = manifest(job, found.method, found.outcome, metrics, unplaced, beside)
     said |= {
         "certified": certified,
@@ -107,7 +140,8 @@ def judged(job: Job, found: Judged) -> Run:
         broken=faults,
         filling=found.filling,
         words=words,
-        left_out=found.left_out,
+        left_out=found.left_out + total - len(job.items),
+        kept=kept,
         pile=found.pile,
         remarks=remarks(job),
         advice=advice(job, layout, metrics.seen),

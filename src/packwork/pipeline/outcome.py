@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from packwork.arrays import IntArray
 from packwork.errors import PackworkError, RowsLostError
 from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.job import Job
@@ -94,10 +95,11 @@ class Run:
     beside
         Pairs of one kind that lie side by side; None if they may.
     certified
-        Whether exact measures find that nothing overlaps, nothing sticks out and all
-        gaps and shares are as asked.
+        Whether exact measures find that nothing of the layout overlaps, nothing sticks out
+        and all gaps and shares are as asked.
     broken
-        What of that does not hold although it was promised, a sentence each.
+        What of that does not hold although it was promised, and what else was asked and not
+        met, a sentence each.
     filling
         How the voids were filled, if that was asked for.
     words
@@ -111,6 +113,8 @@ class Run:
         What the run chose by itself, a sentence each.
     advice
         What is poor although all that was asked holds, and what would do, a sentence each.
+    kept
+        Which of the items that were placed are in the layout; None if all.
     """
 
     layout: Layout
@@ -128,12 +132,15 @@ class Run:
     pile: Mapping[str, Any] | None = None
     remarks: tuple[str, ...] = ()
     advice: tuple[str, ...] = ()
+    kept: IntArray | None = None
 
     @property
     def is_as_asked(self) -> bool:
         """Whether all that was asked is met."""
         has_lost = any(isinstance(error, RowsLostError) for error in self.skipped)
-        return self.certified and not has_lost and not (self.filling and self.filling.is_short)
+        is_short = self.filling is not None and self.filling.is_short
+        is_missed = bool(self.unplaced or self.broken)
+        return self.certified and not (is_missed or has_lost or is_short)
 
     @property
     def is_rough(self) -> bool:
@@ -144,9 +151,7 @@ class Run:
     @property
     def asked_for(self) -> int:
         """Items that were to be placed; words that no font could draw are among them."""
-        placed = len(self.layout.items)
-        if self.left_out:
-            return placed + self.left_out
+        placed = len(self.layout.items) + self.left_out
         return max([placed, *(one.index + 1 for one in self.unplaced)])
 
     def report(self, write_seconds: float = 0.0) -> dict[str, Any]:
@@ -182,12 +187,12 @@ def words_found(job: Job) -> WordsFound | None:
     return WordsFound(job.words.found, len(job.words.items) + len(job.words.undrawn))
 
 
-def undrawn(job: Job) -> tuple[Unplaced, ...]:
-    """Words that no font could draw, numbered after the items."""
+def undrawn(job: Job, start: int) -> tuple[Unplaced, ...]:
+    """Words that no font could draw, numbered from ``start``: after the items."""
     reasons = {} if job.words is None else job.words.undrawn
     return tuple(
         Unplaced(word, index, reason)
-        for index, (word, reason) in enumerate(reasons.items(), start=len(job.items))
+        for index, (word, reason) in enumerate(reasons.items(), start=start)
     )
 
 

@@ -187,7 +187,7 @@ def _judged(job: Job, asked: PileOptions, heap: Piled, room: Opened) -> Run:
         smaller,
         Judged(
             poses, "lowest" if job.earlier is None else "layout", None,
-            Outcome(poses, Ending.DONE), unplaced, None, len(left), lies, faults,
+            Outcome(poses, Ending.DONE), unplaced, None, len(left), lies, faults, kept,
         ),
     )  # fmt: skip
 

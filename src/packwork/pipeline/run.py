@@ -17,7 +17,6 @@ from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
 from packwork.piles import PileOptions
 from packwork.pipeline.beginning import new_items
-from packwork.pipeline.finishing import unfinished
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.grouping import run_groups
 from packwork.pipeline.job import Job, read
@@ -27,6 +26,7 @@ from packwork.pipeline.outcome import Filling, Run, find_unplaced
 from packwork.pipeline.packing import placed_readably
 from packwork.pipeline.piling import run_pile
 from packwork.pipeline.recording import Recorder
+from packwork.pipeline.shortfall import shortfalls
 from packwork.progress import Observer, Stop, never, together
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -103,8 +103,11 @@ def _run(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
             filled = fill_gaps(job, start, exact, together(observer, recorder), stop)
         job, start, exact = filled.job, filled.start, filled.exact
         poses, filling, ids = exact.poses, filled.filling, filled.ids
-    unplaced = None if exact is None else unfinished(job, exact)
-    found = Judged(poses, start.method, start.limits, placed.outcome, unplaced, filling)
+    unplaced = None if exact is None else ()
+    faults = () if exact is None else shortfalls(job, start.nominal, exact)
+    found = Judged(
+        poses, start.method, start.limits, placed.outcome, unplaced, filling, faults=faults
+    )
     return _with_track(judged(job, found), recorder, ids, placed.job)
 
 
@@ -115,7 +118,8 @@ def _heaped(
     recorder = Recorder() if record else None
     done = run_pile(job, asked, together(observer, recorder), stop)
     left = [one.index for one in done.unplaced]
-    return _with_track(done, recorder, np.setdiff1d(np.arange(len(job.items)), left), job)
+    ids = np.setdiff1d(np.arange(len(job.items)), left)
+    return _with_track(replace(done, kept=None), recorder, ids, job)
 
 
 def _grouped(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
@@ -130,6 +134,8 @@ def _with_track(done: Run, recorder: Recorder | None, ids: IntArray | None, job:
     if recorder is None:
         return done
     layout = done.layout
+    if done.kept is not None:
+        ids = done.kept if ids is None else ids[done.kept]
     track = recorder.track(layout.poses, ids, layout.items)
     called = np.arange(len(layout.items)) if ids is None else ids
     if job.recipe.stay:
