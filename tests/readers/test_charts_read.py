@@ -167,6 +167,7 @@ def test_marks_go_to_the_values_of_their_names() -> None:
         (LANDS, {"mark": ("circle", "star")}, "say which row has which"),
         (LANDS, {"mark": ("star",), "mark_by": "land"}, "2 values for 1 marks"),
         ([], {}, "has no rows"),
+        (LANDS, {"paper": "x"}, "paper: 'x' is no colour"),
     ],
 )
 def test_bad_data_are_one_clear_line(rows: Any, options: dict[str, Any], message: str) -> None:

@@ -10,6 +10,7 @@ from pydantic import Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.options import Options
+from packwork.readers.colours import check_colour
 
 SizeIs: TypeAlias = Literal["area", "height", "width"]
 
@@ -66,6 +67,12 @@ class ChartOptions(Options):
         if self.by_step is not None and self.by is None:
             raise RecipeError("by_step", "parts the numbers of a column; say which: --by COL")
         return self
+
+    @field_validator("paper")
+    @classmethod
+    def _paper_has_a_colour(cls, text: str) -> str:
+        # What is clear lies on white, wherever it is shown.
+        return "white" if text in {"none", "transparent"} else check_colour("paper", text)
 
     @field_validator("data", mode="before")
     @classmethod

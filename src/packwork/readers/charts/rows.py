@@ -16,6 +16,10 @@ COLUMNS = ("size_by", "color_by", "mark_by", "label_by", "by")
 NUMBERS = ("size_by", "color_by", "by")
 """Those of them whose columns may be numbers."""
 
+MOST_COMPARED = 20_000
+"""Rows at most that are compared with each other: a chart shows 5,000, the others are empty.
+More would only be work. Chosen."""
+
 
 def read_chart_table(options: ChartOptions, asked: TableFormat) -> Table:
     """Table of a chart, the texts of whose number columns know their numbers.
@@ -56,7 +60,7 @@ def oddities(table: Table, options: ChartOptions) -> list[str]:
     1 row says the same as another in all columns, and is shown too: x
     row 4 (Total) looks like the sum of the others, and is shown as they are
     """
-    if options.size_by is None or options.label_by is None:
+    if options.size_by is None or options.label_by is None or len(table.rows) > MOST_COMPARED:
         return []
     label, size = options.label_by, options.size_by
     told = []

@@ -11,6 +11,7 @@ from pydantic import Field, field_validator
 
 from packwork.errors import RecipeError
 from packwork.options import Options
+from packwork.readers.colours import check_colour
 
 ROUNDED = "rounded"
 """Shape of a photo that keeps its proportions and loses its corners."""
@@ -77,16 +78,7 @@ class PhotoOptions(Options):
     @field_validator("border_color")
     @classmethod
     def _border_has_a_colour(cls, text: str) -> str:
-        # Loads the picture library, which the command line's help can do without.
-        from packwork.scene.colour import css_colour
-
-        try:
-            css_colour(text)
-        except ValueError:
-            raise RecipeError(
-                "border_color", f"{text[:40]!r} is no colour; use one such as ivory or #102030"
-            ) from None
-        return text
+        return check_colour("border_color", text)
 
 
 def _share(key: str, text: str) -> float:

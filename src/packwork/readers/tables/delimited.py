@@ -22,8 +22,8 @@ DELIMITERS = (",", ";", "\t", "|")
 MOST_ROWS = 1_000_000
 """Rows of one table. Chosen."""
 
-MOST_CELLS = 5_000_000
-"""Cells of one table: some sixty bytes each in memory, and as much for the row that holds it.
+MOST_CELLS = 4_000_000
+"""Cells of one table: some sixty bytes each in memory, and more for the rows that hold them.
 Derived."""
 
 SAMPLE_LINES = 200

@@ -10,9 +10,9 @@ from typing import Any
 from packwork.errors import ReadError
 from packwork.readers.tables.delimited import check_cells, check_rows
 
-MOST_DECODED_BYTES = 200_000_000
+MOST_DECODED_BYTES = 100_000_000
 """Bytes of the columns that are read, once unpacked, by the file's own account; Python's values
-take up to three times that. Derived from a gigabyte in all."""
+take up to six times that. Derived from a gigabyte in all."""
 
 ALL_COLUMNS_CELLS = 200_000
 """Cells up to which all columns are read, for the tooltips of a few thousand marks; of larger

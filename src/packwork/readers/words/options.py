@@ -12,6 +12,7 @@ from pydantic import Field, field_serializer, field_validator
 
 from packwork.errors import RecipeError
 from packwork.options import Options
+from packwork.readers.colours import check_colour
 from packwork.readers.words.word import Word
 
 WeightIs: TypeAlias = Literal["height", "area", "ink"]
@@ -151,17 +152,7 @@ class WordOptions(Options):
     @field_validator("background")
     @classmethod
     def _background_is_a_colour(cls, text: str | None) -> str | None:
-        if text is not None:
-            # Loads the picture library, which the command line's help can do without.
-            from packwork.scene.colour import css_colour
-
-            try:
-                css_colour(text)
-            except ValueError:
-                raise RecipeError(
-                    "background", f"{text[:40]!r} is no colour; use one such as ivory or #102030"
-                ) from None
-        return text
+        return None if text is None else check_colour("background", text)
 
 
 def check_weight(word: str, weight: object) -> None:

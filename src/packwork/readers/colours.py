@@ -1,0 +1,33 @@
+"""Colours that options name."""
+
+from __future__ import annotations
+
+from packwork.errors import RecipeError
+
+
+def check_colour(key: str, text: str) -> str:
+    """The same text, if it is a colour as CSS has them.
+
+    Raises
+    ------
+    RecipeError
+        About the option ``key``, if it is none.
+
+    Examples
+    --------
+    >>> check_colour("border_color", "ivory")
+    'ivory'
+    >>> check_colour("paper", "x")
+    Traceback (most recent call last):
+    packwork.errors.RecipeError: paper: 'x' is no colour; use one such as ivory or #102030
+    """
+    # Loads the picture library, which the command line's help can do without.
+    from packwork.scene.colour import css_colour
+
+    try:
+        css_colour(text)
+    except ValueError:
+        raise RecipeError(
+            key, f"{text[:40]!r} is no colour; use one such as ivory or #102030"
+        ) from None
+    return text
