@@ -21,6 +21,7 @@ from packwork.readers.pictures.transparency import (
     solidity,
     tell_what_is_faint,
 )
+from packwork.readers.pictures.whites import without_enclosed_white
 from packwork.readers.regions import NEARLY_ALL, clean_union, tell_if_full
 from packwork.readers.unfit import UnfitError, naming, notice
 
@@ -51,7 +52,8 @@ class TracedMask:
 def trace_mask(path: str | Path, alpha_threshold: float = HALF) -> TracedMask:
     """Region of a picture that says inside (dark) or outside (light).
 
-    Where a real share of it is clear, that decides instead: opaque is inside; a few
+    Where a real share of it is clear, that decides instead: opaque is inside, but for white
+    patches within a dark shape; a few
     translucent pixels count as the light page behind them. An all-dark mask is the whole
     canvas. The contour follows the half-way level to a fraction of a pixel and is simplified
     to 0.2 px; the stairs of hard-edged masks are taken for the straight edges within a pixel
@@ -107,7 +109,7 @@ def mask_of_pixels(pixels: Pixels, alpha_threshold: float = HALF) -> TracedMask:
     inside = solid * _darkness(pixels)
     by_alpha = decides(solid, LEAST_CLEAR_OF_MASK)
     if by_alpha or (inside.max() < 0.5 and solid.min() < 0.5):
-        inside, by_alpha = raised(solid, alpha_threshold), True
+        inside, by_alpha = raised(without_enclosed_white(pixels, solid), alpha_threshold), True
         tell_what_is_faint(solid, alpha_threshold)
     if inside.max() < 0.5:
         raise UnfitError(

@@ -13,10 +13,11 @@ from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.regions import clean_union, tell_if_full
-from packwork.readers.svg.drawing import read_drawing
-from packwork.readers.svg.ink import Ink
+from packwork.readers.svg.drawing import Drawing, read_drawing
+from packwork.readers.svg.ink import Ink, TracedInk
 from packwork.readers.svg.trace import TRACE_PX, page_picture
 from packwork.readers.svg.walk import Page
+from packwork.readers.svg.whites import has_whites, without_whites
 from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
@@ -44,9 +45,9 @@ def container_of_svg(
     600 px long.
 
     Filled shapes count, with their holes and parts, and of shapes drawn as lines the
-    inside. Where that is the whole page, as with a white sheet behind the drawing, its
-    picture is taken for a mask: dark is inside. Without a page the canvas is the
-    region's box; with one, as ``trimming.canvas_box`` has it.
+    inside; nearly white paint over dark fills is a hole. Where that is the whole page, as
+    with a white sheet behind the drawing, its picture is taken for a mask: dark is inside.
+    Without a page the canvas is the region's box; with one, as ``trimming.canvas_box`` has it.
 
     Raises
     ------
@@ -75,6 +76,7 @@ def container_of_svg(
             if region.area > WHOLE_PAGE * page[0] * page[1]:
                 region = _dark_part(drawing.root, drawing.page)
             else:
+                region = _without_whites(drawing, region)
                 tell_if_full(region.area / (page[0] * page[1]), _WHY_FULL)
             canvas = canvas_box(region.bounds, page, reading.trim, unit)
         if unit is not None:
@@ -132,6 +134,14 @@ def _inside(ink: Ink) -> Region:
     if ink.lines.area > 0:
         inside.append(silhouette(ink.lines))
     return clean_union(*inside)
+
+
+def _without_whites(drawing: Drawing, region: Region) -> Region:
+    if not has_whites(drawing):
+        return region
+    if isinstance(drawing.ink, TracedInk) and drawing.page is not None:
+        return _dark_part(drawing.root, drawing.page)
+    return clean_union(without_whites(drawing, region))
 
 
 def _dark_part(root: ET.Element, page: Page) -> Region:

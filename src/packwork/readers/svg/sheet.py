@@ -100,12 +100,19 @@ def _is_paper(shape: Painted, page: Page) -> bool:
     painting = shape.painting
     if shape.clips or painting.has_stroke or painting.fill_opacity < 1:
         return False
-    if not _is_near_white(painting.fill):
+    if not is_near_white(painting.fill):
         return False
     return bool(painted_ink([shape]).fills.area >= WHOLE_PAGE * page.width * page.height)
 
 
-def _is_near_white(fill: str) -> bool:
+def is_near_white(fill: str) -> bool:
+    """Whether a paint is opaque and nearly white.
+
+    Examples
+    --------
+    >>> is_near_white("#fffff0"), is_near_white("#fd7"), is_near_white("none")
+    (True, False, False)
+    """
     try:
         *channels, opacity = css_colour(fill)
     except ValueError:
