@@ -13,7 +13,7 @@ import shapely
 import packwork as pw
 from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
-from packwork.finish.finish import SIZE_TOLERANCE
+from packwork.finish.sizing import SIZE_TOLERANCE
 from packwork.pipeline.beside import beside, same_kind_beside
 from packwork.pipeline.casting import kinds
 from packwork.pipeline.limiting import LEAD

@@ -12,6 +12,12 @@ from packwork.finish.covers.cover import covering, lining
 from packwork.geometry.outline import Outline
 from packwork.scene.pose import Poses
 
+FINE_OF_GAP, COARSE_OF_GAP, ROUGHEST = 0.003, 0.015, 0.1
+"""Tolerances of outlines as shares of the gap, where items are so small beside it that this is
+more than they have anyway: every edge of theirs is then near every other. And the largest share
+of an item's extent. Larger wastes room, smaller takes minutes where the padding is as wide as the
+items. Tried."""
+
 
 class Detail:
     """Covers of the outlines at one tolerance, finer ones inside coarser ones.
@@ -28,6 +34,20 @@ class Detail:
 
     def __init__(self, outlines: Sequence[Outline], container: Outline, poses: Poses) -> None:
         self._outlines, self._container, self._poses = outlines, container, poses
+
+    def tolerance(self, least: float, distance_cu: float) -> float:
+        """A distance in shares of the usual item's extent; no less than ``least``.
+
+        Examples
+        --------
+        >>> one = np.ones(1)
+        >>> tile = Outline.from_rings([np.array([[0.0, 0], [9, 0], [9, 9], [0, 9]])])
+        >>> detail = Detail([tile], tile, Poses(one, one, one, 2 * one))
+        >>> detail.tolerance(1e-3, 0.9), detail.tolerance(1e-3, 1e-3)
+        (0.05, 0.001)
+        """
+        extents = [outline.extent for outline in self._outlines] * self._poses.scale
+        return float(np.clip(distance_cu / np.median(extents), least, max(least, ROUGHEST)))
 
     def covers(self, tolerance: float) -> Detail:
         """The same with fewer vertices: ``tolerance`` in shares of each item's extent."""

@@ -13,10 +13,10 @@ from packwork.arrays import FloatArray
 from packwork.finish._kernels import MOST_GROWTH, Wishes
 from packwork.finish.blocks import blocks
 from packwork.finish.compaction import compact
-from packwork.finish.detail import Detail
+from packwork.finish.detail import COARSE_OF_GAP, FINE_OF_GAP, Detail
 from packwork.finish.offenders import Offender, find_offenders
 from packwork.finish.options import HAIR, FinishOptions
-from packwork.finish.part import part, part_evenly
+from packwork.finish.part import cleared, part, part_evenly
 from packwork.finish.pulling import pulling_of
 from packwork.finish.relief import (
     NEARLY,
@@ -30,7 +30,7 @@ from packwork.finish.relief import (
 )
 from packwork.finish.relocate import relocate
 from packwork.finish.search import Room, search
-from packwork.finish.sizing import FreeSizes, SharedSize, sizing_of, turn_ranges
+from packwork.finish.sizing import SharedSize, sizing_of, turn_ranges
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import Observer, Step, Stop, never
@@ -56,7 +56,6 @@ coarse one takes. Tried: 0.3 % of the coverage in a fifth more time."""
 
 COARSE_SHARE = 0.6
 """Share of the rounds that work on coarse outlines. Tried."""
-
 
 SEARCH_SPREAD = 0.03
 """Logarithm of size within which trials weigh the smaller items more, where sizes are
@@ -91,10 +90,6 @@ BACK = (0.0, 0.0, 1e-4, 1e-3, 0.003, 0.01, 0.03, 0.1, 0.3)
 TOLD = 10
 """How often the trials are told of, for each trial of an item: what they turn and exchange is
 then seen on its way. More take longer to tell. Chosen."""
-
-SIZE_TOLERANCE = 1e-3
-"""Logarithm of size below which nobody is too small: steps end a little off their bounds,
-and a thousandth is not seen. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -175,7 +170,7 @@ def finish(
         run.refine()
         if options.staying:
             run.level()
-    else:
+    elif run.begin():
         run.coarse()
         run.search()
         run.fine()
@@ -183,7 +178,7 @@ def finish(
     found = run.result()
     offenders = find_offenders(container, outlines, found, run.gap)
     return Finished(
-        found, not offenders, offenders, run.undersized(), run.rounds, time.perf_counter() - began
+        found, not offenders, offenders, run.undersized, run.rounds, time.perf_counter() - began
     )
 
 
@@ -215,17 +210,22 @@ class _Run:
         self._pulling = pulling_of(forces, self._sizing)
         self._is_shared = isinstance(self._sizing, SharedSize)
         exact = Detail(outlines, container.outline, poses)
-        self._fine = exact.covers(FINE)
+        self._fine = exact.covers(exact.tolerance(FINE, FINE_OF_GAP * options.gap_cu))
         tolerance = COARSE if options.sizes == "free" else COMMON_COARSE
+        tolerance = exact.tolerance(tolerance, COARSE_OF_GAP * options.gap_cu)
         is_exact = options.sizes == "fixed" or options.refining
         self._coarse = self._fine if is_exact else self._fine.covers(tolerance)
         self._first_trust = REFINING_TRUST if options.refining else FIRST_TRUST
         zero = np.zeros(len(poses))
         self.arrangement = self._coarse.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))
 
-    def coarse(self) -> None:
-        """Take conflicts apart and grow, on coarse outlines; move those that stay behind."""
+    def begin(self) -> bool:
+        """Take conflicts apart; False if many stay in one however small they are made."""
         (part_evenly if self._is_shared else part)(self.arrangement, self.gap)
+        return self._options.sizes == "fixed" or cleared(self.arrangement, self.gap)
+
+    def coarse(self) -> None:
+        """Grow, on coarse outlines; move those that stay behind."""
         count = round(COARSE_SHARE * self._planned)
         self._compact(range(count))
         for _ in range(RESCUES):
@@ -250,6 +250,11 @@ class _Run:
             left -= len(found)
             if not any(self._helps(int(k), rounds) for k in found):
                 return
+
+    @property
+    def undersized(self) -> tuple[int, ...]:
+        """Items that are smaller than they should be."""
+        return self._sizing.undersized(self.arrangement.places[:, 3])
 
     @property
     def _room(self) -> Room:
@@ -377,13 +382,6 @@ class _Run:
             return True
         arrangement.put(everyone, before)
         return False
-
-    def undersized(self) -> tuple[int, ...]:
-        """Items that are smaller than they should be."""
-        if not isinstance(self._sizing, FreeSizes):
-            return ()
-        lag = self._sizing.smallest - self.arrangement.places[:, 3]
-        return tuple(int(k) for k in np.flatnonzero(lag > SIZE_TOLERANCE))
 
     def _tell(self, done: float) -> None:
         # What is only tried may be undone: nobody is to see it.

@@ -24,6 +24,13 @@ to a void instead. Smaller moves items that had a place, larger makes dwarfs. Tr
 MOST_CHECKS = 400
 """Checks at most; what is in conflict after them is reported."""
 
+RESCUES = 2
+"""Times that items which are still in conflict then are moved to voids. Chosen."""
+
+HOPELESS_SHARE = 0.1
+"""Share of the items that may be in conflict all the same and the finish go on: single ones may
+lie where nothing fits. Larger goes on without hope, smaller gives up too early. Chosen."""
+
 EVENINGS = 6
 """Times that all come down to the smallest: who is smaller is in no new conflict but where
 its origin lies off its outline. Tried: more gain nothing."""
@@ -71,6 +78,21 @@ def part(arrangement: Arrangement, gap: float) -> IntArray:
         near = arrangement.pairs(gap)
         near = near[changed[near].any(axis=1)]
     return np.unique(np.array(moved, dtype=np.int64))
+
+
+def cleared(arrangement: Arrangement, gap: float) -> bool:
+    """Whether few items, if any, are still in conflict after being parted, and moved to voids.
+
+    Items that are next to nothing and yet too near each other ask for more room than there
+    is: nothing that a finish could do would change that.
+    """
+    for _ in range(RESCUES):
+        left = _items(arrangement.conflicts(arrangement.pairs(gap), gap), arrangement.count)
+        if len(left) <= HOPELESS_SHARE * arrangement.count:
+            return True
+        relocate(arrangement, left, gap)
+        part(arrangement, gap)
+    return False
 
 
 def part_evenly(arrangement: Arrangement, gap: float) -> None:

@@ -39,6 +39,10 @@ below the tolerance of the outlines. Derived."""
 AREA_POWER = 2.0
 """Area goes with the square of the scale."""
 
+SIZE_TOLERANCE = 1e-3
+"""Logarithm of size below which nobody is too small: steps end a little off their bounds,
+and a thousandth is not seen. Chosen."""
+
 
 class Sizing(ABC):
     """A size mode: what to wish for in the next round, and who stayed behind.
@@ -62,6 +66,10 @@ class Sizing(ABC):
     @abstractmethod
     def laggards(self, growth: FloatArray) -> IntArray:
         """Items much smaller than they may be, or than the others are."""
+
+    def undersized(self, growth: FloatArray) -> tuple[int, ...]:
+        """Items smaller than they have to be; none where sizes are common."""
+        return ()
 
     @abstractmethod
     def is_done(self, growth: FloatArray) -> bool:
@@ -94,6 +102,10 @@ class FreeSizes(Sizing):
     def laggards(self, growth: FloatArray) -> IntArray:
         """Items below their smallest size."""
         return np.flatnonzero(growth < self.smallest - LAGGARD)
+
+    def undersized(self, growth: FloatArray) -> tuple[int, ...]:
+        """Those below their smallest size."""
+        return tuple(int(k) for k in np.flatnonzero(self.smallest - growth > SIZE_TOLERANCE))
 
     def is_done(self, growth: FloatArray) -> bool:
         """False: there is always room to grow into, unless all are as large as they may."""

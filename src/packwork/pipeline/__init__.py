@@ -4,7 +4,7 @@ from packwork.pipeline.casting import item_weights
 from packwork.pipeline.charting import chart_recipe
 from packwork.pipeline.job import Clock, Job, Letters, read
 from packwork.pipeline.outcome import Run, Unplaced, find_unplaced
-from packwork.pipeline.packing import padded
+from packwork.pipeline.padding import padded
 from packwork.pipeline.photographing import photos_recipe
 from packwork.pipeline.piling import pile_recipe
 from packwork.pipeline.run import fill, run, warm_up

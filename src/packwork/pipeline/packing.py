@@ -3,22 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import count
 
 import numpy as np
 
-from packwork.errors import RecipeError
 from packwork.finish.finish import Finished
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
-from packwork.geometry.simplify import grown
 from packwork.levels import refined_levels
 from packwork.pipeline.beginning import Beginning, begin
 from packwork.pipeline.finishing import finished
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
+from packwork.pipeline.padding import check_found, check_padding, padded
 from packwork.pipeline.recording import Recorder
 from packwork.pipeline.staying import as_it_was, calmed, needs_no_levels, with_homes
 from packwork.pipeline.trying import Turn, jobs_tried, worth
@@ -102,6 +101,8 @@ def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Pl
         # What is to stay where it was is not pushed on.
         kept = None if recipe.stay else solved.forces
         exact = finished(job, start, outcome.poses, observer, stop, kept)
+        if not (recipe.stay or stop()):
+            check_found(job.container, recipe.padding_cu(job.container), exact)
         exact = held_down(job, start, exact, observer, stop, kept)
     return Placed(job, start, outcome, exact, recorder)
 
@@ -127,7 +128,9 @@ def _solved(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _S
     observer = together(observer, recorder)
     with clock.time("start"):
         outlines = stand_ins([item.outline for item in job.items], recipe.outline)
-        region = padded(job.container, recipe.padding_cu(job.container))
+        padding = recipe.padding_cu(job.container)
+        check_padding(job.container, padding, len(job.items))
+        region = padded(job.container, padding)
         forces = _forces(job)
         start = begin(job, region, outlines, forces, stop)
     if recorder is not None:
@@ -186,20 +189,3 @@ def _solve_options(job: Job, padding: float) -> SolveOptions:
         return options
     levels = refined_levels(options.levels, container.side, container.outline.area, len(job.items))
     return options.model_copy(update={"levels": levels})
-
-
-def padded(container: Container, padding: float) -> Container:
-    """Container drawn in by half the padding; the items' own margins are the other half.
-
-    Raises
-    ------
-    RecipeError
-        If nothing of the container is left.
-    """
-    outline = grown(container.outline, -padding / 2)
-    if padding > 0 and outline is container.outline:
-        raise RecipeError(
-            "padding",
-            f"{padding:g} {container.unit} leaves nothing of the container; use a smaller one",
-        )
-    return replace(container, outline=outline)

@@ -8,16 +8,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.errors import RecipeError
 from packwork.finish.offenders import find_offenders
 from packwork.finish.options import HAIR
 from packwork.geometry import affine
-from packwork.geometry.simplify import grown
 from packwork.pipeline.finishing import finished, solid_outlines, unfinished
 from packwork.pipeline.grouped import Grouped, GroupSteps, members, moved, unit_scales
 from packwork.pipeline.job import Job
 from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.packing import Placed, placed_readably
+from packwork.pipeline.padding import check_padding
 from packwork.progress import Observer, Step, Stop
 from packwork.recipe import Effort
 from packwork.scene.container import Container
@@ -49,7 +48,8 @@ def fill_copies(job: Job, observer: Observer | None, stop: Stop) -> Grouped:
     """
     assert job.cells is not None  # noqa: S101 - who asks has groups
     single = _single(job)
-    _check_room(job, single)
+    most = max(len(own) for own in members(job))
+    check_padding(single, job.recipe.padding_cu(job.container), most, " of a group")
     zero = np.zeros(len(job.items))
     poses, before = Poses(zero, zero, zero, zero), np.arange(0)
     groups: list[_Filled] = []
@@ -135,17 +135,6 @@ def _single(job: Job) -> Container:
         height=job.single.height * scale,
         unit=job.container.unit,
     )
-
-
-def _check_room(job: Job, single: Container) -> None:
-    """Refuse a padding that no mark can keep."""
-    padding = job.recipe.padding_cu(job.container)
-    if padding > 0 and grown(single.outline, -padding) is single.outline:
-        raise RecipeError(
-            "padding",
-            f"{padding:g} {single.unit} leaves nothing of the container of a group; "
-            "use a smaller one, or a larger canvas",
-        )
 
 
 def _part(job: Job, single: Container, own: Sequence[int] | IntArray, left: int) -> Job:

@@ -1,0 +1,82 @@
+"""Paddings that nothing can keep are refused, at once or after little work."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.finish.finish import finish
+from packwork.finish.options import FinishOptions
+from packwork.geometry.outline import Outline
+from packwork.pipeline import fill, words_recipe
+from packwork.pipeline.padding import check_padding
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+
+WORDS = {f"word{k}": 100 // (k + 1) + 1 for k in range(25)}
+
+
+def square(side: float) -> Outline:
+    half = side / 2
+    corners = [[-half, -half], [half, -half], [half, half], [-half, half]]
+    return Outline.from_rings([np.array(corners)])
+
+
+ROOM = Container("square", "square", square(100.0), 100.0, 100.0)
+
+
+def test_a_padding_that_even_points_cannot_keep_is_refused() -> None:
+    # Four by four points at 20 px from the edge and each other.
+    check_padding(ROOM, 20.0, 16)
+    with pytest.raises(RecipeError, match=r"even as points .* use 2.6 px or less"):
+        check_padding(ROOM, 20.0, 60)
+    with pytest.raises(RecipeError, match="leaves nothing of the container of a group"):
+        check_padding(ROOM, 51.0, 1, " of a group")
+
+
+@pytest.mark.parametrize("padding", ["50%", "20%"])
+def test_words_are_refused_before_anything_is_placed(padding: str) -> None:
+    began: list[object] = []
+
+    class Observer:
+        every = 1
+
+        def on_step(self, step: object) -> None:
+            began.append(step)
+
+    with pytest.raises(RecipeError, match="padding: "):
+        fill(words_recipe("circle", WORDS, padding=padding), observer=Observer())
+    assert began == []
+
+
+@pytest.mark.parametrize("by", [None, "kind"])
+def test_charts_are_refused_at_once(tmp_path: Path, by: str | None) -> None:
+    table = tmp_path / "t.csv"
+    rows = "".join(f"n{k},{k + 1},{'ab'[k % 2]}\n" for k in range(12))
+    table.write_text(f"name,n,kind\n{rows}")
+    with pytest.raises(RecipeError, match="padding: "):
+        pw.chart("circle", str(table), size_by="n", by=by, padding="50%")
+
+
+def test_a_finish_that_has_no_room_gives_up_before_its_first_round() -> None:
+    rng = np.random.default_rng(0)
+    x, y = 80 * rng.random((2, 30)) - 40
+    poses = Poses(x, y, np.zeros(30), np.ones(30))
+    done = finish(ROOM, [square(2.0)] * 30, poses, FinishOptions(gap_cu=18.0, sizes="shared"))
+    assert not done.clean
+    assert done.rounds == 0
+
+
+def test_most_items_without_room_are_an_error_that_says_what_would_do() -> None:
+    with pytest.raises(RecipeError, match=r"padding: 90 px is too much for 25 items: 2. of them"):
+        fill(words_recipe("circle", WORDS, padding="15%", effort="draft", levels="50"))
+
+
+def test_wide_paddings_work_on_coarse_outlines() -> None:
+    run = fill(words_recipe("circle", WORDS, padding="10%", effort="draft", count=9))
+    assert run.certified
+    assert run.metrics.exact.min_gap >= 60
