@@ -15,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import BaseModel
 
+import packwork as pw
 from packwork.errors import RecipeError
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
@@ -294,3 +295,33 @@ def test_an_odd_value_of_any_option_is_taken_or_refused(part: str, model: type[B
             options = {"rules": [options["rules"]]}
         with contextlib.suppress(RecipeError):
             make_recipe(**{"container": "heart", **options})
+
+
+@pytest.mark.parametrize(
+    ("key", "options"),
+    [
+        ("container", {"container": ""}),
+        ("items", {"items": [""]}),
+        ("items", {"items": ["star", "  "]}),
+        ("filler", {"filler": [""], "target_coverage": 0.9}),
+        ("weights", {"weights": ""}),
+        ("font", {"container": "text:A", "font": ""}),
+        ("keep_clear", {"keep_clear": [""]}),
+        ("sources", {"photos": {"sources": [""]}}),
+        ("fonts", {"words": {"source": "ox", "fonts": [""]}}),
+        ("data", {"chart": {"data": ""}}),
+    ],
+)
+def test_a_name_of_nothing_is_refused_before_anything_is_read(key, options):
+    with pytest.raises(RecipeError, match=f"^{key}: is an empty name"):
+        make_recipe(**{"container": "heart", **options})
+
+
+def test_verbs_refuse_names_of_nothing_too():
+    for verb, arguments in (
+        (pw.photos, {"sources": [""]}),
+        (pw.words, {"source": "ox", "fonts": [""]}),
+        (pw.fill, {"items": ["star"], "filler": [""]}),
+    ):
+        with pytest.raises(RecipeError, match="is an empty name"):
+            verb("heart", **arguments)

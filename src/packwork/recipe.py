@@ -25,6 +25,7 @@ from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
 from packwork.reading import Interpreted
+from packwork.recipe_paths import check_names
 from packwork.refusals import length_asked, refusal
 from packwork.rules import MAX_COUNT, ItemCount, Rotation, Rule, as_text, hero_rule, rotation_text
 from packwork.solve.options import (
@@ -361,10 +362,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
         preset = PRESETS[self.preset].solve
         if self.levels is not None:
             changes["levels"], changes["shares"] = parse_levels(self.levels)
-        losses = dict(preset.losses)
-        if self.apart:
-            losses["apart"] = APART
-        losses |= self.losses
+        apart = {"apart": APART} if self.apart else {}
+        losses = {**preset.losses, **apart, **self.losses}
         if "evenness" not in self.losses and not self.may_press(padding_cu):
             losses.pop("evenness", None)
         changes |= {
@@ -391,9 +390,9 @@ def make_recipe(**options: Any) -> Recipe:
     --------
     >>> make_recipe(container="heart", count=0)
     Traceback (most recent call last):
-        ...
     packwork.errors.RecipeError: count: must be at least 1, not 0
     """
+    check_names(options)
     try:
         return Recipe.model_validate(options)
     except ValidationError as error:

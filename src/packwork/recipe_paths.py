@@ -14,6 +14,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from packwork.errors import RecipeError
+
 AROUND = "around:"
 """Before a picture's name: its quiet part is the container."""
 
@@ -42,6 +44,9 @@ _IN_TABLES: Mapping[str, tuple[str, ...]] = {
     "pile": ("emit",),
 }  # fmt: skip
 """Options that name files, by the table that they stand in; those of rules are ``region``."""
+
+_TEXTS = frozenset({"source", "force", "emit"})
+"""Those that may be texts, and are told of as such where they are empty."""
 
 _SHAPES = frozenset({"container", "items", "filler", "mark", "shape", "region", "emit"})
 """Options that may name what is bundled."""
@@ -99,6 +104,32 @@ def named_files(options: Mapping[str, Any]) -> list[str]:
 
     with_paths(options, note)
     return found
+
+
+def check_names(options: Mapping[str, Any]) -> None:
+    """Refuse names of nothing: as paths they would stand for the whole of a folder.
+
+    Raises
+    ------
+    RecipeError
+        Naming the option.
+
+    Examples
+    --------
+    >>> check_names({"filler": ["star", ""]})
+    Traceback (most recent call last):
+    packwork.errors.RecipeError: filler: is an empty name, which stands for nothing; ...
+    """
+    for table, keys in _IN_TABLES.items():
+        within = options if not table else options.get(table)
+        for key in keys if isinstance(within, Mapping) else ():
+            value = None if key in _TEXTS else within.get(key)
+            names = value if isinstance(value, list | tuple) else [value]
+            if any(isinstance(name, str) and not name.strip() for name in names):
+                raise RecipeError(
+                    key,
+                    "is an empty name, which stands for nothing; give a file, or leave it out",
+                )
 
 
 def found_from(folder: Path) -> Callable[[str], str]:

@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from packwork.errors import RecipeError
 from packwork.readers.charts.options import ChartOptions
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe_paths import check_names
 from packwork.refusals import refusal
 
 DEFAULTS: Mapping[str, Any] = {"sizes": "shared", "rotate": "none", "padding": "0.2%"}
@@ -49,6 +50,7 @@ def chart_recipe(container: str, data: object, **options: Any) -> Recipe:
         own["paper"] = background
     given = {key: value for key, value in own.items() if value is not None}
     try:
+        check_names({"chart": {"data": data, **given}})
         asked = ChartOptions.model_validate({"data": data, **given})
     except ValidationError as error:
         raise refusal(error, ChartOptions) from error

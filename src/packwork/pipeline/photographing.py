@@ -9,6 +9,7 @@ from pydantic import ValidationError
 
 from packwork.readers.photos.options import PhotoOptions
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe_paths import check_names
 from packwork.refusals import refusal
 
 DEFAULTS: Mapping[str, Any] = {"rotate": "15"}
@@ -63,6 +64,7 @@ def photo_choices(sources: object, **options: Any) -> dict[str, Any]:
 
 
 def _photo_options(values: Mapping[str, Any]) -> PhotoOptions:
+    check_names({"photos": values})
     try:
         return PhotoOptions.model_validate(values)
     except ValidationError as error:

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from packwork.errors import RecipeError
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
-from packwork.recipe_paths import AROUND
+from packwork.recipe_paths import AROUND, check_names
 from packwork.refusals import refusal
 from packwork.scene.contrast import readable
 from packwork.scene.palette import palette_colours
@@ -61,6 +61,7 @@ def words_recipe(
 
 def _word_options(values: Mapping[str, Any]) -> WordOptions:
     given = {key: value for key, value in values.items() if value is not None}
+    check_names({"words": given})
     try:
         return WordOptions.model_validate(given)
     except ValidationError as error:
