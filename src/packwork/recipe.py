@@ -362,8 +362,7 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
         preset = PRESETS[self.preset].solve
         if self.levels is not None:
             changes["levels"], changes["shares"] = parse_levels(self.levels)
-        apart = {"apart": APART} if self.apart else {}
-        losses = {**preset.losses, **apart, **self.losses}
+        losses = {**preset.losses, "apart": APART if self.apart else 0.0, **self.losses}
         if "evenness" not in self.losses and not self.may_press(padding_cu):
             losses.pop("evenness", None)
         changes |= {

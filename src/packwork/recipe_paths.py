@@ -122,7 +122,9 @@ def check_names(options: Mapping[str, Any]) -> None:
     """
     for table, keys in _IN_TABLES.items():
         within = options if not table else options.get(table)
-        for key in keys if isinstance(within, Mapping) else ():
+        if not isinstance(within, Mapping):
+            continue
+        for key in keys:
             value = None if key in _TEXTS else within.get(key)
             names = value if isinstance(value, list | tuple) else [value]
             if any(isinstance(name, str) and not name.strip() for name in names):

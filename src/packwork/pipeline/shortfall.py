@@ -5,7 +5,8 @@ from __future__ import annotations
 import shapely
 
 from packwork.arrays import FloatArray
-from packwork.finish.finish import SIZE_TOLERANCE, Finished
+from packwork.finish.finish import Finished
+from packwork.finish.sizing import SIZE_TOLERANCE
 from packwork.pipeline.job import Job
 from packwork.pipeline.limiting import pinned_scales
 
