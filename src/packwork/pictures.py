@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Annotated
+from typing import Annotated, Literal, TypeAlias
 
 from pydantic import BeforeValidator, Field, field_validator
 
@@ -48,8 +48,17 @@ def share_of_kinds(value: object) -> dict[str, float]:
     return shares
 
 
+Shades: TypeAlias = Literal["tint", "nearest", "keep"]
+"""What a palette does to drawings of several colours."""
+
+
 class Pictured(Options):
-    """Photographs that are placed, and the picture round which items are."""
+    """Photographs that are placed, the picture round which items are, and what a palette does."""
+
+    shades: Shades = "tint"
+    """What --palette does to drawings of several colours: tint (each in the tints and shades of one
+    colour, by lightness), nearest (each of their colours becomes the palette's nearest) or keep
+    (they keep their own, as among words)."""
 
     photos: PhotoOptions | None = None
     """Photographs to place: which, and what becomes of their edges (``packwork photos``)."""

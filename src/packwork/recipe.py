@@ -115,8 +115,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
     palette: str | tuple[str, ...] | None = None
-    """New colours for items of one colour, neighbours unlike: #e63946,#457b9d or okabe-ito,
-    tol-bright, tol-vibrant, tol-muted, tol-high-contrast."""
+    """New colours for items, neighbours unlike: #e63946,#457b9d or okabe-ito, tol-bright,
+    tol-vibrant, tol-muted, tol-high-contrast. Photographs keep theirs."""
 
     apart: bool = False
     """Keep copies of one item from lying side by side, as far as that goes."""

@@ -67,6 +67,7 @@ Rotate = Annotated[str, flag("rotate", panel=PLACING)]
 Padding = Annotated[str, flag("padding", panel=PLACING)]
 Hero = Annotated[str | None, flag("hero", panel=PLACING)]
 Palette = Annotated[str | None, flag("palette", panel=PLACING)]
+Shades = Annotated[Literal["tint", "nearest", "keep"], flag("shades", panel=PLACING)]
 Apart = Annotated[bool, flag("apart", "--apart", panel=PLACING)]
 Share = Annotated[str | None, flag("share", panel=PLACING)]
 AddedPhotos = Annotated[

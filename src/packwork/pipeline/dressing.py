@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 
@@ -14,12 +15,15 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.legible import legible
 from packwork.pipeline.word_colours import word_colours
 from packwork.rules import OWN_COLOURS
-from packwork.scene.item import Art, Item
+from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.label import Label
 from packwork.scene.layout import Layout
 from packwork.scene.mixing import mixed
 from packwork.scene.palette import palette_colours
 from packwork.writers.recolour import has_one_colour, recoloured
+from packwork.writers.shading import in_palette, shaded
+
+_Arts: TypeAlias = dict[tuple[int, int, str, bool], Art]
 
 
 def dressed(job: Job, layout: Layout) -> Layout:
@@ -31,8 +35,11 @@ def _as_asked(job: Job, layout: Layout) -> Layout:
     """Layout whose items look and are called as rules and palette ask.
 
     Colours of a palette are given out in the order of the items, as many of each; then
-    neighbours of one colour exchange theirs with others.
+    neighbours of one colour exchange theirs with others. What has several colours gets their
+    tints and shades.
     """
+    if job.recipe.shades == "nearest":
+        layout = _in_nearest(job, layout)
     if job.chart is not None:
         coloured = _chart_colours(job)
     else:
@@ -41,13 +48,13 @@ def _as_asked(job: Job, layout: Layout) -> Layout:
     if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
         return layout
     colours = _colours(palettes, layout) if coloured is None else coloured
-    known: dict[tuple[int, str | None, Label | None], Item] = {}
-    arts: dict[tuple[int, int, str], Art] = {}
+    known: dict[tuple[int, str | None, Label | None, bool], Item] = {}
+    arts: _Arts = {}
     items = []
     for item, one, colour in zip(layout.items, job.asked, colours, strict=True):
-        key = (id(item), colour, _label(one))
+        key = (id(item), colour, _label(one), coloured is None and "color" not in one.values)
         if key not in known:
-            known[key] = _dressed(item, colour, key[2], arts)
+            known[key] = _dressed(item, *key[1:], arts)
         items.append(known[key])
     return replace(layout, items=tuple(items))
 
@@ -59,14 +66,32 @@ def _chart_colours(job: Job) -> list[str | None] | None:
     return list(colours) if any(colours) else None
 
 
+def _in_nearest(job: Job, layout: Layout) -> Layout:
+    """Layout in which each colour of a drawing of several has become the palette's nearest."""
+    if job.recipe.palette is None or job.chart is not None or job.words is not None:
+        return layout
+    palette = palette_colours(job.recipe.palette)
+    known: dict[int, Item] = {}
+    for item in layout.items:
+        if id(item) not in known:
+            stays = isinstance(item.art, PhotoArt) or has_one_colour(item.art)
+            known[id(item)] = item if stays else in_palette(item, palette)
+    pairs = zip(layout.items, job.asked, strict=True)
+    items = [item if "color" in one.values else known[id(item)] for item, one in pairs]
+    return replace(layout, items=tuple(items))
+
+
 def _dressed(
-    item: Item, colour: str | None, label: Label | None, arts: dict[tuple[int, int, str], Art]
+    item: Item, colour: str | None, label: Label | None, tinted: bool, arts: _Arts
 ) -> Item:
-    """Item in its colour; items that share a drawing share it in each colour too."""
+    """Item in its colour; items that share a drawing share it in each colour too.
+
+    ``tinted`` lets a drawing of several colours have tints and shades of it.
+    """
     if colour is not None:
-        key = (id(item.art), id(item.ink), colour)
+        key = (id(item.art), id(item.ink), colour, tinted)
         if key not in arts:
-            arts[key] = recoloured(item, colour).art
+            arts[key] = (shaded if tinted else recoloured)(item, colour).art
         item = replace(item, art=arts[key])
     return item if label is None else replace(item, label=label)
 
@@ -87,9 +112,18 @@ def _palettes(job: Job) -> list[tuple[str, ...]]:
             found.append(() if color == OWN_COLOURS else palette_colours(color))
             continue
         if common and id(item) not in plain:
-            plain[id(item)] = has_one_colour(item.art)
+            plain[id(item)] = has_one_colour(item.art) or _is_tinted(job, item)
         found.append(common if plain.get(id(item)) else ())
     return found
+
+
+def _is_tinted(job: Job, item: Item) -> bool:
+    """Whether a drawing of several colours is to have the tints and shades of one.
+
+    Not among words, whose palette is theirs: emoji and icons keep their colours there.
+    """
+    is_asked = job.recipe.shades == "tint" and job.recipe.words is None
+    return is_asked and not isinstance(item.art, PhotoArt)
 
 
 def _colours(palettes: list[tuple[str, ...]], layout: Layout) -> list[str | None]:

@@ -128,6 +128,33 @@ def between(colours: tuple[str, ...], share: float) -> str:
     return _hex(_rgb(np.array([np.interp(place, at, labs[:, k]) for k in range(3)])))
 
 
+def oklab(colour: str) -> FloatArray:
+    """Lightness, green to red and blue to yellow of a colour (Ottosson 2020).
+
+    Examples
+    --------
+    >>> oklab("white").round(3).tolist()
+    [1.0, -0.0, 0.0]
+    """
+    return np.asarray(_TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour)))
+
+
+def shade(colour: str, light: float) -> FloatArray:
+    """Red, green and blue, 0..1, of a colour's hue at another lightness.
+
+    Lighter ones are paler by as much, as if white were mixed in; darker ones stay colourful for
+    long.
+
+    Examples
+    --------
+    >>> shade("#ff0000", 1.0).round(2).tolist(), shade("#ff0000", 0.0).round(2).tolist()
+    ([1.0, 1.0, 1.0], [0.0, 0.0, 0.0])
+    """
+    lab = oklab(colour)
+    paler = (1.0 - light) / (1.0 - lab[0]) if light > lab[0] else np.sqrt(light / max(lab[0], 1e-9))
+    return _shown(_at(np.array([lab[0], *(paler * lab[1:])]), light))
+
+
 def _linear(colour: str) -> FloatArray:
     """Red, green and blue as light."""
     channels = np.array(css_colour(colour)[:3]) / 255
@@ -152,6 +179,10 @@ def _at(lab: FloatArray, light: float) -> FloatArray:
 
 
 def _hex(linear: FloatArray) -> str:
+    return "#{:02x}{:02x}{:02x}".format(*(round(float(255 * c)) for c in _shown(linear)))
+
+
+def _shown(linear: FloatArray) -> FloatArray:
+    """Channels as screens have them, of light."""
     held = np.clip(linear, 0.0, 1.0)
-    shown = np.where(held <= 0.0031308, 12.92 * held, 1.055 * held ** (1 / 2.4) - 0.055)
-    return "#{:02x}{:02x}{:02x}".format(*(round(float(255 * c)) for c in shown))
+    return np.where(held <= 0.0031308, 12.92 * held, 1.055 * held ** (1 / 2.4) - 0.055)

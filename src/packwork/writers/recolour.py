@@ -61,7 +61,7 @@ def has_one_colour(art: Art) -> bool:
         return False
     if isinstance(art, PictureArt):
         return _is_flat_picture(art)
-    root = _tree(art.markup)
+    root = tree_of(art.markup)
     if any(element.tag in _COLOURFUL for element in root.iter()):
         return False
     named = {element.get("id"): element for element in root.iter()}
@@ -83,7 +83,7 @@ def one_colour(art: Art) -> tuple[int, int, int, int] | None:
         return css_colour(art.fill)
     if not isinstance(art, VectorArt) or not has_one_colour(art):
         return None
-    root = _tree(art.markup)
+    root = tree_of(art.markup)
     named = {element.get("id"): element for element in root.iter()}
     red, green, blue = next(_channels(root, _FIRST, named))[:3]
     opacity = next((e.get("opacity") for e in root.iter() if e.get("opacity")), None)
@@ -108,7 +108,7 @@ def recoloured(item: Item, colour: str) -> Item:
     """
     if not isinstance(item.art, VectorArt) or not has_one_colour(item.art):
         return replace(item, art=FlatArt(colour))
-    root = _tree(item.art.markup)
+    root = tree_of(item.art.markup)
     channels = css_colour(colour)
     solid = hex_colour(channels)
     for element in root.iter():
@@ -124,7 +124,8 @@ def recoloured(item: Item, colour: str) -> Item:
     return replace(item, art=replace(item.art, markup=with_fresh_ids(markup, f"-{colour[1:]}")))
 
 
-def _tree(markup: str) -> ET.Element:
+def tree_of(markup: str) -> ET.Element:
+    """Elements of a fragment, in one group."""
     tree: ET.Element = fromstring(f'<g xmlns:xlink="{_XLINK}">{markup}</g>')
     return tree
 
