@@ -11,12 +11,12 @@ import shapely
 from hypothesis import given, settings
 from shapely.errors import GEOSException
 from shapely.geometry import Polygon
-from tests.strategies import ring_sets
 
 import packwork
 from packwork.errors import ShapeError
 from packwork.geometry import overlay
 from packwork.geometry.outline import Outline
+from strategies import ring_sets
 
 _OPERATIONS = (
     "union_all|unary_union|intersection|difference|symmetric_difference|buffer|make_valid|simplify"

@@ -6,12 +6,12 @@ import numpy as np
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from tests.strategies import ring_sets
 
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import region
 from packwork.geometry.snapping import CLEFT, STEP, sound, without_clefts
+from strategies import ring_sets
 
 _SIZES = st.sampled_from([1e-3, 1.0, 1e6])
 _SLIPS = st.sampled_from([0.0, 1e-13, 1e-9, 1e-7, 1e-5])

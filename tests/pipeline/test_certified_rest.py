@@ -7,7 +7,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.scenes import flat_item, square, square_container
 
 import packwork as pw
 from packwork import pipeline, writers
@@ -15,6 +14,7 @@ from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.exact import exact_metrics
 from packwork.readers.written.read import read_written
 from packwork.recipe import make_recipe
+from scenes import flat_item, square, square_container
 
 QUICK = {"epochs": 20, "levels": "32,64", "effort": "draft"}
 
