@@ -90,6 +90,9 @@ class Layout(scene.Layout):
         show_container: bool = False,
         flatten: bool = False,
         text: writers.TextChoice = "outlines",
+        cut: writers.CutLine | None = None,
+        kiss_cut: str | float | None = None,
+        bleed: str | float | None = None,
     ) -> None:
         """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
 
@@ -109,6 +112,11 @@ class Layout(scene.Layout):
             In SVG, repeat each drawing in place, for tools that choke on ``use``.
         text
             ``live``: words in SVG are text; ``outlines``: they are curves.
+        cut, kiss_cut
+            Lines for a cutter: ``outlines``, or ``silhouette`` for one closed line round each
+            item; or at a distance round each, as ``"2mm"``.
+        bleed
+            What a PDF's background reaches beyond the canvas, as ``"3mm"``.
 
         Raises
         ------
@@ -125,7 +133,7 @@ class Layout(scene.Layout):
         """
         options = writers.write_options(
             pixels=pixels, dpi=dpi, background=background, show_container=show_container,
-            flatten=flatten, text=text,
+            flatten=flatten, text=text, cut=cut, kiss_cut=kiss_cut, bleed=bleed,
         )  # fmt: skip
         writers.write(self, path, options)
 

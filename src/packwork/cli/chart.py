@@ -78,6 +78,9 @@ def chart(
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
+    cut: shared.Cut = None,
+    kiss_cut: shared.KissCut = None,
+    bleed: shared.Bleed = None,
     film: shared.Film = None,
     fps: shared.Fps = None,
     seconds: shared.Seconds = None,
@@ -146,5 +149,6 @@ def chart(
             pixels=pixels, background=background, show_container=show_container, flatten=flatten,
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=recipe.film, no_clobber=no_clobber,
+            cut=cut, kiss_cut=kiss_cut, bleed=bleed,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -201,6 +201,33 @@ SaveRecipe = Annotated[
         rich_help_panel=WRITING,
     ),
 ]
+Cut = Annotated[
+    Literal["outlines", "silhouette"] | None,
+    typer.Option(
+        "--cut",
+        help="Lines for a cutter in SVG and PDF (there in the spot colour CutContour) too: "
+        "outlines, or silhouette: one closed line round each item. Default: outlines in DXF only.",
+        rich_help_panel=WRITING,
+    ),
+]
+KissCut = Annotated[
+    str | None,
+    typer.Option(
+        "--kiss-cut",
+        help="Cut at this distance round each item, a length such as 2mm, in DXF, SVG and PDF; the "
+        "padding is at least twice that.",
+        rich_help_panel=WRITING,
+    ),
+]
+Bleed = Annotated[
+    str | None,
+    typer.Option(
+        "--bleed",
+        help="Let a PDF's background reach beyond the sheet on each side, a length such as 3mm; "
+        "its boxes say where it is trimmed.",
+        rich_help_panel=WRITING,
+    ),
+]
 NoClobber = Annotated[
     bool,
     typer.Option(

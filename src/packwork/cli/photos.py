@@ -87,6 +87,9 @@ def photos(
     dpi: shared.Dpi = None,
     background: shared.Background = None,
     show_container: shared.ShowContainer = False,
+    cut: shared.Cut = None,
+    kiss_cut: shared.KissCut = None,
+    bleed: shared.Bleed = None,
     film: shared.Film = None,
     fps: shared.Fps = None,
     seconds: shared.Seconds = None,
@@ -162,5 +165,6 @@ def photos(
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
             no_clobber=no_clobber,
+            cut=cut, kiss_cut=kiss_cut, bleed=bleed,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

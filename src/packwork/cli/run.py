@@ -63,6 +63,9 @@ def run(
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     text: shared.Text = "outlines",
+    cut: shared.Cut = None,
+    kiss_cut: shared.KissCut = None,
+    bleed: shared.Bleed = None,
     film: shared.Film = None,
     fps: shared.Fps = None,
     seconds: shared.Seconds = None,
@@ -101,5 +104,6 @@ def run(
             pixels=pixels, background=background, show_container=show_container, flatten=flatten,
             text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=asked.film, no_clobber=no_clobber,
+            cut=cut, kiss_cut=kiss_cut, bleed=bleed,
         )  # fmt: skip
         raise typer.Exit(run_and_write(asked, outputs, quiet))

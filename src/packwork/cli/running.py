@@ -16,6 +16,7 @@ from typing import Any
 from rich.console import Console
 
 from packwork import pipeline, writers
+from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.existing import check_new
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.saliency import write_saliency
@@ -75,6 +76,12 @@ class Outputs:
     keeps_files: bool = False
 
     @property
+    def kiss(self) -> str | None:
+        """Distance of the lines that are cut from items; None if there are none such."""
+        cut = self.options.svg.cut
+        return None if cut is None else cut.kiss
+
+    @property
     def sides(self) -> list[Path]:
         """What is written beside the layouts."""
         sides = (self.report, self.diagnose, self.recipe, self.saliency)
@@ -100,6 +107,7 @@ class Outputs:
         for side in self.sides:
             writers.check_writable(side)
         writers.check_outputs(self.every)
+        check_bleed(self.files, self.options.bleed)
         if self.keeps_files:
             check_new(self.every)
 
@@ -143,6 +151,9 @@ def outputs_asked(
     show_container: bool = False,
     flatten: bool = False,
     text: writers.TextChoice = "outlines",
+    cut: writers.CutLine | None = None,
+    kiss_cut: str | None = None,
+    bleed: str | None = None,
     film: Sequence[Path] | None = None,
     recipes: FilmOptions | None = None,
     **filming: Any,
@@ -157,7 +168,7 @@ def outputs_asked(
         As in :class:`Outputs`.
     no_clobber
         Refuse files that are there already.
-    pixels, dpi, background, show_container, flatten, text
+    pixels, dpi, background, show_container, flatten, text, cut, kiss_cut, bleed
         How layouts are drawn, and films but for their size.
     film
         Films; None for none.
@@ -173,6 +184,9 @@ def outputs_asked(
             show_container=show_container,
             flatten=flatten,
             text=text,
+            cut=cut,
+            kiss_cut=kiss_cut,
+            bleed=bleed,
         ),
         films=film or (),
         filming=film_options(recipes, **filming),
@@ -196,9 +210,11 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         files could not be drawn; 130 after Ctrl-C.
     """
     outputs.check()
+    recipe = with_room(recipe, outputs.kiss)
     console = Paper(quiet=quiet, highlight=False)
     job = pipeline.read(recipe)
     outputs.check_read(job)
+    check_room(job, outputs.kiss)
     # Beforehand, so that no run is lost to what its recipe holds.
     saved = outputs.saved_recipe(recipe)
     write_saliency(recipe, outputs.saliency)

@@ -105,6 +105,9 @@ def words(
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     text: shared.Text = "outlines",
+    cut: shared.Cut = None,
+    kiss_cut: shared.KissCut = None,
+    bleed: shared.Bleed = None,
     film: shared.Film = None,
     fps: shared.Fps = None,
     seconds: shared.Seconds = None,
@@ -193,5 +196,6 @@ def words(
             text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
             no_clobber=no_clobber,
+            cut=cut, kiss_cut=kiss_cut, bleed=bleed,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from packwork.writers.atomic import check_outputs, check_writable, write_all, write_atomic
+    from packwork.writers.cutting import CutLine
     from packwork.writers.diagnose import diagnose_png
     from packwork.writers.film.film import Film, tell_nobody
     from packwork.writers.film.registry import FILMS, check_film, film_bytes
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
 __all__ = [
     "FILMS",
     "WRITERS",
+    "CutLine",
     "Film",
     "PngOptions",
     "SvgOptions",
@@ -58,6 +60,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "cutting": ("CutLine",),
     "atomic": ("check_outputs", "check_writable", "write_all", "write_atomic"),
     "diagnose": ("diagnose_png",),
     "film.film": ("Film", "tell_nobody"),

@@ -9,7 +9,7 @@ the run promised, stands in extended data that other programs pass over.
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Set
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -23,6 +23,7 @@ from packwork.geometry.polygon import oriented_rings, polygon_parts
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.units import convert
+from packwork.writers.cutting import CutOptions, cut_rings
 from packwork.writers.notation import decimals, sound_text
 from packwork.writers.promise import promised, stated_weights
 from packwork.writers.svg import NAME_LENGTH
@@ -36,7 +37,10 @@ VERSION = "R2000"
 LAYERS = {"cut": 1, "engrave": 5, "container": 8}
 """Names and colour numbers (red, blue, grey). ``cut`` holds the outlines of the items,
 ``engrave`` the edges of what is left bare inside them, as the hole of a ring that was
-packed as a disc."""
+packed as a disc. Where other lines are to be cut, outlines are on the layer ``items``."""
+
+ITEMS = {"items": 9}
+"""Name and colour number (light grey) of the layer of outlines that are not cut."""
 
 PRECISION = 1e-9
 """Last digit of a coordinate, as a share of the canvas's longer side. As in GeoJSON."""
@@ -52,8 +56,13 @@ _SLIVER = 1e-9
 """Share of an outline's area below which something bare in it is rounding. Chosen."""
 
 
-def dxf_bytes(layout: Layout) -> bytes:
+def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
     """DXF file of a layout; its limits are the sheet. The same bytes every time.
+
+    Parameters
+    ----------
+    cut
+        Lines on the layer ``cut``; None for the items' outlines.
 
     Examples
     --------
@@ -66,10 +75,14 @@ def dxf_bytes(layout: Layout) -> bytes:
     >>> b"LWPOLYLINE" in dxf_bytes(Layout(sheet, (), Poses(none, none, none, none), none))
     True
     """
-    lines = [(lot, ring) for lot in _lots(layout) for ring in _to_paper(layout, lot.rings)]
+    lines = [
+        (lot, ring)
+        for lot in _lots(layout, cut or CutOptions())
+        for ring in _to_paper(layout, lot.rings)
+    ]
     points = np.concatenate([ring for _, ring in lines])
     with _without_dates():
-        drawing = _empty_drawing(layout)
+        drawing = _empty_drawing(layout, {lot.layer for lot, _ in lines})
         space = drawing.modelspace()
         space.reset_extents(points.min(axis=0).tolist(), points.max(axis=0).tolist())
         for lot, ring in lines:
@@ -92,14 +105,15 @@ def paper_unit(unit: str) -> str:
     return unit if unit in _INSERT_UNITS else "mm"
 
 
-def _empty_drawing(layout: Layout) -> Drawing:
+def _empty_drawing(layout: Layout, used: Set[str]) -> Drawing:
     import ezdxf
 
     container = layout.container
     unit = paper_unit(container.unit)
     width, height = (convert(v, container.unit, unit) for v in (container.width, container.height))
     drawing = ezdxf.new(VERSION, units=_INSERT_UNITS[unit])
-    for name, colour in LAYERS.items():
+    more = {name: colour for name, colour in ITEMS.items() if name in used}
+    for name, colour in {**LAYERS, **more}.items():
         drawing.layers.add(name, color=colour)
     drawing.appids.add(APPLICATION)
     drawing.modelspace().reset_limits((0.0, 0.0), (width, height))
@@ -127,16 +141,20 @@ class _Lot:
     said: tuple[str, ...] = ()
 
 
-def _lots(layout: Layout) -> Iterator[_Lot]:
+def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
+    is_other = cut.kiss is not None or cut.line == "silhouette"
     yield _Lot("container", layout.container.outline.rings, _promise(layout))
     bare = {id(item): item for item in layout.items}
     details = {key: _bare_rings(item) for key, item in bare.items()}
     weights = stated_weights(layout)
     for k, item in enumerate(layout.items):
         name = " ".join(sound_text(item.label.name or item.name).split())[:NAME_LENGTH]
-        yield _Lot("cut", layout.outlines[k].rings, (str(k + 1), name, weights[k] or "1"))
+        layer = "items" if is_other else "cut"
+        yield _Lot(layer, layout.outlines[k].rings, (str(k + 1), name, weights[k] or "1"))
         matrix = layout.poses.matrix(k)
         yield _Lot("engrave", [affine.apply(matrix, ring) for ring in details[id(item)]])
+    if is_other:
+        yield _Lot("cut", cut_rings(layout, cut))
 
 
 def _promise(layout: Layout) -> tuple[str, ...]:

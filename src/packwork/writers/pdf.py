@@ -10,12 +10,16 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from packwork.errors import WriteError
+from packwork.errors import RecipeError, WriteError
+from packwork.scene.container import Container
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
-from packwork.units import convert
+from packwork.units import convert, parse_length
+from packwork.writers.colours import parse_colour
+from packwork.writers.cutting import cut_rings
 from packwork.writers.notation import sound_text
 from packwork.writers.picturing import pictured
+from packwork.writers.spot import Press, prepared
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
 
 PICTURE_DPI = 600
@@ -27,14 +31,31 @@ _PAGE = """\
 #image(bytes(sys.inputs.drawing), format: "svg", width: 100%, height: 100%, fit: "stretch")
 """
 
+_PAGE_WITH_BLEED = """\
+#set document(title: sys.inputs.title, date: none)
+#set page(width: {wide:.12f}pt, height: {high:.12f}pt, margin: 0pt, fill: {fill})
+#place(dx: {bleed:.12f}pt, dy: {bleed:.12f}pt, image(bytes(sys.inputs.drawing), format: "svg",
+  width: {width:.12f}pt, height: {height:.12f}pt, fit: "stretch"))
+"""
 
-def pdf_bytes(layout: Layout, options: SvgOptions | None = None) -> bytes:
+
+def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | None = None) -> bytes:
     """PDF file of a layout: one page, as large as the canvas; the same bytes every time.
+
+    Lines for a cutter are strokes in the spot colour ``CutContour``.
+
+    Parameters
+    ----------
+    bleed
+        What the background reaches beyond the canvas on each side, a length: the page is larger
+        by it, and its boxes say where it is trimmed. None for none.
 
     Raises
     ------
     WriteError
         If an item's drawing cannot be rendered.
+    RecipeError
+        If the bleed is no length.
 
     Examples
     --------
@@ -50,20 +71,64 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None) -> bytes:
     """
     import typst
 
+    options = options or SvgOptions()
+
     container = layout.container
     width, height = (convert(v, container.unit, "pt") for v in (container.width, container.height))
     # A PDF's words are curves: what sets the page would take fonts of its own for text.
-    curves = replace(options or SvgOptions(), text="outlines")
+    curves = replace(options, text="outlines", cut=None)
+    beyond = 0.0 if bleed is None else bleed_pt(bleed, container)
+    sizes = {
+        "width": width, "height": height, "bleed": beyond, "fill": _fill(options.background),
+        "wide": width + 2 * beyond, "high": height + 2 * beyond,
+    }  # fmt: skip
     drawing = svg_text(without_text(layout), curves)
     try:
-        return typst.compile(
-            _PAGE.format(width=width, height=height).encode(),
+        page = typst.compile(
+            (_PAGE_WITH_BLEED if beyond else _PAGE).format(**sizes).encode(),
             sys_inputs={"drawing": drawing, "title": sound_text(container.name[:NAME_LENGTH])},
             ignore_system_fonts=True,
         )
     except RuntimeError as error:
         reason = " ".join(str(error).split())
         raise WriteError("PDF", f"an item's drawing cannot be rendered ({reason})") from error
+    is_cut = options.cut is not None and options.cut.is_asked
+    if not (is_cut or beyond):
+        return page
+    scale = convert(1.0, container.unit, "pt")
+    rings = cut_rings(layout, options.cut) if options.cut is not None and is_cut else []
+    lines = [scale * ring for ring in rings]
+    return prepared(page, Press(lines=lines, width=width, height=height, bleed=beyond))
+
+
+def bleed_pt(text: str, container: Container) -> float:
+    """Bleed in points.
+
+    Raises
+    ------
+    RecipeError
+        If it is no length, or more than the canvas is long.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
+    >>> round(bleed_pt("3mm", Container("tile", "tile", tile, 90.0, 90.0, "mm")), 3)
+    8.504
+    """
+    try:
+        length = parse_length(text, container.unit, container.side)
+    except ValueError as error:
+        raise RecipeError("bleed", str(error)) from None
+    if length > container.side:
+        raise RecipeError("bleed", f"is at most as long as the canvas, not {text[:40]}; use 3mm")
+    return convert(length, container.unit, "pt")
+
+
+def _fill(background: str | None) -> str:
+    """Fill of the page as Typst writes it, for what lies beyond the canvas."""
+    red, green, blue, opacity = parse_colour("background", background or "none")
+    return f"rgb({red}, {green}, {blue}, {opacity})" if opacity else "none"
 
 
 def without_text(layout: Layout) -> Layout:

@@ -12,6 +12,7 @@ from packwork.errors import RecipeError, WriteError
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.writers.atomic import check_writable, write_atomic
+from packwork.writers.cutting import CutLine, CutOptions
 from packwork.writers.dxf import dxf_bytes
 from packwork.writers.extras import check_extra
 from packwork.writers.frame import check_side, picture_frame, side_at
@@ -40,6 +41,8 @@ class WriteOptions:
     dpi
         Pixels to the inch, for photos in SVG and PDF and, if given, for PNG and JPEG in
         place of their side. None: 300 for photos.
+    bleed
+        What a PDF's background reaches beyond the canvas on each side, a length.
 
     Raises
     ------
@@ -56,6 +59,7 @@ class WriteOptions:
     png: PngOptions = field(default_factory=PngOptions)
     png_side_px: int = 1600
     dpi: float | None = None
+    bleed: str | None = None
 
     def __post_init__(self) -> None:
         check_side(self.png_side_px)
@@ -99,11 +103,11 @@ def _tiff(layout: Layout, options: WriteOptions) -> bytes:
 
 
 def _pdf(layout: Layout, options: WriteOptions) -> bytes:
-    return pdf_bytes(options.on_paper(layout), options.svg)
+    return pdf_bytes(options.on_paper(layout), options.svg, options.bleed)
 
 
-def _dxf(layout: Layout, _: WriteOptions) -> bytes:
-    return dxf_bytes(layout)
+def _dxf(layout: Layout, options: WriteOptions) -> bytes:
+    return dxf_bytes(layout, options.svg.cut)
 
 
 def _geojson(layout: Layout, _: WriteOptions) -> bytes:
@@ -255,6 +259,9 @@ def write_options(
     show_container: bool = False,
     flatten: bool = False,
     text: TextChoice = "outlines",
+    cut: CutLine | None = None,
+    kiss_cut: str | float | None = None,
+    bleed: str | float | None = None,
 ) -> WriteOptions:
     """Options of every format from the few that people give.
 
@@ -272,6 +279,12 @@ def write_options(
         In SVG, repeat each drawing in place.
     text
         Words in SVG: ``outlines``, or ``live`` text.
+    cut
+        Lines for a cutter: ``outlines``, or ``silhouette`` for one closed line round each item.
+    kiss_cut
+        Distance from the items of the line to cut, a length.
+    bleed
+        What a PDF's background reaches beyond the canvas on each side, a length.
 
     Raises
     ------
@@ -287,9 +300,14 @@ def write_options(
     png = PngOptions(show_container=show_container)
     return WriteOptions(
         svg=SvgOptions(
-            background=colour, show_container=show_container, flatten=flatten, text=text
+            background=colour,
+            show_container=show_container,
+            flatten=flatten,
+            text=text,
+            cut=CutOptions(line=cut, kiss=None if kiss_cut is None else str(kiss_cut)),
         ),
         png=png if background is None else replace(png, background=colour),
         png_side_px=pixels,
         dpi=dpi,
+        bleed=None if bleed is None else str(bleed),
     )

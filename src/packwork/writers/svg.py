@@ -22,6 +22,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.note import Note
 from packwork.units import Unit
 from packwork.writers.colours import hex_colour, parse_colour
+from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.labels import item_ids, labelled
 from packwork.writers.live import LiveWords
 from packwork.writers.marks import element, paint, shape_key, with_fresh_ids
@@ -70,6 +71,8 @@ class SvgOptions:
     text
         ``live``: words are text, to be selected and found, in fonts that the file carries;
         ``outlines``: they are curves.
+    cut
+        Lines for a cutter, on top of all; None for none.
 
     Raises
     ------
@@ -86,6 +89,7 @@ class SvgOptions:
     show_container: bool = False
     flatten: bool = False
     text: TextChoice = "outlines"
+    cut: CutOptions | None = None
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -174,6 +178,7 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
         *_copies(layout, shapes, digits, live, flatten=options.flatten),
         "</g>",
         *_notes(layout),
+        *([] if options.cut is None else cut_group(layout, options.cut, digits)),
         "</svg>",
         "",
     ]

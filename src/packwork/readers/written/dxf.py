@@ -19,7 +19,7 @@ _NOT_OURS = "as packwork writes it; give a DXF that no other program saved again
 
 
 def layout_of_dxf(text: str, name: str) -> Layout:
-    r"""Layout of a DXF's text, its outlines the lines on the layer ``cut``.
+    r"""Layout of a DXF's text, its outlines the lines on the layer ``items``, else ``cut``.
 
     Raises
     ------
@@ -46,9 +46,15 @@ def layout_of_dxf(text: str, name: str) -> Layout:
         container=_region(walls, height),
         gap=gap,
         areas_in_shares=shares,
-        items=_items([line for line in lines if line.layer == "cut"], height),
+        items=_items(_outlines(lines), height),
     )
     return assembled(sheet, name)
+
+
+def _outlines(lines: Sequence[Line]) -> list[Line]:
+    """Lines of items: on a layer of their own where others are cut."""
+    layers = {line.layer for line in lines}
+    return [line for line in lines if line.layer == ("items" if "items" in layers else "cut")]
 
 
 def _canvas(header: dict[str, list[float]]) -> tuple[float, float, Unit]:

@@ -1,0 +1,182 @@
+"""Where a cutter is to cut: the items' outlines, one line round each, or one at a distance.
+
+A line at a distance (a kiss cut, that leaves a rim of paper round a sticker) needs twice that
+distance between items. Arcs of such a line lie within the true offset, so that where the gap
+is kept no two lines meet; where it is not, lines that would cross become one.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+import shapely
+
+from packwork.arrays import FloatArray
+from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import union
+from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, silhouette
+from packwork.scene.layout import Layout
+from packwork.units import convert, parse_length
+from packwork.writers.notation import attributes, path_data
+
+_LOG = logging.getLogger(__name__)
+
+CutLine: TypeAlias = Literal["outlines", "silhouette"]
+
+SPOT = "CutContour"
+"""Name of the colour that print-and-cut programs look for."""
+
+MAGENTA = "#ff00ff"
+"""How the line looks where there are no spot colours: what such programs show it as."""
+
+HAIRLINE_PT = 0.25
+"""Width of a cut line: what print shops ask for."""
+
+QUADRANT = 16
+"""Pieces of each quarter of an arc of a line at a distance: within 0.12 % of that distance."""
+
+_JOINS = (0.005, 0.01, 0.02, 0.04, 0.08, 0.16)
+"""Shares of an item's extent within which its parts are joined, the least that does counts.
+Larger ones would leave little of its shape. Chosen."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class CutOptions:
+    """Which lines are cut.
+
+    Parameters
+    ----------
+    line
+        ``outlines``: as they are, with holes; ``silhouette``: one closed line round each item.
+        None: what the format always has.
+    kiss
+        Distance of the line from the item, as a length; None for none.
+
+    Raises
+    ------
+    RecipeError
+        If the distance is no length.
+
+    Examples
+    --------
+    >>> CutOptions(kiss="2mm").is_asked
+    True
+    """
+
+    line: CutLine | None = None
+    kiss: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.kiss is not None and kiss_cut(self.kiss, "px", 1.0) <= 0:
+            raise RecipeError("kiss_cut", f"must be more than nothing, not {self.kiss}")
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether lines are wanted in formats that have none of themselves."""
+        return self.line is not None or self.kiss is not None
+
+
+def kiss_cut(text: str, unit: str, side: float) -> float:
+    """Distance of a kiss cut in canvas units.
+
+    Raises
+    ------
+    RecipeError
+        If it is no length.
+
+    Examples
+    --------
+    >>> kiss_cut("2mm", "cm", 30.0)
+    0.2
+    """
+    try:
+        return parse_length(text, unit, side)
+    except ValueError as error:
+        raise RecipeError("kiss_cut", str(error)) from None
+
+
+def cut_rings(layout: Layout, options: CutOptions) -> list[FloatArray]:
+    """Closed lines to cut, canvas units.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.item import FlatArt, Item
+    >>> from packwork.scene.pose import Poses
+    >>> square = Outline.from_rings([[[-1, -1], [1, -1], [1, 1], [-1, 1]]])
+    >>> item, one = Item("square", "square", square, square, FlatArt("teal")), np.ones(1)
+    >>> tile = Container("tile", "tile", square, 9.0, 9.0)
+    >>> layout = Layout(tile, (item,), Poses(4 * one, 4 * one, 0 * one, one), one)
+    >>> [len(ring) for ring in cut_rings(layout, CutOptions(line="outlines"))]
+    [4]
+    >>> float(np.ptp(cut_rings(layout, CutOptions(kiss="1"))[0][:, 0]))
+    4.0
+    """
+    if options.kiss is None and options.line != "silhouette":
+        return [ring for outline in layout.outlines for ring in outline.rings]
+    shapes = [silhouette(outline.region) for outline in layout.outlines]
+    if options.kiss is not None:
+        offset = kiss_cut(options.kiss, layout.container.unit, layout.container.side)
+        shapes = _apart([shapely.buffer(shape, offset, quad_segs=QUADRANT) for shape in shapes])
+    if options.line != "outlines":
+        shapes = _joined(shapes)
+    return [ring for shape in shapes for ring in oriented_rings(silhouette(shape))]
+
+
+def cut_group(layout: Layout, options: CutOptions, digits: int) -> list[str]:
+    """Group ``cut`` of an SVG: hairlines without a fill; nothing if no lines are asked for."""
+    rings = cut_rings(layout, options) if options.is_asked else []
+    if not rings:
+        return []
+    head = attributes(
+        {
+            "id": "cut",
+            "fill": "none",
+            "stroke": MAGENTA,
+            "stroke-width": f"{convert(HAIRLINE_PT, 'pt', layout.container.unit):.6g}",
+        }
+    )
+    drawn = [f'<path d="{path_data(Outline.from_rings([ring]), digits)}"/>' for ring in rings]
+    return [f"<g{head}>", *drawn, "</g>"]
+
+
+def _apart(shapes: Sequence[Region]) -> list[Region]:
+    """Shapes of which none overlap: those that do become one, in the place of the first."""
+    pairs = shapely.STRtree(shapes).query(shapes, predicate="intersects").T
+    if not any(a != b for a, b in pairs):
+        return list(shapes)
+    _LOG.warning("cut lines that would cross have become one; a larger --padding keeps them apart")
+    return polygon_parts(union(list(shapes)))
+
+
+def _joined(shapes: Sequence[Region]) -> list[Region]:
+    """Each shape as one part, where that meets no other shape."""
+    joined = list(shapes)
+    left = 0
+    for k, shape in enumerate(shapes):
+        if len(polygon_parts(shape)) == 1:
+            continue
+        others = shapely.STRtree([one for n, one in enumerate(joined) if n != k])
+        left += not _join(joined, k, others)
+    if left:
+        _LOG.warning("%d items in several parts have a cut line round each part", left)
+    return joined
+
+
+def _join(joined: list[Region], k: int, others: shapely.STRtree) -> bool:
+    left, top, right, bottom = joined[k].bounds
+    for share in _JOINS:
+        reach = share * max(right - left, bottom - top)
+        closed = shapely.buffer(shapely.buffer(joined[k], reach), -reach)
+        whole = silhouette(union([closed, joined[k]]))
+        if len(polygon_parts(whole)) == 1:
+            if len(others.query(whole, predicate="intersects")):
+                return False
+            joined[k] = whole
+            return True
+    return False
