@@ -292,7 +292,7 @@ def _container(
         return on_canvas(given, recipe.canvas_size), None
     if recipe.container == NO_CONTAINER and (recipe.pile or recipe.chart):
         return None, None
-    if recipe.pile is not None and Path(recipe.container).suffix.lower() == ".svg":
+    if recipe.pile is not None and Path(recipe.container).suffix.lower() in {".svg", ".svgz"}:
         size = recipe.canvas_size
         walled = walled_container(
             recipe.container, None if size is None else size.side, recipe.read_options

@@ -118,7 +118,7 @@ def _container(
         return container_of_words(text, side or DEFAULT_SIDE, font)
     if text.startswith(AROUND):
         return container_around(text, side or DEFAULT_SIDE, quiet or QuietOptions(), _as_drawn)
-    if path.suffix.lower() in {".svg", *PICTURE_ENDINGS} or len(path.parts) > 1:
+    if path.suffix.lower() in {".svg", ".svgz", *PICTURE_ENDINGS} or len(path.parts) > 1:
         known = path.stem in container_names() and len(path.parts) == 1
         hint = f"; the built-in shape is {path.stem}" if known else ""
         raise ReadError(text, f"there is no such file{hint}")
@@ -135,7 +135,7 @@ def _container_of_file(
     ending = path.suffix.lower()
     if is_folder(path):
         raise ReadError(source, f"is a folder; a container is {_FORMS}")
-    if ending == ".svg":
+    if ending in {".svg", ".svgz"}:
         data = read_bytes(path, MAX_BYTES)
         return container_of_svg(data, stem(path), source, side, reading)
     if ending in PICTURE_ENDINGS:

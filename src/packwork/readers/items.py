@@ -12,6 +12,7 @@ from typing import TypeAlias
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
 from packwork.readers.files import exists, is_folder
+from packwork.readers.folders import Listing, listed, matched
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import Read, agreed
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
@@ -25,6 +26,7 @@ _LOG = logging.getLogger("packwork")
 
 _READERS: dict[str, Callable[[str, Holes, ReadOptions], Read]] = {
     ".svg": read_svg,
+    ".svgz": read_svg,
     **dict.fromkeys(PICTURE_ENDINGS, read_picture),
 }
 
@@ -118,12 +120,11 @@ def _read_source(source: str, asked: _Asked) -> _Found:
     if is_folder(path):
         if source in {ALL_ICONS, *item_names()}:
             _LOG.warning("%s: the folder here is meant; %s%s is bundled", source, BUILTIN, source)
-        return _read_many(source, _files_in(path), asked)
+        return _read_many(source, listed(path, _READERS), asked)
     if path.suffix.lower() in _READERS and (exists(path) or not glob.has_magic(source)):
         return [asked.read(source)], []
     if glob.has_magic(source):
-        matches = sorted(f for f in glob.glob(source) if _is_readable(Path(f)))  # noqa: PTH207
-        return _read_many(source, matches, asked)
+        return _read_many(source, matched(source, _READERS), asked)
     if exists(path) or len(path.parts) > 1:
         raise ReadError(source, _why_not(path))
     return _built_in(source, asked)
@@ -134,10 +135,12 @@ def _built_in(name: str, asked: _Asked) -> _Found:
     return [Read(builtin_item(n, asked.holes)) for n in names], []
 
 
-def _read_many(source: str, files: list[str], asked: _Asked) -> _Found:
+def _read_many(source: str, listing: Listing, asked: _Asked) -> _Found:
+    if asked.strict and listing.unread:
+        raise listing.unread[0]
     reads: list[Read] = []
     skipped: list[ReadError] = []
-    for file in files:
+    for file in listing.files:
         try:
             reads.append(asked.read(file))
         except ReadError as error:
@@ -145,22 +148,11 @@ def _read_many(source: str, files: list[str], asked: _Asked) -> _Found:
                 raise
             skipped.append(error)
     if not reads:
-        raise ReadError(source, _why_none(skipped))
+        raise ReadError(source, _why_none([*skipped, *listing.unread]))
     for refusal in skipped:
         _LOG.warning("left out %s", refusal)
-    return reads, skipped
-
-
-def _files_in(folder: Path) -> list[str]:
-    try:
-        return sorted(str(file) for file in folder.iterdir() if _is_readable(file))
-    except OSError as error:
-        raise ReadError(folder, f"cannot be opened: {error.strerror}") from None
-
-
-def _is_readable(path: Path) -> bool:
-    is_shown = not path.name.startswith(".")
-    return is_shown and path.suffix.lower() in _READERS and path.is_file()
+    listing.tell(source)
+    return reads, [*skipped, *listing.unread]
 
 
 def _why_not(path: Path) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+import zlib
 from xml.sax.saxutils import escape, quoteattr
 
 from packwork.readers.gate.expansion import bound_expansion, check_size
@@ -16,6 +17,7 @@ MAX_BYTES = 20_000_000
 """Size of an SVG file. Drawings for packing have kilobytes. Chosen."""
 
 _GZIP = b"\x1f\x8b"
+_GZIP_BITS = 31
 _NAMESPACES = 'xmlns="http://www.w3.org/2000/svg"'
 _LINKS = 'xmlns:xlink="http://www.w3.org/1999/xlink"'
 
@@ -23,8 +25,9 @@ _LINKS = 'xmlns:xlink="http://www.w3.org/1999/xlink"'
 def admit(data: bytes) -> ET.Element:
     """Clean root of an SVG file's bytes: tags and attributes without namespaces.
 
-    The tree holds only known elements, its styles are attributes, its references are
-    local and lead somewhere, and following them all leaves it at a sane size.
+    Compressed ones (``.svgz``) are unpacked first. The tree holds only known elements, its
+    styles are attributes, its references are local and lead somewhere, and following them all
+    leaves it at a sane size.
 
     Raises
     ------
@@ -40,7 +43,7 @@ def admit(data: bytes) -> ET.Element:
     if not data.strip():
         raise UnfitError("is empty; give a drawing with at least one shape")
     if data.startswith(_GZIP):
-        raise UnfitError("is a compressed SVG (.svgz); unpack it first")
+        data = _unpacked(data)
     if len(data) > MAX_BYTES:
         raise UnfitError(
             f"has {len(data) // 1_000_000} MB; {MAX_BYTES // 1_000_000} MB are the most for an SVG"
@@ -54,6 +57,18 @@ def admit(data: bytes) -> ET.Element:
     prune_unused(root)
     bound_expansion(root)
     return root
+
+
+def _unpacked(data: bytes) -> bytes:
+    """Content of a compressed SVG, no more of it than is read."""
+    unpacking = zlib.decompressobj(wbits=_GZIP_BITS)
+    try:
+        plain = unpacking.decompress(data, MAX_BYTES + 1)
+    except zlib.error:
+        raise UnfitError("is a broken compressed SVG (.svgz); save it again") from None
+    if not unpacking.eof and len(plain) <= MAX_BYTES:
+        raise UnfitError("is a compressed SVG (.svgz) that is cut short; save it again")
+    return plain
 
 
 def serialised(element: ET.Element) -> str:

@@ -13,6 +13,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError
 from packwork.readers.files import exists, is_folder
+from packwork.readers.folders import LOOK_LIKE_PICTURES, Listing, listed, matched
 from packwork.readers.items import ItemsRead
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.photo import read_photo
@@ -23,8 +24,7 @@ MOST_AT_ONCE = 4
 """Photos decoded at a time. More need more memory: a broken header's worth of pixels each.
 Chosen."""
 
-UNREAD = (".heic", ".heif", ".avif", ".cr2", ".cr3", ".nef", ".arw", ".dng")
-"""Endings of photos that no library at hand reads."""
+_DRAWINGS = (".svg", ".svgz", ".dxf", ".pdf", ".ai", ".eps")
 
 _LOG = logging.getLogger("packwork")
 
@@ -59,7 +59,10 @@ def read_photos(options: PhotoOptions, *, strict: bool = False) -> ItemsRead:
     Traceback (most recent call last):
     packwork.errors.ReadError: no such file.jpg: there is no such file
     """
-    named = [one for source in options.sources for one in _files(source)]
+    unread: list[ReadError] = []
+    named = [one for source in options.sources for one in _files(source, unread)]
+    if strict and unread:
+        raise unread[0]
     # Pillow's own notices are of no use to whoever only wants a collage; and threads may
     # not set aside warnings each for itself.
     with warnings.catch_warnings(), ThreadPoolExecutor(_threads()) as threads:
@@ -78,7 +81,7 @@ def read_photos(options: PhotoOptions, *, strict: bool = False) -> ItemsRead:
         raise skipped[0]
     for refusal in skipped:
         _LOG.warning("left out %s", refusal)
-    return ItemsRead(tuple(items), tuple(skipped))
+    return ItemsRead(tuple(items), (*skipped, *unread))
 
 
 def _reading(options: PhotoOptions) -> Callable[[_Named, int], Item | ReadError]:
@@ -95,26 +98,24 @@ def _threads() -> int:
     return min(MOST_AT_ONCE, os.cpu_count() or 1)
 
 
-def _files(source: str) -> list[_Named]:
+def _files(source: str, unread: list[ReadError]) -> list[_Named]:
+    """Files of a source; what only looks like photos is added to ``unread``."""
     path = Path(source)
     if is_folder(path):
-        found = sorted(str(file) for file in path.iterdir() if _is_photo(file))
-        return _several(source, found)
+        return _several(source, listed(path, PICTURE_ENDINGS), unread)
     if glob.has_magic(source) and not exists(path):
-        return _several(source, sorted(f for f in glob.glob(source) if _is_photo(Path(f))))  # noqa: PTH207
-    if path.suffix.lower() in UNREAD:
-        raise ReadError(
-            source, f"photos that end in {path.suffix} are not read; save it as JPEG first"
-        )
+        return _several(source, matched(source, PICTURE_ENDINGS), unread)
+    ending = path.suffix.lower()
+    if ending in LOOK_LIKE_PICTURES and ending not in PICTURE_ENDINGS:
+        raise ReadError(source, f"photos that end in {ending} are not read; save it as JPEG first")
     return [_Named(source, by_itself=True)]
 
 
-def _several(source: str, files: list[str]) -> list[_Named]:
-    if not files:
+def _several(source: str, listing: Listing, unread: list[ReadError]) -> list[_Named]:
+    if not listing.files:
         raise ReadError(source, f"holds no photo; those end in {', '.join(PICTURE_ENDINGS)}")
-    return [_Named(file, by_itself=False) for file in files]
-
-
-def _is_photo(path: Path) -> bool:
-    is_shown = not path.name.startswith(".")
-    return is_shown and path.suffix.lower() in PICTURE_ENDINGS and path.is_file()
+    # Drawings among photos are no photos: nobody expects them to be read.
+    photos = [one for one in listing.unread if Path(one.file).suffix.lower() not in _DRAWINGS]
+    Listing(listing.files, photos).tell(source)
+    unread += photos
+    return [_Named(file, by_itself=False) for file in listing.files]

@@ -9,6 +9,7 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass
+from importlib.util import find_spec
 from io import BytesIO
 
 import numpy as np
@@ -40,11 +41,14 @@ held whole as coefficients, about 3 bytes each. Chosen."""
 MAX_PICTURE_BYTES = 100_000_000
 """Size of a picture file. Chosen."""
 
-FORMATS = ("PNG", "JPEG", "WEBP", "GIF", "BMP", "TIFF", "AVIF")
+_HAS_AVIF = find_spec("PIL._avif") is not None
+
+FORMATS = ("PNG", "JPEG", "WEBP", "GIF", "BMP", "TIFF", *(["AVIF"] if _HAS_AVIF else []))
 """Kinds that are opened, whatever the file's ending says."""
 
 PICTURE_ENDINGS = (
-    ".png", ".jpg", ".jpeg", ".jfif", ".webp", ".avif", ".gif", ".bmp", ".tif", ".tiff",
+    ".png", ".jpg", ".jpeg", ".jfif", ".webp", ".gif", ".bmp", ".tif", ".tiff",
+    *([".avif"] if _HAS_AVIF else []),
 )  # fmt: skip
 """Endings of files that are read as pictures, in lower case."""
 
