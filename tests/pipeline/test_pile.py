@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+import re
 from pathlib import Path
 
 import numpy as np
@@ -13,7 +14,9 @@ from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.pipeline.opening import opened
+from packwork.readers.written.read import read_written
 from packwork.scene.container import Container
+from packwork.writers.svg import SvgOptions, svg_text
 from scenes import box, disc, flat_item
 
 JAR = (
@@ -198,3 +201,35 @@ def test_items_gather_along_a_drawn_curve(tmp_path: Path) -> None:
     file.write_text(JAR.replace("M20 30V90H80V30", "M0 80L100 80"))
     run = _run("none", count=8, size="6%", canvas=600, force=f"towards {file}")
     assert abs(run.layout.poses.y.mean() - 480) < 40
+
+
+def test_a_lid_is_not_drawn() -> None:
+    tile = Container("tile", "tile", box(30, 20, 70, 80), 100.0, 100.0)
+    (jar,) = opened(tile, ["top"], None, 50.0).container.walls or ()
+    corners = {(30, 20), (30, 80), (70, 80), (70, 20)}
+    assert {tuple(point) for point in jar.round(3)} == corners
+    assert {tuple(point) for point in jar[[0, -1]].round(3)} == {(30, 20), (70, 20)}
+    rails = opened(tile, ["left", "right"], None, 50.0).container.walls or ()
+    assert sorted(set(line[:, 1].round(3)).pop() for line in rails) == [20, 80]
+    assert all(np.ptp(line[:, 1]) < 1e-3 for line in rails)
+    assert opened(tile, [], None, 50.0).container.walls is None
+
+
+def test_a_jar_shows_its_mouth_open_and_is_measured_whole(tmp_path: Path) -> None:
+    run = _run("circle", count=3, size="20%", open="top", canvas="100")
+    (wall,) = run.layout.container.walls or ()
+    assert wall[:, 1].min() == pytest.approx(10, abs=0.1)
+    text = svg_text(run.layout, SvgOptions(show_container=True))
+    path, line = re.findall(r"<(?:path|polyline)[^>]*>", text.partition('id="container"')[2])[:2]
+    assert 'stroke="none"' in path
+    assert line.startswith("<polyline")
+    (tmp_path / "jar.svg").write_text(text)
+    measured = read_written(tmp_path / "jar.svg").container
+    assert measured.outline.area == pytest.approx(run.layout.container.outline.area, rel=1e-6)
+
+
+def test_a_drawn_jar_shows_its_own_walls(tmp_path: Path) -> None:
+    (tmp_path / "jar.svg").write_text(JAR)
+    run = _run(str(tmp_path / "jar.svg"), count=4, size="10%")
+    (wall,) = run.layout.container.walls or ()
+    assert wall[[0, -1], 1] == pytest.approx([180, 180], abs=0.01)

@@ -34,6 +34,10 @@ AROUND = 0.4
 """Share of a canvas without container that items cover, as the discs that hold them. Larger
 leaves less paper about a pack, smaller more. Chosen by eye."""
 
+HAIR = 1e-6
+"""Width, as a share of the container, by which an opening is narrowed so that the walls beside
+it stay. Chosen: nothing that is seen."""
+
 SIDE_BY_SIDE = 2.2
 """Width of such a canvas at least, radii of its two largest items together: 2 hold them side by
 side with nothing round them. Chosen."""
@@ -92,7 +96,8 @@ def opened(
         _swept(gate, way * (canvas + needed / max(_breadth(gate, way), 1e-9 * canvas)))
         for gate, way in gates
     ]
-    inside = replace(container, outline=Outline.from_region(sound(_solid(whole))))
+    outline = Outline.from_region(sound(_solid(whole)))
+    inside = replace(container, outline=outline, walls=_walls(region, gates, beyond[1:]))
     return Opened(inside, Outline.from_region(sound(_solid(union([whole, *far])))))
 
 
@@ -114,6 +119,23 @@ def nowhere(size: CanvasSize | None, radii_cu: FloatArray) -> Container:
     corners = np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
     unit = "px" if size is None else size.unit
     return Container("none", "none", Outline.from_rings([corners]), width, height, unit)
+
+
+def _walls(
+    region: Region, gates: Sequence[tuple[Region, FloatArray]], beyond: Sequence[Region]
+) -> tuple[FloatArray, ...]:
+    """What is left of a region's edge where openings are taken out of it."""
+    left, top, right, bottom = region.bounds
+    hair = HAIR * max(right - left, bottom - top)
+    # Narrowed, since walls along which an opening leads lie on its edge; a gate that is a line
+    # lies there too, and is no wall.
+    narrowed = shapely.buffer(union(list(beyond)), -hair, join_style="mitre")
+    lines = [shapely.buffer(g, hair) for g, _ in gates if isinstance(g, shapely.LineString)]
+    within = union([narrowed, *lines])
+    edge = shapely.multilinestrings([np.vstack([r, r[:1]]) for r in oriented_rings(region)])
+    kept = shapely.difference(edge, within)
+    parts = shapely.get_parts(shapely.line_merge(kept))
+    return tuple(shapely.get_coordinates(part) for part in parts if part.length > 4 * hair)
 
 
 def _lid(region: Region, side: Side) -> Region:

@@ -40,9 +40,12 @@ def on_canvas(container: Container, size: CanvasSize | None) -> Container:
     behind = container.backdrop
     if behind is not None:
         behind = replace(behind, matrix=affine.compose(place, behind.matrix))
+    walls = container.walls
+    if walls is not None:
+        walls = tuple(affine.apply(place, line) for line in walls)
     return replace(
         container, outline=container.outline.mapped(place), width=width, height=height,
-        unit=size.unit, backdrop=behind,
+        unit=size.unit, backdrop=behind, walls=walls,
     )  # fmt: skip
 
 

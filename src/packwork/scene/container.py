@@ -44,6 +44,8 @@ class Container:
         What one canvas unit is; px are 96 to the inch.
     backdrop
         The picture whose quiet part this is, if it is one's.
+    walls
+        Lines that are drawn of it, each ``(n, 2)``, where it has openings; None: its outline.
     """
 
     name: str
@@ -53,6 +55,7 @@ class Container:
     height: float
     unit: Unit = "px"
     backdrop: Backdrop | None = None
+    walls: tuple[FloatArray, ...] | None = None
 
     @property
     def canvas(self) -> dict[str, float | str]:

@@ -67,10 +67,19 @@ def path_data(outline: Outline, digits: int) -> str:
     >>> path_data(Outline.from_rings([np.array([[0, 0], [2, 0], [2, 1.5]])]), 3)
     'M0 0 2 0 2 1.5Z'
     """
-    return "".join(
-        "M" + " ".join([number(v, digits) for v in ring.ravel().tolist()]) + "Z"
-        for ring in outline.rings
-    )
+    return "".join(f"M{points_text(ring, digits)}Z" for ring in outline.rings)
+
+
+def points_text(points: FloatArray, digits: int) -> str:
+    """Coordinates ``(n, 2)`` one after another.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> points_text(np.array([[0, 0], [2, 1.5]]), 3)
+    '0 0 2 1.5'
+    """
+    return " ".join([number(v, digits) for v in points.ravel().tolist()])
 
 
 def xml_text(text: str) -> str:

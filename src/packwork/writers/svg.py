@@ -26,7 +26,15 @@ from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.labels import item_ids, labelled
 from packwork.writers.live import LiveWords
 from packwork.writers.marks import element, paint, shape_key, with_fresh_ids
-from packwork.writers.notation import attributes, decimals, matrix_text, number, path_data, xml_text
+from packwork.writers.notation import (
+    attributes,
+    decimals,
+    matrix_text,
+    number,
+    path_data,
+    points_text,
+    xml_text,
+)
 from packwork.writers.promise import promised, stated_weights
 
 PRECISION = 1e-7
@@ -283,7 +291,12 @@ def _container(layout: Layout, shown: bool, digits: int) -> list[str]:
             "display": "" if shown else "none",
         }
     )
-    return [f"<g{head}>", f'<path d="{path_data(container.outline, digits)}"/>', "</g>"]
+    outline = path_data(container.outline, digits)
+    if container.walls is None:
+        return [f"<g{head}>", f'<path d="{outline}"/>', "</g>"]
+    # The path is what items lie in, and is measured; seen are the walls.
+    lines = [f'<polyline points="{points_text(line, digits)}"/>' for line in container.walls]
+    return [f"<g{head}>", f'<path stroke="none" d="{outline}"/>', *lines, "</g>"]
 
 
 def _notes(layout: Layout) -> list[str]:

@@ -9,7 +9,7 @@ from __future__ import annotations
 import base64
 import json
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,6 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import WriteError
 from packwork.geometry import affine
-from packwork.geometry.outline import Outline
 from packwork.raster.overlay import FINENESS
 from packwork.scene.colour import Colour, css_colour
 from packwork.scene.item import FlatArt, Item
@@ -81,7 +80,7 @@ class _Scene:
         name = item.label.name or item.name
         tell((k + 1) / len(self._items))
         if isinstance(item.art, FlatArt):
-            shapes = [_group(item.ink, _fill(css_colour(item.art.fill)))]
+            shapes = [_group(item.ink.rings, _fill(css_colour(item.art.fill)))]
             moved = _transform(frames[at], at, self._frame.px_per_cu)
             return {"ty": _SHAPE, "nm": name, "ks": moved, "shapes": shapes}
         anchor, scale = self._picture(item)
@@ -115,7 +114,9 @@ def _under(film: Film, frame: Frame) -> list[Json]:
     still = _still([0, 0], 100 * frame.px_per_cu)
     if film.show_container:
         line = _stroke(css_colour(CONTAINER_STROKE), CONTAINER_STROKE_SHARE * container.side)
-        shapes = [_group(container.outline, line)]
+        shapes = [_group(container.outline.rings, line)]
+        if container.walls is not None:
+            shapes = [_group(container.walls, line, is_closed=False)]
         layers.append({"ty": _SHAPE, "nm": "container", "ks": still, "shapes": shapes})
     colour = parse_colour("background", film.background)
     if colour[3]:
@@ -184,16 +185,16 @@ def _fixed(value: float | list[float]) -> Json:
     return {"a": 0, "k": value}
 
 
-def _group(outline: Outline, style: Json) -> Json:
-    paths = [{"ty": "sh", "ks": _fixed_path(ring)} for ring in outline.rings]
+def _group(lines: Iterable[FloatArray], style: Json, *, is_closed: bool = True) -> Json:
+    paths = [{"ty": "sh", "ks": _fixed_path(line, is_closed)} for line in lines]
     moved = {"ty": "tr", **_still([0, 0], 100)}
     return {"ty": "gr", "it": [*paths, style, moved]}
 
 
-def _fixed_path(ring: FloatArray) -> Json:
-    corners = [_rounded(point) for point in ring]
+def _fixed_path(line: FloatArray, is_closed: bool) -> Json:
+    corners = [_rounded(point) for point in line]
     straight = [[0, 0]] * len(corners)
-    return {"a": 0, "k": {"c": True, "v": corners, "i": straight, "o": straight}}
+    return {"a": 0, "k": {"c": is_closed, "v": corners, "i": straight, "o": straight}}
 
 
 def _fill(colour: Colour) -> Json:
