@@ -38,6 +38,9 @@ class FinishOptions(Options):
     turn_limit: Annotated[float, Field(ge=0)] | None = None
     """Largest turn from upright, rad; None for any."""
 
+    leans: tuple[float, ...] | None = None
+    """With a limit: least tilt of each item, rad, to the side of its sign; 0 for either side."""
+
     rounds: Annotated[int, Field(ge=1, le=10_000)] = 24
     """Linear programmes of each item in one compaction. More fills a little better."""
 

@@ -11,6 +11,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.finish._kernels import LEAST_GROWTH, Wishes
 from packwork.finish.options import FinishOptions
+from packwork.scene.leaning import turn_sides
 from packwork.scene.pose import Poses
 
 LAGGARD = 0.05
@@ -180,7 +181,9 @@ def turn_ranges(angle: FloatArray, options: FinishOptions) -> tuple[FloatArray, 
     if options.turn_limit is None or options.turn_limit >= math.pi:
         return np.full_like(angle, -np.inf), np.full_like(angle, np.inf)
     upright = np.remainder(angle + math.pi, 2 * math.pi) - math.pi
-    back, on = -options.turn_limit - upright, options.turn_limit - upright
+    leans = np.zeros_like(angle) if options.leans is None else np.array(options.leans)
+    low, high = turn_sides(options.turn_limit, leans)
+    back, on = low - upright, high - upright
     return np.minimum(back, 0.0), np.maximum(on, 0.0)
 
 

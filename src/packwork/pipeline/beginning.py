@@ -15,6 +15,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.given import given_scales
 from packwork.pipeline.job import Job
+from packwork.pipeline.leaning import job_leanings
 from packwork.pipeline.limiting import check_poses, held_to, item_limits, pinned_scales
 from packwork.pipeline.matching import matched
 from packwork.pipeline.placing import first_places, needs_levels
@@ -168,6 +169,11 @@ def first_angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> F
         return nearest_allowed(earlier.angle[items], *bounds)
 
     angles = allowed(job.recipe.rotation, np.arange(len(job.items))).copy()
+    leans = job_leanings(job)
+    if leans is not None and job.recipe.rotation.limit is not None:
+        # As far beyond its least tilt as any other turn from upright, but to its own side.
+        rest = np.abs(angles) * (1 - np.abs(leans) / job.recipe.rotation.limit)
+        angles = np.where(leans == 0, angles, leans + np.sign(leans) * rest)
     for k, one in enumerate(job.asked):
         if one.rotation is not None:
             angles[k] = allowed(one.rotation, np.array([k]))[0]

@@ -17,6 +17,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, union
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.job import Job
+from packwork.pipeline.leaning import job_leanings
 from packwork.pipeline.outcome import Unplaced
 from packwork.pipeline.settling import settled
 from packwork.pipeline.staying import needs_no_levels
@@ -177,6 +178,7 @@ def _options(
 ) -> FinishOptions:
     recipe, rotation = job.recipe, job.recipe.rotation
     turning, limit = not rotation.is_still, rotation.limit
+    leans = job_leanings(job)
     if start.limits is not None:
         # One bound for all of a group: the narrowest that a rule gives.
         turning = turning and bool(np.isnan(start.limits.angle[items]).all())
@@ -191,6 +193,7 @@ def _options(
         largest=tuple(largest.tolist()),
         turning=turning,
         turn_limit=limit if turning else None,
+        leans=None if leans is None or not turning else tuple(leans[items].tolist()),
         trials=0 if recipe.stay or is_settled else trials_for(job, len(items)),
         relieving=not is_settled,
         refining=needs_no_levels(job),

@@ -16,6 +16,7 @@ from packwork.pipeline.beginning import Beginning, begin
 from packwork.pipeline.finishing import finished
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
+from packwork.pipeline.leaning import job_leanings
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
 from packwork.pipeline.padding import check_found, check_padding, padded
 from packwork.pipeline.recording import Recorder
@@ -185,6 +186,9 @@ def _solve_options(job: Job, padding: float) -> SolveOptions:
     """Options of the solve, with levels fine enough for the items unless they were given."""
     recipe, container = job.recipe, job.container
     options = recipe.solve_options(padding, job.seconds_left(LEVELS_SHARE))
+    leans = job_leanings(job)
+    if leans is not None:
+        options = options.model_copy(update={"leans": tuple(leans.tolist())})
     if recipe.levels is not None or recipe.preset != "default":
         return options
     levels = refined_levels(options.levels, container.side, container.outline.area, len(job.items))

@@ -14,8 +14,10 @@ from packwork.forces.forces import PRESSURE, FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
+from packwork.pipeline.leaning import job_leanings
 from packwork.progress import Stop, never, until_over
 from packwork.scene.container import Container
+from packwork.scene.leaning import turn_sides
 from packwork.scene.limits import Limits
 from packwork.start.angles import spread_angles
 from packwork.start.first_fit.first_fit import first_fit
@@ -136,6 +138,7 @@ def _fields(job: Job) -> Sequence[FieldForce]:
 def _angles(job: Job, first: FloatArray, limits: Limits | None) -> list[FloatArray]:
     """For each item the angles to try; the first alone where it must be kept."""
     rng = np.random.default_rng(job.recipe.seed)
+    leans = job_leanings(job)
     found = []
     for k, one in enumerate(job.asked):
         rotation = one.rotation or job.recipe.rotation
@@ -144,5 +147,8 @@ def _angles(job: Job, first: FloatArray, limits: Limits | None) -> list[FloatArr
             found.append(first[k : k + 1])
         else:
             number = ANY_ANGLES if rotation.limit is None else ANGLES
-            found.append(spread_angles(number, rotation.limit, rng))
+            spread = spread_angles(number, rotation.limit, rng)
+            if leans is not None and leans[k] and rotation.limit is not None:
+                spread = np.clip(spread, *turn_sides(rotation.limit, np.full(number, leans[k])))
+            found.append(spread)
     return found

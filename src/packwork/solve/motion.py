@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.scene.leaning import turn_sides
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.adam import Adam
@@ -46,7 +47,9 @@ class Motion:
         self._shape = np.log(poses.stretch)
         bound = np.log(options.size_ratio)
         self._growth_range: tuple[FloatArray | float, FloatArray | float] = (-bound, bound)
-        self._turn_limit: FloatArray | float | None = options.turn_limit
+        self._turn_range: tuple[FloatArray | float, FloatArray | float] | None = None
+        if options.turn_limit is not None:
+            self._bound_turns(options.turn_limit)
         self._free: FloatArray | None = None
         self.floor: FloatArray | None = None
         """``(n,)`` logarithms of growth that shared sizes do not fall below; None for any."""
@@ -73,15 +76,19 @@ class Motion:
         self.y += move[:, 1]
         if options.turn_rate > 0:
             self.angle += self._turns.step(gradient[:, 2:3], options.turn_rate * factor)[:, 0]
-            if self._turn_limit is not None:
-                np.clip(self.angle, -self._turn_limit, self._turn_limit, out=self.angle)
+            if self._turn_range is not None:
+                np.clip(self.angle, *self._turn_range, out=self.angle)
         self._resize(gradient[:, 3:4], options.size_rate * factor)
         if options.stretch > 1:
             self._reshape(gradient[:, 4:5], options.stretch_rate * factor)
 
+    def _bound_turns(self, limit: FloatArray | float) -> None:
+        leans = self._options.leans
+        self._turn_range = (-limit, limit) if leans is None else turn_sides(limit, np.array(leans))
+
     def _bound_items(self, limits: Limits) -> None:
         self._free = np.logical_not(limits.held).astype(np.float64)
-        self._turn_limit = limits.turn_limit
+        self._bound_turns(limits.turn_limit)
         if self._options.sizes == "free":
             low, high = np.log(limits.smallest), np.log(limits.largest)
             self._growth_range = (low - self._nominal, high - self._nominal)

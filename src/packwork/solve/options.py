@@ -69,6 +69,9 @@ class SolveOptions(Options):
     turn_limit: Annotated[float, Field(gt=0)] | None = None
     """Largest turn from upright, rad; None for any."""
 
+    leans: tuple[float, ...] | None = None
+    """With a limit: least tilt of each item, rad, to the side of its sign; 0 for either side."""
+
     position_rate: Annotated[float, Field(gt=0, le=1)] = 0.022
     """Longest move in the first epoch, as a share of the canvas' longer side. Larger
     mixes the items more, smaller keeps the start. Tried."""
