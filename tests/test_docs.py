@@ -35,7 +35,7 @@ PARAMETERS = [
     for parameter in command.params
 ]
 WRITING_OPTIONS = {
-    "output", "pixels", "background", "show_container", "flatten", "report", "diagnose",
+    "output", "pixels", "background", "show_container", "flatten", "halo", "report", "diagnose",
     "cut", "kiss_cut", "bleed", "save_recipe", "no_clobber", "quiet", "loss", "show_saliency",
     "film", *FilmOptions.model_fields,
 }  # fmt: skip

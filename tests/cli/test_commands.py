@@ -438,3 +438,19 @@ def test_the_number_of_items_may_be_found(folder: Path, packwork: Command) -> No
     result = packwork(f"fill circle star -n auto {QUICK} -o out.geojson")
     assert item_count(folder / "out.geojson") == 20
     assert "auto chose 20 items" in result.stdout
+
+
+def test_items_like_the_background_are_named_and_may_have_rims(
+    folder: Path, packwork: Command
+) -> None:
+    (folder / "ghost.svg").write_text(
+        '<svg viewBox="0 0 9 9"><circle cx="4" cy="4" r="4" fill="#f7f7f7"/></svg>',
+        encoding="utf-8",
+    )
+    quick = "--epochs 3 --levels 16 -n 4"
+    plain = packwork(f"fill circle ghost.svg {quick} -o out.svg")
+    assert "4 items are hardly to be seen on white (ghost)" in plain.stdout
+    rims = packwork(f"fill circle ghost.svg {quick} --halo faint -o rims.svg")
+    assert "hardly to be seen" not in rims.stdout
+    assert 'id="halos"' in (folder / "rims.svg").read_text(encoding="utf-8")
+    assert "hardly" not in packwork(f"fill circle ghost.svg {quick} -o out.dxf").stdout

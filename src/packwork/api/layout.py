@@ -93,6 +93,7 @@ class Layout(scene.Layout):
         cut: writers.CutLine | None = None,
         kiss_cut: str | float | None = None,
         bleed: str | float | None = None,
+        halo: writers.HaloChoice = "none",
     ) -> None:
         """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
 
@@ -117,6 +118,8 @@ class Layout(scene.Layout):
             item; or at a distance round each, as ``"2mm"``.
         bleed
             What a PDF's background reaches beyond the canvas, as ``"3mm"``.
+        halo
+            A rim round ``faint`` items, those hardly to be seen on the background, or ``all``.
 
         Raises
         ------
@@ -133,7 +136,7 @@ class Layout(scene.Layout):
         """
         options = writers.write_options(
             pixels=pixels, dpi=dpi, background=background, show_container=show_container,
-            flatten=flatten, text=text, cut=cut, kiss_cut=kiss_cut, bleed=bleed,
+            flatten=flatten, text=text, cut=cut, kiss_cut=kiss_cut, bleed=bleed, halo=halo,
         )  # fmt: skip
         writers.write(self, path, options)
 

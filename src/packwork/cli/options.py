@@ -148,6 +148,15 @@ ShowContainer = Annotated[
     bool,
     typer.Option("--show-container", help="Draw the container's line.", rich_help_panel=WRITING),
 ]
+Halo = Annotated[
+    Literal["none", "faint", "all"],
+    typer.Option(
+        "--halo",
+        help="A rim that makes items stand out from the background, in SVG, PNG, JPEG and PDF: "
+        "faint (of those that are hardly to be seen on it) or all.",
+        rich_help_panel=WRITING,
+    ),
+]
 Flatten = Annotated[
     bool,
     typer.Option(

@@ -86,6 +86,7 @@ def photos(
     pixels: shared.Pixels = 1_600,
     dpi: shared.Dpi = None,
     background: shared.Background = None,
+    halo: shared.Halo = "none",
     show_container: shared.ShowContainer = False,
     cut: shared.Cut = None,
     kiss_cut: shared.KissCut = None,
@@ -161,7 +162,7 @@ def photos(
         )
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
-            pixels=pixels, dpi=dpi, background=background, show_container=show_container,
+            pixels=pixels, dpi=dpi, background=background, halo=halo, show_container=show_container,
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
             no_clobber=no_clobber,

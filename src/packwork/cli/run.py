@@ -60,6 +60,7 @@ def run(
     ] = False,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
+    halo: shared.Halo = "none",
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     text: shared.Text = "outlines",
@@ -101,7 +102,8 @@ def run(
         asked = make_recipe(**overridden(options, changes))
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
-            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            pixels=pixels, background=background, halo=halo,
+            show_container=show_container, flatten=flatten,
             text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=asked.film, no_clobber=no_clobber,
             cut=cut, kiss_cut=kiss_cut, bleed=bleed,

@@ -43,6 +43,9 @@ from packwork.writers.film.options import FilmOptions
 MOST_NAMED = 5
 """Items without a place that are named on the terminal; a report names all. Chosen."""
 
+DRAWN = (".svg", ".png", ".jpg", ".jpeg", ".pdf")
+"""Endings of files that people look at."""
+
 COMPILING = "Compiling the kernels: once after each installation, up to 40 s ..."
 
 
@@ -154,6 +157,7 @@ def outputs_asked(
     cut: writers.CutLine | None = None,
     kiss_cut: str | None = None,
     bleed: str | None = None,
+    halo: writers.HaloChoice = "none",
     film: Sequence[Path] | None = None,
     recipes: FilmOptions | None = None,
     **filming: Any,
@@ -168,7 +172,7 @@ def outputs_asked(
         As in :class:`Outputs`.
     no_clobber
         Refuse files that are there already.
-    pixels, dpi, background, show_container, flatten, text, cut, kiss_cut, bleed
+    pixels, dpi, background, show_container, flatten, text, cut, kiss_cut, bleed, halo
         How layouts are drawn, and films but for their size.
     film
         Films; None for none.
@@ -181,6 +185,7 @@ def outputs_asked(
             pixels=pixels,
             dpi=dpi,
             background=background,
+            halo=halo,
             show_container=show_container,
             flatten=flatten,
             text=text,
@@ -232,6 +237,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         drawn, undrawn = _drawn(run, outputs)
         written = [*drawn, *saved, *films]
         results = run.report(time.perf_counter() - began)
+        results["advice"] += _hard_to_see(run, outputs)
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
         replaced = {path for path, _ in written if os.path.lexists(path)}
@@ -310,6 +316,16 @@ def _drawn(
     if not drawn and failed:
         raise failed[0]
     return drawn, failed
+
+
+def _hard_to_see(run: pipeline.Run, outputs: Outputs) -> list[str]:
+    """What is said of items that are like the background, if any are drawn on one."""
+    options = outputs.options
+    is_drawn = any(path.suffix.lower() in DRAWN for path in outputs.files)
+    if options.halo != "none" or not is_drawn:
+        return []
+    told = writers.faint_told(run.layout, options.svg.background)
+    return [told] if told else []
 
 
 def _warn(run: pipeline.Run, was_cut_short: bool) -> None:

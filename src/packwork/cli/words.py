@@ -102,6 +102,7 @@ def words(
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
     background: shared.Background = None,
+    halo: shared.Halo = "none",
     show_container: shared.ShowContainer = False,
     flatten: shared.Flatten = False,
     text: shared.Text = "outlines",
@@ -192,7 +193,8 @@ def words(
         )
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
-            pixels=pixels, background=background, show_container=show_container, flatten=flatten,
+            pixels=pixels, background=background, halo=halo,
+            show_container=show_container, flatten=flatten,
             text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
             no_clobber=no_clobber,

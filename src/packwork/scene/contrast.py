@@ -139,6 +139,18 @@ def oklab(colour: str) -> FloatArray:
     return np.asarray(_TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour)))
 
 
+def oklabs(rgb: FloatArray) -> FloatArray:
+    """The same of many colours: ``(n, 3)`` of channels 0..1 as screens have them.
+
+    Examples
+    --------
+    >>> oklabs(np.array([[1.0, 0.0, 0.0]])).round(3).tolist() == [oklab("red").round(3).tolist()]
+    True
+    """
+    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+    return np.asarray(np.cbrt(linear @ _TO_CONES.T) @ _TO_LAB.T)
+
+
 def shade(colour: str, light: float) -> FloatArray:
     """Red, green and blue, 0..1, of a colour's hue at another lightness.
 

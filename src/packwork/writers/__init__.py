@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from packwork.writers.film.film import Film, tell_nobody
     from packwork.writers.film.registry import FILMS, check_film, film_bytes
     from packwork.writers.geojson import geojson_text
+    from packwork.writers.halos import HaloChoice, faint_told
     from packwork.writers.png import PngOptions, png_bytes
     from packwork.writers.recipe import recipe_bytes
     from packwork.writers.registry import (
@@ -35,6 +36,7 @@ __all__ = [
     "WRITERS",
     "CutLine",
     "Film",
+    "HaloChoice",
     "PngOptions",
     "SvgOptions",
     "TextChoice",
@@ -46,6 +48,7 @@ __all__ = [
     "check_writable",
     "diagnose_png",
     "encoded",
+    "faint_told",
     "film_bytes",
     "geojson_text",
     "json_bytes",
@@ -66,6 +69,7 @@ _HOMES = {
     "film.film": ("Film", "tell_nobody"),
     "film.registry": ("FILMS", "check_film", "film_bytes"),
     "geojson": ("geojson_text",),
+    "halos": ("HaloChoice", "faint_told"),
     "png": ("PngOptions", "png_bytes"),
     "recipe": ("recipe_bytes",),
     "registry": (

@@ -17,6 +17,7 @@ from packwork.writers.dxf import dxf_bytes
 from packwork.writers.extras import check_extra
 from packwork.writers.frame import check_side, picture_frame, side_at
 from packwork.writers.geojson import geojson_text
+from packwork.writers.halos import HaloChoice, haloed
 from packwork.writers.jpeg import jpeg_bytes
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
@@ -43,6 +44,8 @@ class WriteOptions:
         place of their side. None: 300 for photos.
     bleed
         What a PDF's background reaches beyond the canvas on each side, a length.
+    halo
+        Which items of SVG, PNG, JPEG and PDF have a rim that makes them stand out.
 
     Raises
     ------
@@ -60,6 +63,7 @@ class WriteOptions:
     png_side_px: int = 1600
     dpi: float | None = None
     bleed: str | None = None
+    halo: HaloChoice = "none"
 
     def __post_init__(self) -> None:
         check_side(self.png_side_px)
@@ -71,12 +75,14 @@ class WriteOptions:
         return self.png_side_px if self.dpi is None else side_at(layout.container, self.dpi)
 
     def on_paper(self, layout: Layout) -> Layout:
-        """Layout whose photos are as fine as paper needs."""
-        return printed_on_paper(layout, self.dpi or DPI)
+        """Layout whose photos are as fine as paper needs, with halos."""
+        seen = haloed(layout, self.halo, self.svg.background)
+        return printed_on_paper(seen, self.dpi or DPI)
 
     def on_screen(self, layout: Layout) -> Layout:
-        """Layout whose photos are as fine as a PNG or JPEG needs."""
-        return printed(layout, SPARE * self.side_px(layout) / layout.container.side)
+        """Layout whose photos are as fine as a PNG or JPEG needs, with halos."""
+        seen = haloed(layout, self.halo, self.png.background)
+        return printed(seen, SPARE * self.side_px(layout) / layout.container.side)
 
 
 Encoder: TypeAlias = Callable[[Layout, WriteOptions], bytes]
@@ -262,6 +268,7 @@ def write_options(
     cut: CutLine | None = None,
     kiss_cut: str | float | None = None,
     bleed: str | float | None = None,
+    halo: HaloChoice = "none",
 ) -> WriteOptions:
     """Options of every format from the few that people give.
 
@@ -285,6 +292,8 @@ def write_options(
         Distance from the items of the line to cut, a length.
     bleed
         What a PDF's background reaches beyond the canvas on each side, a length.
+    halo
+        A rim round ``faint`` items, that is those like the background, round ``all`` or ``none``.
 
     Raises
     ------
@@ -310,4 +319,5 @@ def write_options(
         png_side_px=pixels,
         dpi=dpi,
         bleed=None if bleed is None else str(bleed),
+        halo=halo,
     )

@@ -15,7 +15,7 @@ from PIL import Image, UnidentifiedImageError
 
 from packwork.arrays import FloatArray
 from packwork.scene.colour import ABSENT, css_colour
-from packwork.scene.contrast import oklab, shade
+from packwork.scene.contrast import oklab, oklabs, shade
 from packwork.scene.item import Art, Item, PictureArt, VectorArt
 from packwork.writers.colours import hex_colour
 from packwork.writers.marks import with_fresh_ids
@@ -67,7 +67,7 @@ def shaded(item: Item, colour: str) -> Item:
         return np.asarray(np.interp(old, [0.0, held, 1.0], [0.0, own, 1.0]))
 
     def repaint(rgb: FloatArray) -> FloatArray:
-        light = lightness(_lab(rgb)[:, 0])
+        light = lightness(oklabs(rgb)[:, 0])
         if len(rgb) <= MOST_APART:
             light = _apart(light, own)
         return np.array([shade(colour, value) for value in light])
@@ -88,10 +88,10 @@ def in_palette(item: Item, palette: Sequence[str]) -> Item:
     True
     """
     targets = np.array([css_colour(colour)[:3] for colour in palette]) / 255
-    labs = _lab(targets)
+    labs = oklabs(targets)
 
     def repaint(rgb: FloatArray) -> FloatArray:
-        own = _lab(rgb)
+        own = oklabs(rgb)
         away = np.linalg.norm((own[:, None] - labs) * [0.5, 1.0, 1.0], axis=2)
         chroma = np.hypot(own[:, 1], own[:, 2])
         stays = (chroma < NEUTRAL) & ((own[:, 0] < DARK) | (own[:, 0] > LIGHT))
@@ -191,7 +191,3 @@ def _apart(light: FloatArray, own: float) -> FloatArray:
     found = np.empty_like(light)
     found[order] = spread
     return found
-
-
-def _lab(rgb: FloatArray) -> FloatArray:
-    return np.array([oklab(hex_colour(tuple(np.rint(255 * one).astype(int)))) for one in rgb])

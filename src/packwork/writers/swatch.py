@@ -12,7 +12,7 @@ from PIL import Image, UnidentifiedImageError
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
 from packwork.scene.colour import ABSENT, css_colour
-from packwork.scene.item import FlatArt, Item, PhotoArt, VectorArt
+from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.writers.colours import hex_colour
 from packwork.writers.notation import attributes, matrix_text
 
@@ -52,12 +52,20 @@ def representative_colour(item: Item) -> str:
     if isinstance(art, FlatArt):
         return _solid(art.fill) or NEUTRAL
     if isinstance(art, VectorArt):
-        return _drawn(art, item.ink) or _most_named(art.markup)
+        png = _drawn(art, item.ink)
+        return (None if png is None else _mean_shown(png)) or _most_named(art.markup)
     return _mean_shown(art.png) or NEUTRAL
 
 
-def _drawn(art: VectorArt, ink: Outline) -> str | None:
-    """Mean colour of a small rendering; nothing of what is empty, or dear to render."""
+def small_png(item: Item) -> bytes | None:
+    """Small picture of a drawing, or its own of a picture; None of what is dear to render."""
+    if isinstance(item.art, VectorArt):
+        return _drawn(item.art, item.ink)
+    return item.art.png if isinstance(item.art, PictureArt) else None
+
+
+def _drawn(art: VectorArt, ink: Outline) -> bytes | None:
+    """Small rendering; nothing of what is empty, or dear to render."""
     if "<text" in art.markup:  # fonts take longer to look up than all else
         return None
     left, top, right, bottom = ink.bounds
@@ -66,7 +74,7 @@ def _drawn(art: VectorArt, ink: Outline) -> str | None:
     view = {"viewBox": f"{left!r} {top!r} {right - left!r} {bottom - top!r}"}
     placed = f"<g{attributes({'transform': matrix_text(art.matrix)})}>{art.markup}</g>"
     try:
-        return _mean_shown(drawn_png(f"<svg {_SPACES}{attributes(size | view)}>{placed}</svg>"))
+        return drawn_png(f"<svg {_SPACES}{attributes(size | view)}>{placed}</svg>")
     except ValueError:
         return None
 

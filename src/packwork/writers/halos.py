@@ -1,0 +1,158 @@
+"""Items that can hardly be seen on a background: which, on what they could, and their halos."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Literal, TypeAlias
+
+import numpy as np
+from PIL import Image
+from scipy import ndimage
+
+from packwork.arrays import BoolArray, FloatArray
+from packwork.scene.contrast import oklabs
+from packwork.scene.item import FlatArt, Item, PhotoArt
+from packwork.scene.layout import Layout
+from packwork.writers.colours import hex_colour, parse_colour
+from packwork.writers.marks import shape_key
+from packwork.writers.swatch import small_png
+
+HaloChoice: TypeAlias = Literal["none", "faint", "all"]
+"""Which items have a rim that makes them stand out from the background."""
+
+PAPER = "#ffffff"
+"""What a clear background is taken for."""
+
+ALIKE = 0.1
+"""Difference of two colours (Oklab) below which one is hardly seen on the other. Larger blames
+pale yellow on white, smaller passes a grey ghost. By eye, of 100 emoji."""
+
+MOST_ALIKE = 0.5
+"""Share of an item's edge that may be so before the whole is hard to see. Chosen by eye."""
+
+EDGE_PX = 2
+"""Width of what counts as the edge in the small picture that is looked at. Chosen."""
+
+MOST_DRAWINGS = 300
+"""Different drawings that are looked at, the largest first: each takes some milliseconds."""
+
+GROUNDS = ("#ffffff", "#f4ecd8", "#f0cf95", "#c99a6b", "#2f3e55", "#12181f")
+"""Backgrounds that may be proposed, from light to dark. Chosen by eye."""
+
+RIM_ON_LIGHT, RIM_ON_DARK = "#5f6b7a", "#f4f1ea"
+"""Colours of halos. Chosen by eye."""
+
+_LIGHT = 0.6
+"""Lightness (Oklab) from which a background takes dark rims. Chosen."""
+
+_SOLID = 128
+
+
+def faint_items(layout: Layout, background: str | None) -> tuple[Item, ...]:
+    """Items of a layout, each drawing once, whose edges are like the background.
+
+    Words are made to be read anyway, photographs are as they are, and where a picture is behind
+    it decides: none of these is looked at.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.pose import Poses
+    >>> tile = Outline.from_rings([[[-1, -1], [1, -1], [1, 1], [-1, 1]]])
+    >>> items = [Item(c, "", tile, tile, FlatArt(c)) for c in ("ivory", "black")]
+    >>> two = np.ones(2)
+    >>> layout = Layout(Container("", "", tile, 4, 4), tuple(items), Poses(two, two, two, two), two)
+    >>> [[item.name for item in faint_items(layout, paper)] for paper in (None, "#111")]
+    [['ivory'], ['black']]
+    """
+    if layout.container.backdrop is not None:
+        return ()
+    ground = _ground(background)
+    return tuple(one for one, edge in _edges(layout) if _is_faint(edge, ground))
+
+
+def haloed(layout: Layout, choice: HaloChoice, background: str | None) -> Layout:
+    """Layout whose items have halos as chosen; those that they have stay."""
+    if choice == "none" or layout.container.backdrop is not None:
+        return layout
+    faint = {shape_key(item) for item in faint_items(layout, background)}
+    rim = RIM_ON_LIGHT if _ground(background)[0] >= _LIGHT else RIM_ON_DARK
+    items = tuple(
+        replace(item, halo=item.halo or rim)
+        if choice == "all" or shape_key(item) in faint
+        else item
+        for item in layout.items
+    )
+    return replace(layout, items=items)
+
+
+def faint_told(layout: Layout, background: str | None) -> str:
+    """One sentence that names items hard to see, and what would do; empty if there are none."""
+    faint = faint_items(layout, background)
+    if not faint:
+        return ""
+    keys = {shape_key(item) for item in faint}
+    count = sum(shape_key(item) in keys for item in layout.items)
+    names = list(dict.fromkeys(item.name for item in faint))
+    shown = ", ".join(names[:3]) + (", ..." if len(names) > 3 else "")
+    ground = "white" if background is None else background
+    better = _better_ground(layout, background)
+    instead = "" if better is None else f"--background '{better}' or "
+    many = "1 item is" if count == 1 else f"{count} items are"
+    return f"{many} hardly to be seen on {ground} ({shown}); {instead}--halo faint would show them"
+
+
+def _better_ground(layout: Layout, background: str | None) -> str | None:
+    """The nearest background on which nothing is hard to see; else that with the fewest."""
+    own = _ground(background)
+    edges = [edge for _, edge in _edges(layout)]
+
+    def faint_on(colour: str) -> int:
+        return sum(_is_faint(edge, _ground(colour)) for edge in edges)
+
+    nearest = sorted(GROUNDS, key=lambda c: abs(float(_ground(c)[0] - own[0])))
+    best = min(nearest, key=faint_on)
+    now = sum(_is_faint(edge, own) for edge in edges)
+    return best if faint_on(best) < now / 2 else None
+
+
+def _edges(layout: Layout) -> list[tuple[Item, FloatArray]]:
+    """Each drawing once, the largest first, with the colours of its edge (Oklab)."""
+    found: dict[int, Item] = {}
+    order = np.argsort(-layout.areas, kind="stable")
+    for item in (layout.items[k] for k in order):
+        if item.text is None and not isinstance(item.art, PhotoArt) and not item.halo:
+            found.setdefault(shape_key(item), item)
+    looked = list(found.values())[:MOST_DRAWINGS]
+    edges = [(item, _edge(item)) for item in looked]
+    return [(item, edge) for item, edge in edges if len(edge)]
+
+
+def _edge(item: Item) -> FloatArray:
+    """``(n, 3)`` colours along an item's edge; none if they cannot be told."""
+    if isinstance(item.art, FlatArt):
+        red, green, blue, opacity = parse_colour("fill", item.art.fill)
+        return oklabs(np.array([[red, green, blue]]) / 255)[: 1 if opacity >= _SOLID else 0]
+    png = small_png(item)
+    if png is None:
+        return np.zeros((0, 3))
+    with Image.open(io.BytesIO(png)) as picture:
+        pixels = np.asarray(picture.convert("RGBA"))
+    solid: BoolArray = np.pad(pixels[..., 3] >= _SOLID, 1)
+    inner = ndimage.binary_erosion(solid, iterations=EDGE_PX)
+    return oklabs(pixels[(solid & ~inner)[1:-1, 1:-1]][:, :3] / 255)
+
+
+def _is_faint(edge: Sequence[FloatArray] | FloatArray, ground: FloatArray) -> bool:
+    away = np.linalg.norm(np.asarray(edge) - ground, axis=1)
+    return bool((away < ALIKE).mean() > MOST_ALIKE)
+
+
+def _ground(background: str | None) -> FloatArray:
+    red, green, blue, opacity = parse_colour("background", background or PAPER)
+    solid = hex_colour((red, green, blue)) if opacity >= _SOLID else PAPER
+    channels = parse_colour("background", solid)[:3]
+    return np.asarray(oklabs(np.array([channels]) / 255)[0])

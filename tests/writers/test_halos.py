@@ -1,0 +1,98 @@
+"""Items like the background: who is named, what would do, and the rims that are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from packwork.scene.item import FlatArt, Item, VectorArt
+from packwork.scene.layout import Layout
+from packwork.scene.live_text import LiveText
+from packwork.writers.halos import faint_items, faint_told, haloed
+from packwork.writers.registry import encoded, write_options
+from scenes import box
+
+LayoutMaker = Callable[..., Layout]
+Reader = Callable[[bytes], np.ndarray]
+
+
+def flat(name: str, colour: str) -> Item:
+    return Item(name, name, box(-2, -2, 2, 2), box(-2, -2, 2, 2), FlatArt(colour))
+
+
+def drawn(name: str, inside: str, rim: str) -> Item:
+    markup = (
+        f'<path fill="{rim}" d="M-2-2h4v4h-4z"/><path fill="{inside}" d="M-1.6-1.6h3.2v3.2h-3.2z"/>'
+    )
+    return replace(flat(name, inside), art=VectorArt(markup, np.eye(2, 3)))
+
+
+@pytest.fixture
+def layout(make_layout: LayoutMaker) -> Layout:
+    items = [flat("ghost", "#f6f6f2"), flat("bat", "#15181c"), flat("apple", "#d33")]
+    return make_layout(items, [20.0, 40.0, 60.0], [30.0, 30.0, 30.0], scale=[4.0] * 3)
+
+
+def names(items: tuple[Item, ...]) -> list[str]:
+    return [item.name for item in items]
+
+
+def test_pale_ones_are_faint_on_paper_and_dark_ones_on_dark(layout: Layout) -> None:
+    assert names(faint_items(layout, None)) == ["ghost"]
+    assert names(faint_items(layout, "#0b0e12")) == ["bat"]
+    assert names(faint_items(layout, "teal")) == []
+
+
+def test_it_is_the_edge_that_tells(make_layout: LayoutMaker) -> None:
+    items = [drawn("egg", "white", "#d33"), drawn("eye", "black", "white")]
+    layout = make_layout(items, [20.0, 50.0], [30.0, 30.0], scale=[4.0, 4.0])
+    assert names(faint_items(layout, None)) == ["eye"]
+
+
+def test_words_and_what_has_a_halo_are_not_looked_at(layout: Layout) -> None:
+    ghost = layout.items[0]
+    for safe in (replace(ghost, halo="black"), replace(ghost, text=LiveText((), "", ""))):
+        assert not faint_items(replace(layout, items=(safe, *layout.items[1:])), None)
+
+
+def test_what_is_said_names_them_and_what_would_do(layout: Layout) -> None:
+    told = faint_told(layout, None)
+    assert told.startswith("1 item is hardly to be seen on white (ghost); --background '#")
+    assert told.endswith("or --halo faint would show them")
+    proposed = told.split("'")[1]
+    assert not faint_items(layout, proposed)
+    assert faint_told(layout, "teal") == ""
+
+
+def test_rims_are_drawn_round_whom_they_are_asked_for(layout: Layout) -> None:
+    halos = [
+        [bool(item.halo) for item in haloed(layout, choice, None).items]
+        for choice in ("none", "faint", "all")
+    ]
+    assert halos == [[False] * 3, [True, False, False], [True] * 3]
+    assert haloed(layout, "all", None).items[1].halo != haloed(layout, "all", "#111").items[1].halo
+
+
+@pytest.mark.parametrize("ending", ["svg", "png", "jpg", "pdf"])
+def test_every_picture_has_them(layout: Layout, ending: str) -> None:
+    without, with_rims = (
+        encoded(layout, f"out.{ending}", write_options(pixels=100, halo=choice))
+        for choice in ("none", "faint")
+    )
+    assert without != with_rims
+
+
+def test_a_rim_changes_only_what_lies_round_the_item(layout: Layout, read_picture: Reader) -> None:
+    before, after = (
+        read_picture(encoded(layout, "out.png", write_options(pixels=400, halo=choice)))
+        for choice in ("none", "faint")
+    )
+    changed = np.argwhere((before != after).any(axis=2))
+    assert len(changed) > 100
+    px = 400 / layout.container.side
+    left, right = (20 - 8) * px, (20 + 8) * px
+    assert left - 4 <= changed[:, 1].min()
+    assert changed[:, 1].max() <= right + 4
