@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import count
 
 import numpy as np
 
+from packwork.errors import RecipeError
 from packwork.finish.finish import Finished
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
@@ -22,6 +23,7 @@ from packwork.pipeline.padding import check_found, check_padding, padded
 from packwork.pipeline.recording import Recorder
 from packwork.pipeline.staying import as_it_was, calmed, needs_no_levels, with_homes
 from packwork.pipeline.trying import Turn, jobs_tried, worth
+from packwork.pipeline.upright import is_as_good, upright_job
 from packwork.progress import Observer, Stop, together
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -72,12 +74,30 @@ def placed_readably(job: Job, observer: Observer | None, stop: Stop, record: boo
     """
     job = without_hopeless(job)
     for attempt in count(1):
-        placed = _placed(job, observer, stop, record)
+        placed = _upright_if_as_good(job, observer, stop, record)
         fewer = job if stop() else with_readable(job, placed.poses, attempt)
         if fewer is job:
             break
         job = fewer
     return placed
+
+
+def _upright_if_as_good(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
+    """Poses of all items; of one by itself, its own pose if it is about as large so."""
+    plain = upright_job(job)
+    if plain is None:
+        return _placed(job, observer, stop, record)
+    first, second = (None if observer is None else Turn(observer, k, 2) for k in range(2))
+    turned = _placed(job, first, stop, record)
+    if stop() or turned.exact is None:
+        return turned
+    try:
+        upright = _placed(plain, second, stop, record)
+    except RecipeError:
+        return turned
+    if upright.exact is None or not is_as_good(upright.exact, turned.exact):
+        return turned
+    return replace(upright, job=job)
 
 
 @dataclass(frozen=True, eq=False)
