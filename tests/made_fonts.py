@@ -7,9 +7,11 @@ from __future__ import annotations
 
 import io
 import os
+from itertools import pairwise
 from pathlib import Path
 
 from fontTools.fontBuilder import FontBuilder
+from fontTools.misc.psCharStrings import T2CharString
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib import TTFont, newTable
 from fontTools.ttLib.tables.sbixGlyph import Glyph
@@ -75,6 +77,84 @@ def emoji_font(picture: bytes) -> bytes:
     table.version, table.flags, table.numStrikes = 1, 1, 1
     table.strikes = {STRIKE_PX: strike}
     builder.font["sbix"] = table
+    file = io.BytesIO()
+    builder.save(file)
+    return file.getvalue()
+
+
+def scribbled_font(points: int) -> bytes:
+    """A font whose letter a is one contour of so many points, each edge across all others."""
+    pen = TTGlyphPen(None)
+    places = [(k * 7_919 % 1_000, k * 104_729 % 997) for k in range(points)]
+    pen.moveTo(places[0])
+    for place in places[1:]:
+        pen.lineTo(place)
+    pen.closePath()
+    return _font_of_a({"a": pen.glyph()})
+
+
+def doubled_font(levels: int) -> bytes:
+    """A font whose letter a is two of a glyph, which is two of another, and so on."""
+    pen = TTGlyphPen(None)
+    pen.moveTo((0, 0))
+    for place in ((0, 500), (300, 500), (300, 0)):
+        pen.lineTo(place)
+    pen.closePath()
+    glyphs = {"g0": pen.glyph()}
+    names = [f"g{k}" for k in range(levels)] + ["a"]
+    for before, name in pairwise(names):
+        pen = TTGlyphPen(dict.fromkeys(names))
+        for shift in (0, 1):
+            pen.addComponent(before, (1, 0, 0, 1, shift, shift))
+        glyphs[name] = pen.glyph()
+    return _font_of_a(glyphs, are_boxed=False)
+
+
+def nested_font(levels: int, calls: int = 10) -> bytes:
+    """A PostScript font whose letter a calls a program that calls ten that call ten ..."""
+    builder = FontBuilder(1_000, isTTF=False)
+    builder.font.recalcBBoxes = False
+    names = [".notdef", "a"]
+    builder.setupGlyphOrder(names)
+    builder.setupCharacterMap({ord("a"): "a"})
+    builder.setupHorizontalMetrics(dict.fromkeys(names, (600, 0)))
+    builder.setupHorizontalHeader(ascent=800, descent=-200)
+    builder.setupNameTable({"familyName": "Nested", "styleName": "Regular"})
+    builder.setupOS2()
+    builder.setupPost()
+    empty = {name: T2CharString(program=["endchar"]) for name in names}
+    builder.setupCFF("Nested", {}, empty, {})
+    top = builder.font["CFF "].cff[0]
+    lines = [700, 300, -650, 310, 620, -640, -660, 50, "rlineto"]
+    for k in range(levels):
+        # A call pushes the number of the program less the bias of 107.
+        program = [k - 1 - 107, "callgsubr"] * calls if k else lines
+        top.GlobalSubrs.append(T2CharString(program=[*program, "return"]))
+    program = [0, 0, "rmoveto", levels - 1 - 107, "callgsubr", "endchar"]
+    top.CharStrings["a"] = T2CharString(
+        program=program, private=top.Private, globalSubrs=top.GlobalSubrs
+    )
+    file = io.BytesIO()
+    builder.save(file)
+    return file.getvalue()
+
+
+def _font_of_a(glyphs: dict[str, object], *, are_boxed: bool = True) -> bytes:
+    names = [".notdef", *glyphs]
+    builder = FontBuilder(1_000, isTTF=True)
+    builder.setupGlyphOrder(names)
+    builder.setupCharacterMap({ord("a"): "a"})
+    every = {".notdef": TTGlyphPen(None).glyph(), **glyphs}
+    builder.setupGlyf(every, calcGlyphBounds=are_boxed)
+    if not are_boxed:
+        builder.font.recalcBBoxes = False
+        for glyph in every.values():
+            glyph.xMin, glyph.yMin, glyph.xMax, glyph.yMax = 0, 0, 600, 500
+    builder.setupHorizontalMetrics(dict.fromkeys(names, (600, 0)))
+    builder.setupHorizontalHeader(ascent=800, descent=-200)
+    builder.setupNameTable({"familyName": "Rich", "styleName": "Regular"})
+    builder.setupOS2()
+    builder.setupPost()
     file = io.BytesIO()
     builder.save(file)
     return file.getvalue()

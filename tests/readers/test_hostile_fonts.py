@@ -17,12 +17,20 @@ from fontTools.ttLib import TTFont, newTable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+import packwork.readers.typeface.face as face_module
+from made_fonts import doubled_font, nested_font, scribbled_font
 from packwork.errors import ReadError
 from packwork.readers.text.characters import glyph_numbers
 from packwork.readers.text.container import container_of_words
 from packwork.readers.text.face import letters
 from packwork.readers.text.sfnt import MAX_FONT_BYTES
+from packwork.readers.typeface.face import Typeface
+from packwork.readers.typeface.fonts import Fonts
 from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.words.items import word_item
+from packwork.readers.words.word import Word
+from packwork.scene.live_text import FontFile, LiveText, TextRun
+from packwork.writers.embedding import embedded_fonts
 
 SECONDS_AT_MOST = 20.0
 """A bomb takes hours or all memory; the bound is that generous for slow machines."""
@@ -141,6 +149,58 @@ def test_a_glyph_made_of_a_thousand_copies_of_a_thousand_copies():
 
     with pytest.raises(UnfitError, match="more than 20,000 pieces"):
         letters(changed(TRUETYPE, nest), "a")
+
+
+RICH = {
+    "scribble": lambda: scribbled_font(15_000),
+    "small scribble": lambda: scribbled_font(1_000),
+    "doubled": lambda: doubled_font(24),
+    "nested": lambda: nested_font(10),
+    "less nested": lambda: nested_font(4),
+}
+REASON = "cross too often|more than 20,000|reaches too far|no outlines to draw"
+
+
+@pytest.mark.usefixtures("soon")
+@pytest.mark.parametrize("kind", RICH)
+def test_glyphs_that_would_take_all_memory_are_refused(kind):
+    data = RICH[kind]()
+    with pytest.raises(UnfitError, match=REASON):
+        letters(data, "a")
+    # HarfBuzz calls us back: what is raised there it passes over, and goes on.
+    with pytest.raises(UnfitError, match=REASON):
+        word_item(Word("a", 1.0), Fonts([Typeface(data, "a.otf")]))
+
+
+def test_a_glyph_that_is_too_rich_is_counted_and_not_kept():
+    face = Typeface(nested_font(10), "a.otf")
+    (glyph,) = face.shaped("a").glyphs
+    for _ in range(2):
+        with pytest.raises(UnfitError, match=r"a glyph of \d\d,\d\d\d pieces, more than 20,000"):
+            face.drawing(glyph.number)
+
+
+def test_a_glyph_of_a_few_copies_is_drawn():
+    found = letters(doubled_font(3), "a")["a"].region
+    item = word_item(Word("a", 1.0), Fonts([Typeface(doubled_font(3), "a.ttf")]))
+    assert found.area == pytest.approx(0.304 * 0.504, rel=0.05)
+    assert item.outline.area > 0
+
+
+@pytest.mark.usefixtures("soon")
+def test_a_word_that_a_font_draws_with_thousands_of_glyphs(monkeypatch):
+    monkeypatch.setattr(face_module, "MOST_GLYPHS", 3)
+    with pytest.raises(UnfitError, match="one word with more than 3 glyphs"):
+        Typeface(TRUETYPE, "a.ttf").shaped("abab")
+
+
+@pytest.mark.usefixtures("soon")
+def test_a_font_whose_programs_do_not_end_is_not_embedded():
+    font = FontFile(nested_font(10), "nested.otf")
+    run = TextRun("a", font, 0.0, 0.0, 1.0, (0.0,), 0.6)
+    found, refused = embedded_fonts([LiveText((run,), "")])
+    assert found == {}
+    assert "cannot be cut down" in refused["nested.otf"]
 
 
 @pytest.mark.usefixtures("soon")

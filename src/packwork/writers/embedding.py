@@ -10,7 +10,8 @@ import base64
 import io
 import struct
 import unicodedata
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
@@ -27,6 +28,10 @@ of them holds."""
 STEP = 2e-3
 """Share of an em by which glyphs may stand elsewhere than in the whole font: rounding of
 variable fonts. Smaller refuses some of them. Chosen."""
+
+MOST_STEPS = 3_000_000
+"""Bytes of programs that cutting down one font may run, each call counted: some seconds. A cloud
+of 500 words in a PostScript font takes a twentieth of it. Chosen."""
 
 _FAILURES = (
     AssertionError, AttributeError, IndexError, KeyError, OverflowError, TypeError, ValueError,
@@ -92,7 +97,8 @@ def may_be_embedded(fs_type: int) -> bool:
 
 def _embedded(family: str, font: FontFile, runs: Sequence[_Said]) -> Embedded:
     try:
-        part = _part(font, _characters(run.text for run, _ in runs))
+        with _bounded_programs():
+            part = _part(font, _characters(run.text for run, _ in runs))
     except _FAILURES as error:
         raise WriteError(
             font.name, f"its tables cannot be cut down ({type(error).__name__})"
@@ -102,6 +108,35 @@ def _embedded(family: str, font: FontFile, runs: Sequence[_Said]) -> Embedded:
     data = base64.b64encode(_packed(part)).decode("ascii")
     source = f'url(data:font/woff;base64,{data})format("woff")'
     return Embedded(family, f'@font-face{{font-family:"{family}";src:{source}}}')
+
+
+@contextmanager
+def _bounded_programs() -> Iterator[None]:
+    """Let fontTools run no more of a PostScript font's programs than ``MOST_STEPS``.
+
+    It follows calls of calls of calls while it cuts a font down, whatever they come to.
+
+    Raises
+    ------
+    ValueError
+        If they come to more.
+    """
+    from fontTools.misc.psCharStrings import SimpleT2Decompiler  # type: ignore[import-untyped]
+
+    run, left = SimpleT2Decompiler.execute, MOST_STEPS
+
+    def execute(self: Any, program: Any) -> None:
+        nonlocal left
+        left -= 1 + len(program.bytecode or program.program or ())
+        if left < 0:
+            raise ValueError("its programs do not end")
+        run(self, program)
+
+    SimpleT2Decompiler.execute = execute
+    try:
+        yield
+    finally:
+        SimpleT2Decompiler.execute = run
 
 
 def _characters(texts: Iterable[str]) -> str:

@@ -11,7 +11,7 @@ from packwork.geometry.polygon import Region, region
 from packwork.readers.svg.ink import FLATTENING
 from packwork.readers.text.cff import cff_drawer
 from packwork.readers.text.characters import glyph_numbers
-from packwork.readers.text.pen import Draw, RingPen
+from packwork.readers.text.pen import Draw, RingPen, check_glyph
 from packwork.readers.text.sfnt import Font, damaged_font, open_font
 from packwork.readers.text.truetype import truetype_drawer
 from packwork.readers.unfit import UnfitError
@@ -89,5 +89,6 @@ def _letter(font: Font, name: str, draw: Draw, em: float) -> Letter:
     pen.closePath()
     # Up is positive in fonts, down on our canvas.
     rings = [ring * (1.0, -1.0) / em for ring in pen.rings]
+    check_glyph(rings)
     advance = float(np.clip(font["hmtx"].metrics[name][0] / em, 0.0, 8.0))
     return Letter(region(rings, "nonzero"), advance)

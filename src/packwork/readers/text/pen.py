@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.bezier import flatten_cubic
-from packwork.readers.unfit import UnfitError
+from packwork.readers.svg.crossings import Allowance
+from packwork.readers.unfit import TooRichError, UnfitError
 
 MAX_SEGMENTS = 20_000
 """Lines and curves in one glyph, its components counted. Ornaments have thousands. Chosen."""
@@ -17,9 +18,41 @@ MAX_SEGMENTS = 20_000
 MAX_REACH = 32.0
 """How far from its origin a glyph may reach, in ems: more is damage. Chosen."""
 
+MAX_CROSSINGS = 2_000
+"""Places where the contours of one glyph may cross themselves and each other, by estimate: larger
+lets a scribble of 100 letters take minutes. Letters put together of strokes have tens. Chosen."""
+
+MAX_POINTS = 400_000
+"""Points of one glyph's flattened contours. An ornament has a tenth of it. Chosen."""
+
 Point = tuple[float, float]
 Draw = Callable[[str, "RingPen"], None]
 """Draws the glyph of a name with a pen."""
+
+
+def check_glyph(rings: Sequence[FloatArray]) -> None:
+    """Refuse a glyph whose flattened contours would take minutes, and all memory, to resolve.
+
+    Raises
+    ------
+    UnfitError
+        If they are too many points, or cross too often.
+
+    Examples
+    --------
+    >>> check_glyph([np.random.default_rng(0).random((1000, 2))])
+    Traceback (most recent call last):
+    packwork.readers.unfit.UnfitError: is a font with a glyph whose lines cross ...
+    """
+    points = sum(map(len, rings))
+    if points > MAX_POINTS:
+        raise UnfitError(f"is a font with a glyph of {points:,} points; give a plainer one")
+    try:
+        Allowance(MAX_CROSSINGS).spend([ring for ring in rings if len(ring)])
+    except TooRichError as error:
+        raise UnfitError(
+            f"is a font with a glyph whose lines cross too often ({error.what}); give a plainer one"
+        ) from None
 
 
 class RingPen:

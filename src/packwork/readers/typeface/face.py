@@ -26,6 +26,9 @@ Segment: TypeAlias = tuple[str, tuple[float, ...]]
 MAX_SEGMENTS = 20_000
 """Lines and curves in one glyph. Ornaments have thousands. Chosen."""
 
+MOST_GLYPHS = 2_000
+"""Glyphs of one word or phrase: rules of a font may make thousands of one letter. Chosen."""
+
 UPRIGHT_WIDTH = 100.0
 """Width axis of a face that is neither condensed nor expanded, in percent."""
 
@@ -157,6 +160,11 @@ class Typeface:
         >>> found = [face.shaped(text).glyphs for text in ("office", "中")]
         >>> len(found[0]), [glyph.number for glyph in found[1]]
         (6, [0])
+
+        Raises
+        ------
+        UnfitError
+            If they are more than ``MOST_GLYPHS``.
         """
         buffer = self._hb.Buffer()
         buffer.add_str(run)
@@ -164,6 +172,8 @@ class Typeface:
         buffer.guess_segment_properties()
         buffer.direction = "rtl" if is_leftward else "ltr"
         self._hb.shape(self._font, buffer, {"kern": True, "liga": True})
+        if len(buffer.glyph_infos) > MOST_GLYPHS:
+            raise UnfitError(f"is a font that draws one word with more than {MOST_GLYPHS:,} glyphs")
         x = y = 0.0
         found = []
         for info, place in zip(buffer.glyph_infos, buffer.glyph_positions, strict=True):
@@ -193,6 +203,11 @@ class Typeface:
         if number not in self._known:
             pen = _Pen()
             self._font.draw_glyph(number, _draw_functions(), pen)
+            if pen.count > MAX_SEGMENTS:
+                raise UnfitError(
+                    f"is a font with a glyph of {pen.count:,} pieces, more than {MAX_SEGMENTS:,}; "
+                    "give a plainer one"
+                )
             self._known[number] = tuple(pen.segments)
         return self._known[number]
 
@@ -214,16 +229,19 @@ def bundled_typeface() -> Typeface:
 
 
 class _Pen:
-    """Collects a glyph's segments, y turned down."""
+    """Collects a glyph's segments, y turned down, and counts those that are too many.
+
+    HarfBuzz calls it, and would pass over an exception; nothing may be raised here.
+    """
 
     def __init__(self) -> None:
         self.segments: list[Segment] = []
+        self.count = 0
 
     def add(self, letter: str, *points: float) -> None:
-        if len(self.segments) >= MAX_SEGMENTS:
-            raise UnfitError(
-                f"is a font with a glyph of more than {MAX_SEGMENTS:,} pieces; give a plainer one"
-            )
+        self.count += 1
+        if self.count > MAX_SEGMENTS:
+            return
         turned = tuple(value if k % 2 == 0 else -value for k, value in enumerate(points))
         self.segments.append((letter, turned))
 

@@ -14,6 +14,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.bezier import flatten_cubic
 from packwork.geometry.polygon import Region, region, united
 from packwork.readers.svg.follow import FLATTENING
+from packwork.readers.text.pen import check_glyph
 from packwork.readers.typeface.face import (
     UNKNOWN_LANGUAGE,
     Glyph,
@@ -242,7 +243,9 @@ def _tolerance(corners: Sequence[FloatArray]) -> float:
 @lru_cache(maxsize=MOST_KNOWN)
 def _glyph_region(face: Typeface, number: int, tolerance: float) -> Region:
     """What a glyph covers about its origin, its curves followed to ``tolerance``."""
-    return region(_rings(face.drawing(number), tolerance), "nonzero")
+    rings = _rings(face.drawing(number), tolerance)
+    check_glyph(rings)
+    return region(rings, "nonzero")
 
 
 def _rings(segments: Sequence[Segment], tolerance: float) -> list[FloatArray]:
