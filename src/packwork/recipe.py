@@ -35,7 +35,7 @@ from packwork.solve.options import (
     SizeMode,
     SolveOptions,
 )
-from packwork.start.options import StartOptions
+from packwork.start.options import LAYOUTS, StartOptions
 from packwork.units import CanvasSize, canvas_size, parse_share
 from packwork.writers.film.options import FilmOptions
 
@@ -138,8 +138,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     start: str | None = None
     """How the first places are found: distance-field (into the largest room), medial-axis (along
     the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;
-    for words and shared sizes), or a layout file (.geojson). Default: what suits the sizes, of
-    photos the best of distance-field, medial-axis and scatter."""
+    for words and shared sizes), or a layout (.geojson, .svg, .dxf; edited ones too). Default: what
+    suits the sizes, of photos the best of distance-field, medial-axis and scatter."""
 
     finish: Literal["exact", "none"] = "exact"
     """exact: after the levels, items are moved, turned and sized in exact geometry until
@@ -273,7 +273,7 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     @model_validator(mode="after")
     def _stays_somewhere(self) -> Recipe:
         if self.stay and not self.layout_file:
-            raise RecipeError("stay", "needs an earlier layout (.geojson) as --start")
+            raise RecipeError("stay", "needs an earlier layout (.geojson, .svg or .dxf) as --start")
         return self
 
     @model_validator(mode="after")
@@ -317,7 +317,7 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     def layout_file(self) -> str | None:
         """The earlier layout that ``start`` names; None if it names a method."""
         start = self.start or ""
-        return start if Path(start).suffix.lower() in {".geojson", ".json"} else None
+        return start if Path(start).suffix.lower() in LAYOUTS else None
 
     def padding_cu(self, container: Container) -> float:
         """Gap asked for, in units of the container's canvas."""

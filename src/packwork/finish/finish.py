@@ -221,7 +221,8 @@ class _Run:
 
     def begin(self) -> bool:
         """Take conflicts apart; False if many stay in one however small they are made."""
-        (part_evenly if self._is_shared else part)(self.arrangement, self.gap)
+        loose = partial(part, hopeless_at=self._options.hopeless)
+        (part_evenly if self._is_shared else loose)(self.arrangement, self.gap)
         return self._options.sizes == "fixed" or cleared(self.arrangement, self.gap)
 
     def coarse(self) -> None:
@@ -281,7 +282,7 @@ class _Run:
 
     def refine(self) -> None:
         """Grow from a clean layout, on fine outlines and in small steps."""
-        part(self.arrangement, self.gap)
+        part(self.arrangement, self.gap, self._options.hopeless)
         self._compact(range(self._planned))
 
     def search(self) -> None:

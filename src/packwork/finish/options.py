@@ -16,6 +16,15 @@ of the files that are written, so that what was checked still holds when it is r
 Larger wastes room (this one 0.1 % of it with 100 items). Derived."""
 
 
+HOPELESS = 0.3
+"""Logarithm of size an item may lose before the smaller one of a pair in conflict is moved
+to a void instead. Smaller moves items that had a place, larger makes dwarfs. Tried."""
+
+HOPELESS_AT_HOME = 1.0
+"""The same of items that are to stay near where they were: they may grow back, and do. Smaller
+lets some jump across the layout, larger leaves dwarfs where there is no room. Tried."""
+
+
 class FinishOptions(Options):
     """Gap, size mode, turns and rounds of one finish."""
 
@@ -60,3 +69,8 @@ class FinishOptions(Options):
 
     seed: Annotated[int, Field(ge=0)] = 0
     """Of the trials."""
+
+    @property
+    def hopeless(self) -> float:
+        """Logarithm of size that an item in conflict may lose before one is moved to a void."""
+        return HOPELESS_AT_HOME if self.staying else HOPELESS

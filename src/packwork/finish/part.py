@@ -7,6 +7,7 @@ import numpy as np
 from packwork.arrays import BoolArray, IntArray
 from packwork.finish._kernels import LEAST_GROWTH
 from packwork.finish.arrangement import Arrangement
+from packwork.finish.options import HOPELESS
 from packwork.finish.relocate import relocate
 
 CUT = 0.004
@@ -16,10 +17,6 @@ smaller needs more checks. Tried."""
 PATIENT, HASTE = 150, 1.03
 """Checks after which that loss grows with each check, and by how much, so that even hopeless
 layouts come to an end. Chosen."""
-
-HOPELESS = 0.3
-"""Logarithm of size an item may lose before the smaller one of a pair in conflict is moved
-to a void instead. Smaller moves items that had a place, larger makes dwarfs. Tried."""
 
 MOST_CHECKS = 400
 """Checks at most; what is in conflict after them is reported."""
@@ -39,11 +36,16 @@ EVEN = 1e-6
 """Logarithm of size within which all are alike. Chosen."""
 
 
-def part(arrangement: Arrangement, gap: float) -> IntArray:
+def part(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS) -> IntArray:
     """Make items in conflict smaller until none is; the items that had to be moved.
 
     Only items in conflict change. Some conflicts may be left, if the container has no
     room at all.
+
+    Parameters
+    ----------
+    hopeless_at
+        Logarithm of size that an item loses before one is moved to a void.
 
     Examples
     --------
@@ -67,7 +69,7 @@ def part(arrangement: Arrangement, gap: float) -> IntArray:
         places[:, 3] -= CUT * HASTE ** max(check - PATIENT, 0)
         places[:, 3] = np.maximum(places[:, 3], LEAST_GROWTH)
         arrangement.put(items, places)
-        worn = arrangement.places[:, 3] < first - HOPELESS
+        worn = arrangement.places[:, 3] < first - hopeless_at
         hopeless = _smaller_of(bad, worn, arrangement)
         if len(hopeless):
             relocate(arrangement, hopeless, gap)

@@ -22,17 +22,18 @@ from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.framing import Frame
 from packwork.pipeline.given import no_container
 from packwork.pipeline.regions import Region, read_regions
+from packwork.pipeline.registering import registered
 from packwork.pipeline.sharing import shared_out
 from packwork.pipeline.spreading import spread_out
 from packwork.pipeline.word_colours import check_colours
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
-from packwork.readers.layout import read_layout
 from packwork.readers.photos.read import read_photos
 from packwork.readers.quiet.container import QuietOptions
 from packwork.readers.svg.walls import walled_container
 from packwork.readers.words.items import WordsRead, read_word_items
+from packwork.readers.written.read import is_drawn, read_written
 from packwork.recipe import Recipe
 from packwork.refusals import length_asked
 from packwork.scene.canvas import on_canvas
@@ -194,7 +195,7 @@ def read(
         weights = shared_out(chosen.items, chosen.weights, spoken, recipe.share)
         forces_of(recipe.force or (), chosen.items, weights, region)
         regions = read_regions(chosen.asked, region)
-        earlier = None if recipe.layout_file is None else read_layout(recipe.layout_file)
+        earlier = _earlier(recipe, chosen.items)
         fillers, more = _fillers(recipe, items or () if words is None else words.items)
         skipped += more
         recipe.start_options()
@@ -220,6 +221,15 @@ def read(
         single,
         mouths,
     )
+
+
+def _earlier(recipe: Recipe, items: Sequence[Item]) -> Layout | None:
+    """The earlier layout that a run begins from; None if it begins anew."""
+    if recipe.layout_file is None:
+        return None
+    layout = read_written(recipe.layout_file)
+    # GeoJSON holds poses; of drawings they are found from the shapes.
+    return registered(layout, items) if is_drawn(recipe.layout_file) else layout
 
 
 def _chart(recipe: Recipe) -> ChartRead:

@@ -12,6 +12,10 @@ Placing: TypeAlias = Literal["distance-field", "medial-axis", "scatter", "first-
 """Ways to find first places."""
 
 
+LAYOUTS = frozenset({".geojson", ".json", ".svg", ".dxf"})
+"""Endings of files that hold a layout from which a run can begin."""
+
+
 class StartOptions(Options):
     """Where items begin and how large."""
 

@@ -17,6 +17,17 @@ ENDINGS = (".geojson", ".json", ".svg", ".dxf")
 """What can be measured. A PNG has no outlines, and a PDF is read by no part of ours."""
 
 
+def is_drawn(path: str | Path) -> bool:
+    """Whether a file of that name holds shapes in place, and no poses.
+
+    Examples
+    --------
+    >>> is_drawn("cut.dxf"), is_drawn("layout.geojson")
+    (True, False)
+    """
+    return Path(path).suffix.lower() in {".svg", ".dxf"}
+
+
 def read_written(path: str | Path) -> Layout:
     """Layout of a file that we wrote, its outlines those that stand in the file.
 
