@@ -202,3 +202,17 @@ def test_every_link_to_a_file_leads_somewhere(page: Path) -> None:
     targets = re.findall(r"(?:\]\(|src=\")([^)#\s\"]+)", page.read_text(encoding="utf-8"))
     local = [target for target in targets if "://" not in target]
     assert [target for target in local if not (page.parent / target).exists()] == []
+
+
+PAGES_THAT_INSTALL = [
+    page
+    for folder in ("", "docs", "examples/torch_loss")
+    for page in sorted((ROOT / folder).glob("*.md"))
+]
+
+
+@pytest.mark.parametrize("page", PAGES_THAT_INSTALL, ids=[p.name for p in PAGES_THAT_INSTALL])
+def test_extras_are_added_to_the_clone_and_do_not_replace_it(page: Path) -> None:
+    text = page.read_text(encoding="utf-8")
+    for line in re.findall(r"pip install [^`\n]*\[[a-z,]+\]", text):
+        assert re.match(r"pip install -e '(\.\./)*\.{1,2}\[", line), line

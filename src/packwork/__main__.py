@@ -17,9 +17,11 @@ def main() -> None:
     _log_warnings()
     try:
         from packwork.cli import app
+        from packwork.cli.watch import WATCH
 
         try:
-            app()
+            with WATCH.listening():
+                app()
         finally:
             # All is done and said; what is left is to take the program down.
             signal.signal(signal.SIGINT, signal.SIG_IGN)

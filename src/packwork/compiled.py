@@ -17,10 +17,10 @@ import inspect
 import logging
 import pickle
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Protocol
 
-import llvmlite
+import llvmlite.binding
 import numba
 from numba import njit
 from numba.core import serialize
@@ -43,6 +43,8 @@ OUTER = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 
 INNER = {**OUTER, "no_cpython_wrapper": True}
 """Options of those that only kernels call, which need no way in from Python."""
+
+VERSIONS = (numba.config.OPT, numba.__version__, llvmlite.__version__, sys.version)
 
 NOTICE = "compiling kernels, once after each installation: 10 to 40 s of one processor core"
 
@@ -99,6 +101,12 @@ def helper(function: Any = None, /, **options: Any) -> Any:
 def as_python(compiled: Any) -> Any:
     """The function that a kernel or helper was made of, as Python runs it."""
     return getattr(compiled, "py_func", compiled)
+
+
+def mark_of(modules: Iterable[str]) -> str:
+    """One word for some modules of kernels on this machine, as :data:`STORE` takes it."""
+    texts = sorted(map(fingerprint, modules))
+    return repr((FORM, texts, VERSIONS, llvmlite.binding.get_host_cpu_name()))
 
 
 @contextlib.contextmanager
@@ -164,8 +172,7 @@ class KernelCache(NullCache):  # type: ignore[misc]
             return None
         parts = (
             FORM, self._name, self._options, text,
-            tuple(map(repr, sig)), codegen.magic_tuple(), numba.config.OPT,
-            numba.__version__, llvmlite.__version__, sys.version,
+            tuple(map(repr, sig)), codegen.magic_tuple(), VERSIONS,
         )  # fmt: skip
         return repr(parts)
 

@@ -412,7 +412,7 @@ def wait_for(file: Path) -> None:
 def test_ctrl_c_before_there_is_anything_says_so(
     folder: Path, packwork: Command, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def interrupted() -> None:
+    def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr("packwork.pipeline.warm_up", interrupted)

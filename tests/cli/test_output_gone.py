@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import subprocess
 import sys
-import threading
 from pathlib import Path
 
 import pytest
-
-from packwork.cli import show
 
 FILL = "fill circle star -n 2 --levels 16 --epochs 2 --finish none"
 pytestmark = pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a full device")
@@ -42,30 +38,3 @@ def test_a_run_writes_its_files_all_the_same(where: str, folder: Path) -> None:
     assert measured.returncode == 2
     assert measured.stderr.decode().startswith("packwork: standard output: cannot be written")
     assert measured.stderr.count(b"\n") == 1
-
-
-def test_a_notice_that_nobody_reads_is_no_failure(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(show, "SLOW_SECONDS", 0.0)
-    tried = threading.Event()
-    with open("/dev/full", "w", encoding="utf-8") as full:  # noqa: PTH123
-        console = show.Paper(file=full, highlight=False)
-        broken = console.print
-
-        def print_to_nobody(text: str) -> None:
-            try:
-                broken(text)
-                full.flush()
-            finally:
-                tried.set()
-
-        monkeypatch.setattr(console, "print", print_to_nobody)
-        with show.notice_if_slow(console, "patience"):
-            assert tried.wait(20)
-            for thread in threading.enumerate():
-                if isinstance(thread, threading.Timer):
-                    thread.join()
-        with contextlib.suppress(OSError):
-            full.close()
-    assert capsys.readouterr().err == ""

@@ -132,11 +132,36 @@ def test_together_is_a_bar() -> None:
 
 def test_a_file_in_place_of_the_terminal_stays_clean() -> None:
     code = (
-        "import packwork as pw\n"
+        "import packwork as pw, packwork.display.bar as bars\n"
+        "bars.SECONDS_BETWEEN_LINES = {}\n"
         "pw.fill('circle', 'star', count=2, epochs=30, levels='16', progress=True)"
     )
-    run = subprocess.run([sys.executable, "-c", code], check=True, capture_output=True)
-    assert (run.stdout, run.stderr) == (b"", b"")
+
+    def run(seconds: str) -> tuple[bytes, bytes]:
+        line = [sys.executable, "-c", code.format(seconds)]
+        done = subprocess.run(line, check=True, capture_output=True)
+        return done.stdout, done.stderr
+
+    assert run("1e9") == (b"", b"")
+    out, err = run("0.0")
+    assert out == b""
+    lines = err.decode().splitlines()
+    shares = [int(line.removeprefix("packwork: ").partition(" %: ")[0]) for line in lines]
+    assert shares == sorted(shares)
+    assert len(shares) >= 2
+
+
+def test_a_bar_never_goes_backwards(capsys: pytest.CaptureFixture[str]) -> None:
+    bar = TerminalBar()
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(bars, "SECONDS_BETWEEN_LINES", 0.0)
+        bar.tell(0.5, "this")
+        bar.tell(0.2, "that")
+    assert capsys.readouterr().err == "packwork: 50 %: this\npackwork: 50 %: that\n"
+    quiet = TerminalBar(is_quiet=True)
+    with quiet.showing():
+        quiet.tell(0.5, "this")
+    assert capsys.readouterr() == ("", "")
 
 
 def test_a_silent_run_loads_no_bar_and_no_notebook() -> None:

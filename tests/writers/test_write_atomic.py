@@ -3,6 +3,9 @@ from __future__ import annotations
 import errno
 import os
 import stat
+import subprocess
+import sys
+import time
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
@@ -232,3 +235,43 @@ def test_a_name_that_cannot_be_swapped_is_told(
     with pytest.raises(WriteError, match=r"b: the folder may not be written to"):
         write_all([(tmp_path / name, b"x") for name in "abc"])
     assert names(tmp_path) == ["a"]
+
+
+def test_what_is_in_place_is_named_when_a_later_name_cannot_be_swapped(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    replace = Path.replace
+
+    def refuse(beside: Path, target: Path) -> Path:
+        if target.name == "c.svg":
+            raise PermissionError(errno.EACCES, "no")
+        return replace(beside, target)
+
+    monkeypatch.setattr(Path, "replace", refuse)
+    files = [(tmp_path / name, b"new") for name in ("a.svg", "b.svg", "c.svg")]
+    with pytest.raises(WriteError, match=r"written before it: .*a\.svg, .*b\.svg$"):
+        write_all(files)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["a.svg", "b.svg"]
+
+
+def test_what_a_killed_process_has_left_is_removed_by_the_next(tmp_path: Path) -> None:
+    with subprocess.Popen([sys.executable, "-c", ""]) as ended:
+        ended.wait()
+    gone, here, name = ended.pid, os.getpid(), f"{0:016x}.part"
+    ages = {
+        f".packwork-{gone}-{name}": 100.0,
+        f".packwork-{gone}-f{name[1:]}": 1.0,
+        f".packwork-{here}-{name}": 100.0,
+        f".packwork-{here}-f{name[1:]}": 1e6,
+        ".packwork-mine.part": 1e6,
+        "other.part": 1e6,
+    }
+    for left, age in ages.items():
+        (tmp_path / left).write_bytes(b"half")
+        os.utime(tmp_path / left, (time.time() - age,) * 2)
+    write_atomic(tmp_path / "a.svg", b"new")
+    kept = {path.name for path in tmp_path.iterdir()} - {"a.svg"}
+    removed = {f".packwork-{here}-f{name[1:]}"}
+    if os.name != "nt":
+        removed.add(f".packwork-{gone}-{name}")
+    assert kept == set(ages) - removed

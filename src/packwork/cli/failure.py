@@ -11,6 +11,7 @@ from types import FrameType
 import typer
 
 from packwork.cli.terminal import say
+from packwork.cli.watch import WATCH
 from packwork.errors import PackworkError, RecipeError
 
 SHORTFALL = 1
@@ -40,6 +41,12 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
             line = "--" + error.key.replace("_", "-") + line.removeprefix(error.key)
         say(line)
         raise typer.Exit(BAD_INPUT) from None
+    except MemoryError:
+        say(
+            "there is not enough memory for this; try fewer or smaller files, "
+            "fewer items or fewer pixels"
+        )
+        raise typer.Exit(BAD_INPUT) from None
     except KeyboardInterrupt as stop:
         said = str(stop) or "stopped before there was anything to write"
         say(said)
@@ -65,12 +72,15 @@ class Interrupt:
     def listening(self) -> Iterator[None]:
         """Catch Ctrl-C while the block runs."""
         before = signal.signal(signal.SIGINT, self._press)
+        WATCH.keeps_results = True
         try:
             yield
         finally:
+            WATCH.keeps_results = False
             signal.signal(signal.SIGINT, before)
 
     def _press(self, number: int, frame: FrameType | None) -> None:
+        WATCH.answer()
         if self.is_over:
             return
         if self.pressed:

@@ -25,13 +25,13 @@ from packwork.cli.show import (
     certificate_line,
     filling_line,
     metrics_table,
-    notice_if_slow,
     pile_line,
     printing,
     seconds_line,
     words_line,
 )
 from packwork.cli.terminal import printable, say
+from packwork.cli.watch import WATCH
 from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
@@ -45,8 +45,6 @@ MOST_NAMED = 5
 
 DRAWN = (".svg", ".png", ".jpg", ".jpeg", ".pdf")
 """Endings of files that people look at."""
-
-COMPILING = "Compiling the kernels: once after each installation, up to 40 s ..."
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -223,9 +221,8 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     # Beforehand, so that no run is lost to what its recipe holds.
     saved = outputs.saved_recipe(recipe)
     write_saliency(recipe, outputs.saliency)
-    with notice_if_slow(console, COMPILING):
-        pipeline.warm_up()
-    bar = TerminalBar(console)
+    compile_kernels(TerminalBar(console, quiet))
+    bar = TerminalBar(console, quiet)
     interrupt = Interrupt()
     with interrupt.listening():
         with bar.showing():
@@ -243,6 +240,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         replaced = {path for path, _ in written if os.path.lexists(path)}
         writers.write_all(written)
         interrupt.is_over = True
+        WATCH.finish()
         _warn(run, was_cut_short)
         for error in undrawn:
             say(f"not written: {' '.join(str(error).split())}")
@@ -260,6 +258,17 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             worth = "certified" if run.certified else "not certified"
             say(f"stopped by Ctrl-C; this is the best so far, {worth}")
     return INTERRUPTED if was_stopped else 0 if run.is_as_asked and not undrawn else SHORTFALL
+
+
+def compile_kernels(bar: TerminalBar) -> None:
+    """Compile what no earlier run has, with a bar that counts."""
+
+    def tell(done: int) -> None:
+        of = pipeline.KERNELS
+        bar.tell(done / of, f"compiling, on the first run only: {done} of {of} kernels")
+
+    with bar.showing():
+        pipeline.warm_up(tell, second=True)
 
 
 def _filmed(

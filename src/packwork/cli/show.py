@@ -4,36 +4,14 @@ from __future__ import annotations
 
 import os
 import sys
-import threading
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from typing import Any
 
 from rich.console import Console
 from rich.table import Table
 
 from packwork.errors import WriteError
-
-SLOW_SECONDS = 3.0
-"""Patience before a notice explains a wait. Chosen."""
-
-
-@contextmanager
-def notice_if_slow(console: Console, text: str) -> Iterator[None]:
-    """Print ``text`` once if the block takes longer than a person waits unasked."""
-
-    def tell() -> None:
-        # A notice that nobody can read is no reason to fail.
-        with suppress(OSError):
-            console.print(text)
-
-    timer = threading.Timer(SLOW_SECONDS, tell)
-    timer.daemon = True
-    timer.start()
-    try:
-        yield
-    finally:
-        timer.cancel()
 
 
 class Paper(Console):

@@ -27,9 +27,9 @@ def drawn_on(layout: Layout, ax: Any = None) -> Any:
     PackworkError
         If Matplotlib is not installed.
     """
-    patches = found("matplotlib.patches", "plot", INSTEAD)
+    patches = found("matplotlib.patches", INSTEAD)
     if ax is None:
-        _, ax = found("matplotlib.pyplot", "plot", INSTEAD).subplots(layout="constrained")
+        _, ax = found("matplotlib.pyplot", INSTEAD).subplots(layout="constrained")
         ax.axis("off")
     colours = {id(item.art): representative_colour(item) for item in layout.items}
     told: set[str] = set()
@@ -50,7 +50,7 @@ def drawn_on(layout: Layout, ax: Any = None) -> Any:
 
 def _path(outline: Outline) -> Any:
     """All rings as one path: holes run the other way, so they stay free."""
-    path = found("matplotlib.path", "plot", INSTEAD).Path
+    path = found("matplotlib.path", INSTEAD).Path
     rings = [np.vstack([ring, ring[:1]]) for ring in outline.rings]
     codes = np.full(sum(map(len, rings)), path.LINETO, dtype=path.code_type)
     begins = np.cumsum([0, *map(len, rings)])

@@ -6,7 +6,7 @@ import importlib
 import sys
 import time
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import AbstractContextManager, contextmanager, nullcontext, suppress
 from html import escape
 from typing import TYPE_CHECKING, Any, Protocol
 
@@ -21,7 +21,11 @@ EPOCHS_BETWEEN = 20
 SECONDS_BETWEEN = 0.1
 """Least time between two pictures that a notebook is sent: more flood its page. Chosen."""
 
-BEFORE = "starting (kernels compile on the first run only, up to 40 s)"
+SECONDS_BETWEEN_LINES = 5.0
+"""Time between two lines where there is no terminal to draw a bar on, and before the first.
+Smaller fills logs, larger looks dead. Chosen."""
+
+BEFORE = "starting (on the first run kernels are compiled: 10 to 40 s)"
 
 
 class Bar(Observer, Protocol):
@@ -108,7 +112,7 @@ class NotebookBar:
 
     def tell(self, share: float, text: str) -> None:
         """Move the bar, unless it has just been moved."""
-        self._share, self._text = share, text
+        self._share, self._text = max(self._share, share), text
         if time.monotonic() - self._sent >= SECONDS_BETWEEN:
             self._send()
 
@@ -138,21 +142,26 @@ class NotebookBar:
 
 
 class TerminalBar:
-    """A line on a terminal that is gone when the run is over; none if that is a file.
+    """A line on a terminal that is gone when the run is over; elsewhere a line now and then.
 
     Parameters
     ----------
     console
-        Where; standard error if None.
+        Where the bar is drawn; if that is none or no terminal, standard error is asked.
+    is_quiet
+        Show nothing at all.
     """
 
     every = EPOCHS_BETWEEN
 
-    def __init__(self, console: Console | None = None) -> None:
+    def __init__(self, console: Console | None = None, is_quiet: bool = False) -> None:
         from rich.console import Console
         from rich.progress import BarColumn, Progress, TextColumn, TimeElapsedColumn
 
-        console = console or Console(stderr=True)
+        if console is None or not console.is_terminal:
+            console = Console(stderr=True)
+        self._lines = None if is_quiet or console.is_terminal else console
+        self._share, self._told = 0.0, time.monotonic()
         self._progress = Progress(
             TextColumn("{task.description}"),
             BarColumn(),
@@ -160,7 +169,7 @@ class TerminalBar:
             TimeElapsedColumn(),
             console=console,
             transient=True,
-            disable=not console.is_terminal,
+            disable=is_quiet or not console.is_terminal,
         )
         self._task = self._progress.add_task(BEFORE, total=1.0)
 
@@ -169,8 +178,16 @@ class TerminalBar:
         self.tell(step.progress, f"{_level(step)}, {_shares(step)}")
 
     def tell(self, share: float, text: str) -> None:
-        """Move the bar."""
-        self._progress.update(self._task, completed=share, description=text)
+        """Move the bar, never backwards."""
+        self._share = max(self._share, share)
+        self._progress.update(self._task, completed=self._share, description=text)
+        if self._lines is None or time.monotonic() - self._told < SECONDS_BETWEEN_LINES:
+            return
+        self._told = time.monotonic()
+        # Whoever reads no longer is no reason to fail.
+        with suppress(OSError, ValueError):
+            line = f"packwork: {100 * self._share:.0f} %: {text}"
+            self._lines.print(line, soft_wrap=True, markup=False, highlight=False)
 
     @contextmanager
     def showing(self) -> Iterator[None]:

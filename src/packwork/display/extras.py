@@ -8,13 +8,11 @@ from typing import Any
 from packwork.errors import PackworkError
 
 
-def found(module: str, extra: str, otherwise: str) -> Any:
+def found(module: str, otherwise: str) -> Any:
     """Module that is an extra of ours.
 
     Parameters
     ----------
-    extra
-        What to install it by.
     otherwise
         What does without it.
 
@@ -25,11 +23,11 @@ def found(module: str, extra: str, otherwise: str) -> Any:
 
     Examples
     --------
-    >>> found("no_such_package", "plot", "save a picture")
+    >>> found("no_such_package", "save a picture")
     Traceback (most recent call last):
         ...
     packwork.errors.PackworkError: this needs no_such_package, which is not installed; install it:
-    pip install packwork[plot], or save a picture
+    pip install no_such_package, or save a picture
     """
     package = module.partition(".")[0]
     try:
@@ -40,5 +38,5 @@ def found(module: str, extra: str, otherwise: str) -> Any:
             raise
         raise PackworkError(
             f"this needs {package}, which is not installed; install it: "
-            f"pip install packwork[{extra}], or {otherwise}"
+            f"pip install {package}, or {otherwise}"
         ) from None

@@ -28,7 +28,7 @@ def data_frame(layout: Layout) -> Any:
     PackworkError
         If pandas is not installed.
     """
-    pandas = found("pandas", "data", "save the layout as .geojson")
+    pandas = found("pandas", "save the layout as .geojson")
     table = _table(layout)
     ours = _ours(layout)
     named = {TAKEN + name if name in table else name: cells for name, cells in ours.items()}

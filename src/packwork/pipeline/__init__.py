@@ -7,10 +7,12 @@ from packwork.pipeline.outcome import Run, Unplaced, find_unplaced
 from packwork.pipeline.padding import padded
 from packwork.pipeline.photographing import photos_recipe
 from packwork.pipeline.piling import pile_recipe
-from packwork.pipeline.run import fill, run, warm_up
+from packwork.pipeline.run import fill, run
+from packwork.pipeline.warming import KERNELS, warm_up
 from packwork.pipeline.wording import words_recipe
 
 __all__ = [
+    "KERNELS",
     "Clock",
     "Job",
     "Letters",

@@ -24,6 +24,7 @@ from packwork.pipeline.finishing import (
     without,
 )
 from packwork.pipeline.job import Job
+from packwork.pipeline.onward import stretch
 from packwork.pipeline.outcome import Filling
 from packwork.progress import Observer, Stop, until_over
 from packwork.readers.words.items import EM_PX
@@ -111,7 +112,7 @@ class _Run:
         self, job: Job, start: Beginning, exact: Finished, observer: Observer | None, stop: Stop
     ) -> None:
         self._job, self._start, self._exact = job, start, exact
-        self._observer, self._stop = observer, stop
+        self._observer, self._stop, self._rounds = observer, stop, 0
         self._sorts = job.fillers
         self._shapes = solid_outlines(job.recipe, self._sorts)
         self._rng = np.random.default_rng(job.recipe.seed)
@@ -249,9 +250,10 @@ class _Run:
         return self.coverage()
 
     def _closing(self, movers: IntArray) -> Closing | None:
-        if self._observer is None:
-            return None
-        return Closing(self._observer, self.poses, movers, self._ids)
+        # Nobody knows how many rounds there will be: each takes half of the way that is left.
+        begun, self._rounds = 1.0 - 0.5**self._rounds, self._rounds + 1
+        observer = stretch(self._observer, begun, 1.0 - 0.5**self._rounds)
+        return None if observer is None else Closing(observer, self.poses, movers, self._ids)
 
     def _all_outlines(self) -> list[Outline]:
         return [*self._originals, *(self._shapes[k] for k in self.added)]

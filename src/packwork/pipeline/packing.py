@@ -19,6 +19,7 @@ from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.leaning import job_leanings
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
+from packwork.pipeline.onward import BEFORE_VOIDS, LEVELS, stretch
 from packwork.pipeline.padding import check_found, check_padding, padded
 from packwork.pipeline.recording import Recorder
 from packwork.pipeline.staying import as_it_was, calmed, needs_no_levels, with_homes
@@ -113,11 +114,14 @@ class _Solved:
 def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
     """Poses of all items, whatever their sizes."""
     recipe, clock = job.recipe, job.clock
-    solved = _best_solved(job, observer, stop, record)
+    # What follows the levels takes its share of the way.
+    whole = BEFORE_VOIDS if recipe.fills_gaps else 1.0
+    until = whole * (LEVELS if recipe.finish == "exact" else 1.0)
+    solved = _best_solved(job, stretch(observer, 0.0, until), stop, record)
     start, outcome, recorder = solved.start, solved.outcome, solved.recorder
     if recipe.finish != "exact":
         return Placed(job, start, outcome, None, recorder)
-    observer = together(observer, recorder)
+    observer = together(stretch(observer, until, whole), recorder)
     with clock.time("finish"):
         # What is to stay where it was is not pushed on.
         kept = None if recipe.stay else solved.forces

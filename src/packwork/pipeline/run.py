@@ -10,11 +10,6 @@ from shapely.errors import GEOSException
 
 from packwork.arrays import IntArray
 from packwork.errors import ReadError, UnresolvedError
-from packwork.finish.finish import finish
-from packwork.finish.options import FinishOptions
-from packwork.geometry.affine import similarity
-from packwork.geometry.outline import Outline
-from packwork.metrics.pixel import pixel_metrics
 from packwork.piles import PileOptions
 from packwork.pipeline.beginning import new_items
 from packwork.pipeline.gaps import fill_gaps
@@ -22,7 +17,8 @@ from packwork.pipeline.grouping import run_groups
 from packwork.pipeline.job import Job, read
 from packwork.pipeline.judging import Judged, judged
 from packwork.pipeline.leaving import left_behind
-from packwork.pipeline.outcome import Filling, Run, find_unplaced
+from packwork.pipeline.onward import BEFORE_VOIDS, onward, stretch
+from packwork.pipeline.outcome import Filling, Run
 from packwork.pipeline.packing import placed_readably
 from packwork.pipeline.piling import run_pile
 from packwork.pipeline.recording import Recorder
@@ -30,12 +26,8 @@ from packwork.pipeline.shortfall import shortfalls
 from packwork.progress import Observer, Stop, never, together
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
-from packwork.scene.item import FlatArt, Item
-from packwork.scene.layout import Layout
+from packwork.scene.item import Item
 from packwork.scene.leaving import grown_in
-from packwork.scene.pose import Poses
-from packwork.solve.options import SolveOptions
-from packwork.solve.solver import solve
 
 
 def fill(
@@ -82,7 +74,7 @@ def run(
         Naming the container, if outlines lie too close for any set operation.
     """
     try:
-        return _run(job, observer, stop, record)
+        return _run(job, onward(observer), stop, record)
     except (UnresolvedError, GEOSException) as error:
         why = error if isinstance(error, UnresolvedError) else f"cannot be resolved: {error}"
         raise ReadError(job.container.source, str(why)) from error
@@ -99,8 +91,9 @@ def _run(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
     ids: IntArray | None = None
     filling: Filling | None = None
     if exact is not None and job.recipe.fills_gaps:
+        rest = stretch(observer, BEFORE_VOIDS, 1.0)
         with job.clock.time("gaps"):
-            filled = fill_gaps(job, start, exact, together(observer, recorder), stop)
+            filled = fill_gaps(job, start, exact, together(rest, recorder), stop)
         job, start, exact = filled.job, filled.start, filled.exact
         poses, filling, ids = exact.poses, filled.filling, filled.ids
     unplaced = None if exact is None else ()
@@ -142,18 +135,3 @@ def _with_track(done: Run, recorder: Recorder | None, ids: IntArray | None, job:
         track = grown_in(track, np.flatnonzero(np.isin(called, new_items(job))))
     placed = called[called < len(job.items)]
     return replace(done, layout=replace(layout, track=track, leaving=left_behind(job, placed)))
-
-
-def warm_up() -> None:
-    """Load the compiled kernels, or compile them on the first run ever on a machine."""
-    square = Outline.from_rings([np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])])
-    container = Container("warm-up", "", square.mapped(similarity(4.0, 4.0, 0.0, 3.0)), 8.0, 8.0)
-    poses = Poses(*(np.full(1, value) for value in (4.0, 4.0, 0.0, 1.0)))
-    for evenness in (0.0, 1.0):
-        options = SolveOptions(levels=(8,), epochs=1, losses={"evenness": evenness})
-        solve(container, [square], poses, np.ones(1), options)
-    finish(container, [square], poses, FinishOptions(rounds=1))
-    item = Item("warm-up", "", square, square, FlatArt())
-    layout = Layout(container, (item,), poses, np.ones(1))
-    find_unplaced(layout)
-    pixel_metrics(layout.outlines, container)

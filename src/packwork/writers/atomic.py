@@ -5,13 +5,25 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
+import re
 import secrets
 import stat
+import time
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from packwork.errors import WriteError
 from packwork.inputs import check_no_input
+
+_LEFT = re.compile(r"\.packwork-(?P<process>\d+)-[0-9a-f]{16}\.part")
+"""Name of a file that is being written."""
+
+WRITING_SECONDS = 60.0
+"""Age of such a file from which on it is removed if its process has ended. Smaller might take
+it from a process of another machine that writes to the same disk. Chosen."""
+
+ABANDONED_SECONDS = 86_400.0
+"""Age from which on it is removed whatever its process. Chosen."""
 
 _REASONS = {
     errno.ENOSPC: "the disk is full; free some room or choose another folder",
@@ -127,6 +139,7 @@ def write_all(files: Sequence[tuple[str | Path, bytes]]) -> None:
     check_outputs(path for path, _ in files)
     made: list[Path] = []
     staged: list[tuple[str | Path, Path, Path]] = []
+    replaced: list[str | Path] = []
     try:
         for path, data in files:
             with _telling(path):
@@ -137,8 +150,11 @@ def write_all(files: Sequence[tuple[str | Path, bytes]]) -> None:
                 staged.append((path, beside, target))
                 _stage(beside, target, data)
         for path, beside, target in staged:
-            with _telling(path):
+            try:
                 beside.replace(target)
+            except OSError as error:
+                raise WriteError(path, _reason(error) + _already(replaced)) from error
+            replaced.append(path)
     except BaseException:
         for _, beside, _ in staged:
             with contextlib.suppress(OSError):
@@ -147,6 +163,7 @@ def write_all(files: Sequence[tuple[str | Path, bytes]]) -> None:
         raise
     for folder in {target.parent for _, _, target in staged}:
         _sync_folder(folder)
+        _clear_away(folder)
 
 
 @contextlib.contextmanager
@@ -207,7 +224,40 @@ def _remove_folders(made: list[Path]) -> None:
 
 def _beside(target: Path) -> Path:
     # A random name, as another process may write the same file at the same time.
-    return target.with_name(f".packwork-{secrets.token_hex(8)}.part")
+    return target.with_name(f".packwork-{os.getpid()}-{secrets.token_hex(8)}.part")
+
+
+def _clear_away(folder: Path) -> None:
+    """Remove what a process has left here that was killed while it wrote."""
+    with contextlib.suppress(OSError):
+        for path in folder.glob(".packwork-*.part"):
+            named = _LEFT.fullmatch(path.name)
+            with contextlib.suppress(OSError):
+                age = time.time() - path.lstat().st_mtime
+                if named and (
+                    age > ABANDONED_SECONDS
+                    or (age > WRITING_SECONDS and not _may_run(int(named["process"])))
+                ):
+                    path.unlink()
+
+
+def _may_run(process: int) -> bool:
+    """Whether a process may still run; on Windows to ask would be to end it."""
+    if os.name == "nt":
+        return True
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    except OSError:
+        return True
+    return True
+
+
+def _already(replaced: Sequence[str | Path]) -> str:
+    if not replaced:
+        return ""
+    return f"; written before it: {', '.join(str(path) for path in replaced)}"
 
 
 def _stage(beside: Path, target: Path, data: bytes) -> None:

@@ -27,5 +27,5 @@ def found_torch() -> Any:
         if error.name != "torch":
             raise
         raise PackworkError(
-            "this needs PyTorch, which is not installed; install it: pip install packwork[torch]"
+            "this needs PyTorch, which is not installed; install it: pip install torch"
         ) from None

@@ -44,7 +44,7 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
         if (error.name or "").partition(".")[0] != "pyarrow":
             raise
         raise ReadError(
-            file, "needs pyarrow; install it: pip install packwork[data], or give CSV"
+            file, "needs pyarrow; install it: pip install pyarrow, or give CSV"
         ) from None
     try:
         opened = parquet.ParquetFile(io.BytesIO(data))

@@ -1,0 +1,246 @@
+"""Kernels compiled before a run, by two processes at once, and counted.
+
+Each part exercises some kernels on next to nothing, so that they are compiled for the very types
+that a run uses. Where none is kept yet, a second process takes parts from the other end of the
+list; what it compiles comes back by way of the cache.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from packwork import compiled
+from packwork.finish import _kernels as rounds
+from packwork.finish._kernels import Wishes
+from packwork.finish.arrangement import Arrangement
+from packwork.finish.contact import _kernels as contact
+from packwork.finish.covers import _kernels as covers
+from packwork.finish.programme import _kernels as programme
+from packwork.geometry.affine import similarity
+from packwork.geometry.outline import Outline
+from packwork.metrics.pixel import pixel_metrics
+from packwork.pipeline.outcome import find_unplaced
+from packwork.scene.container import Container
+from packwork.scene.item import FlatArt, Item
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+from packwork.solve.options import SolveOptions
+from packwork.solve.solver import solve
+
+KERNELS = 26
+"""Kernels that all parts compile; a test counts them."""
+
+SECONDS_BETWEEN = 0.05
+"""Time between two looks at the second process. Chosen."""
+
+Part = Callable[[], None]
+"""Compiles some kernels, or loads them."""
+
+Counted = Callable[[int], None]
+"""Told how many kernels are compiled or loaded."""
+
+_HELPER = (
+    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
+    "from packwork.pipeline.warming import help_out; help_out(sys.argv[2])"
+)
+
+
+def warm_up(counted: Counted | None = None, second: bool = False) -> None:
+    """Load the compiled kernels, or compile them on the first run ever on a machine.
+
+    Parameters
+    ----------
+    counted
+        Told of each kernel that is compiled, by how many there are until then.
+    second
+        Whether a second process may be started to help; one that ends with this one.
+    """
+    done = 0
+    lock = threading.Lock()
+
+    def one_more() -> None:
+        nonlocal done
+        with lock:
+            done += 1
+            if counted is not None:
+                counted(min(done, KERNELS))
+
+    def tell(kernel: str, is_done: bool) -> None:
+        if is_done:
+            one_more()
+
+    with contextlib.ExitStack() as stack:
+        if counted is not None:
+            stack.enter_context(compiled.listening(tell))
+        if second and _may_have_help():
+            mark = _mark()
+            if mark is not None and compiled.STORE.get(mark) is None:
+                # Where no process can be started, this one does all.
+                with contextlib.suppress(OSError), helped(one_more) as (claims, helper):
+                    share(PARTS, claims)
+                    while helper.poll() is None:
+                        time.sleep(SECONDS_BETWEEN)
+                stack.callback(compiled.STORE.put, mark, b"")
+        # What another process has compiled is loaded; what is left is compiled.
+        for part in PARTS:
+            part()
+
+
+def help_out(claims: str) -> None:
+    """Compile parts that nobody has claimed, last ones first; what a second process does."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+
+    def follow() -> None:
+        # The other end is closed when whoever asked for help has ended, however that was.
+        sys.stdin.buffer.read()
+        os._exit(1)
+
+    threading.Thread(target=follow, daemon=True).start()
+
+    def tell(kernel: str, is_done: bool) -> None:
+        if is_done:
+            sys.stdout.write("\n")
+            sys.stdout.flush()
+
+    with compiled.listening(tell):
+        share(PARTS[::-1], Path(claims))
+    # The thread that waits would hold up an ordinary end.
+    os._exit(0)
+
+
+@contextlib.contextmanager
+def helped(one_more: Callable[[], None]) -> Iterator[tuple[Path, Any]]:
+    """A second process, which is ended with the block, and where parts are claimed."""
+    with tempfile.TemporaryDirectory(prefix="packwork-claims-") as claims:
+        # Not ``-m``, which would look for modules in the current folder.
+        command = [sys.executable, "-P", "-c", _HELPER, json.dumps(sys.path), claims]
+        helper = subprocess.Popen(  # noqa: S603 - ourselves
+            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
+        )
+        assert helper.stdout is not None  # noqa: S101 - a pipe was asked for
+
+        def count(lines: Any = helper.stdout) -> None:
+            for _ in lines:
+                one_more()
+
+        counter = threading.Thread(target=count, daemon=True)
+        counter.start()
+        try:
+            yield Path(claims), helper
+        finally:
+            helper.kill()
+            helper.wait()
+            counter.join()
+            helper.stdout.close()
+            if helper.stdin is not None:
+                helper.stdin.close()
+
+
+def share(parts: Sequence[Part], claims: Path) -> None:
+    """Do all parts that nobody else does."""
+    for part in parts:
+        try:
+            (claims / part.__name__).touch(exist_ok=False)
+        except FileExistsError:
+            continue
+        part()
+
+
+def _may_have_help() -> bool:
+    """Whether there is a second core, a Python to start, and a cache to meet in."""
+    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
+    is_python = bool(sys.executable) and not getattr(sys, "frozen", False)
+    return is_python and (cores or 1) > 1 and compiled.STORE.folder is not None
+
+
+def _mark() -> str | None:
+    """What is kept beside the kernels once all parts are; None where texts are not to be had."""
+    names = [name for name in sys.modules if name.startswith("packwork.") and "_kernels" in name]
+    try:
+        return compiled.mark_of(names)
+    except OSError:
+        return None
+
+
+def _square(half: float) -> Outline:
+    corners = [[-half, -half], [half, -half], [half, half], [-half, half]]
+    return Outline.from_rings([np.array(corners)])
+
+
+def _container() -> Container:
+    region = _square(1.0).mapped(similarity(4.0, 4.0, 0.0, 3.0))
+    return Container("warm-up", "", region, 8.0, 8.0)
+
+
+def _poses() -> Poses:
+    return Poses(*(np.full(1, value) for value in (4.0, 4.0, 0.0, 1.0)))
+
+
+def levels() -> None:
+    """Renderer, losses, steps."""
+    for evenness in (0.0, 1.0):
+        options = SolveOptions(levels=(8,), epochs=1, losses={"evenness": evenness})
+        solve(_container(), [_square(1.0)], _poses(), np.ones(1), options)
+
+
+def pairs() -> None:
+    """Who is near whom, simpler outlines, bounds of a step, the measures."""
+    near = _arrangement()
+    near.pairs(1.0)
+    contact.pairs_of(near.board.boxes, np.arange(1), 1.0)
+    rounds.freedoms(near.board, _wishes(), np.arange(1), 0.1)
+    rounds.step_of(near.board, np.arange(1), np.zeros(4), 0.1)
+    covers.shed(_square(1.0).rings[0], 0.01)
+    item = Item("warm-up", "", _square(1.0), _square(1.0), FlatArt())
+    layout = Layout(_container(), (item,), _poses(), np.ones(1))
+    find_unplaced(layout)
+    pixel_metrics(layout.outlines, layout.container)
+
+
+def contacts() -> None:
+    """What keeps items apart."""
+    near = _arrangement()
+    rounds.rows_of(near.board, np.arange(1), near.pairs(1.0), 0.1, 0.0, 0.01)
+
+
+def programmes() -> None:
+    """The best step."""
+    rows = programme.Rows(
+        np.zeros(1, np.int64), np.full(1, -1), np.zeros((1, 8)), np.ones(1)
+    )  # fmt: skip
+    programme.maximise(rows, np.ones(4), -np.ones(4), np.ones(4), 0.1)
+
+
+def checks() -> None:
+    """Distances, and steps as far as they go."""
+    near = _arrangement()
+    them = near.pairs(1.0)
+    near.distances(them, 1.0)
+    rounds.settle(near.board, np.arange(1), np.zeros((1, 4)), them, 0.0, 0.1)
+    rounds.clear_by_shrinking(near.board, np.arange(1), them, 0.0, 0.1, 1)
+
+
+PARTS: tuple[Part, ...] = (levels, pairs, contacts, programmes, checks)
+"""All parts; what shares helpers is one part, since each process compiles its own."""
+
+
+def _arrangement() -> Arrangement:
+    return Arrangement([_square(1.0)], _container().outline, np.array([[4.0, 4.0, 0.0, 0.0]]))
+
+
+def _wishes() -> Wishes:
+    free = np.full(1, 9.0)
+    return Wishes(-free, free, -free, free, np.ones(1), 2.0, np.zeros((1, 2)))

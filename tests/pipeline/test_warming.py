@@ -1,0 +1,119 @@
+"""Kernels before the first run: all that a run needs, by one process or two."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from packwork import compiled
+from packwork.pipeline import warming
+
+pytestmark = pytest.mark.skipif(
+    bool(os.environ.get("NUMBA_DISABLE_JIT")), reason="nothing is compiled"
+)
+
+RUN = """
+import packwork as pw
+from packwork import compiled, pipeline
+asked = []
+load = compiled.KernelCache.load_overload
+def counting(self, sig, context):
+    asked.append(self._name)
+    return load(self, sig, context)
+compiled.KernelCache.load_overload = counting
+pipeline.warm_up()
+before = len(asked)
+pw.fill("circle", ["star", "heart"], count=12, epochs=30, levels="16,32")
+print(before, len(set(asked[:before])), *asked[before:])
+"""
+
+
+def test_a_run_needs_no_kernel_that_was_not_compiled_beforehand() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", RUN], capture_output=True, text=True, check=True
+    )  # fmt: skip
+    types, kernels, *more = done.stdout.split()
+    assert int(kernels) <= int(types) == warming.KERNELS
+    assert more == []
+
+
+def test_two_processes_share_the_parts(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    done: list[str] = []
+
+    def part(name: str) -> None:
+        def do() -> None:
+            done.append(name)
+
+        do.__name__ = name
+        parts.append(do)
+
+    parts: list[warming.Part] = []
+    for name in "abc":
+        part(name)
+    (tmp_path / "b").touch()
+    warming.share(parts, tmp_path)
+    warming.share(parts[::-1], tmp_path)
+    assert done == ["a", "c"]
+
+
+def test_a_second_process_counts_for_the_first_and_ends_with_it() -> None:
+    counted: list[int] = []
+    with warming.helped(lambda: counted.append(1)) as (claims, helper):
+        for part in warming.PARTS[1:]:
+            (claims / part.__name__).touch()
+        assert helper.wait(200) == 0
+        assert (claims / warming.PARTS[0].__name__).exists()
+    with warming.helped(lambda: None) as (_, helper):
+        pass
+    assert helper.returncode is not None
+    assert not claims.exists()
+
+
+def test_a_second_process_is_asked_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked: list[int] = []
+
+    class RefusedError(Exception):
+        pass
+
+    def helped(one_more: object) -> None:
+        asked.append(1)
+        raise RefusedError
+
+    monkeypatch.setattr(warming, "PARTS", ())
+    monkeypatch.setattr(warming, "helped", helped)
+    monkeypatch.setattr(warming, "_may_have_help", lambda: True)
+    monkeypatch.setenv("PACKWORK_CACHE_DIR", str(tmp_path))
+    warming.warm_up(second=False)
+    assert asked == []
+    with pytest.raises(RefusedError):
+        warming.warm_up(second=True)
+    mark = warming._mark()
+    assert mark is not None
+    compiled.STORE.put(mark, b"")
+    warming.warm_up(second=True)
+    assert asked == [1]
+
+
+def test_one_that_cannot_be_started_is_no_failure(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(warming, "PARTS", ())
+    monkeypatch.setattr(warming, "_may_have_help", lambda: True)
+    monkeypatch.setattr(sys, "executable", str(tmp_path / "no-python"))
+    monkeypatch.setenv("PACKWORK_CACHE_DIR", str(tmp_path))
+    warming.warm_up(second=True)
+
+
+def test_importing_the_library_starts_no_process() -> None:
+    code = (
+        "import subprocess, sys\n"
+        "def refuse(*_, **__): raise AssertionError\n"
+        "subprocess.Popen.__init__ = refuse\n"
+        "import packwork as pw\n"
+        "pw.fill('circle', 'star', count=2, epochs=2, levels='16')\n"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True)
