@@ -19,6 +19,7 @@ import packwork as pw
 from packwork.errors import RecipeError
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.recipe import read_recipe
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe, parse_levels
 from packwork.rules import Rule
@@ -325,3 +326,20 @@ def test_verbs_refuse_names_of_nothing_too():
     ):
         with pytest.raises(RecipeError, match="is an empty name"):
             verb("heart", **arguments)
+
+
+def test_a_recipe_that_reads_files_elsewhere_names_them(tmp_path, caplog):
+    own = tmp_path / "sets"
+    own.mkdir()
+    (own / "text.txt").write_text("bears and bees")
+    (tmp_path / "private.txt").write_text("a secret")
+    recipe = own / "r.toml"
+    table = 'container = "heart"\n[words]\nsource = "{}"\n'
+    recipe.write_text(table.format("text.txt"))
+    read_recipe(recipe)
+    assert caplog.text == ""
+    for name in ("../private.txt", (tmp_path / "private.txt").as_posix()):
+        caplog.clear()
+        recipe.write_text(table.format(name))
+        read_recipe(recipe)
+        assert "private.txt, outside of its own folder" in caplog.text

@@ -101,6 +101,18 @@ class Rotation(Options):
         raise _bad_rotation(text)
 
     @property
+    def of_words(self) -> Rotation:
+        """The same of what has to be read: free, yet never upside down.
+
+        Examples
+        --------
+        >>> [Rotation.parse(text).of_words.limit for text in ("free", "0,90")]
+        [1.57..., None]
+        """
+        is_free = self.limit is None and self.choices is None
+        return Rotation(limit=math.pi / 2) if is_free else self
+
+    @property
     def is_still(self) -> bool:
         """Whether items keep the angle that they start with.
 

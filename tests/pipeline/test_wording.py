@@ -197,3 +197,13 @@ def test_words_stand_between_the_letters_of_others_unless_hulls_are_asked_for(
 def test_counters_are_free_for_words_only_if_holes_are_kept(holes: str) -> None:
     layout = pw.words("circle", {"OO": 9.0, "i": 1.0}, holes=holes, **QUICK)
     assert layout.items[0].outline.has_holes == (holes == "keep")
+
+
+def test_words_that_turn_freely_never_stand_upside_down() -> None:
+    words = {f"word{k}": 1.0 + k for k in range(12)}
+    rule = {"items": "word3", "rotate": "free"}
+    for options in ({"rotate": "free"}, {"rotate": "horizontal", "rules": [rule]}):
+        layout = fill(words_recipe("circle", words, seed=3, **options, **QUICK)).layout
+        turns = np.abs(np.angle(np.exp(1j * layout.poses.angle)))
+        assert turns.max() <= np.pi / 2 + 1e-9
+        assert turns.max() > 0.1

@@ -266,3 +266,18 @@ def test_colour_functions_are_of_one_kind() -> None:
         assert first == second
     with pytest.raises(ValueError, match="nosuchmap"):
         colormap_color_func("nosuchmap")
+
+
+def test_a_picture_that_cannot_be_written_leaves_the_older_one(tmp_path: Path) -> None:
+    cloud = WordCloud(width=90, height=60, random_state=0).generate_from_frequencies({"ox": 1})
+    kept = tmp_path / "keep.png"
+    kept.write_bytes(b"older")
+    cloud.background_color = "bogus"
+    with pytest.raises(ValueError, match="bogus"):
+        cloud.to_file(kept)
+    assert kept.read_bytes() == b"older"
+    cloud.background_color = "white"
+    assert cloud.to_file(kept) is cloud
+    assert kept.read_bytes()[1:4] == b"PNG"
+    with pytest.raises(ValueError, match="unknown file extension"):
+        cloud.to_file(tmp_path / "a.bogus")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import difflib
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fnmatch import fnmatchcase
 from typing import Any
 
@@ -51,11 +51,14 @@ class Asked:
         What of the pose is given, by key.
     voices
         Who asked, by the same keys, those of the pin with ``pin.`` before them.
+    is_read
+        Whether the copy is a word.
     """
 
     values: Mapping[str, Any] = field(default_factory=dict)
     pin: Mapping[str, Any] = field(default_factory=dict)
     voices: Mapping[str, Voice] = field(default_factory=dict)
+    is_read: bool = False
 
     def heard(self, rule: Rule, voice: Voice) -> Asked:
         """The same after one more rule.
@@ -98,7 +101,14 @@ class Asked:
     def rotation(self) -> Rotation | None:
         """How far the copy may turn; None if no rule says it."""
         text = self.values.get("rotate")
-        return None if text is None else Rotation.parse(text)
+        if text is None:
+            return None
+        return Rotation.parse(text).of_words if self.is_read else Rotation.parse(text)
+
+    @property
+    def to_be_read(self) -> Asked:
+        """The same of a word, which is never upside down."""
+        return replace(self, is_read=True)
 
 
 def voices(recipe: Recipe) -> list[tuple[Voice, Rule]]:

@@ -97,7 +97,11 @@ def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item] | None) -
     others = tuple(added or ())
     middling = BOX_OVER_INK * float(np.median(words.areas))
     areas = np.append(words.areas, np.full(len(others), middling))
-    return cast(recipe, (*words.items, *others), areas)
+    found = cast(recipe, (*words.items, *others), areas)
+    spoken = set(words.items)
+    pairs = zip(found.items, found.asked, strict=True)
+    asked = (one.to_be_read if item in spoken else one for item, one in pairs)
+    return replace(found, asked=tuple(asked))
 
 
 def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:

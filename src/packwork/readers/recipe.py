@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import re
 import tomllib
 from collections.abc import Mapping
@@ -9,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.files import read_text
-from packwork.recipe_paths import found_from, with_paths
+from packwork.readers.files import exists, read_text
+from packwork.recipe_paths import found_from, named_files, with_paths
 
 MAX_BYTES = 1_000_000
 """Largest recipe file. Chosen."""
@@ -18,6 +19,11 @@ MAX_BYTES = 1_000_000
 MOST_NESTED = 32
 """Arrays and tables in each other, or parts of a key. Larger lets the parser recurse; a recipe has
 four. Chosen."""
+
+MOST_NAMED = 8
+"""Files that one notice names. Chosen."""
+
+_LOG = logging.getLogger("packwork")
 
 _STRINGS = re.compile(
     r'"""(?:\\.|[^\\])*?(?:"""|\Z)'
@@ -68,7 +74,26 @@ def read_recipe(path: str | Path, *, allow_code: bool = False) -> dict[str, Any]
         raise ReadError(path, f"is not TOML ({said}); give lines such as count = 100") from None
     if not allow_code:
         check_no_code(options)
-    return with_paths(options, found_from(Path(path).parent))
+    found = with_paths(options, found_from(Path(path).parent))
+    _name_files_elsewhere(path, found)
+    return found
+
+
+def _name_files_elsewhere(recipe: str | Path, options: Mapping[str, Any]) -> None:
+    """Name files that a recipe reads and that are not beside it: what they hold may be shown.
+
+    A recipe may come from anywhere, and could set any text that its reader can open.
+    """
+    home = Path(recipe).parent.resolve()
+    elsewhere = [
+        name
+        for name in dict.fromkeys(named_files(options))
+        if exists(name) and not Path(name).resolve().is_relative_to(home)
+    ]
+    if elsewhere:
+        more = f" and {len(elsewhere) - MOST_NAMED} more" if len(elsewhere) > MOST_NAMED else ""
+        names = ", ".join(elsewhere[:MOST_NAMED])
+        _LOG.warning("%s reads %s%s, outside of its own folder", recipe, names, more)
 
 
 def check_no_code(options: Mapping[str, Any]) -> None:

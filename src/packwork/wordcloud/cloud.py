@@ -25,6 +25,7 @@ from packwork.scene.layout import Layout
 from packwork.wordcloud.colours import ColourFunction, colormap_color_func
 from packwork.wordcloud.setting import Placed, Setting, container_of_mask, placed, relative_heights
 from packwork.wordcloud.words import STOPWORDS, frequencies, tokens, with_bigrams
+from packwork.writers.atomic import write_atomic
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.recolour import recoloured
 from packwork.writers.svg import SvgOptions, TextChoice, svg_text
@@ -217,8 +218,19 @@ class WordCloud:
             options = writers.write_options(background=self._css_background())
             writers.write(self.layout, str(filename), options)
         else:
-            self.to_image().save(filename, optimize=True)
+            write_atomic(str(filename), self._encoded(filename))
         return self
+
+    def _encoded(self, filename: str | os.PathLike[str]) -> bytes:
+        """The picture as a file whose ending says the format."""
+        made = io.BytesIO()
+        Image.registered_extensions()  # tells of all formats
+        ending = Path(filename).suffix.lower()
+        kind = Image.EXTENSION.get(ending)
+        if kind is None or kind not in Image.SAVE:
+            raise ValueError(f"unknown file extension: {ending}")
+        self.to_image().save(made, format=kind, optimize=True)
+        return made.getvalue()
 
     def to_array(self, copy: bool | None = None) -> npt.NDArray[np.uint8]:
         """Pixels of the picture, ``(rows, columns, channels)``."""

@@ -8,6 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from itertools import pairwise
 
+from packwork.readers.words.matching import found_in
 from packwork.readers.words.stop_words import stop_words
 
 STOPWORDS: set[str] = set(stop_words("en"))
@@ -26,7 +27,10 @@ def tokens(
     >>> tokens("The bear's 3 bees", None, include_numbers=False, min_word_length=0)
     ['The', 'bear', 'bees']
     """
-    found = re.findall(regexp or (_PLAIN if min_word_length <= 1 else _LONGER), text)
+    if regexp is None:
+        found = re.findall(_PLAIN if min_word_length <= 1 else _LONGER, text)
+    else:
+        (found,) = found_in(regexp, [text], groups=True)
     words = [word[:-2] if word.lower().endswith("'s") else word for word in found]
     if not include_numbers:
         words = [word for word in words if not word.isdigit()]

@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Iterator
 
+from packwork.readers.words.matching import found_in
 from packwork.readers.words.unspaced import is_unspaced, segments
 from packwork.readers.words.word import sound
 
@@ -37,14 +38,19 @@ def sentences(text: str, *, include_numbers: bool = False) -> Iterator[list[str]
 def matches(text: str, pattern: str) -> Iterator[list[str]]:
     r"""What a regular expression finds, line by line; control characters and idle spaces off.
 
+    Raises
+    ------
+    RecipeError
+        If it does not come to an end.
+
     Examples
     --------
     >>> list(matches("a #bear and\n#honey", r"#\w+"))
     [['#bear'], ['#honey']]
     """
-    known = re.compile(pattern)
-    for line in unicodedata.normalize("NFC", text).splitlines():
-        words = [word for match in known.finditer(line) if (word := sound(match.group()))]
+    lines = unicodedata.normalize("NFC", text).splitlines()
+    for found in found_in(pattern, lines):
+        words = [word for match in found if (word := sound(match))]
         if words:
             yield words
 
