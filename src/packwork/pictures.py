@@ -63,6 +63,10 @@ class Pictured(Options):
     photos: PhotoOptions | None = None
     """Photographs to place: which, and what becomes of their edges (``packwork photos``)."""
 
+    least_dpi: Annotated[float, Field(gt=0, le=10_000)] | None = None
+    """Enlarge no photo beyond so many of its own pixels to the inch: those of few pixels stay
+    small. Default: photos are as large as suits the layout."""
+
     quiet_share: Annotated[float, Field(ge=0.02, le=0.98), BeforeValidator(parse_share)] = 0.4
     """Of a container around:IMAGE: the share of the picture that is filled, as 0.4 or 40%: that
     in which least is to be seen."""

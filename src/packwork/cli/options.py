@@ -57,6 +57,7 @@ Output = Annotated[
 Count = Annotated[str | None, flag("count", "-n", "--count", panel=PLACING)]
 Font = Annotated[str | None, flag("font", panel=PLACING)]
 Canvas = Annotated[str | None, flag("canvas", panel=PLACING)]
+LeastDpi = Annotated[float | None, flag("least_dpi", panel=PLACING)]
 Delimiter = Annotated[str | None, flag("delimiter", panel=TABLES)]
 Decimal = Annotated[Literal[".", ","] | None, flag("decimal", panel=TABLES)]
 Encoding = Annotated[str | None, flag("encoding", panel=TABLES)]

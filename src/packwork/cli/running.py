@@ -235,6 +235,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         written = [*drawn, *saved, *films]
         results = run.report(time.perf_counter() - began)
         results["advice"] += _hard_to_see(run, outputs)
+        results["advice"] += pipeline.coarse_photos(run.layout, outputs.options.dpi)
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
         replaced = {path for path, _ in written if os.path.lexists(path)}

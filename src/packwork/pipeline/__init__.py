@@ -7,6 +7,7 @@ from packwork.pipeline.outcome import Run, Unplaced, find_unplaced
 from packwork.pipeline.padding import padded
 from packwork.pipeline.photographing import photos_recipe
 from packwork.pipeline.piling import pile_recipe
+from packwork.pipeline.resolving import coarse_photos
 from packwork.pipeline.run import fill, run
 from packwork.pipeline.warming import KERNELS, warm_up
 from packwork.pipeline.wording import words_recipe
@@ -19,6 +20,7 @@ __all__ = [
     "Run",
     "Unplaced",
     "chart_recipe",
+    "coarse_photos",
     "fill",
     "find_unplaced",
     "item_weights",

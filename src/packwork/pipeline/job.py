@@ -148,7 +148,12 @@ class Job:
     @property
     def is_limited(self) -> bool:
         """Whether anything is asked of single items."""
-        return self.recipe.keeps_apart or any(one.voices for one in self.asked)
+        recipe = self.recipe
+        return (
+            recipe.keeps_apart
+            or recipe.least_dpi is not None
+            or any(one.voices for one in self.asked)
+        )
 
     def seconds_left(self, share: float) -> float | None:
         """That share of the time that the recipe allows and nothing has used; None if any."""

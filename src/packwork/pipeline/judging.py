@@ -27,6 +27,7 @@ from packwork.pipeline.outcome import (
     undrawn,
     words_found,
 )
+from packwork.pipeline.resolving import resolution_faults
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -111,7 +112,7 @@ def judged(job: Job, found: Judged) -> Run:
         if not is_exact:
             known = find_unplaced(layout, limits)
         unplaced = known + undrawn(job, total)
-        faults = seen.faults + found.faults
+        faults = seen.faults + found.faults + resolution_faults(job, layout)
         kinds = None if limits is None else limits.kinds
         kinds = kinds if kinds is None or kept is None else kinds[kept]
         beside = None if limits is None else same_kind_beside(layout, kinds)

@@ -14,6 +14,7 @@ from packwork.geometry.polygon import Region
 from packwork.pipeline.asking import Voice
 from packwork.pipeline.casting import kinds
 from packwork.pipeline.job import Job
+from packwork.pipeline.resolving import largest_scales
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -162,6 +163,7 @@ def _scale_ranges(
     job: Job, nominal: FloatArray, scales: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     recipe = job.recipe
+    finest = largest_scales(job)
     if recipe.sizes == "fixed":
         return scales.copy(), scales.copy()
     ranges = np.full((len(nominal), 2), (1 / recipe.size_ratio, recipe.size_ratio))
@@ -173,7 +175,7 @@ def _scale_ranges(
             ranges[k] = 1.0
     smallest, largest = nominal * ranges[:, 0], nominal * ranges[:, 1]
     if recipe.sizes == "free":
-        most = _below_the_hero(job, nominal)
+        most = np.minimum(_below_the_hero(job, nominal), finest)
         smallest, largest = np.minimum(smallest, most), np.minimum(largest, most)
     return smallest, largest
 

@@ -13,6 +13,7 @@ from packwork.arrays import IntArray
 from packwork.errors import PackworkError, RowsLostError
 from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.job import Job
+from packwork.pipeline.resolving import photo_pixels
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.solve.herd import wronged_shares
@@ -173,6 +174,7 @@ class Run:
             "filling": None if self.filling is None else asdict(self.filling),
             "words": None if self.words is None else asdict(self.words),
             "pile": None if self.pile is None else dict(self.pile),
+            "photos": [asdict(photo) for photo in photo_pixels(self.layout)],
             "remarks": list(self.remarks),
             "advice": list(self.advice),
             "ending": self.ending.value,
