@@ -40,7 +40,7 @@ WRITING_OPTIONS = {
     "film", *FilmOptions.model_fields,
 }  # fmt: skip
 
-ELSEWHERE = {"losses", "rules", "words", "chart", "photos", "share", "pile", "film"}
+ELSEWHERE = {"losses", "rules", "words", "chart", "photos", "share", "pile", "least_dpi", "film"}
 """Fields that ``fill`` does not offer: rules stand in files only, words, photos
 and piles are commands, a film's table is several flags."""
 

@@ -116,6 +116,12 @@ def test_cut_outs_keep_their_outline(tmp_path: Path) -> None:
     assert shown(item)[3, 3, 3] == 0
 
 
+def test_a_photo_that_is_clear_all_over_is_refused(tmp_path: Path) -> None:
+    image = Image.new("RGBA", (200, 200), (9, 9, 9, 0))
+    with pytest.raises(ReadError, match="is clear all over: nothing of it would be seen"):
+        read(saved(tmp_path, image=image))
+
+
 def test_a_shape_cuts_the_middle_out_of_a_photo(tmp_path: Path) -> None:
     item = read(saved(tmp_path), shape="circle")
     assert item.outline.area == pytest.approx(np.pi * 30**2, rel=2e-3)

@@ -137,7 +137,7 @@ def outline_of_cut_out(pixels: Pixels, threshold: float = HALF) -> Region:
     Raises
     ------
     UnfitError
-        If that is no more than a few pixels, or noise.
+        If that is no more than a few pixels, noise, or clear all over.
 
     Examples
     --------
@@ -145,6 +145,8 @@ def outline_of_cut_out(pixels: Pixels, threshold: float = HALF) -> Region:
     24.0
     """
     alpha = pixels[:, :, 3].astype(np.float64)
+    if not alpha.any():
+        raise UnfitError("is clear all over: nothing of it would be seen")
     is_even = np.ptp(alpha) <= BACKGROUND_TOLERANCE
     opaque = np.ones_like(alpha) if is_even else solidity(pixels)
     return clean_union(outline_of_coverage(raised(opaque, threshold)), speck=SPECK)
