@@ -61,7 +61,7 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     container: str
-    """What to fill: a mask (PNG, JPEG), an SVG, text:WORD, around:IMAGE, or a built-in name."""
+    """What to fill: a mask (PNG, JPEG), SVG, text:WORD, around:IMAGE, a built-in name or page."""
 
     font: str | None = None
     """Font file (TTF, OTF, TTC) for a container text:WORD, or for words; for these also an

@@ -6,13 +6,17 @@ import numpy as np
 import pytest
 from PIL import Image, ImageDraw
 
+from packwork import pipeline
 from packwork.errors import RecipeError
 from packwork.geometry.polygon import polygon_parts
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.options import ReadOptions
 from packwork.readers.svg.walls import walled_container
+from packwork.readers.written.read import read_written
 from packwork.reading import Interpreted
+from packwork.recipe import make_recipe
+from packwork.writers.svg import svg_text
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" {}>{}</svg>'
 SMALL = '<path d="M40 50h10v5h-10z"/>'
@@ -290,6 +294,32 @@ def test_a_smaller_threshold_takes_the_shadow_in(shadowed, caplog):
     container = read_container(shadowed, reading=how)
     assert container.outline.area / 36 == pytest.approx(2800, rel=0.02)
     assert not caplog.messages
+
+
+def test_a_faint_mask_of_an_svg_is_said_and_taken_in_too(drawn, caplog):
+    veil = (
+        '<mask id="m"><path fill="#fff" d="M0 0h50v90H0z"/><path fill="#444" d="M50 0h50v90H50z"/>'
+    )
+    body = veil + '</mask><path mask="url(#m)" d="M10 10h80v40h-80z"/>'
+    file = drawn(body, page='viewBox="0 0 100 100"')
+    assert read_items(file).items[0].outline.area == pytest.approx(1600, rel=0.02)
+    assert "fainter than 0.5" in caplog.messages[-1]
+    how = ReadOptions(alpha_threshold=0.05)
+    (item,) = read_items(file, reading=how).items
+    assert item.outline.area == pytest.approx(3200, rel=0.02)
+    assert read_container(file, 100.0, reading=how).outline.area == pytest.approx(3200, rel=0.02)
+
+
+def test_what_was_taken_in_is_measured(shadowed, tmp_path):
+    recipe = make_recipe(
+        container="square", items=[shadowed], alpha_threshold=0.1, effort="draft", levels="50",
+        canvas=100,
+    )  # fmt: skip
+    run = pipeline.fill(recipe)
+    assert run.certified
+    (tmp_path / "out.svg").write_text(svg_text(run.layout))
+    (measured,) = read_written(tmp_path / "out.svg").outlines
+    assert measured.area == pytest.approx(run.layout.outlines[0].area, rel=1e-4)
 
 
 def test_soft_edges_are_no_shadows(painted, caplog):

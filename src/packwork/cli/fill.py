@@ -29,7 +29,8 @@ def fill(
         typer.Argument(
             metavar="CONTAINER",
             help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD (text:ONE|TWO for two "
-            "lines), around:IMAGE (its quiet part), or a built-in name such as heart.",
+            "lines), around:IMAGE (its quiet part), a built-in name such as heart, or page "
+            "(the whole sheet of --canvas).",
         ),
     ],
     items: ItemNames = None,

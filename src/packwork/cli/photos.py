@@ -26,7 +26,7 @@ def photos(
         typer.Argument(
             metavar="CONTAINER",
             help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, around:IMAGE (its quiet "
-            "part), or a built-in name such as moon.",
+            "part), a built-in name such as moon, or page (the whole sheet of --canvas).",
         ),
     ],
     sources: Annotated[

@@ -26,7 +26,7 @@ def pile(
         typer.Argument(
             metavar="CONTAINER",
             help="A mask (PNG, JPEG: dark is inside), an SVG (an open path is a wall with an "
-            "opening), text:WORD, a built-in name such as square, or none.",
+            "opening), text:WORD, a built-in name such as square, page (the whole sheet), or none.",
         ),
     ],
     items: ItemNames = None,

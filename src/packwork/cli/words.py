@@ -28,7 +28,7 @@ def words(
         typer.Argument(
             metavar="CONTAINER",
             help="A mask (PNG, JPEG: dark is inside), an SVG, text:WORD, around:IMAGE (its quiet "
-            "part), or a built-in name such as heart.",
+            "part), a built-in name such as heart, or page (the whole sheet of --canvas).",
         ),
     ],
     source: Annotated[

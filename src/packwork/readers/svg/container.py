@@ -66,7 +66,7 @@ def container_of_svg(
     (4.0, 2.0, 'cm')
     """
     with naming(source):
-        drawing = read_drawing(data)
+        drawing = read_drawing(data, alpha_threshold=reading.alpha_threshold)
         region = _inside(drawing.ink)
         unit = stated_unit(drawing.root) if side is None else None
         left, top, right, bottom = region.bounds

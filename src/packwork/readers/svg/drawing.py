@@ -12,6 +12,7 @@ from shapely.errors import GEOSException
 
 from packwork.errors import ShapeError
 from packwork.readers.gate.door import admit
+from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
 from packwork.readers.svg.compare import LEAST_AGREEMENT, Comparison
 from packwork.readers.svg.extent import drawing_box
@@ -68,6 +69,7 @@ def read_drawing(
     is_compared: bool = False,
     is_on_paper: bool = False,
     keep_page: bool | None = None,
+    alpha_threshold: float = HALF,
     tolerance: float | None = None,
 ) -> Drawing:
     """Drawing of an SVG file's bytes.
@@ -83,6 +85,8 @@ def read_drawing(
         Whether a white page behind all else is no part of it, as of items.
     keep_page
         Whether it stays all the same; None: as it looks.
+    alpha_threshold
+        Opacity from which what has to be traced is inside.
     tolerance
         Largest distance of a curve from its chords, in CSS pixels, where that is to be
         finer than for placing; not of what is compared.
@@ -106,15 +110,17 @@ def read_drawing(
     if is_on_paper:
         shapes, sheet = drop_sheet(root, page, shapes, keep_page)
     if needs_tracing(root):
-        drawing = _traced(root, page, shapes)
+        drawing = _traced(root, page, shapes, alpha_threshold)
     elif is_compared:
-        drawing = _compared(root, page, shapes)
+        drawing = _compared(root, page, shapes, alpha_threshold)
     else:
         drawing = Drawing(root, page, painted_ink(shapes, tolerance), shapes)
     return replace(drawing, sheet=sheet)
 
 
-def _compared(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Drawing:
+def _compared(
+    root: ET.Element, page: Page | None, shapes: list[Painted], threshold: float
+) -> Drawing:
     """Drawing as computed from its shapes, or traced where that is nearer to its picture."""
     try:
         if len(shapes) > MAX_SHAPES:
@@ -123,14 +129,14 @@ def _compared(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Dra
         comparison = Comparison(root, page, drawing.ink.body, drawing.work)
         share = comparison.agreement(drawing.ink.whole)
     except (TooRichError, GEOSException, ShapeError) as problem:
-        traced = _traced(root, page, shapes)
+        traced = _traced(root, page, shapes, threshold)
         why = problem.what if isinstance(problem, TooRichError) else "has edges too close to tell"
         notice(f"is traced from its picture, for it {why}")
         return traced
     if share >= LEAST_AGREEMENT or drawing.work.hairs > 0:
         # Of lines thinner than its pixels a picture tells little.
         return drawing
-    traced = _traced(root, page, shapes)
+    traced = _traced(root, page, shapes, threshold)
     # Without a page the traced one stands elsewhere.
     if page is not None and comparison.agreement(traced.ink.whole) <= share:
         return drawing
@@ -138,7 +144,9 @@ def _compared(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Dra
     return traced
 
 
-def _traced(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Drawing:
+def _traced(
+    root: ET.Element, page: Page | None, shapes: list[Painted], threshold: float
+) -> Drawing:
     if page is None:
         root = copy.copy(root)
         page = _framed(root, shapes)
@@ -148,7 +156,7 @@ def _traced(root: ET.Element, page: Page | None, shapes: list[Painted]) -> Drawi
     part = inked_part(root, page, work)
     if part is not None:
         check_tiles(root, shapes, max(part[2:]))
-    return Drawing(root, page, traced_ink(root, page, part, work), shapes)
+    return Drawing(root, page, traced_ink(root, page, part, work, threshold), shapes)
 
 
 def _framed(root: ET.Element, shapes: list[Painted]) -> Page:

@@ -42,13 +42,14 @@ def read_svg(path: str | Path, holes: Holes = "fill", reading: ReadOptions | Non
     ...     read_svg(file).item.outline.bounds
     (-2.0, -1.0, 2.0, 1.0)
     """
-    data, keep_page = read_bytes(path, MAX_BYTES), (reading or ReadOptions()).keep_page
-    read = _read(data, stem(path), str(path), holes, keep_page, is_compared=True)
-    if keep_page is not None:
+    data, options = read_bytes(path, MAX_BYTES), reading or ReadOptions()
+    read = _read(data, stem(path), str(path), holes, options, is_compared=True)
+    if options.keep_page is not None:
         return replace(read, page=PageFate.NONE)
 
     def again() -> Item:
-        return _read(data, stem(path), str(path), holes, True, is_compared=True).item
+        kept = replace(options, keep_page=True)
+        return _read(data, stem(path), str(path), holes, kept, is_compared=True).item
 
     return replace(read, again=again)
 
@@ -81,14 +82,17 @@ def item_of_svg(
     >>> len(item.outline.rings), len(item.ink.rings)
     (1, 2)
     """
-    return agreed([_read(data, name, source, holes, None, is_compared=is_compared)])[0]
+    return agreed([_read(data, name, source, holes, ReadOptions(), is_compared=is_compared)])[0]
 
 
 def _read(
-    data: bytes, name: str, source: str, holes: Holes, keep_page: bool | None, *, is_compared: bool
+    data: bytes, name: str, source: str, holes: Holes, options: ReadOptions, *, is_compared: bool
 ) -> Read:
     with naming(source):
-        drawing = read_drawing(data, is_compared=is_compared, is_on_paper=True, keep_page=keep_page)
+        drawing = read_drawing(
+            data, is_compared=is_compared, is_on_paper=True, keep_page=options.keep_page,
+            alpha_threshold=options.alpha_threshold,
+        )  # fmt: skip
         outline, ink, place = centred(clean_union(drawing.ink.body), holes)
         if drawing.ink.body is not drawing.ink.whole:
             ink = Outline.from_region(clean_union(drawing.ink.whole)).mapped(place)

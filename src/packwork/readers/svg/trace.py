@@ -12,6 +12,7 @@ from shapely.geometry import Polygon
 
 from packwork.geometry.polygon import Region
 from packwork.readers.gate.vocabulary import TEXTS, TRACED
+from packwork.readers.options import HALF
 from packwork.readers.svg.ink import TracedInk
 from packwork.readers.svg.page import Page
 from packwork.readers.svg.render import TRACE_PX as TRACE_PX
@@ -42,7 +43,9 @@ def needs_tracing(root: ET.Element) -> bool:
     )
 
 
-def traced_ink(root: ET.Element, page: Page, part: Part | None, work: Work) -> TracedInk:
+def traced_ink(
+    root: ET.Element, page: Page, part: Part | None, work: Work, threshold: float = HALF
+) -> TracedInk:
     """Where a clean drawing is more opaque than not, in CSS pixels; possibly empty.
 
     Opacities above zero count as full: a faint shape is a shape.
@@ -55,6 +58,8 @@ def traced_ink(root: ET.Element, page: Page, part: Part | None, work: Work) -> T
         What is rendered, as ``inked_part`` gave it.
     work
         Of its solid twin.
+    threshold
+        Opacity from which what is traced is inside, as a share of the most opaque place's.
 
     Raises
     ------
@@ -73,10 +78,11 @@ def traced_ink(root: ET.Element, page: Page, part: Part | None, work: Work) -> T
     """
     if part is None:
         return TracedInk(Polygon())
-    whole = _traced(solid_twin(root), page, part, work)
+    whole = _traced(solid_twin(root), page, part, work, threshold)
     if not any("stroke-dasharray" in element.attrib for element in root.iter()):
         return TracedInk(whole)
-    return TracedInk(whole, _traced(solid_twin(root, with_dashes=False), page, part, work))
+    dashless = solid_twin(root, with_dashes=False)
+    return TracedInk(whole, _traced(dashless, page, part, work, threshold))
 
 
 def inked_part(root: ET.Element, page: Page, work: Work) -> Part | None:
@@ -103,13 +109,16 @@ def inked_part(root: ET.Element, page: Page, work: Work) -> Part | None:
     )
 
 
-def _traced(twin: ET.Element, page: Page, part: Part, work: Work) -> Region:
+def _traced(twin: ET.Element, page: Page, part: Part, work: Work, threshold: float) -> Region:
     from packwork.readers.pictures.contours import contour_region
+    from packwork.readers.pictures.transparency import raised, tell_what_is_faint
 
     side = work.side(TRACE_PX, max(part[2:]))
     opacity = coverage(twin, page, part, side)
     # What a mask lets through faintly is a shape all the same.
-    traced = contour_region(opacity / max(float(opacity.max()), _FAINTEST), _SIMPLIFY_PX)
+    solid = opacity / max(float(opacity.max()), _FAINTEST)
+    tell_what_is_faint(solid, threshold)
+    traced = contour_region(raised(solid, threshold), _SIMPLIFY_PX)
     px = max(part[2:]) / side
     return shapely.transform(traced, lambda points: points * px + part[:2])
 
