@@ -84,7 +84,8 @@ class PileOptions(Options):
 
     size: str | float | None = None
     """Longer side of each item, a length as for the padding; with weights, of one of weight 1.
-    Default: as large as in their files."""
+    Default: in the proportions of their files, and so large that all find room and the pile is
+    about two thirds high; without a container as large as in their files."""
 
     emit: str | None = None
     """Where items come from: top, bottom, left, right (that edge of the canvas), X,Y (a point),

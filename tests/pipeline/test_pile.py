@@ -163,8 +163,8 @@ def test_a_round_container_opens_by_its_cap() -> None:
 
 def test_python_takes_items_and_containers() -> None:
     tile = pw.Container("tile", "tile", box(0, 0, 100, 100), 100.0, 100.0)
-    layout = pw.pile(tile, [flat_item("a", disc(9.0))], count=5, rotate="none")
-    assert layout.poses.scale.tolist() == [1.0] * 5
+    layout = pw.pile(tile, [flat_item("a", disc(9.0))], count=5, rotate="none", size=18)
+    assert layout.poses.scale.tolist() == pytest.approx([1.0] * 5)
     assert layout.metrics["exact"]["OO"] == 0
 
 
@@ -233,3 +233,13 @@ def test_a_drawn_jar_shows_its_own_walls(tmp_path: Path) -> None:
     run = _run(str(tmp_path / "jar.svg"), count=4, size="10%")
     (wall,) = run.layout.container.walls or ()
     assert wall[[0, -1], 1] == pytest.approx([180, 180], abs=0.01)
+
+
+@pytest.mark.parametrize("container", ["square", "heart"])
+def test_without_a_size_all_find_room_and_the_pile_is_two_thirds_high(container: str) -> None:
+    run = pipeline.fill(pipeline.pile_recipe(container, ["star", "circle", "owl"], count=18))
+    assert len(run.layout.items) == 18
+    assert run.is_as_asked
+    _, top, _, bottom = run.layout.container.outline.bounds
+    highest = min(outline.bounds[1] for outline in run.layout.outlines)
+    assert 0.5 < (bottom - highest) / (bottom - top) < 0.85

@@ -27,6 +27,7 @@ from packwork.pipeline.judging import Judged, judged
 from packwork.pipeline.matching import matched
 from packwork.pipeline.opening import Opened, opened
 from packwork.pipeline.outcome import Run, Unplaced
+from packwork.pipeline.pile_sizes import SMALLER, TRIES, fitting_factor, is_size_open
 from packwork.progress import Observer, Stop
 from packwork.recipe import Recipe, make_recipe
 from packwork.refusals import refusal
@@ -86,10 +87,25 @@ def _given(options: Mapping[str, Any]) -> dict[str, Any]:
 
 def run_pile(job: Job, asked: PileOptions, observer: Observer | None, stop: Stop) -> Run:
     """Heap and measure what was read."""
-    clock = job.clock
     _check(job)
+    if not is_size_open(job):
+        return _judged(asked, *_heaped(job, asked, 1.0, observer, stop))
+    factor = fitting_factor(job)
+    for _ in range(TRIES):
+        done, heap, room = _heaped(job, asked, factor, observer, stop)
+        if len(heap.placed) == len(job.items) or stop():
+            break
+        factor *= SMALLER
+    return _judged(asked, done, heap, room)
+
+
+def _heaped(
+    job: Job, asked: PileOptions, factor: float, observer: Observer | None, stop: Stop
+) -> tuple[Job, Piled, Opened]:
+    """The heap of items whose sizes are multiplied by a factor, and the job in its container."""
+    clock = job.clock
     with clock.time("start"):
-        poses, known = _first_poses(job)
+        poses, known = _first_poses(job, factor)
         outlines = solid_outlines(job.recipe, job.items)
         discs = np.pi * (np.array([o.radius for o in outlines]) * poses.scale) ** 2
         room = opened(job.container, asked.open, job.mouths, float(discs.sum()))
@@ -108,7 +124,7 @@ def run_pile(job: Job, asked: PileOptions, observer: Observer | None, stop: Stop
             shuffle=SHUFFLE_ALONE if is_alone else SHUFFLE,
             is_round=is_alone,
         )  # fmt: skip
-    return _judged(job, asked, heap, room)
+    return job, heap, room
 
 
 def _check(job: Job) -> None:
@@ -124,11 +140,18 @@ def _check(job: Job) -> None:
         raise RecipeError("pile", "is settled in exact geometry, and its voids stay as they are")
 
 
-def _first_poses(job: Job) -> tuple[Poses, IntArray]:
-    """Poses to begin with, and which items an earlier layout has places for."""
+def _first_poses(job: Job, factor: float) -> tuple[Poses, IntArray]:
+    """Poses to begin with, and which items an earlier layout has places for.
+
+    Parameters
+    ----------
+    factor
+        On the sizes that items are given.
+    """
     rng = np.random.default_rng(job.recipe.seed)
     container = job.container
-    scales = given_scales(job.recipe, job.items, job.weights, container.unit, container.side)
+    own = given_scales(job.recipe, job.items, job.weights, container.unit, container.side)
+    scales = factor * own
     middle = np.array(container.outline.bounds).reshape(2, 2).mean(axis=0)
     x, y = np.tile(middle, (len(scales), 1)).T
     poses = Poses(x, y, first_angles(job, rng, None), scales)
@@ -156,7 +179,7 @@ def _options(job: Job, poses: Poses) -> FinishOptions:
     )
 
 
-def _judged(job: Job, asked: PileOptions, heap: Piled, room: Opened) -> Run:
+def _judged(asked: PileOptions, job: Job, heap: Piled, room: Opened) -> Run:
     """The result with those items that found room."""
     kept = heap.placed
     total = len(job.items)
