@@ -1,12 +1,13 @@
-"""What breaks it: ``packwork bench robustness [inputs=10000] [stops=40] [processes=2] [seed=0]``.
+"""What breaks it: ``packwork bench robustness [inputs=10000] [lines=2000] [stops=40] [seed=0]``.
 
-Gives the program spoilt and made-up files, stops it at random moments with Ctrl-C and with
-kill -9, lets it write to full and read-only disks, and runs it eight times at once. Prints
-counts; crashes, hangs and lost files must be 0, else it says which inputs they were, puts
-those into ``out/robustness`` and ends with code 1. ``only=inputs``, ``only=stops`` or
-``only=surroundings`` is one part of it; once there are all three of one and the same code, with
-10,000 inputs or more, ``docs/benchmarks-robustness.md`` is written. ``kinds=fonts,tables`` tries
-those kinds of input only. Needs Linux and ``packwork[dev]``.
+Gives the program spoilt and made-up files and command lines of odd meaning, stops it at random
+moments with Ctrl-C and with kill -9, lets it write to full and read-only disks, and runs it eight
+times at once. Prints counts; crashes, hangs and lost files must be 0, else it says which inputs
+they were, puts those into ``out/robustness`` and ends with code 1. ``only=inputs``,
+``only=meaning``, ``only=stops`` or ``only=surroundings`` is one part of it; once there are all four
+of one and the same code, with 10,000 inputs and 2,000 lines or more,
+``docs/benchmarks-robustness.md`` is written. ``kinds=fonts,tables`` tries those kinds of input
+only; ``processes=2`` shares them out. Needs Linux and ``packwork[dev]``.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
+from hostile import meaning
 from hostile.inputs import KINDS, Input, inputs
 from hostile.parts import Part, Tally
 from hostile.stops import stop_at_random, whole_length
@@ -28,6 +30,7 @@ from manifests import write_page
 from measuring import markdown_table
 
 ENOUGH = 10_000
+ENOUGH_LINES = 2_000
 OUT = Path("out") / "robustness"
 HEADER = ["what", "tried", "clear errors", "successes", "crashes", "hangs", "lost files"]
 
@@ -56,6 +59,14 @@ for (an item, a container, a photo, a quiet picture, letters, words, a chart, we
 recipe that is begun and stopped, a layout that is measured and written again) in a process
 that may take {memory} GiB of address space; the most that one held was {peak} MB.
 The slowest input took {slowest} s.
+
+## Meaning
+
+Command lines and recipes that are right in form: any options together, tiny and huge canvases,
+one to three items, paddings that leave no room, tables in tables, terminals that lack letters.
+A run that takes more than {run_seconds} s of the processor is a hang, one that holds more than
+{run_memory} GiB, or that refuses and writes something all the same, a crash or a lost file. The
+slowest took {run_slowest} s, the most that one held was {run_peak} MB.
 
 ## Stops
 
@@ -95,6 +106,24 @@ def _kept(one: Input) -> Path:
     return path
 
 
+def meant(count: int, seed: int) -> Part:
+    """Run ``count`` lines of odd meaning."""
+    meaning.warm_up()
+    part = Part("meaning", facts={"count": count, "peak": 0.0, "slowest": 0.0})
+    for line in meaning.lines(count, seed):
+        ran = meaning.run_line(line)
+        tally = part.rows.setdefault(line.kind, Tally())
+        tally.counts.update(["tried", ran.came])
+        tally.counts["lost files"] += ran.lost
+        if ran.came in {CRASH, HANG} or ran.lost:
+            tally.faults.append(f"{ran.came}: {line.number}: {meaning.typed(line)}: {ran.said}")
+        part.facts["peak"] = max(part.facts["peak"], ran.bytes / 1e6)
+        part.facts["slowest"] = max(part.facts["slowest"], ran.seconds)
+        if (line.number + 1) % 100 == 0:
+            print(f"{line.number + 1:,} lines", flush=True)
+    return part
+
+
 def stopped(count: int, seed: int) -> Part:
     """Stop runs by Ctrl-C, then by kill -9."""
     length = min(whole_length() for _ in range(2))
@@ -130,6 +159,7 @@ def main(arguments: list[str]) -> int:
     count, processes = int(asked.get("inputs", ENOUGH)), int(asked.get("processes", 2))
     makers = {
         "inputs": lambda: fuzzed(count, seed, processes, kinds),
+        "meaning": lambda: meant(int(asked.get("lines", ENOUGH_LINES)), seed),
         "stops": lambda: stopped(int(asked.get("stops", 40)), seed),
         "surroundings": surrounded,
     }
@@ -148,6 +178,7 @@ def main(arguments: list[str]) -> int:
     if (
         all(parts.values())
         and parts["inputs"].facts["count"] >= ENOUGH
+        and parts["meaning"].facts["count"] >= ENOUGH_LINES
         and len(kinds) == len(KINDS)
     ):
         _write(parts)
@@ -182,6 +213,10 @@ def _write(parts: dict[str, Part]) -> None:
         memory=f"{MEMORY_BYTES / 2**30:g}",
         peak=f"{parts['inputs'].facts['peak']:.0f}",
         slowest=f"{parts['inputs'].facts['slowest']:.1f}",
+        run_seconds=str(meaning.SECONDS_AT_MOST),
+        run_memory=f"{meaning.BYTES_AT_MOST / 2**30:g}",
+        run_peak=f"{parts['meaning'].facts['peak']:.0f}",
+        run_slowest=f"{parts['meaning'].facts['slowest']:.1f}",
         length=f"{stops['length']:.1f}",
         stops=" ".join(came),
         longest=f"{stops['longest, Ctrl-C']:.1f}",

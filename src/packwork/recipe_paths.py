@@ -10,7 +10,7 @@ import glob
 import itertools
 import os
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -132,6 +132,20 @@ def check_names(options: Mapping[str, Any]) -> None:
                     key,
                     "is an empty name, which stands for nothing; give a file, or leave it out",
                 )
+
+
+def files_outside(options: Mapping[str, Any], folders: Iterable[Path]) -> list[str]:
+    """Files and folders that a recipe names and that lie in none of some folders.
+
+    Examples
+    --------
+    >>> files_outside({"items": ["/", "heart"]}, [Path.cwd()])
+    ['/']
+    """
+    homes = [folder.resolve() for folder in folders]
+    there = [Path(name) for name in named_files(options) if name and _is_there(Path(name))]
+    found = [path for path in there if not any(path.resolve().is_relative_to(h) for h in homes)]
+    return list(dict.fromkeys(map(str, found)))
 
 
 def found_from(folder: Path) -> Callable[[str], str]:

@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from hostile import trying, workers
+from hostile import meaning, trying, workers
 from hostile.inputs import KINDS, Input, inputs
 from hostile.parts import Part, Tally
 from hostile.stops import stop_at_random
@@ -19,6 +19,7 @@ from hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS, attempt
 from packwork.errors import ReadError
 
 INPUTS = 300
+LINES = 8
 
 pytestmark = pytest.mark.skipif(os.name == "nt", reason="alarms and limits are those of Unix")
 
@@ -30,6 +31,31 @@ def test_spoilt_and_made_up_files_are_read_or_refused(kind: str, tmp_path: Path)
     broken = [(one, came) for one, came in tried if came.came in {CRASH, HANG} or came.lost]
     assert not broken, broken[0]
     assert {came.came for _, came in tried} == {CLEAR_ERROR, SUCCESS}
+
+
+def test_lines_of_odd_meaning_end_in_a_result_or_a_clear_error() -> None:
+    meaning.warm_up()
+    ran = [(line, meaning.run_line(line)) for line in meaning.lines(LINES, 3)]
+    broken = [(line, one) for line, one in ran if one.came in {CRASH, HANG} or one.lost]
+    assert not broken, broken[0]
+    assert {line.kind for line, _ in ran} == {"command lines", "recipes"}
+
+
+def test_a_line_that_breaks_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    def crash(*_: object) -> None:
+        raise ZeroDivisionError
+
+    def write_and_refuse(*_: object) -> None:
+        Path("a.svg").write_text("half", encoding="utf-8")
+        Path("t.csv").unlink()
+        raise SystemExit(2)
+
+    line = next(iter(meaning.lines(1, 0)))
+    monkeypatch.setattr("packwork.cli.app", crash)
+    assert meaning.run_line(line).came == CRASH
+    monkeypatch.setattr("packwork.cli.app", write_and_refuse)
+    ran = meaning.run_line(line)
+    assert (ran.came, ran.lost) == (CRASH, 2)
 
 
 def test_parts_are_kept_and_told_apart_by_the_code(

@@ -156,6 +156,19 @@ def test_a_recipe_runs_no_code_unless_that_is_said(folder, packwork) -> None:
     assert (folder / "ran").exists(), trusted.output
 
 
+def test_files_outside_a_recipes_folder_are_named(folder, packwork, tmp_path, monkeypatch) -> None:
+    (tmp_path / "secret.txt").write_text("bears and bees", encoding="utf-8")
+    (folder / "r.toml").write_text(
+        'container = "circle"\nitems = []\nlevels = "16"\nepochs = 2\n[words]\n'
+        'source = "../secret.txt"\n',
+        encoding="utf-8",
+    )
+    result = packwork("run r.toml -q -o a.geojson")
+    assert "r.toml reads files outside its folder: ../secret.txt" in result.stderr
+    monkeypatch.chdir(tmp_path)
+    assert "outside its folder" not in packwork("run work/r.toml -q -o a.geojson").stderr
+
+
 def test_modules_of_the_working_folder_are_left_alone(folder) -> None:
     for name in ("ezdxf", "pandas", "typer", "numba"):
         (folder / f"{name}.py").write_text("raise SystemExit('taken over')", encoding="utf-8")

@@ -12,7 +12,12 @@ import typer
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
 from packwork.cli.fill import DEFAULT_OUTPUT, fill
+from packwork.cli.terminal import say
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe_paths import files_outside
+
+MOST_NAMED = 5
+"""Files outside a recipe's folder that are named. Chosen."""
 
 NOT_CHANGED = frozenset({"container", "items", "film"})
 """What makes a recipe that recipe, for whoever wants others writes another one; and films, whose
@@ -95,6 +100,10 @@ def run(
         from packwork.readers.recipe import read_recipe
 
         options = read_recipe(recipe, allow_code=allow_code)
+        outside = files_outside(options, [recipe.parent, Path.cwd()])
+        if outside:
+            named = ", ".join(outside[:MOST_NAMED]) + (" ..." if outside[MOST_NAMED:] else "")
+            say(f"{recipe} reads files outside its folder: {named}")
         losses = changes.pop("loss", None)
         changes["losses"] = shared.loss_weights(losses) if losses else None
         if allow_code:
