@@ -61,6 +61,12 @@ def test_white_over_dark_is_a_hole_however_it_is_stored(area, body, expected):
     assert list(area(body).values()) == pytest.approx([expected] * 3, rel=0.01)
 
 
+def test_large_white_holes_are_told(area, caplog):
+    area(DISC + HOLE.format("white"))
+    (told,) = [message for message in caplog.messages if "white paint" in message]
+    assert "white paint over darker counts as holes, 18% of it; a tint below #f0f0f0" in told
+
+
 def test_white_that_lies_on_nothing_counts(area):
     face = HOLE.format("white") + '<path d="M35 35h30v10h-30z"/>'
     found = area(face)

@@ -15,11 +15,12 @@ from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.regions import clean_union, tell_if_full
 from packwork.readers.svg.drawing import Drawing, read_drawing
 from packwork.readers.svg.ink import Ink, TracedInk
+from packwork.readers.svg.sheet import LEAST_WHITE
 from packwork.readers.svg.trace import TRACE_PX, page_picture
 from packwork.readers.svg.walk import Page
 from packwork.readers.svg.whites import has_whites, without_whites
 from packwork.readers.trimming import canvas_box
-from packwork.readers.unfit import naming
+from packwork.readers.unfit import naming, notice
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
 
@@ -27,6 +28,10 @@ _WHY_FULL = (
     "all that is painted counts; take out the sheet behind the shape, or say page for the whole "
     "sheet"
 )
+
+TOLD_WHITE = 0.1
+"""Share of a drawing that its white holes take from which they are told. Larger is silent about
+a white dress, smaller speaks of every eye. Chosen."""
 
 WHOLE_PAGE = 0.999
 """Share of the page from which a drawing counts as painted all over. Chosen."""
@@ -141,7 +146,14 @@ def _without_whites(drawing: Drawing, region: Region) -> Region:
         return region
     if isinstance(drawing.ink, TracedInk) and drawing.page is not None:
         return _dark_part(drawing.root, drawing.page)
-    return clean_union(without_whites(drawing, region))
+    left = clean_union(without_whites(drawing, region))
+    share = 1 - left.area / region.area
+    if share > TOLD_WHITE:
+        notice(
+            f"its white paint over darker counts as holes, {share:.0%} of it; a tint below "
+            f"#{LEAST_WHITE:02x}{LEAST_WHITE:02x}{LEAST_WHITE:02x} fills them"
+        )
+    return left
 
 
 def _dark_part(root: ET.Element, page: Page) -> Region:
