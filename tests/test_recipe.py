@@ -63,6 +63,7 @@ BAD: dict[str, list[Any]] = {
         "50:0", "50:-1", "50:nan", "50:inf", "50:1:2", "1e2", 5,
     ],
     "hero": ["", "@", 3, "bear=", "bear@1"],
+    "shades": ["loud", 3],
     "palette": ["nocolour", "", 3],
     "apart": ["perhaps", 7],
     "force": [3, "", "dwn", ["down", 3], "towards 1", "down strength=0", "align"],

@@ -22,7 +22,21 @@ from packwork.units import parse_length
 MAX_COUNT = 100_000
 """Most items in one run; more would not be seen on any sheet. Chosen."""
 
-ItemCount: TypeAlias = Annotated[int, Field(ge=1, le=MAX_COUNT)] | Literal["auto"]
+
+_WHOLE = re.compile(r"[+-]?[0-9]{1,12}")
+
+
+def _number_or_auto(value: object) -> object:
+    if not isinstance(value, str) or value == "auto":
+        return value
+    if not _WHOLE.fullmatch(value.strip()):
+        raise ValueError(f"must be a whole number or auto, not {value[:60]!r}")
+    return int(value)
+
+
+ItemCount: TypeAlias = Annotated[
+    Annotated[int, Field(ge=1, le=MAX_COUNT)] | Literal["auto"], BeforeValidator(_number_or_auto)
+]
 """How many items there are, or auto: as many as the container takes."""
 
 WIDEST_SCALE = 100.0

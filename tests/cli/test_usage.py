@@ -20,7 +20,7 @@ Command = Callable[..., Result]
         ("fill heart --preset papper", "'papper' is not one of 'default', 'paper'"),
         ("fill heart --cuont 3", "no such option: --cuont"),
         ("fill heart -n", "requires an argument"),
-        ("fill heart -n many", "invalid value for '-n' / '--count'"),
+        ("fill heart --pixels many", "invalid value for '--pixels'"),
         ("fil heart", "no such command 'fil'; did you mean fill?"),
         ("fill heart --gap 3", "no such option: --gap; did you mean --padding?"),
         ("fill heart --margin 3", "did you mean --padding?"),

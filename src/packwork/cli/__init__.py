@@ -10,7 +10,7 @@ import logging
 import typer
 
 from packwork.cli.commands import MARKUP, LazyGroup
-from packwork.cli.terminal import say
+from packwork.cli.notices import NOTICES
 
 app = typer.Typer(
     name="packwork",
@@ -23,17 +23,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-
-
-class _Notices(logging.Handler):
-    """Prints what the library logs, one line each, to standard error."""
-
-    def emit(self, record: logging.LogRecord) -> None:
-        """Print one notice."""
-        say(" ".join(record.getMessage().split()))
-
-
-_NOTICES = _Notices(logging.WARNING)
 
 
 def _version(wanted: bool) -> None:
@@ -50,4 +39,4 @@ def _main(
         False, "--version", callback=_version, is_eager=True, help="Show the version and stop."
     ),
 ) -> None:
-    logging.getLogger("packwork").addHandler(_NOTICES)
+    logging.getLogger("packwork").addHandler(NOTICES)

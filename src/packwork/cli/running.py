@@ -19,6 +19,7 @@ from packwork import pipeline, writers
 from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.existing import check_new
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
+from packwork.cli.notices import NOTICES, joined
 from packwork.cli.saliency import write_saliency
 from packwork.cli.show import (
     Paper,
@@ -41,7 +42,7 @@ from packwork.recipe import Recipe
 from packwork.writers.film.options import FilmOptions
 
 MOST_NAMED = 5
-"""Items without a place that are named on the terminal; a report names all. Chosen."""
+"""Lines about items without a place on the terminal; a report names all. Chosen."""
 
 DRAWN = (".svg", ".png", ".jpg", ".jpeg", ".pdf")
 """Endings of files that people look at."""
@@ -215,7 +216,8 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     outputs.check()
     recipe = with_room(recipe, outputs.kiss)
     console = Paper(quiet=quiet, highlight=False)
-    job = pipeline.read(recipe)
+    with NOTICES.joining():
+        job = pipeline.read(recipe)
     outputs.check_read(job)
     check_room(job, outputs.kiss)
     # Beforehand, so that no run is lost to what its recipe holds.
@@ -339,11 +341,11 @@ def _hard_to_see(run: pipeline.Run, outputs: Outputs) -> list[str]:
 
 
 def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
-    for unplaced in run.unplaced[:MOST_NAMED]:
-        say(f"not placed: {unplaced.item} (item {unplaced.index + 1}): {unplaced.reason}")
-    more = len(run.unplaced) - MOST_NAMED
-    if more > 0:
-        say(f"not placed: {more} more; --report names them all")
+    lines = joined([(f"{u.item} (item {u.index + 1})", u.reason) for u in run.unplaced], "items")
+    for line in lines[:MOST_NAMED]:
+        say(f"not placed: {line}")
+    if len(lines) < len(run.unplaced) or len(lines) > MOST_NAMED:
+        say(f"not placed: {len(run.unplaced)} items in all; --report names them")
     share = float(run.layout.areas.sum()) / run.layout.container.outline.area
     if run.unplaced and share > 1:
         say(
