@@ -197,6 +197,16 @@ def test_colours_and_groups_are_numbers_by_the_same_rules(tmp_path: Path) -> Non
     assert not marks(file, color_by="g").is_ramp
 
 
+def test_numbers_are_shown_as_the_table_writes_them(tmp_path: Path) -> None:
+    file = tmp_path / "t.csv"
+    file.write_text("Land;Menge\nA;1,5\nB;2\n", encoding="utf-8")
+    assert marks(file).decimal == ","
+    file.write_text("Land;Menge\nA;1.5\nB;2\n", encoding="utf-8")
+    assert marks(file).decimal == "."
+    file.write_text("Land;Menge\nA;1.500\nB;2\n", encoding="utf-8")
+    assert marks(file, TableFormat(decimal=",")).decimal == ","
+
+
 def test_rows_with_data_that_are_left_out_are_named_and_count(tmp_path: Path) -> None:
     file = tmp_path / "t.csv"
     file.write_text("Land;Menge\nA;1\nB;\nC;0\nD;k.A.\nE;(5)\nF;1.2.2024\nG;2\n", encoding="utf-8")

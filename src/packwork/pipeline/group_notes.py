@@ -36,13 +36,14 @@ def write_groups(pen: Pen, job: Job, cells: Sequence[Cell], layout: Layout) -> N
     """Names of all groups, and their sums; under bars, or over containers."""
     frame, options = job.frame, job.recipe.chart
     assert frame is not None and options is not None  # noqa: S101, PT018 - who asks has a chart
-    sums = _sums(layout)
+    sums, decimal = _sums(layout), "." if job.chart is None else job.chart.decimal
+    written = {cell.name: spoken(sums.get(cell.name, 0.0), decimal) for cell in cells}
     pale = readable(between((pen.ink, options.paper), PALE), options.paper, LEAST_CONTRAST)
     if not job.has_bars:
-        _over_copies(pen, cells, sums, frame.em, pale)
+        _over_copies(pen, cells, written, frame.em, pale)
         return
     tops = _tops(layout)
-    numbers = {cell.name: spoken(sums[cell.name]) for cell in cells if cell.name in tops}
+    numbers = {name: text for name, text in written.items() if name in tops}
     em = min(NUMBER_EM * frame.em, *(_fitting(text, cells[0].width) for text in numbers.values()))
     for cell in cells:
         if cell.name in tops and em >= SMALLEST_EM * NUMBER_EM * frame.em:
@@ -59,11 +60,10 @@ def write_groups(pen: Pen, job: Job, cells: Sequence[Cell], layout: Layout) -> N
 
 
 def _over_copies(
-    pen: Pen, cells: Sequence[Cell], sums: Mapping[str, float], largest_em: float, pale: str
+    pen: Pen, cells: Sequence[Cell], numbers: Mapping[str, str], largest_em: float, pale: str
 ) -> None:
     """Names over containers, all of one size; sums beside them if there is room for all."""
     room = FULL * cells[0].width
-    numbers = {cell.name: spoken(sums.get(cell.name, 0.0)) for cell in cells}
     least = SMALLEST_EM * largest_em
 
     def largest(widths: Sequence[float]) -> float:

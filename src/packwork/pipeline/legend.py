@@ -67,7 +67,7 @@ def legend_notes(job: Job, layout: Layout) -> tuple[Note, ...]:
     if has_sizes(options):
         y += (_sizes if options.unit is None else _unit)(pen, job, layout, frame, y)
     if colours.ramp and options.color_by:
-        _ramp(pen, colours, options.color_by, frame, y)
+        _ramp(pen, colours, options.color_by, frame, y, chart.decimal)
         y += RAMP_EM * frame.em
     _categories(pen, job, colours, frame, y)
     return tuple(pen.notes)
@@ -83,7 +83,7 @@ def _unit(pen: Pen, job: Job, layout: Layout, frame: Frame, y: float) -> float:
     line = y + 1.2 * em
     middle = line - 0.35 * em - (top + bottom) / 2 * scale
     pen.shape(mark, frame.left - left * scale, middle, scale, UNKNOWN)
-    stands_for = f"= {spoken(options.unit or 1.0)} {options.size_by or 'rows'}"
+    stands_for = f"= {spoken(options.unit or 1.0, chart.decimal)} {options.size_by or 'rows'}"
     pen.write(stands_for, frame.left + (right - left) * scale + 0.5 * em, line, em)
     return UNIT_EM * em
 
@@ -110,7 +110,10 @@ def _sizes(pen: Pen, job: Job, layout: Layout, frame: Frame, y: float) -> float:
     for number in chosen:
         left, _, right, bottom = (v * scales[number] for v in mark.bounds)
         pen.shape(mark, x - left, low - bottom, scales[number], UNKNOWN)
-        x = pen.write(spoken(number), x + right - left + 0.4 * em, low, 0.85 * em) + 1.6 * em
+        x = (
+            pen.write(spoken(number, chart.decimal), x + right - left + 0.4 * em, low, 0.85 * em)
+            + 1.6 * em
+        )
     return low - y + em
 
 
@@ -142,7 +145,16 @@ def _round_numbers(largest: float) -> list[float]:
     return [step for step in steps if step <= largest]
 
 
-def _ramp(pen: Pen, colours: ChartColours, column: str, frame: Frame, y: float) -> None:
+def _end(value: float, decimal: str) -> str:
+    """An end of a ramp: numbers of four digits may be years, which have no groups."""
+    if 1e-3 <= abs(value) < 1e4 or value == 0:
+        return f"{value:.12g}".replace(".", decimal)
+    return spoken(value, decimal)
+
+
+def _ramp(
+    pen: Pen, colours: ChartColours, column: str, frame: Frame, y: float, decimal: str
+) -> None:
     em, low, high = frame.em, *colours.ends
     pen.write(column, frame.left, y + 1.2 * em, em)
     step = min(frame.width, 16 * em) / STRIPES
@@ -151,7 +163,7 @@ def _ramp(pen: Pen, colours: ChartColours, column: str, frame: Frame, y: float) 
     for k in range(STRIPES):
         fill = between(colours.ramp, k / (STRIPES - 1))
         pen.shape(tile, frame.left + k * step, y + 1.8 * em, 1.0, fill)
-    texts = [f"{value:.12g}" if abs(value) < 1e4 else spoken(value) for value in (low, high)]
+    texts = [_end(value, decimal) for value in (low, high)]
     pen.write(texts[0], frame.left, y + 3.6 * em, 0.85 * em)
     right = frame.left + STRIPES * step - pen.width(texts[1], 0.85 * em)
     pen.write(texts[1], right, y + 3.6 * em, 0.85 * em)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,12 +15,13 @@ from packwork.readers.charts.columns import categories, is_numeric, shown
 from packwork.readers.charts.groups import Groups, read_groups
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.charts.part import part_of
-from packwork.readers.charts.rows import oddities, read_chart_table
+from packwork.readers.charts.rows import NUMBERS, oddities, read_chart_table
 from packwork.readers.items import read_items
 from packwork.readers.options import ReadOptions
 from packwork.readers.regions import Holes
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table
+from packwork.readers.tables.written import shown_decimal
 from packwork.scene.datum import Datum
 from packwork.scene.item import Item
 from packwork.scene.label import MAX_LENGTH, Label
@@ -66,6 +67,8 @@ class ChartRead:
         What was left out, put together or is odd, a sentence each.
     lost
         Those of them about rows with data that are left out.
+    decimal
+        What parts fractions of its numbers, as in the table.
     """
 
     items: tuple[Item, ...]
@@ -81,6 +84,7 @@ class ChartRead:
     is_ordered: bool
     notices: tuple[str, ...]
     lost: tuple[str, ...]
+    decimal: str = "."
 
     @property
     def told(self) -> tuple[ReadError, ...]:
@@ -182,7 +186,14 @@ def read_chart(
         is_ordered=groups is not None and groups.is_ordered,
         notices=everything,
         lost=lost,
+        decimal=(asked and asked.decimal) or shown_decimal(_number_cells(table, options)),
     )
+
+
+def _number_cells(table: Table, options: ChartOptions) -> Iterator[object]:
+    """Cells of columns that may be numbers."""
+    columns = {getattr(options, key) for key in NUMBERS}
+    return (row.get(column) for row in table.rows for column in columns if column is not None)
 
 
 def _groups_of_marks(groups: Groups | None, member: IntArray) -> tuple[tuple[str, ...], IntArray]:

@@ -157,6 +157,21 @@ def is_number_like(text: str) -> bool:
     return True
 
 
+def shown_decimal(cells: Iterable[object]) -> str:
+    """What parts fractions in cells that know their numbers; a point where none tells.
+
+    Examples
+    --------
+    >>> shown_decimal([Written("1,5", 1.5), "x"]), shown_decimal([Written("7", 7.0)])
+    (',', '.')
+    """
+    for cell in cells:
+        found = figure(cell) if isinstance(cell, Written) else None
+        if found is not None and set(readings(found.body)) == {COMMA}:
+            return COMMA
+    return POINT
+
+
 def is_date(text: str) -> bool:
     """Whether a text is a date in figures.
 
