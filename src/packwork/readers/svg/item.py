@@ -15,6 +15,7 @@ from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.glow import without_glow
 from packwork.readers.svg.ink import TracedInk
+from packwork.readers.svg.kept import read_once
 from packwork.readers.svg.rounds import with_short_arcs
 from packwork.readers.svg.sheet import WHOLE_PAGE
 from packwork.readers.unfit import naming
@@ -86,6 +87,15 @@ def item_of_svg(
 
 
 def _read(
+    data: bytes, name: str, source: str, holes: Holes, options: ReadOptions, *, is_compared: bool
+) -> Read:
+    def read() -> Read:
+        return _read_anew(data, name, source, holes, options, is_compared=is_compared)
+
+    return read_once(data, (holes, options, is_compared), name, source, read)
+
+
+def _read_anew(
     data: bytes, name: str, source: str, holes: Holes, options: ReadOptions, *, is_compared: bool
 ) -> Read:
     with naming(source):
