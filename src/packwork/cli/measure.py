@@ -39,7 +39,7 @@ def measure(
         from packwork.cli.existing import check_new
         from packwork.cli.show import Paper, certificate_line, metrics_table, printing
         from packwork.inputs import check_no_input
-        from packwork.metrics.certificate import Promise, broken
+        from packwork.metrics.certificate import Promise, broken, taken_on_trust
         from packwork.metrics.measure import measure as measure_layout
         from packwork.readers.written.read import read_written
 
@@ -55,6 +55,7 @@ def measure(
         measured = measure_layout(found)
         metrics = measured.as_dict()
         promise = Promise.of(found.manifest)
+        on_trust = taken_on_trust(found.manifest)
         faults = () if promise is None else broken(promise, found, measured.exact)
         # A saved layout holds outlines, not what was drawn in them.
         del metrics["LC_ink"]
@@ -68,6 +69,7 @@ def measure(
                         "items": len(found.items),
                         "certified": promise is not None and not faults,
                         "broken": faults,
+                        "on_trust": on_trust,
                     }
                 ),
             )
@@ -77,6 +79,8 @@ def measure(
         with printing():
             console.print(metrics_table(metrics, found.container.unit))
             console.print(certificate_line(promise is not None, not faults), soft_wrap=True)
+        for believed in on_trust:
+            say(f"{layout}: {believed}")
         for fault in faults:
             say(f"{layout}: {fault}")
         if faults:

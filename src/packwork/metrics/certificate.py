@@ -51,6 +51,18 @@ class Promise:
         return cls(float(gap), shares is True)
 
 
+def taken_on_trust(manifest: Mapping[str, Any]) -> tuple[str, ...]:
+    """What a reader could not see in a file and believed, a sentence each.
+
+    Examples
+    --------
+    >>> taken_on_trust({"on_trust": ["the sizes"]}), taken_on_trust({"on_trust": 3})
+    (('the sizes',), ())
+    """
+    said = manifest.get("on_trust")
+    return tuple(str(one) for one in said) if isinstance(said, list | tuple) else ()
+
+
 def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, ...]:
     """What of the promise does not hold, a sentence each; empty if all of it does.
 

@@ -21,6 +21,7 @@ from packwork.geometry.polygon import Region
 from packwork.readers.files import read_text
 from packwork.readers.svg.lengths import MAX_COORDINATE
 from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.written.assembly import MAX_POINTS
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
 from packwork.scene.datum import Datum
@@ -37,10 +38,17 @@ WIDEST_STRETCH = 1e4
 """Width over height, or height over width, of an item against its own shape at most.
 Larger: numbers whose inverse drowns in rounding. Chosen."""
 
+SMALLEST_SCALE, LARGEST_SCALE = 1e-15, 1e15
+"""Scales of items: drawings of 1e-4 to 1e7 px on canvases of 1e-3 to 1e6, and room. Derived."""
+
+MAX_PARTS = 6_000_000
+"""Commas and brackets of a layout file: each number read takes about 60 bytes, lists more. Larger:
+more than a gigabyte. Measured: 0.5 GB at this many."""
+
 _DRAWN = (".svg", ".dxf", ".png", ".pdf")
 """Endings of what is written of layouts besides: shapes in place, no items and poses."""
 
-_POSE = ("x", "y", "angle", "scale")
+_POSE = ("x", "y", "angle")
 _LABEL = ("name", "link", "title")
 
 
@@ -89,6 +97,9 @@ def read_layout(path: str | Path) -> Layout:
 
 
 def _parsed(text: str) -> Mapping[str, Any]:
+    parts = text.count(",") + text.count("[") + text.count("{")
+    if parts > MAX_PARTS:
+        raise UnfitError(f"holds {parts:,} numbers and lists, more than {MAX_PARTS:,}; simplify it")
     try:
         collection = json.loads(text, parse_constant=_refuse_constant)
     except json.JSONDecodeError as error:
@@ -205,9 +216,20 @@ def _fill(properties: Mapping[str, Any], where: str) -> str:
 def _pose(feature: Mapping[str, Any], where: str) -> tuple[float, float, float, float, float]:
     """Position, angle in radians, scale and stretch."""
     properties = _properties(feature, where)
-    x, y, angle, _ = (_number(properties, key, where) for key in _POSE)
-    scale = _positive(properties, "scale", where)
+    x, y, angle = (_number(properties, key, where) for key in _POSE)
+    scale = _scale(properties, where)
     return x, y, math.radians(angle), scale, _stretch(properties, where)
+
+
+def _scale(properties: Mapping[str, Any], where: str) -> float:
+    """Canvas units to a unit of the item's file: of tiny drawings on large sheets it is large."""
+    scale = properties.get("scale")
+    if isinstance(scale, bool) or not isinstance(scale, int | float):
+        raise UnfitError(f"{where}.scale: must be a number, not {str(scale)[:20]!r}")
+    if not SMALLEST_SCALE <= scale <= LARGEST_SCALE:
+        bounds = f"{SMALLEST_SCALE:g} to {LARGEST_SCALE:g}"
+        raise UnfitError(f"{where}.scale: must be positive, {bounds}, not {str(scale)[:20]}")
+    return float(scale)
 
 
 def _stretch(properties: Mapping[str, Any], where: str) -> float:
@@ -233,6 +255,14 @@ def _outline(feature: Mapping[str, Any], where: str) -> Outline:
         raise UnfitError(f"{where}: geometry must be a Polygon or MultiPolygon")
     parts: Any = geometry.get("coordinates")
     try:
+        if kind == "Polygon":
+            count = sum(len(ring) for ring in parts)
+        else:
+            count = sum(len(ring) for part in parts for ring in part)
+        if count > MAX_POINTS:
+            raise UnfitError(
+                f"{where}: has {count:,} points, more than {MAX_POINTS:,}; simplify it"
+            )
         polygons = [parts] if kind == "Polygon" else parts
         region = MultiPolygon([_polygon(rings) for rings in polygons])
     except (TypeError, ValueError, OverflowError, GEOSException):

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+import shapely
 
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
@@ -17,6 +18,9 @@ from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.units import Unit
+
+MAX_POINTS = 400_000
+"""Points of one outline, which the exact measures look at many times. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +56,8 @@ class Sheet:
         Smallest distance that its run promised; None if that promised nothing.
     areas_in_shares
         Whether it promised areas in the shares of the weights.
+    on_trust
+        What of it could not be seen and was believed, a sentence each.
     """
 
     width: float
@@ -61,6 +67,7 @@ class Sheet:
     gap: float | None = None
     areas_in_shares: bool = False
     items: Sequence[Found] = field(default_factory=tuple)
+    on_trust: tuple[str, ...] = ()
 
 
 def assembled(sheet: Sheet, name: str) -> Layout:
@@ -99,7 +106,8 @@ def assembled(sheet: Sheet, name: str) -> Layout:
     promised = (
         None if sheet.gap is None else {"gap": sheet.gap, "areas_in_shares": sheet.areas_in_shares}
     )
-    return Layout(container, items, poses, weights, {"promised": promised})
+    said = {"promised": promised, "on_trust": list(sheet.on_trust)}
+    return Layout(container, items, poses, weights, said)
 
 
 def sound_weight(text: str) -> float:
@@ -152,6 +160,9 @@ def _item(name: str, placed: Outline, centre: np.ndarray) -> Item:
 
 
 def _outline(region: Region, what: str) -> Outline:
+    count = shapely.get_num_coordinates(region)
+    if count > MAX_POINTS:
+        raise UnfitError(f"{what} has {count:,} points, more than {MAX_POINTS:,}; simplify it")
     if not region.area > 0:
         raise UnfitError(f"{what} has no area")
     return Outline.from_region(region)

@@ -31,6 +31,7 @@ from packwork.readers.svg.page import view_box
 from packwork.readers.svg.transforms import parse_transform
 from packwork.readers.unfit import UnfitError
 from packwork.readers.written.assembly import Found, Sheet, assembled, sound_gap, sound_weight
+from packwork.readers.written.strangers import group_named, loose_items, tag, unmeasured
 from packwork.scene.layout import Layout
 from packwork.units import Unit, convert
 
@@ -41,6 +42,13 @@ the finest gap that a finish keeps."""
 _SPECK = 1.5 * SPECK
 """Specks that are passed over: somewhat larger ones than where items are read, as one that was
 left out there may seem larger when it is followed more finely."""
+
+LOST_ITEMS = (
+    "has no group named items any more: each drawing counts as an item, and what was promised is "
+    "not in the file"
+)
+LOST_CONTAINER = "has no group named container any more: the page is taken for it"
+"""What is said of files from which another program has taken our groups."""
 
 _SAME = 1e-9
 _SPACE = "{http://www.w3.org/2000/svg}"
@@ -70,23 +78,34 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
     """
     root = parse_xml(data)
     width, height, unit, scale = _canvas(root)
-    items, walls = _named(root, "items"), _named(root, "container")
-    drawn = [_drawn(element) for element in items]
+    items, walls = group_named(root, "items"), group_named(root, "container")
+    elements, place = (list(items), _place(items)) if items is not None else loose_items(root)
+    drawn = [_drawn(element) for element in elements]
+    if not drawn and (items is None or walls is None):
+        raise UnfitError(f"has no group named items at its top, {_NOT_OURS}")
     drawings = _Drawings(root, drawn, max(width, height) / scale)
     # Other programs move a whole group by a transform of its own.
     to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
-    items_to_canvas, wall_to_canvas = (
-        affine.compose(to_canvas, _place(group)) for group in (items, walls)
-    )
-    gap, is_kept = items.get("data-gap"), items.get("data-holes") == "keep"
+    page = shapely.box(0, 0, width, height)
+    said = items.attrib if items is not None and walls is not None else {}
+    gap, is_kept = said.get("data-gap"), said.get("data-holes") == "keep"
+    found = [_found(drawings, one, affine.compose(to_canvas, place), is_kept) for one in drawn]
     sheet = Sheet(
         width=width,
         height=height,
         unit=unit,
-        container=_placed(drawings.wall(walls), wall_to_canvas),
+        container=page
+        if walls is None
+        else (_placed(drawings.wall(walls), affine.compose(to_canvas, _place(walls)))),
         gap=None if gap is None else sound_gap(gap),
-        areas_in_shares=items.get("data-in-shares") == "true",
-        items=[_found(drawings, one, items_to_canvas, is_kept) for one in drawn],
+        areas_in_shares=said.get("data-in-shares") == "true",
+        items=found,
+        on_trust=(
+            *drawings.on_trust,
+            *([] if items is None else unmeasured(root)),
+            *([LOST_ITEMS] if items is None else []),
+            *([LOST_CONTAINER] if walls is None else []),
+        ),
     )
     return assembled(sheet, name)
 
@@ -110,6 +129,7 @@ class _Drawings:
         self._side = side
         self._regions: dict[int, Region] = {}
         self._largest: dict[int, float] = {}
+        self._stated = 0
         for one in drawn:
             key = id(self._source(one))
             size = _size(_place(one))
@@ -117,10 +137,19 @@ class _Drawings:
 
     def wall(self, group: ET.Element) -> Region:
         """Region of the container's paths, shown or not."""
-        paths = [_path(e.get("d", "")) for e in group if _tag(e) == "path"]
+        paths = [_path(e.get("d", "")) for e in group if tag(e) == "path"]
         if not paths:
             raise UnfitError(f"has no path in the group named container, {_NOT_OURS}")
         return self._followed(paths, 1.0)
+
+    @property
+    def on_trust(self) -> tuple[str, ...]:
+        """What was not seen but taken from the file's words, a sentence each."""
+        if self._stated == 0:
+            return ()
+        return (
+            f"outlines of {self._stated} drawings are those that the file states (data-outline)",
+        )
 
     def item(self, drawn: ET.Element) -> Region:
         """What shows of one item, in the units in which its place is given."""
@@ -133,19 +162,20 @@ class _Drawings:
         return self._regions[key]
 
     def _source(self, drawn: ET.Element) -> ET.Element:
-        if _tag(drawn) != "use":
+        if tag(drawn) != "use":
             return drawn
         source = self._by_id.get((drawn.get(_LINK) or drawn.get("href") or "").removeprefix("#"))
-        if source is None or _tag(source) == "use":
+        if source is None or tag(source) == "use":
             raise UnfitError(f"has an item that shows nothing, {_NOT_OURS}")
         return source
 
     def _ink(self, source: ET.Element, own: FloatArray, size: float) -> Region:
         if "data-outline" in source.attrib:
+            self._stated += 1
             # Letters of a font may overlap, so non-zero; rings of outlines turn either way.
             path = _path(source.attrib["data-outline"], "nonzero")
             return _placed(self._followed([path], size * _size(own)), own)
-        if _tag(source) == "image":
+        if tag(source) == "image":
             return _placed(_picture(source), own)
         bare = copy.copy(source)
         bare.attrib = {key: v for key, v in source.attrib.items() if key != "transform"}
@@ -181,17 +211,17 @@ def _size(matrix: FloatArray) -> float:
 
 def _drawn(element: ET.Element) -> ET.Element:
     """An item's element, its link and its tooltip taken off."""
-    if _tag(element) == "a" and "transform" in element.attrib:
+    if tag(element) == "a" and "transform" in element.attrib:
         raise UnfitError(f"has a link that moves its item, {_NOT_OURS}")
-    is_wrapping = _tag(element) == "a" or (_tag(element) == "g" and not element.attrib)
-    inside = [child for child in element if _tag(child) != "title"]
+    is_wrapping = tag(element) == "a" or (tag(element) == "g" and not element.attrib)
+    inside = [child for child in element if tag(child) != "title"]
     return inside[0] if is_wrapping and len(inside) == 1 else element
 
 
 def _canvas(root: ET.Element) -> tuple[float, float, Unit, float]:
     """Width and height in canvas units, the unit, and canvas units to a unit of the file."""
     view = view_box(root)
-    if _tag(root) != "svg" or view is None or view[:2] != (0.0, 0.0):
+    if tag(root) != "svg" or view is None or view[:2] != (0.0, 0.0):
         raise UnfitError(f"has no canvas, {_NOT_OURS}")
     unit = stated_unit(root) or "px"
     width_px = parse_length(root.get("width"), 0.0)
@@ -199,13 +229,6 @@ def _canvas(root: ET.Element) -> tuple[float, float, Unit, float]:
     # A canvas in its own unit is as long in numbers; what differs by rounding is the same.
     scale = 1.0 if abs(scale - 1.0) < _SAME else scale
     return scale * view[2], scale * view[3], unit, scale
-
-
-def _named(root: ET.Element, name: str) -> ET.Element:
-    group = next((e for e in root if e.get("id") == name and _tag(e) == "g"), None)
-    if group is None:
-        raise UnfitError(f"has no group named {name} at its top, {_NOT_OURS}")
-    return group
 
 
 def _picture(image: ET.Element) -> Region:
@@ -225,8 +248,3 @@ def _path(data: str, rule: str = "evenodd") -> ET.Element:
 
 def _placed(region: Region, matrix: FloatArray) -> Region:
     return shapely.transform(region, lambda points: affine.apply(matrix, points))
-
-
-def _tag(element: ET.Element) -> str:
-    """Name of an element without its namespace."""
-    return str(element.tag).rpartition("}")[2]

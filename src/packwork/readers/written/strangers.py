@@ -1,0 +1,90 @@
+"""What a measure cannot see for itself: paint outside the items, and files that lost their groups.
+
+Programs that make SVGs smaller take names, groups and hidden paths away. What is left is measured
+as it stands, and what is missing is said.
+"""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+
+from packwork.arrays import FloatArray
+from packwork.geometry import affine
+from packwork.readers.svg.transforms import parse_transform
+
+PAINTED = frozenset(
+    {"g", "a", "use", "path", "image", "text", "rect", "circle", "ellipse", "line", "polyline",
+     "polygon", "svg", "switch", "foreignObject"}
+)  # fmt: skip
+"""Elements that may paint."""
+
+OWN = frozenset({"background", "backdrop", "halos", "container", "items", "labels", "legend"})
+"""Names of what our files hold at their top."""
+
+
+def tag(element: ET.Element) -> str:
+    """Name of an element without its namespace.
+
+    Examples
+    --------
+    >>> tag(ET.Element("{http://www.w3.org/2000/svg}path"))
+    'path'
+    """
+    return str(element.tag).rpartition("}")[2]
+
+
+def group_named(root: ET.Element, name: str) -> ET.Element | None:
+    """The first group of that name at the top; None if there is none."""
+    return next((e for e in root if e.get("id") == name and tag(e) == "g"), None)
+
+
+def unmeasured(root: ET.Element) -> tuple[str, ...]:
+    """What at the top of one of our files may paint and is measured nowhere, in a sentence.
+
+    Examples
+    --------
+    >>> root = ET.fromstring('<svg><g id="items"/><g id="items"/><path d="M0 0"/></svg>')
+    >>> unmeasured(root)
+    ('2 drawings outside the group items are not measured',)
+    """
+    met: set[str] = set()
+    count = 0
+    for element in root:
+        name = element.get("id", "")
+        if tag(element) in PAINTED and (name not in OWN or name in met):
+            count += 1
+        met.add(name)
+    if count == 0:
+        return ()
+    drawings = "1 drawing" if count == 1 else f"{count} drawings"
+    return (f"{drawings} outside the group items {'is' if count == 1 else 'are'} not measured",)
+
+
+def loose_items(root: ET.Element) -> tuple[list[ET.Element], FloatArray]:
+    """Drawings of a file without our groups, and the map of the group that they lie in.
+
+    Goes into a group as long as that is all there is; a sheet behind all is no item.
+
+    Examples
+    --------
+    >>> root = ET.fromstring('<svg><g transform="scale(2)"><path d="M0 0"/><path/></g></svg>')
+    >>> found, place = loose_items(root)
+    >>> [tag(one) for one in found], place[0, 0]
+    (['path', 'path'], np.float64(2.0))
+    """
+    place, group = affine.identity(), root
+    while True:
+        inside = [e for e in group if tag(e) in PAINTED and not _is_sheet(e)]
+        is_only_group = len(inside) == 1 and tag(inside[0]) == "g"
+        if not is_only_group or "data-name" in inside[0].attrib:
+            return inside, place
+        group = inside[0]
+        place = affine.compose(place, parse_transform(group.get("transform")))
+
+
+def _is_sheet(element: ET.Element) -> bool:
+    """Whether it is our background, named or not, or a path that is not shown."""
+    if element.get("id") in OWN - {"items"} or element.get("display") == "none":
+        return True
+    sides = element.get("width"), element.get("height")
+    return tag(element) == "rect" and sides == ("100%", "100%")

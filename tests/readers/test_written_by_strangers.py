@@ -1,0 +1,97 @@
+"""Files that another program saved again, or that state what is not so: said, and bounded."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+import packwork as pw
+from packwork.errors import ReadError
+from packwork.metrics.certificate import taken_on_trust
+from packwork.readers import layout as saved
+from packwork.readers.written import assembly
+from packwork.readers.written.read import read_written
+
+WALL = '<g id="container" display="none"><path d="M0 0h9v9h-9z"/></g>'
+TILES = (
+    '<path data-name="a" d="M1 1h2v2h-2z"/><path data-name="b" transform="translate(4)" '
+    'd="M1 1h2v2h-2z"/>'
+)
+
+
+def _svg(tmp_path: Path, inside: str) -> Path:
+    file = tmp_path / "found.svg"
+    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{inside}</svg>')
+    return file
+
+
+def test_what_the_file_states_is_taken_on_trust_and_said(tmp_path: Path) -> None:
+    small = '<path data-name="a" data-outline="M1 1h1v1h-1z" d="M1 1h7v7h-7z"/>'
+    found = read_written(_svg(tmp_path, f'{WALL}<g id="items" data-gap="0">{small}</g>'))
+    (said,) = taken_on_trust(found.manifest)
+    assert "data-outline" in said
+
+
+@pytest.mark.parametrize(
+    "more", ['<g id="items"><path d="M0 0h9v9h-9z"/></g>', '<rect width="9" height="9"/>']
+)
+def test_paint_outside_the_items_is_said(tmp_path: Path, more: str) -> None:
+    found = read_written(_svg(tmp_path, f'{WALL}<g id="items" data-gap="0">{TILES}</g>{more}'))
+    assert taken_on_trust(found.manifest) == ("1 drawing outside the group items is not measured",)
+
+
+def test_files_of_ours_say_nothing(tmp_path: Path) -> None:
+    layout = pw.fill("circle", "star", count=2, epochs=9, levels="24", effort="draft")
+    layout.save(tmp_path / "own.svg", background="ivory")
+    assert taken_on_trust(read_written(tmp_path / "own.svg").manifest) == ()
+
+
+def test_what_lost_its_groups_is_measured_as_it_stands(tmp_path: Path) -> None:
+    # As an optimiser leaves it: hidden paths, names and groups are gone.
+    found = read_written(_svg(tmp_path, f'<g transform="scale(.5)">{TILES}</g>'))
+    assert [item.outline.area for item in found.items] == pytest.approx([1.0, 1.0])
+    assert found.container.outline.area == 81
+    assert found.manifest["promised"] is None
+    assert ["no group named" in said for said in taken_on_trust(found.manifest)] == [True, True]
+
+
+def test_a_container_that_is_still_there_is_used(tmp_path: Path) -> None:
+    found = read_written(_svg(tmp_path, f'{WALL}<g id="layer1">{TILES}</g>'))
+    assert len(found.items) == 2
+    assert len(taken_on_trust(found.manifest)) == 1
+
+
+def _geojson(tmp_path: Path, **properties: object) -> Path:
+    tile = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 0]]]}
+    said = {"role": "item", "x": 1, "y": 1, "angle": 0, "scale": 1.0, **properties}
+    features = [
+        {"type": "Feature", "properties": {"role": "container"}, "geometry": tile},
+        {"type": "Feature", "properties": said, "geometry": tile},
+    ]
+    file = tmp_path / "found.geojson"
+    file.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    return file
+
+
+def test_large_scales_are_read(tmp_path: Path) -> None:
+    assert read_written(_geojson(tmp_path, scale=3e9)).poses.scale.tolist() == [3e9]
+    with pytest.raises(ReadError, match="scale: must be positive"):
+        read_written(_geojson(tmp_path, scale=0))
+
+
+def test_work_and_memory_are_bounded_before_they_are_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = _geojson(tmp_path)
+    monkeypatch.setattr(saved, "MAX_PARTS", 20)
+    with pytest.raises(ReadError, match="numbers and lists, more than 20"):
+        read_written(file)
+    monkeypatch.setattr(saved, "MAX_PARTS", 1_000)
+    monkeypatch.setattr(saved, "MAX_POINTS", 3)
+    with pytest.raises(ReadError, match="4 points, more than 3"):
+        read_written(file)
+    monkeypatch.setattr(assembly, "MAX_POINTS", 3)
+    with pytest.raises(ReadError, match="points, more than 3"):
+        read_written(_svg(tmp_path, f'{WALL}<g id="items">{TILES}</g>'))
