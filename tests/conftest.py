@@ -7,6 +7,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from made_fonts import make_font_folders
+from packwork.display import bar
 from packwork.fonts import FOLDERS
 
 # Kernels compile on their first call, and run uncompiled under NUMBA_DISABLE_JIT=1: no
@@ -15,6 +16,12 @@ _PATIENT = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 settings.register_profile("check", _PATIENT, max_examples=40, derandomize=True)
 settings.register_profile("explore", _PATIENT, max_examples=2_000)
 settings.load_profile("check")
+
+
+@pytest.fixture(autouse=True)
+def _no_lines_of_slow_machines(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lines of progress come with time; what a test sees may not."""
+    monkeypatch.setattr(bar, "SECONDS_BETWEEN_LINES", float("inf"))
 
 
 @pytest.fixture

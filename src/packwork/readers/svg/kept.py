@@ -21,7 +21,7 @@ import resvg_py
 import scipy
 import shapely
 
-import packwork
+from packwork import folders
 from packwork.errors import ShapeError
 from packwork.folders import Store
 from packwork.geometry.outline import Outline
@@ -83,7 +83,7 @@ def reader_version() -> str:
     versions = (np, scipy, shapely, resvg_py)
     numbers = [str(getattr(module, "__version__", "")) for module in versions]
     whole = hashlib.sha256(repr((sys.version, shapely.geos_version, numbers)).encode())
-    root = Path(packwork.__file__).parent
+    root = Path(folders.__file__).parent
     paths = [*root.glob("*.py"), *(p for f in FOLDERS for p in (root / f).rglob("*.py"))]
     for path in sorted(paths):
         whole.update(path.relative_to(root).as_posix().encode())
