@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -88,3 +89,22 @@ def test_shares_are_of_what_is_there(album: Path, share: dict[str, float], reaso
 def test_shares_without_a_meaning_are_refused(text: str) -> None:
     with pytest.raises(RecipeError, match="use shares such as"):
         share_of_kinds(text)
+
+
+def test_kinds_that_have_shares_are_mixed_over_the_area(tmp_path: Path) -> None:
+    for k in range(6):
+        size = (90, 60) if k % 2 else (60, 90)
+        Image.new("RGB", size, "teal").save(tmp_path / f"p{k}.png")
+    words = {f"word{k}": 10 / (k + 2) for k in range(14)}
+    layout = pw.words(
+        "square", words, add=["star", "moon", "heart", "drop"],
+        photos={"sources": [str(tmp_path)]}, share="words=45%,photos=35%,items=20%",
+        effort="draft", seed=0,
+    )  # fmt: skip
+    spoken = [item for item in layout.items if item.text is not None]
+    kinds = kinds_of(layout.items, spoken)
+    heights = layout.poses.y / layout.container.height
+    for name in ("words", "photos", "items"):
+        own = heights[kinds == name]
+        # Layers would lie in one half.
+        assert 0.1 < np.mean(own < 0.5) < 0.9, name

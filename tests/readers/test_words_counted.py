@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
-from packwork.readers.words.source import read_words
+from packwork.readers.words.source import ranked_words, read_words
 from packwork.readers.words.stop_words import guess_language, stop_words
 from packwork.readers.words.tokens import sentences
 from packwork.readers.words.unspaced import segments
@@ -203,3 +203,9 @@ def test_what_counts_as_a_word_can_be_chosen(options: dict, expected: set[str]) 
 def test_a_pattern_that_is_none_is_refused() -> None:
     with pytest.raises(RecipeError, match="regexp: is no regular expression"):
         counted("a bear", regexp="(")
+
+
+def test_words_of_nothing_are_counted_and_told() -> None:
+    read = ranked_words(WordOptions(source={"bear": 2, " ": 1, "\t": 3, "|": 1}))
+    assert [word.text for word in read.words] == ["bear"]
+    assert [str(error) for error in read.told] == ["weights: 3 words are empty, and left out"]

@@ -128,3 +128,10 @@ def test_a_variable_font_is_drawn_at_the_weight_asked_for() -> None:
         ]
         widths.append(max(points))
     assert widths == [100, 200, 300, 300]
+
+
+def test_long_words_that_begin_alike_are_each_told() -> None:
+    begun = "x" * 120
+    read = read_word_items(WordOptions(source={"ox": 1, begun + "a": 1, begun + "b": 1}), "fill")
+    assert len(read.items) == 1
+    assert len(read.undrawn) == 2

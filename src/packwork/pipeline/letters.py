@@ -124,7 +124,7 @@ def _with_first(job: Job, count: int, sizes: FloatArray) -> Job:
         )
     unit, least = job.container.unit, job.letters.smallest
     reasons = {
-        item.name[:MOST_SHOWN]: f"its letters would be {size:.3g} {unit} high, less than the "
+        item.name: f"its letters would be {size:.3g} {unit} high, less than the "
         f"{least:.3g} {unit} of --smallest"
         for item, size in zip(words.items[count:], sizes[count:].tolist(), strict=True)
     }

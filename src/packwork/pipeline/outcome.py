@@ -14,6 +14,7 @@ from packwork.errors import PackworkError, RowsLostError
 from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.job import Job
 from packwork.pipeline.resolving import photo_pixels
+from packwork.readers.words.items import MOST_SHOWN
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.solve.herd import wronged_shares
@@ -193,7 +194,7 @@ def undrawn(job: Job, start: int) -> tuple[Unplaced, ...]:
     """Words that no font could draw, numbered from ``start``: after the items."""
     reasons = {} if job.words is None else job.words.undrawn
     return tuple(
-        Unplaced(word, index, reason)
+        Unplaced(word[:MOST_SHOWN], index, reason)
         for index, (word, reason) in enumerate(reasons.items(), start=start)
     )
 

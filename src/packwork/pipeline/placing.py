@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.finish.finish import COMMON_COARSE
 from packwork.finish.options import HAIR
@@ -15,6 +15,7 @@ from packwork.geometry.outline import Outline
 from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.leaning import job_leanings
+from packwork.pipeline.sharing import kinds_of
 from packwork.progress import Stop, never, until_over
 from packwork.scene.container import Container
 from packwork.scene.leaning import turn_sides
@@ -79,6 +80,7 @@ def first_places(
             attempts=ATTEMPTS[recipe.effort],
             limits=limits,
             fields=_fields(job),
+            kinds=_kinds(job),
             stop=is_over,
         )
         if poses is not None:
@@ -115,6 +117,14 @@ def _suits(job: Job, forces: Forces | None) -> bool:
         and (recipe.words is not None or recipe.photos is None)
         and len(job.items) <= most
     )
+
+
+def _kinds(job: Job) -> IntArray | None:
+    """Numbers of words, photos and items where they have shares; None if nothing is to be mixed."""
+    if job.recipe.share is None:
+        return None
+    spoken = () if job.words is None else job.words.items
+    return np.unique(kinds_of(job.items, spoken), return_inverse=True)[1].astype(np.int64)
 
 
 def _fields(job: Job) -> Sequence[FieldForce]:

@@ -108,10 +108,10 @@ def read_word_items(
             items.append(word_item(word, fonts, holes))
             words.append(word)
         except UnfitError as error:
-            undrawn[word.text[:MOST_SHOWN]] = str(error)
+            undrawn[word.text] = str(error)
     if not items:
         first = next(iter(undrawn))
-        raise ReadError(first, f"cannot be set, nor any other word: {undrawn[first]}")
+        raise ReadError(first[:MOST_SHOWN], f"cannot be set, nor any other word: {undrawn[first]}")
     weights = np.array([word.weight for word in words])
     return WordsRead(
         tuple(items),

@@ -100,10 +100,14 @@ def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Rank
     """
     read = _words(options, asked or TableFormat())
     cased = [_cased(word, options.case) for word in read.words]
-    ranked = sorted(_merged(cased), key=lambda word: -word.weight)
+    seen = [word for word in cased if sound(word.text).replace("|", "").strip()]
+    ranked = sorted(_merged(seen), key=lambda word: -word.weight)
     if not ranked:
         raise ReadError(_name(options), "holds no words that could be set")
-    return replace(read, words=tuple(ranked))
+    told = read.told
+    if unseen := len(cased) - len(seen):
+        told += (ReadError(_name(options), f"{unseen} words are empty, and left out"),)
+    return replace(read, words=tuple(ranked), told=told)
 
 
 def _words(options: WordOptions, asked: TableFormat) -> Ranked:
@@ -201,7 +205,8 @@ def _piped(most: int) -> bytes:
     """What is piped into the program, at most so many bytes."""
     if sys.stdin is None:
         raise ReadError("standard input", "is closed; pipe a text in, or give a file")
-    with contextlib.suppress(OSError):  # a program that is called by another may have none
+    # What is called by another program may have none.
+    with contextlib.suppress(OSError, AttributeError):
         note_input(sys.stdin.fileno(), "standard input")
     try:
         return sys.stdin.buffer.read(most)
@@ -215,12 +220,10 @@ def _is_table(source: str) -> bool:
 
 
 def _merged(words: Iterable[Word]) -> list[Word]:
-    """Words that read the same become one, their weights added; unseen ones are dropped."""
+    """Words that read the same become one, their weights added."""
     found: dict[str, Word] = {}
     for word in words:
         text = sound(word.text)
-        if not text.replace("|", "").strip():
-            continue
         before = found.get(text)
         total = word.weight + (before.weight if before else 0.0)
         found[text] = replace(before or word, text=text, weight=total)

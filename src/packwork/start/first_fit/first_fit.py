@@ -22,6 +22,7 @@ from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
+from packwork.start.first_fit.crowd import Crowd
 from packwork.start.first_fit.occupancy import Occupancy
 from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all
 from packwork.start.first_poses import container_image
@@ -80,6 +81,7 @@ def first_fit(
     attempts: int = 1,
     limits: Limits | None = None,
     fields: Sequence[FieldForce] = (),
+    kinds: IntArray | None = None,
     stop: Stop = never,
 ) -> Poses | None:
     """Poses at which nothing overlaps, all items in proportion; None if none were found.
@@ -107,6 +109,9 @@ def first_fit(
         Which items have to lie where; None if all may lie anywhere.
     fields
         Forces that say where an item had better lie.
+    kinds
+        ``(n,)`` numbers of what is to be mixed: what lies there at any time has as much of each
+        kind's area, as what is put later comes to lie elsewhere. None for the largest first.
     stop
         Asked before each attempt; True ends the search with the best found so far.
 
@@ -122,7 +127,9 @@ def first_fit(
     """
     own = np.array([outline.area for outline in outlines])
     share = float((own * scales**2).sum()) / container.outline.area
-    fitting = _Fitting(container, outlines, scales, angles, rng, margin_cu, slack, limits, fields)
+    fitting = _Fitting(
+        container, outlines, scales, angles, rng, margin_cu, slack, limits, fields, kinds
+    )
     return fitting.largest(math.sqrt(FIRST_SHARE / share), attempts, stop)
 
 
@@ -140,6 +147,7 @@ class _Fitting:
         slack: float,
         limits: Limits | None,
         fields: Sequence[FieldForce],
+        kinds: IntArray | None,
     ) -> None:
         count = len(outlines)
         side = int(np.clip(round(PIXELS_EACH * math.sqrt(count)), LEAST_PX, MOST_PX))
@@ -148,7 +156,9 @@ class _Fitting:
         self._outlines, self._scales, self._angles = outlines, scales, angles
         self._margin_cu, self._slack = margin_cu, slack
         self._wide: dict[int, tuple[float, Outline]] = {}
-        self._urgency = np.array([outline.area for outline in outlines]) * scales**2
+        self._areas = np.array([outline.area for outline in outlines]) * scales**2
+        self._urgency, self._kinds = self._areas, kinds
+        self._crowd: Crowd | None = None
         limits = Limits.free(count) if limits is None else limits
         self._is_sized = limits.held[:, 3]
         self._pins = np.column_stack([limits.x, limits.y])
@@ -183,7 +193,7 @@ class _Fitting:
         What is left over is else one large void, where the last items would have come.
         """
         stencils = self._stencils(tight.scale)
-        order = np.argsort(-self._urgency, kind="stable")
+        order = self._order(self._urgency)
         for share in LOOSE:
             found = self._put_in_order(order, tight.scale, stencils, round(share * len(order)))
             if isinstance(found, Poses):
@@ -198,13 +208,25 @@ class _Fitting:
         for attempt in range(attempts):
             if attempt and stop():
                 break
-            found = self._put_in_order(np.argsort(-urgency, kind="stable"), scales, stencils)
+            found = self._put_in_order(self._order(urgency), scales, stencils)
             if isinstance(found, Poses):
                 # What made these fit will help larger ones, too.
                 self._urgency = urgency
                 return found
             urgency[found] *= URGENCY
         return None
+
+    def _order(self, urgency: FloatArray) -> IntArray:
+        """The most urgent first; of several kinds as much of each one's area at any time."""
+        order = np.argsort(-urgency, kind="stable")
+        if self._kinds is None:
+            return order
+        when = np.zeros(len(order))
+        for kind in np.unique(self._kinds):
+            own = order[self._kinds[order] == kind]
+            areas = self._areas[own]
+            when[own] = (np.cumsum(areas) - areas / 2) / areas.sum()
+        return np.argsort(when * self._areas / urgency, kind="stable")
 
     def _put_in_order(
         self, order: IntArray, scales: FloatArray, stencils: dict[Key, Stencil], loose: int = 0
@@ -215,6 +237,7 @@ class _Fitting:
         """
         is_loose = np.isin(np.arange(len(order)), order[len(order) - loose :])
         occupancy = Occupancy(self._inside, REACH)
+        self._crowd = None if self._kinds is None else Crowd(self._inside, self._kinds)
         x, y, angle = np.zeros((3, len(scales)))
         poses = Poses(x, y, angle, scales)
         is_pinned: BoolArray = np.logical_not(np.isnan(self._pins).any(axis=1))
@@ -231,6 +254,8 @@ class _Fitting:
                 which, row, column = best
                 turn, stencil = own[which]
             occupancy.take(stencil, row, column)
+            if self._crowd is not None:
+                self._crowd.join(int(k), row + stencil.origin[0], column + stencil.origin[1])
             poses.x[k] = (column + stencil.origin[1]) / self._px_per_cu
             poses.y[k] = (row + stencil.origin[0]) / self._px_per_cu
             poses.angle[k] = turn
@@ -257,7 +282,7 @@ class _Fitting:
 
         Made when it is asked for: one image for each item would be gigabytes.
         """
-        worth = self._noise
+        worth = self._noise if self._crowd is None else self._noise - self._crowd.price(item)
         for force, height in zip(self._fields, self._heights, strict=True):
             if force.strengths[item]:
                 worth = worth - PULL * force.strengths[item] * height
