@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from packwork.errors import RecipeError
 from packwork.recipe import make_recipe
-from packwork.rules import HERO_SIZE, Rule, hero_rule
+from packwork.rules import HERO_SIZE, UPRIGHT, Rotation, Rule, hero_rule
 
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"items": []}, "items: use a name, a pattern"),
@@ -113,3 +113,8 @@ def test_any_text_is_a_hero_or_refused(text: str) -> None:
         assert refusal.key == "hero"  # noqa: PT017
     else:
         assert rule.items[0]
+
+
+def test_upright_is_a_word_for_a_limit() -> None:
+    assert make_recipe(container="heart", rotate="upright").rotation == Rotation.parse("30")
+    assert Rotation.parse(f"{UPRIGHT:g}") == Rotation.parse(" Upright ")

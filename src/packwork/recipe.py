@@ -100,9 +100,9 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     as high for its width, at the same area. 1 keeps all proportions."""
 
     rotate: str = "free"
-    """free (words: within 90 degrees, never upside down), none, 30 (within 30 degrees of upright)
-    or 0,90 (only these angles); also horizontal, vertical (read upwards), mixed (one in four
-    vertical)."""
+    """free (words: within 90 degrees, never upside down), none, 30 (within 30 degrees of upright;
+    upright is the same) or 0,90 (only these angles); also horizontal, vertical (read upwards),
+    mixed (one in four vertical)."""
 
     padding: str | float = "0"
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,

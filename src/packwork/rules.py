@@ -54,6 +54,10 @@ TURNED: Mapping[str, tuple[float, ...]] = MappingProxyType(
 )
 """Ways to turn that have a name: the angles that items get, in equal shares, degrees."""
 
+UPRIGHT = 30.0
+"""Degrees from upright within which things with an up still look upright. Larger fills a little
+more, smaller costs coverage. By eye: docs/decisions/0025-upright.md."""
+
 _HERO = re.compile(r"(?P<name>[^@=]+)(?:@(?P<x>[^,@=]+),(?P<y>[^,@=]+))?(?:=(?P<size>[^@=]+))?")
 
 
@@ -103,6 +107,8 @@ class Rotation(Options):
         plain = text.strip().lower()
         if plain == "free":
             return cls()
+        if plain == "upright":
+            return cls(limit=math.radians(UPRIGHT))
         if plain in {"none", "horizontal"}:
             return cls(limit=0.0)
         if plain in TURNED:
@@ -345,5 +351,6 @@ def _degrees(part: str, text: str) -> float:
 
 def _bad_rotation(text: str) -> RecipeError:
     return RecipeError(
-        "rotate", f"use free, none, 30 (within 30 degrees) or 0,90 (only these), not {text!r}"
+        "rotate",
+        f"use free, upright, none, 30 (within 30 degrees) or 0,90 (only these), not {text!r}",
     )

@@ -193,11 +193,9 @@ def words(
         )
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
-            pixels=pixels, background=background, halo=halo,
-            show_container=show_container, flatten=flatten,
-            text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
-            film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
-            no_clobber=no_clobber,
-            cut=cut, kiss_cut=kiss_cut, bleed=bleed,
+            pixels=pixels, background=background, halo=halo, show_container=show_container,
+            flatten=flatten, text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop,
+            easing=easing, film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
+            no_clobber=no_clobber, cut=cut, kiss_cut=kiss_cut, bleed=bleed,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))
