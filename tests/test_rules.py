@@ -28,7 +28,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"items": "star", "scale": [1, float("inf")]}, "scale: must be within"),
     ({"items": "star", "scale": [float("nan"), 1]}, "scale: must be within"),
     ({"items": "star", "scale": ["a", 1]}, "scale: must be a number"),
-    ({"items": "star", "rotate": "twist"}, "rotate: use free, none, 30"),
+    ({"items": "star", "rotate": "twist"}, "rotate: use free, upright, none, 30"),
     ({"items": "star", "rotate": [30, "x"]}, "rotate: use free"),
     ({"items": "star", "weight": 0}, "weight: must be more than 0"),
     ({"items": "star", "weight": float("inf")}, "weight: must be"),

@@ -141,15 +141,9 @@ def words(
             container,
             source,
             **shared.mixing(add, photos, share),
-            count=count,
-            min_count=min_count,
-            language=language,
-            stopwords=stopwords,
-            min_word_length=min_word_length,
-            include_numbers=include_numbers,
-            regexp=regexp,
-            phrases=phrases,
-            plurals=plurals,
+            count=count, min_count=min_count, language=language, stopwords=stopwords,
+            min_word_length=min_word_length, include_numbers=include_numbers, regexp=regexp,
+            phrases=phrases, plurals=plurals,
             case=case,
             fonts=font,
             font_weight=font_weight,
@@ -190,7 +184,7 @@ def words(
             start=start,
             stay=stay,
             losses=shared.loss_weights(loss),
-        )
+        )  # fmt: skip
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
             pixels=pixels, background=background, halo=halo, show_container=show_container,
