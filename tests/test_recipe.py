@@ -51,6 +51,10 @@ BAD: dict[str, list[Any]] = {
     "holes": ["drill", True],
     "outline": ["rough", "", True],
     "strict": ["perhaps", 7],
+    "delimiter": ["", "ab", "\n", 33],
+    "decimal": ["", ";", 5],
+    "encoding": ["latin-99", "rot13", 8],
+    "least_dpi": [0, -72, NAN, INF, "fine"],
     "trim": ["perhaps", 7],
     "keep_page": ["perhaps", 7],
     "close_gaps": ["wide", "-1", "", None],
@@ -119,8 +123,8 @@ def test_a_missing_container_is_named() -> None:
 
 def test_an_unknown_key_lists_the_known() -> None:
     with pytest.raises(RecipeError) as refusal:
-        make_recipe(container="heart", colour="red")
-    assert refusal.value.key == "colour"
+        make_recipe(container="heart", zigzag="red")
+    assert refusal.value.key == "zigzag"
     for name in Recipe.model_fields:
         assert name in refusal.value.problem
 
