@@ -222,7 +222,7 @@ def test_art_covers_the_ink_on_any_page(page, art_iou):
 
 def test_faint_shapes_are_shapes():
     item = item_of_svg(document(DRAWINGS["mask"]).encode(), "mask", "mask.svg")
-    assert item.outline.area == pytest.approx(3.14159 * 40**2 / 2, rel=1e-3)
+    assert item.outline.area == pytest.approx(3.14159 * 40**2 / 2, rel=3e-3)
 
 
 @pytest.mark.xfail(strict=True, reason="proves that the comparison can fail")

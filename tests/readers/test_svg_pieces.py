@@ -11,7 +11,6 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from packwork.readers.gate.css import parse_rules
 from packwork.readers.svg.arcs import arc_cubics
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.path_data import parse_path
@@ -117,12 +116,6 @@ def test_right_angle(pen, area):
 def test_closed_lines_have_no_caps():
     square = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]])
     assert stroke_region(square, True, Pen(2, "square"), 0.01).area == pytest.approx(80)
-
-
-def test_rules_that_are_not_understood_are_passed_over():
-    sheet = "a:hover{} a[b]{} @media x{c{}} @import 'y'; d e>f{} > g{} h >{} *{} .i.j#k{} \\6c{}"
-    steps = [len(rule.steps) for rule in parse_rules(sheet)]
-    assert steps == [3, 1, 1]
 
 
 def test_units_of_items_are_css_pixels():

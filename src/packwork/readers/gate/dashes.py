@@ -13,12 +13,13 @@ import numpy as np
 
 from packwork.readers.gate.vocabulary import SHAPES, TEXTS
 from packwork.readers.svg.lengths import MAX_COORDINATE, parse_length
-from packwork.readers.svg.shapes import shape_pieces
+from packwork.readers.svg.shapes import flattened_all, shape_pieces
 
 DASHES = "stroke-dasharray"
 
 _SOLID = frozenset({"none", "inherit"})
 _RELATIVE = ("%", "em", "ex")
+_FINE = 1e-6
 _LIKE_PATHS = frozenset({"path", "polyline", "polygon"})
 _WEIGHTS = {"width": 2, "height": 2, "r": 7, "rx": 7, "ry": 7, "x1": 1, "y1": 1, "x2": 1, "y2": 1}
 """What each measure of the other shapes adds to the length of their lines, at most."""
@@ -92,6 +93,26 @@ def line_length(element: ET.Element) -> float:
         points = np.concatenate([[piece.start], *piece.segments, [piece.start]])
         steps = np.hypot(*np.diff(points, axis=0).T)
         total += float(steps.sum() if piece.is_closed else steps[:-1].sum())
+    return total
+
+
+def curve_length(element: ET.Element) -> float:
+    """Length of a clean shape's line in its own units, its curves followed.
+
+    Examples
+    --------
+    >>> circle = ET.Element("circle", {"r": "1"})
+    >>> round(curve_length(circle), 3)
+    6.283
+    """
+    total = 0.0
+    pieces = shape_pieces(element, (0.0, 0.0))
+    controls = [piece.segments.reshape(-1, 2) for piece in pieces if len(piece.segments)]
+    if not controls:
+        return 0.0
+    extent = float(np.ptp(np.concatenate(controls), axis=0).max())
+    for line in flattened_all(pieces, max(extent * _FINE, 1e-9)):
+        total += float(np.hypot(*np.diff(line, axis=0).T).sum())
     return total
 
 

@@ -6,11 +6,17 @@ import xml.etree.ElementTree as ET
 import zlib
 from xml.sax.saxutils import escape, quoteattr
 
+from packwork.readers.budget import one_budget
 from packwork.readers.gate.expansion import bound_expansion, check_size
 from packwork.readers.gate.filters import settle_filters
+from packwork.readers.gate.plain.cuts import settle_cuts
+from packwork.readers.gate.plain.dash_units import settle_dash_units
+from packwork.readers.gate.plain.moves import settle_moves
+from packwork.readers.gate.plain.units import settle_root, settle_units
 from packwork.readers.gate.references import drop_dangling, prune_hidden, prune_unused
 from packwork.readers.gate.sanitise import HREF, sanitised
 from packwork.readers.gate.xml_tree import parse_xml
+from packwork.readers.svg.page import read_page
 from packwork.readers.unfit import UnfitError
 
 MAX_BYTES = 20_000_000
@@ -48,9 +54,20 @@ def admit(data: bytes) -> ET.Element:
         raise UnfitError(
             f"has {len(data) // 1_000_000} MB; {MAX_BYTES // 1_000_000} MB are the most for an SVG"
         )
+    with one_budget():
+        return _admitted(data)
+
+
+def _admitted(data: bytes) -> ET.Element:
     raw = parse_xml(data)
     check_size(raw)
     root = sanitised(raw)
+    settle_root(root)
+    page = read_page(root)
+    settle_units(root, page)
+    settle_dash_units(root)
+    settle_cuts(root, page)
+    settle_moves(root, page)
     drop_dangling(root)
     settle_filters(root)
     prune_hidden(root)

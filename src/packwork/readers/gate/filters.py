@@ -18,10 +18,20 @@ MAX_STEPS = 800
 """Steps of all filters of a drawing, each counted for every shape it is used on. Shaded
 emoji have some hundreds; each costs some microseconds of every picture. Chosen."""
 
+MAX_WORK = 60.0
+"""Steps of one filter, times the area of its region over that of what it filters. Shaded
+emoji stay below 30. Larger lets hostile files be slow, smaller takes shading off. Tried."""
+
+LARGEST_BLUR = 0.5
+"""Deviation of a blur as a share of the page: beyond it nothing is left to see. Chosen."""
+
 LARGEST_REGION = 3.0
 """Side of a filter's region, as a multiple of what it filters or of the page. Chosen."""
 
 FILTER = "filter"
+
+_REGION = {"x": -0.1, "y": -0.1, "width": 1.2, "height": 1.2}
+_SIZES = ("width", "height")
 
 
 def settle_filters(root: ET.Element) -> None:
@@ -84,5 +94,17 @@ def count_steps(root: ET.Element) -> int:
 def _is_tame(element: ET.Element, side: float) -> bool:
     """Whether the region lies about what is filtered, or about a page of that side."""
     whole = 1.0 if element.get("filterUnits") != "userSpaceOnUse" else side
-    lengths = (parse_length(element.get(name), whole) for name in ("x", "y", "width", "height"))
-    return all(abs(length or 0.0) <= LARGEST_REGION * (whole or 1.0) for length in lengths)
+    whole = whole or 1.0
+    lengths = {name: parse_length(element.get(name), whole) for name in _REGION}
+    if any(abs(length or 0.0) > LARGEST_REGION * whole for length in lengths.values()):
+        return False
+    sides = [_REGION[name] if (n := lengths[name]) is None else n / whole for name in _SIZES]
+    steps = sum(part.tag in FILTER_STEPS for part in element.iter())
+    return steps * sides[0] * sides[1] <= MAX_WORK and not _is_wide(element, side)
+
+
+def _is_wide(element: ET.Element, side: float) -> bool:
+    """Whether any of its blurs is wider than the page could show."""
+    unit = 1.0 if element.get("primitiveUnits") == "objectBoundingBox" else side
+    blurs = (n for part in element.iter() for n in parse_numbers(part.get("stdDeviation")))
+    return any(unit > 0 and blur > LARGEST_BLUR * unit for blur in blurs)

@@ -7,24 +7,34 @@ styles become attributes, and no value refers to anything outside the document.
 
 from __future__ import annotations
 
+import math
 import re
 import string
 import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from packwork.readers.gate import css
-from packwork.readers.gate.embedded import is_harmless_picture
-from packwork.readers.gate.variables import filled_in, variables_in
+from packwork.readers.budget import spend
+from packwork.readers.gate.css.cascade import Cascade
+from packwork.readers.gate.css.colours import plain_colour
+from packwork.readers.gate.css.declarations import parse_declarations
+from packwork.readers.gate.css.nodes import Node
+from packwork.readers.gate.css.sheets import Sheet
+from packwork.readers.gate.css.variables import filled_in, with_variables
+from packwork.readers.gate.embedded import one_picture
 from packwork.readers.gate.vocabulary import (
     ATTRIBUTES,
+    COLOURS,
     CSS_ONLY,
     ELEMENTS,
     FILTER_PARTS,
     FUNCTIONS,
+    GRADIENTS,
+    MOVES,
     RENAMED,
     TEXTS,
 )
+from packwork.readers.svg.lengths import parse_length, parse_numbers
 from packwork.readers.unfit import UnfitError, notice
 
 HREF = "xlink:href"
@@ -34,19 +44,36 @@ MAX_VALUE = 2_000
 """Letters of an attribute that is no list of coordinates: patterns are matched against
 them again and again. Longer ones are dropped. Chosen."""
 
+MAX_STYLE = 20_000
+"""Letters of one ``style`` attribute that are read. Chosen."""
+
 MAX_TEXT = 20_000
 """Letters of visible text in one drawing: laying out text is slow. Chosen."""
 
 LOST = {
-    "animate": "its animation was left out: it is drawn as it stands before that begins",
-    "animateTransform": "its animation was left out: it is drawn as it stands before that begins",
-    "filter": "a filter was left out: it fetches or makes pictures, or is slow by design",
-    "foreignObject": "text or pictures in HTML were left out; turn them into shapes",
+    "animate": "its animation: it is drawn as it stands before that begins",
+    "animateTransform": "its animation: it is drawn as it stands before that begins",
+    "animateMotion": "its animation: it is drawn as it stands before that begins",
+    "animateColor": "its animation: it is drawn as it stands before that begins",
+    "set": "its animation: it is drawn as it stands before that begins",
+    "filter": "a filter: it fetches or makes pictures, or is slow by design",
+    "foreignObject": "text or pictures in HTML; turn them into shapes",
+    "video": "a film or a sound",
+    "audio": "a film or a sound",
+    "iframe": "another document inside it",
+    "canvas": "what a script would draw",
 }
 """What is said of elements that are seen elsewhere but not here."""
 
+MAX_SAID = 8
+"""Things left out that are named in one notice. Chosen."""
+
 FILTER = "filter"
 
+_ELEMENT_NS = 3e4
+"""For cleaning an element. Measured."""
+
+_AUTO, _RADII = "auto", frozenset({"rx", "ry"})
 _LISTS = frozenset({"d", "points"})
 _SVG_SPACES = frozenset({"", "http://www.w3.org/2000/svg"})
 _HREF_NAMES = frozenset({"href", "{http://www.w3.org/1999/xlink}href"})
@@ -73,13 +100,13 @@ def sanitised(raw: ET.Element) -> ET.Element:
     space, name = _split(raw.tag)
     if name != "svg" or space not in _SVG_SPACES:
         raise UnfitError(f"is XML but not SVG: its root is <{name[:40]}>, not <svg>")
-    sheets = ("".join(e.itertext()) for e in raw.iter() if _split(e.tag)[1] == "style")
-    found = _Found(variables_in([*sheets, raw.get("style", "")]))
-    root = _admitted(raw, found)
-    for said in sorted({LOST[name] for name in found.lost}):
-        notice(said)
-    rules = css.Cascade.of(css.parse_rules("\n".join(found.sheets)))
-    _apply_styles(root, [], rules, found.variables)
+    sheet = _sheet(raw)
+    found = _Found(Cascade(sheet.rules), lost=set(sheet.lost))
+    root = _admitted(Node(raw, None, None), found, {})
+    if found.lost:
+        named = sorted(found.lost)
+        more = [f"{len(named) - MAX_SAID} more"] if len(named) > MAX_SAID else []
+        notice(f"left out {', '.join([*named[:MAX_SAID], *more])}")
     if sum(len(e.text or "") + len(e.tail or "") for e in root.iter()) > MAX_TEXT:
         raise UnfitError(f"has more than {MAX_TEXT:,} letters of text; turn it into paths")
     return root
@@ -111,36 +138,60 @@ def _calls_known(text: str) -> bool:
 
 @dataclass
 class _Found:
-    """What was met on the way: variables, style sheets, kinds of elements left out."""
+    """The style rules, and what was met on the way and left out."""
 
-    variables: dict[str, str]
-    sheets: list[str] = field(default_factory=list)
+    cascade: Cascade
     lost: set[str] = field(default_factory=set)
 
 
-def _admitted(raw: ET.Element, found: _Found) -> ET.Element:
-    """Copy with only known elements and attributes."""
-    name = _split(raw.tag)[1]
-    element = ET.Element(RENAMED.get(name, name), _plain_attributes(raw, found.variables))
+def _sheet(raw: ET.Element) -> Sheet:
+    """Rules of all style elements, wherever they stand."""
+    attributes = {key: value for key, value in raw.attrib.items() if key in {"width", "height"}}
+    view = parse_numbers(raw.get("viewBox"))
+    sides = view[2:] if len(view) == 4 else [None, None]
+    width, height = (
+        parse_length(attributes.get(name), math.nan)
+        if "%" not in attributes.get(name, "")
+        else None
+        for name in ("width", "height")
+    )
+    sheet = Sheet(width or sides[0], height or sides[1])
+    for element in raw.iter():
+        if _split(element.tag) in {(space, "style") for space in _SVG_SPACES}:
+            # A style for paper or the like is none for the screen.
+            media = element.get("media", "all")
+            text = "".join(element.itertext())
+            sheet.add(
+                text if media.strip() in {"", "all", "screen"} else f"@media {media}{{{text}}}"
+            )
+    return sheet
+
+
+def _admitted(node: Node, found: _Found, outer: Mapping[str, str]) -> ET.Element:
+    """Copy with only known elements and attributes, its styles attributes."""
+    spend(_ELEMENT_NS, "has too many elements")
+    raw, name = node.element, node.tag
+    inline = parse_declarations(raw.get("style", "")[:MAX_STYLE])
+    found.lost |= inline.lost
+    variables, declared = with_variables(outer, found.cascade.declared(node, inline))
+    element = ET.Element(RENAMED.get(name, name), _plain_attributes(node, found, variables))
+    _apply(element, declared, variables, found)
     if name in TEXTS:
         element.text, element.tail = raw.text, raw.tail
-    for child in _children(raw, found):
-        child_name = _split(child.tag)[1]
-        if child_name == "style":
-            found.sheets.append("".join(child.itertext()))
-        else:
-            element.append(_admitted(child, found))
+    for child in _children(node, found):
+        element.append(_admitted(child, found, variables))
     return element
 
 
-def _children(raw: ET.Element, found: _Found) -> list[ET.Element]:
+def _children(node: Node, found: _Found) -> list[Node]:
     """Children that are known elements; of a ``switch`` only the one that shows."""
-    known = [child for child in raw if _is_known(child)]
-    if _split(raw.tag)[1] == "switch":
-        plain = [c for c in known if not c.get("requiredExtensions") and _is_english(c)]
+    known = [child for child in node.children if _is_known(child.element) and child.tag != "style"]
+    if node.tag == "switch":
+        plain = [c for c in known if "requiredExtensions" not in c.attributes and _is_english(c)]
         return plain[:1]
-    if len(known) < len(raw):
-        found.lost |= {_split(child.tag)[1] for child in raw if not _is_known(child)} & LOST.keys()
+    if len(known) < len(node.children):
+        names = {c.tag for c in node.children if not _is_known(c.element)}
+        found.lost |= {LOST[name] for name in names & LOST.keys()}
     return known
 
 
@@ -153,59 +204,64 @@ def _is_known(child: ET.Element) -> bool:
     return space in _SVG_SPACES and (name in ELEMENTS or name in RENAMED)
 
 
-def _is_english(child: ET.Element) -> bool:
-    languages = child.get("systemLanguage")
+def _is_english(child: Node) -> bool:
+    languages = child.attributes.get("systemLanguage")
     return languages is None or "en" in languages.lower()
 
 
-def _plain_attributes(raw: ET.Element, variables: Mapping[str, str]) -> dict[str, str]:
-    """Attributes that may stay; ``class`` and ``style`` until styles are applied."""
+def _plain_attributes(node: Node, found: _Found, variables: Mapping[str, str]) -> dict[str, str]:
+    """Attributes that may stay."""
     plain: dict[str, str] = {}
-    for key, value in raw.attrib.items():
+    for key, value in node.element.attrib.items():
         if key in _HREF_NAMES:
-            is_image = _split(raw.tag)[1] == "image"
-            target = _safe_reference(value, is_image=is_image)
-            if target is not None:
+            target = _reference(node, value, found)
+            if target is not None and (HREF not in plain or key == "href"):
                 plain[HREF] = target
-            elif is_image:
-                notice("a linked picture was left out, for no other file is read; embed it")
         elif key == _XML_SPACE and value in {"preserve", "default"}:
             plain["xml:space"] = value
-        elif key == "style" or (key == "class" and len(value) <= MAX_VALUE):
-            plain[key] = value
+        elif value == _AUTO and key in _RADII:
+            # Not to state it says the same, to all programs.
+            continue
         elif key in ATTRIBUTES and (len(value) <= MAX_VALUE or key in _LISTS):
-            safe = safe_value(filled_in(value, variables))
+            text = filled_in(value, variables)
+            safe = safe_value(plain_colour(text) if key in COLOURS else text)
             if safe:
                 plain[key] = safe
     return plain
 
 
-def _safe_reference(value: str, *, is_image: bool) -> str | None:
+def _reference(node: Node, value: str, found: _Found) -> str | None:
+    """What an element refers to, if that lies inside the file."""
     target = value.strip()
-    if is_image:
-        return target if is_harmless_picture(target) else None
-    return target if re.fullmatch(r"#[^\s'\"()<>\\]+", target) else None
+    if node.tag == "image":
+        picture = one_picture(target)
+        if picture is None:
+            found.lost.add("a picture that is linked or cannot be read; embed it")
+        return picture
+    if re.fullmatch(r"#[^\s'\"()<>\\]+", target):
+        return target
+    if node.tag in {"use", "textPath"} | GRADIENTS:
+        found.lost.add("parts of another file; draw them in this one")
+    return None
 
 
-def _apply_styles(
-    element: ET.Element,
-    ancestors: list[ET.Element],
-    cascade: css.Cascade,
-    variables: Mapping[str, str],
+def _apply(
+    element: ET.Element, declared: Mapping[str, str], variables: Mapping[str, str], found: _Found
 ) -> None:
-    """Set every declared property as an attribute and drop ``class`` and ``style``."""
+    """Set every declared property as an attribute."""
     kept: list[str] = []
-    declared = cascade.declared(element, ancestors)
-    for child in element:
-        _apply_styles(child, [*ancestors, element], cascade, variables)
-    for name in ("class", "style"):
-        element.attrib.pop(name, None)
     for name, value in declared.items():
-        safe = safe_value(filled_in(value, variables))
-        if not safe or len(safe) > MAX_VALUE:
-            continue
-        if name in CSS_ONLY:
+        text = filled_in(value, variables) if "var(" in value else value
+        safe = safe_value(plain_colour(text) if name in COLOURS else text)
+        if not safe or (len(safe) > MAX_VALUE and name not in _LISTS):
+            if text and "(" in text:
+                found.lost.add(f"{name} as it is written")
+        elif safe == _AUTO and name in _RADII:
+            element.attrib.pop(name, None)
+        elif name in CSS_ONLY:
             kept.append(f"{name}:{safe}")
+        elif name in MOVES:
+            element.set(f"css-{name}", safe)
         else:
             element.set(name, safe)
     if kept:

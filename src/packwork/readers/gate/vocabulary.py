@@ -29,7 +29,16 @@ ELEMENTS = SHAPES | GROUPS | NEVER_DRAWN | TEXTS | FILTER_PARTS | {"image", "sto
 RENAMED = {"a": "g", "switch": "g"}
 """Elements that are groups once links and languages are gone."""
 
-PROPERTIES = frozenset(
+CUSTOM = "--"
+"""What the names of CSS variables begin with."""
+
+MOVES = frozenset({"rotate", "scale", "translate"})
+"""Properties that are transforms of their own; attributes of these names say other things."""
+
+CSS_MOVES = frozenset(f"css-{name}" for name in MOVES)
+"""Attributes that they are kept in until all transforms are one."""
+
+PROPERTIES = MOVES | frozenset(
     {
         "alignment-baseline",
         "baseline-shift",
@@ -77,12 +86,16 @@ PROPERTIES = frozenset(
         "text-anchor",
         "text-decoration",
         "transform",
+        "transform-box",
+        "transform-origin",
+        "vector-effect",
         "visibility",
         "word-spacing",
         "writing-mode",
         # Geometry that SVG 2 lets style sheets set.
         "cx",
         "cy",
+        "d",
         "height",
         "r",
         "rx",
@@ -94,14 +107,16 @@ PROPERTIES = frozenset(
 )
 """Properties that CSS may set; each becomes an attribute of the same name."""
 
+COLOURS = frozenset({"color", "fill", "flood-color", "stop-color", "stroke"})
+"""Those that are colours."""
+
 CSS_ONLY = frozenset({"isolation", "mix-blend-mode"})
 """Properties that are no attributes and have to stay in ``style``."""
 
-ATTRIBUTES = (PROPERTIES - CSS_ONLY) | frozenset(
+ATTRIBUTES = (PROPERTIES - CSS_ONLY - MOVES) | frozenset(
     {
         "amplitude",
         "clipPathUnits",
-        "d",
         "dx",
         "dy",
         "exponent",
@@ -129,6 +144,7 @@ ATTRIBUTES = (PROPERTIES - CSS_ONLY) | frozenset(
         "offset",
         "operator",
         "orient",
+        "pathLength",
         "patternContentUnits",
         "patternTransform",
         "patternUnits",
@@ -157,6 +173,19 @@ ATTRIBUTES = (PROPERTIES - CSS_ONLY) | frozenset(
 
 FUNCTIONS = frozenset(
     {
+        # Calculations, and shapes that cut.
+        "calc",
+        "circle",
+        "clamp",
+        "ellipse",
+        "inset",
+        "max",
+        "min",
+        "path",
+        "polygon",
+        "rect",
+        "xywh",
+        # Colours and transforms.
         "hsl",
         "hsla",
         "matrix",
@@ -164,6 +193,9 @@ FUNCTIONS = frozenset(
         "rgba",
         "rotate",
         "scale",
+        "scalex",
+        "scaley",
+        "skew",
         "skewx",
         "skewy",
         "translate",

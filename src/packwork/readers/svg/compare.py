@@ -62,6 +62,7 @@ class Comparison:
         longest = SIDES_PX[1:2] if work.elements > _MANY_ELEMENTS else SIDES_PX
         self._sides = list(dict.fromkeys(work.side(px, max(self._part[2:])) for px in longest))
         self._has_hairs = work.hairs > 0
+        self._work = work
         self._shown: dict[int, FloatArray] = {}
 
     def agreement(self, region: Region) -> float:
@@ -77,6 +78,7 @@ class Comparison:
         reached = 0.0
         for side in self._sides if not self._shown else [max(self._shown)]:
             if side not in self._shown:
+                self._work.spend(side, max(self._part[2:]))
                 self._shown[side] = coverage(self._root, self._page, self._part, side)
             reached = max(reached, iou(self._shown[side], _drawn(region, self._part, side)))
             is_hopeless = side >= SIDES_PX[1] and reached < _HOPELESS and not self._has_hairs

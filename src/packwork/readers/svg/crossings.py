@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
+from packwork.readers.budget import spend
 from packwork.readers.unfit import TooRichError
 
 MAX_CROSSINGS = 20_000
@@ -20,6 +21,9 @@ _SAMPLED, _COMPARED, _COMPARED_SHARE = 60, 5_000, 0.04
 """Edges whose crossings are counted for the estimate, and those they are met with: so
 many at least, and that share where there are many. Fewer blur the estimate, more cost
 as much as the reading. Chosen."""
+
+_ALL_NS = 4e9
+"""For all the crossings that one allowance lets pass. Measured."""
 
 _FREE = 2_000
 """Crossings for which no estimate is worth its time. Chosen."""
@@ -54,9 +58,11 @@ class Allowance:
         """
         if sum(len(ring) for ring in rings) ** 2 / 2 <= _FREE:
             return
-        self._spent += estimated_crossings(rings)
+        met = estimated_crossings(rings)
+        self._spent += met
         if self._spent > self._most:
             raise TooRichError(f"crosses itself about {self._spent:,.0f} times")
+        spend(_ALL_NS / self._most * met, f"crosses itself about {self._spent:,.0f} times")
 
 
 def estimated_crossings(rings: Sequence[FloatArray]) -> float:

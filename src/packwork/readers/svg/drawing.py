@@ -11,6 +11,7 @@ from functools import cached_property
 from shapely.errors import GEOSException
 
 from packwork.errors import ShapeError
+from packwork.readers.budget import one_budget
 from packwork.readers.gate.door import admit
 from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
@@ -21,9 +22,18 @@ from packwork.readers.svg.lettering import set_in_outlines
 from packwork.readers.svg.page import Page, read_page
 from packwork.readers.svg.painted import Painted
 from packwork.readers.svg.patterns import check_tiles
+from packwork.readers.svg.render import Part
 from packwork.readers.svg.sheet import drop_sheet
 from packwork.readers.svg.solid import solid_twin
-from packwork.readers.svg.trace import inked_part, needs_tracing, traced_ink
+from packwork.readers.svg.steady import settle_steady
+from packwork.readers.svg.trace import (
+    MAX_POINTS,
+    MAX_RINGS,
+    inked_part,
+    is_plain_enough,
+    needs_tracing,
+    traced_ink,
+)
 from packwork.readers.svg.walk import painted_shapes
 from packwork.readers.svg.work import Work, work_of
 from packwork.readers.unfit import TooRichError, UnfitError, notice
@@ -31,6 +41,12 @@ from packwork.readers.unfit import TooRichError, UnfitError, notice
 MAX_SHAPES = 8_000
 """Shapes that are followed one by one, in about a quarter of a millisecond each; of
 strangers' drawings with more, the picture is traced. Chosen."""
+
+
+_MARGIN = 0.01
+
+LARGESSE = 20.0
+"""Budget of what is read for good or as a container, in those of an item. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,20 +118,22 @@ def read_drawing(
     >>> drawing.ink.fills.area
     8.0
     """
-    root = admit(data)
-    page = read_page(root)
-    set_in_outlines(root, page)
-    shapes = painted_shapes(root, page)
-    sheet = PageFate.NONE
-    if is_on_paper:
-        shapes, sheet = drop_sheet(root, page, shapes, keep_page)
-    if needs_tracing(root):
-        drawing = _traced(root, page, shapes, alpha_threshold)
-    elif is_compared:
-        drawing = _compared(root, page, shapes, alpha_threshold)
-    else:
-        drawing = Drawing(root, page, painted_ink(shapes, tolerance), shapes)
-    return replace(drawing, sheet=sheet)
+    with one_budget(1.0 if is_compared else LARGESSE):
+        root = admit(data)
+        page = read_page(root)
+        settle_steady(root, page)
+        set_in_outlines(root, page)
+        shapes = painted_shapes(root, page)
+        sheet = PageFate.NONE
+        if is_on_paper:
+            shapes, sheet = drop_sheet(root, page, shapes, keep_page)
+        if needs_tracing(root):
+            drawing = _traced(root, page, shapes, alpha_threshold)
+        elif is_compared:
+            drawing = _compared(root, page, shapes, alpha_threshold)
+        else:
+            drawing = Drawing(root, page, painted_ink(shapes, tolerance), shapes)
+        return replace(drawing, sheet=sheet)
 
 
 def _compared(
@@ -126,10 +144,12 @@ def _compared(
         if len(shapes) > MAX_SHAPES:
             raise TooRichError(f"has {len(shapes):,} shapes")
         drawing = Drawing(root, page, painted_ink(shapes), shapes)
+        if not is_plain_enough(drawing.ink.body):
+            raise TooRichError(f"needs more than {MAX_POINTS:,} points or {MAX_RINGS:,} rings")
         comparison = Comparison(root, page, drawing.ink.body, drawing.work)
         share = comparison.agreement(drawing.ink.whole)
     except (TooRichError, GEOSException, ShapeError) as problem:
-        traced = _traced(root, page, shapes, threshold)
+        traced = _traced(root, page, shapes, threshold, is_sure=True)
         why = problem.what if isinstance(problem, TooRichError) else "has edges too close to tell"
         notice(f"is traced from its picture, for it {why}")
         return traced
@@ -145,18 +165,47 @@ def _compared(
 
 
 def _traced(
-    root: ET.Element, page: Page | None, shapes: list[Painted], threshold: float
+    root: ET.Element,
+    page: Page | None,
+    shapes: list[Painted],
+    threshold: float,
+    *,
+    is_sure: bool = False,
 ) -> Drawing:
+    """Drawing as its picture shows it.
+
+    Parameters
+    ----------
+    threshold
+        As for ``traced_ink``.
+    is_sure
+        Whether ``shapes`` are all that it paints, so that what is too thin for a coarse
+        picture is known from them.
+    """
     if page is None:
         root = copy.copy(root)
         page = _framed(root, shapes)
     work = work_of(solid_twin(root), shapes, page)
     # Twice: the tiles must suit the page to find the ink, and the ink to look closer.
     check_tiles(root, shapes, max(page.width, page.height))
-    part = inked_part(root, page, work)
+    part = _shown_part(shapes, page) if is_sure else inked_part(root, page, work)
     if part is not None:
         check_tiles(root, shapes, max(part[2:]))
-    return Drawing(root, page, traced_ink(root, page, part, work, threshold), shapes)
+    known = shapes if is_sure else ()
+    return Drawing(root, page, traced_ink(root, page, part, work, threshold, known), shapes)
+
+
+def _shown_part(shapes: Sequence[Painted], page: Page) -> Part | None:
+    """Box of all shapes on the page, with a margin; None if there are none."""
+    box = drawing_box(shapes)
+    if box is None:
+        return None
+    left, top = max(0.0, box[0]), max(0.0, box[1])
+    width, height = min(page.width, box[2]) - left, min(page.height, box[3]) - top
+    margin = _MARGIN * max(width, height)
+    if min(width, height) <= 0:
+        return None
+    return left - margin, top - margin, width + 2 * margin, height + 2 * margin
 
 
 def _framed(root: ET.Element, shapes: list[Painted]) -> Page:

@@ -14,6 +14,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.overlay import buffered, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
+from packwork.readers.budget import spend
 from packwork.readers.svg.centre_lines import FinePoints, piece_strokes
 from packwork.readers.svg.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
 from packwork.readers.svg.extent import is_inside, stretch, whole_box
@@ -31,6 +32,12 @@ posters. Chosen."""
 BRIDGED_SHARE = 0.1
 """Gap of a dashed line, as a share of the drawing's extent, up to which an outline passes
 over it. Larger fills real openings, smaller lets items into dotted frames. Chosen."""
+
+_FILL_NS, _STROKE_NS, _POINT_NS, _PEN_NS = 2e5, 6e5, 2e3, 2e4
+"""For a fill, a stroke, a point of an outline that is settled, and of a line that is widened.
+Measured."""
+
+_TOO_MUCH = "has more shapes and points than can be followed"
 
 _FLAT = 1e-12
 """Determinant of a map, over its squared stretch, below which it leaves no area."""
@@ -93,6 +100,8 @@ class Follower:
         if len(several) == 1:
             return several[0]
         if several:
+            count = int(shapely.get_num_coordinates(several).sum())
+            spend(_POINT_NS * count, _TOO_MUCH)
             self._union_allowance.spend(_rings(several))
         return union(several)
 
@@ -133,6 +142,7 @@ class Follower:
         if shape not in self._fills:
             placed = [_placed(piece, shape.matrix) for piece in shape.pieces]
             rings = flattened_all(placed, self._tolerance)
+            spend(_FILL_NS + _POINT_NS * sum(map(len, rings)), _TOO_MUCH)
             self._fills[shape] = filled(rings, shape.painting.fill_rule, self._allowance)
         return self._fills[shape]
 
@@ -144,6 +154,7 @@ class Follower:
     def _pen_strokes(self, pieces: Sequence[SubPath], pen: Pen, tolerance: float) -> Region:
         """Stroke of all pieces of one shape, in its own units."""
         for line in flattened_all(pieces, tolerance):
+            spend(_STROKE_NS + _PEN_NS * len(line), _TOO_MUCH)
             if len(line) > 1 and not shapely.LineString(line).is_simple:
                 self._allowance.spend([line])
         return self.united(piece_strokes(pieces, pen, tolerance, self._fine_points))

@@ -32,7 +32,9 @@ def without_glow(drawing: Drawing) -> ET.Element:
     if not any(FILTER in element.attrib for element in root.iter()):
         return root
     work = replace(drawing.work, layers=count_expanded(root)[1])
-    if excess(ink, root, drawing.page, work.side(SIDES_PX[0], work.page)) <= MOST_GLOW:
+    side = work.side(SIDES_PX[0], work.page)
+    work.spend(side, work.page)
+    if excess(ink, root, drawing.page, side) <= MOST_GLOW:
         return root
     notice("its filters were left out, for they paint shadows or light beyond its shapes")
     plain = copy.deepcopy(root)

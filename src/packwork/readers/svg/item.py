@@ -6,13 +6,14 @@ from dataclasses import replace
 from pathlib import Path
 
 from packwork.geometry.outline import Outline
+from packwork.readers.budget import one_budget
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import PageFate, Read, agreed
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import vector_art
-from packwork.readers.svg.drawing import read_drawing
+from packwork.readers.svg.drawing import LARGESSE, read_drawing
 from packwork.readers.svg.glow import without_glow
 from packwork.readers.svg.ink import TracedInk
 from packwork.readers.svg.kept import read_once
@@ -98,7 +99,7 @@ def _read(
 def _read_anew(
     data: bytes, name: str, source: str, holes: Holes, options: ReadOptions, *, is_compared: bool
 ) -> Read:
-    with naming(source):
+    with naming(source), one_budget(1.0 if is_compared else LARGESSE):
         drawing = read_drawing(
             data, is_compared=is_compared, is_on_paper=True, keep_page=options.keep_page,
             alpha_threshold=options.alpha_threshold,

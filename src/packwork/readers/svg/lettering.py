@@ -17,6 +17,7 @@ import shapely
 from packwork.fonts import replaced_families
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
+from packwork.readers.budget import left, spend
 from packwork.readers.gate.references import elements_by_id
 from packwork.readers.gate.vocabulary import NEVER_DRAWN
 from packwork.readers.svg.lengths import parse_length, parse_numbers
@@ -41,6 +42,13 @@ Tried: an O lies within 0.04 % of the font's size of its curves, with 100 px 0.1
 
 MAX_PIXELS = 4_000_000
 """Pixels of all letters together: about half a second's work. Chosen."""
+
+LEAST_LETTER_PX = 60
+"""Side of a letter's square below which its text stays text. Chosen."""
+
+_TEXT_NS, _PIXEL_NS, _SHARE = 2e7, 400.0, 0.6
+"""For the two pictures of a text, and for a pixel that is followed; and the share of the
+budget that texts may take. Measured."""
 
 MAX_SIDE_PX = 8_000
 """Longer side of the picture of one text. Chosen."""
@@ -79,8 +87,12 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
     texts = placed_texts(root, page)
     letters = "".join(letter for text in texts for letter in text.element.itertext())
     count = sum(len(paints_of(text.element)) for text in texts)
-    if count <= MAX_TEXTS and len(letters) <= MAX_LETTERS:
-        _set(texts, letters, root, page)
+    most = min(MAX_PIXELS, LETTER_PX**2 * max(1, len(letters)))
+    pixels = min(most, (_SHARE * left("shapes") - _TEXT_NS * count) / _PIXEL_NS)
+    is_small = count <= MAX_TEXTS and len(letters) <= MAX_LETTERS
+    if is_small and pixels >= LEAST_LETTER_PX**2 * len(letters):
+        spend(_TEXT_NS * count + _PIXEL_NS * pixels, "has too much text")
+        _set(texts, letters, root, page, pixels)
     for hidden in _drawn_texts(root, {text.element for text in texts}):
         hidden.clear()
         hidden.tag = "g"
@@ -88,10 +100,12 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
         notice("some of its text stays text, which every viewer sets in fonts of its own")
 
 
-def _set(texts: Sequence[PlacedText], letters: str, root: ET.Element, page: Page | None) -> None:
+def _set(
+    texts: Sequence[PlacedText], letters: str, root: ET.Element, page: Page | None, pixels: float
+) -> None:
     for wanted, found in replaced_families(_wishes(texts)).items():
         notice(f"the font {wanted!r} is not installed; its letters are set in {found!r}")
-    letter_px = min(float(LETTER_PX), math.sqrt(MAX_PIXELS / max(1, len(letters))))
+    letter_px = min(float(LETTER_PX), math.sqrt(pixels / max(1, len(letters))))
     by_id = elements_by_id(root)
     for text in texts:
         _replace(text, page, by_id, letter_px)

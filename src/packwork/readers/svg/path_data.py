@@ -9,9 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.readers.budget import spend
 from packwork.readers.svg.arcs import arc_cubics
 from packwork.readers.svg.lengths import NUMBER, checked, parse_numbers, refuse_not_finite
 from packwork.readers.unfit import UnfitError
+
+_SEGMENT_NS, _COUNTED = 1.5e4, 1_000
+"""For reading a segment of a path, and how many are spent at once. Measured."""
 
 MAX_SEGMENTS = 200_000
 """Segments of one drawing, repeats by ``use`` counted. Chosen."""
@@ -66,6 +70,8 @@ def parse_path(data: str) -> list[SubPath]:
         if pen.at is None and name not in "Mm":
             break
         pen.draw(name, args)
+        if pen.count and pen.count % _COUNTED == 0:
+            spend(_COUNTED * _SEGMENT_NS, "has more path segments than can be followed")
         if pen.count > MAX_SEGMENTS:
             raise UnfitError(f"has a path of more than {MAX_SEGMENTS:,} segments; simplify it")
     return pen.finished()

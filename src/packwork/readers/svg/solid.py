@@ -13,6 +13,7 @@ from packwork.readers.svg.painting import is_clear, opacity
 _COLOURING = GRADIENTS | {"filter"}
 _OPACITIES = ("opacity", "fill-opacity", "stroke-opacity")
 _PAINTS = ("fill", "stroke", "color")
+_CLEAR = "rgba(0, 0, 0, 0)"
 _BY_REFERENCE = frozenset({"inherit", "currentcolor", "context-fill", "context-stroke"})
 
 
@@ -49,7 +50,8 @@ def _harden(element: ET.Element, by_id: dict[str, ET.Element], *, with_dashes: b
             del element.attrib[name]
     for name in _PAINTS:
         if name in element.attrib:
-            element.set(name, _solid(element.attrib[name], by_id))
+            solid = _solid(element.attrib[name], by_id)
+            element.set(name, _CLEAR if name == "color" and solid == "none" else solid)
     for name in ("style", "filter"):
         element.attrib.pop(name, None)
     if not with_dashes:

@@ -6,24 +6,38 @@ The clean drawing is rendered by resvg and the edge of its opacity followed.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 
+import numpy as np
 import shapely
+from scipy.ndimage import maximum_filter
 from shapely.geometry import Polygon
 
-from packwork.geometry.polygon import Region
+from packwork.arrays import FloatArray
+from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.gate.vocabulary import TEXTS, TRACED
 from packwork.readers.options import HALF
 from packwork.readers.svg.ink import TracedInk
 from packwork.readers.svg.page import Page
+from packwork.readers.svg.painted import Painted
 from packwork.readers.svg.render import TRACE_PX as TRACE_PX
 from packwork.readers.svg.render import Part, coverage, inked
 from packwork.readers.svg.render import page_picture as page_picture
 from packwork.readers.svg.solid import solid_twin
-from packwork.readers.svg.work import Work
+from packwork.readers.svg.touched import touched
+from packwork.readers.svg.work import LEAST_PX, Work
 
 FIND_PX = 250
 """Longer side of the rendering in which the ink is looked for. Larger costs time, smaller
 loses specks between its pixels. Chosen."""
+
+MAX_POINTS, MAX_RINGS = 60_000, 2_000
+"""Points and rings of an item's outline. Every stage goes over them again and again; detailed
+maps have half as many. Larger makes runs slow, smaller coarsens rich drawings. Chosen."""
+
+_COARSE_GAIN, _COARSER = 10.0, 2
+"""By how much a coarse picture is strengthened, so that what is thin closes up, and how much
+coarser each is than the one before. Chosen."""
 
 _SIMPLIFY_PX = 0.05
 _FAINTEST = 0.5 / 255
@@ -44,7 +58,12 @@ def needs_tracing(root: ET.Element) -> bool:
 
 
 def traced_ink(
-    root: ET.Element, page: Page, part: Part | None, work: Work, threshold: float = HALF
+    root: ET.Element,
+    page: Page,
+    part: Part | None,
+    work: Work,
+    threshold: float = HALF,
+    shapes: Sequence[Painted] = (),
 ) -> TracedInk:
     """Where a clean drawing is more opaque than not, in CSS pixels; possibly empty.
 
@@ -60,6 +79,9 @@ def traced_ink(
         Of its solid twin.
     threshold
         Opacity from which what is traced is inside, as a share of the most opaque place's.
+    shapes
+        What it paints, as far as known: lines of them that a coarse picture is too coarse
+        to show count as shown.
 
     Raises
     ------
@@ -78,11 +100,24 @@ def traced_ink(
     """
     if part is None:
         return TracedInk(Polygon())
-    whole = _traced(solid_twin(root), page, part, work, threshold)
+    whole, side = _traced(solid_twin(root), page, part, work, threshold, TRACE_PX, shapes)
     if not any("stroke-dasharray" in element.attrib for element in root.iter()):
         return TracedInk(whole)
-    dashless = solid_twin(root, with_dashes=False)
-    return TracedInk(whole, _traced(dashless, page, part, work, threshold))
+    twin = solid_twin(root, with_dashes=False)
+    return TracedInk(whole, _traced(twin, page, part, work, threshold, side, shapes)[0])
+
+
+def is_plain_enough(region: Region) -> bool:
+    """Whether an outline has no more points and rings than an item may have.
+
+    Examples
+    --------
+    >>> is_plain_enough(shapely.box(0, 0, 1, 1))
+    True
+    """
+    rings = shapely.get_rings(polygon_parts(region))
+    points = int(shapely.get_num_coordinates(rings).sum())
+    return points <= MAX_POINTS and len(rings) <= MAX_RINGS
 
 
 def inked_part(root: ET.Element, page: Page, work: Work) -> Part | None:
@@ -103,24 +138,59 @@ def inked_part(root: ET.Element, page: Page, work: Work) -> Part | None:
     [-0.8, -0.8, 11.6, 10.8]
     """
     whole = (0.0, 0.0, page.width, page.height)
-    return inked(
-        coverage(solid_twin(root), page, whole, work.side(FIND_PX, max(page.width, page.height))),
-        whole,
-    )
+    side = work.side(FIND_PX, max(page.width, page.height))
+    work.spend(side, max(page.width, page.height))
+    return inked(coverage(solid_twin(root), page, whole, side), whole)
 
 
-def _traced(twin: ET.Element, page: Page, part: Part, work: Work, threshold: float) -> Region:
+def _traced(
+    twin: ET.Element,
+    page: Page,
+    part: Part,
+    work: Work,
+    threshold: float,
+    longest_px: int,
+    shapes: Sequence[Painted],
+) -> tuple[Region, int]:
+    """Region that a picture shows, and the longer side of that picture.
+
+    Of what is too rich the picture is made coarser, and all that shows in it counts as full.
+    """
     from packwork.readers.pictures.contours import contour_region
     from packwork.readers.pictures.transparency import raised, tell_what_is_faint
 
-    side = work.side(TRACE_PX, max(part[2:]))
-    opacity = coverage(twin, page, part, side)
-    # What a mask lets through faintly is a shape all the same.
-    solid = opacity / max(float(opacity.max()), _FAINTEST)
-    tell_what_is_faint(solid, threshold)
-    traced = contour_region(raised(solid, threshold), _SIMPLIFY_PX)
+    side = work.side(longest_px, max(part[2:]))
+    while True:
+        work.spend(side, max(part[2:]))
+        opacity = coverage(twin, page, part, side)
+        # What a mask lets through faintly is a shape all the same.
+        strongest = 1.0 if shapes else float(opacity.max())
+        opacity = opacity / max(strongest, _FAINTEST)
+        if shapes:
+            is_solid = maximum_filter(opacity, 3) >= 1 / 2
+            opacity[touched(shapes, part, opacity.shape) & ~is_solid] = 1.0
+        if side < TRACE_PX:
+            opacity = np.minimum(1.0, opacity * _COARSE_GAIN)
+        elif not shapes:
+            tell_what_is_faint(opacity, threshold)
+        opacity = raised(opacity, threshold)
+        if side <= LEAST_PX or _edges(opacity) <= MAX_POINTS:
+            traced = contour_region(opacity, _SIMPLIFY_PX)
+            if side <= LEAST_PX or is_plain_enough(traced):
+                return _on_page(traced, part, side), side
+        side = max(LEAST_PX, side // _COARSER)
+
+
+def _on_page(traced: Region, part: Part, side: int) -> Region:
+    """Region in CSS pixels."""
     px = max(part[2:]) / side
     return shapely.transform(traced, lambda points: points * px + part[:2])
+
+
+def _edges(opacity: FloatArray) -> int:
+    """Places where a picture goes from more opaque than not to less."""
+    solid = opacity >= 1 / 2
+    return sum(int(np.count_nonzero(np.diff(solid, axis=axis))) for axis in (0, 1))
 
 
 def _is_plain(clip: ET.Element) -> bool:

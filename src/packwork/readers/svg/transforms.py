@@ -90,6 +90,12 @@ def _call(name: str, args: list[float]) -> FloatArray | None:
         return affine.compose(affine.compose(_shift(x, y), turn), _shift(-x, -y))
     if name == "scale" and count in {1, 2}:
         return np.array([[args[0], 0.0, 0.0], [0.0, args[-1], 0.0]])
+    if name in {"scalex", "scaley"} and count == 1:
+        across, down = (args[0], 1.0) if name == "scalex" else (1.0, args[0])
+        return np.array([[across, 0.0, 0.0], [0.0, down, 0.0]])
+    if name == "skew" and count in {1, 2}:
+        across, down = math.tan(math.radians(args[0])), math.tan(math.radians((*args, 0.0)[1]))
+        return np.array([[1.0, across, 0.0], [down, 1.0, 0.0]])
     if name in {"skewx", "skewy"} and count == 1:
         slant = math.tan(math.radians(args[0]))
         across, down = (slant, 0.0) if name == "skewx" else (0.0, slant)

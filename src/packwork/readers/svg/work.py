@@ -11,6 +11,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from packwork.readers.budget import left, spend
 from packwork.readers.gate.expansion import count_expanded
 from packwork.readers.svg.extent import drawing_box, stretch
 from packwork.readers.svg.page import Page
@@ -30,6 +31,8 @@ LEAST_PX = 40
 _ELEMENT_NS, _LAYER_NS, _COVERED_NS, _HAIR_NS, _CROWD_NS = 2e4, 150.0, 6.0, 1e3, 0.05
 """For an element, a pixel of a layer, a pixel that a shape covers, a pixel along a line
 thinner than one, and a row of a shape by the square of its edges there. Measured."""
+
+_TOO_MANY = "has too many lines and layers one over another"
 
 _MOST_ZOOM = 1e9
 """Page over the part of it that is shown, at most: beyond it no digits are left. Chosen."""
@@ -115,12 +118,23 @@ class Work:
         True
         """
         side = float(longest_px)
-        while side > LEAST_PX and self.nanoseconds(int(side), part) > PICTURE_NS:
+        most = min(PICTURE_NS, left("pictures") / 3)
+        while side > LEAST_PX and self.nanoseconds(int(side), part) > most:
             side /= 1.1
         side = max(side, min(LEAST_PX, longest_px))
         if self.nanoseconds(int(side), part) + _ELEMENT_NS * self.elements > MOST_NS:
-            raise TooRichError("has too many lines and layers one over another")
+            raise TooRichError(_TOO_MANY)
         return int(side)
+
+    def spend(self, side: int, part: float) -> None:
+        """Take a picture off the budget of the file, before it is made.
+
+        Raises
+        ------
+        TooRichError
+            If nothing is left for it.
+        """
+        spend(self.nanoseconds(side, part) + _ELEMENT_NS * self.elements, _TOO_MANY, "pictures")
 
 
 def work_of(root: ET.Element, shapes: Sequence[Painted], page: Page | None) -> Work:

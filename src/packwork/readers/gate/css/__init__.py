@@ -1,0 +1,1 @@
+"""Style sheets to plain declarations on the elements they match."""

@@ -1,0 +1,106 @@
+"""The cascade: which declarations count on an element, of style sheets and ``style``."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Mapping
+from typing import TypeAlias, final
+
+from packwork.readers.budget import spend
+from packwork.readers.gate.css.declarations import Declarations
+from packwork.readers.gate.css.nodes import Node
+from packwork.readers.gate.css.selectors import Compound
+from packwork.readers.gate.css.sheets import Rule
+
+_COMPARISON_NS, _MERGE_NS = 4e3, 5e2
+"""For a step of a rule that is held against an element, and a declaration that is laid over
+others. Measured."""
+
+_TOO_MANY = "has too many style rules for its elements"
+_Signature: TypeAlias = tuple[str, str | None, frozenset[str]]
+
+_Layers: TypeAlias = tuple[Mapping[str, str], Mapping[str, str]]
+"""Plain and important values by property."""
+
+
+@final
+class Cascade:
+    """Rules of a document, found quickly by what their first step asks for.
+
+    Examples
+    --------
+    >>> import xml.etree.ElementTree as ET
+    >>> from packwork.readers.gate.css.declarations import parse_declarations
+    >>> from packwork.readers.gate.css.sheets import Sheet
+    >>> sheet = Sheet(); sheet.add(".a {fill:blue; stroke:none}")
+    >>> path = ET.Element("path", {"class": "a", "style": "stroke:red"})
+    >>> Cascade(sheet.rules).declared(Node(path, None, None), parse_declarations("stroke:red"))
+    {'fill': 'blue', 'stroke': 'red'}
+    """
+
+    def __init__(self, rules: list[Rule]) -> None:
+        self._by_key: dict[str, list[Rule]] = defaultdict(list)
+        for rule in rules:
+            self._by_key[_key(rule.selector.steps[0])].append(rule)
+        self._plain: dict[_Signature, tuple[list[Rule], list[Rule]]] = {}
+        self._merged: dict[tuple[_Signature, tuple[int, ...]], _Layers] = {}
+
+    def declared(self, node: Node, inline: Declarations) -> dict[str, str]:
+        """Properties that rules and the ``style`` attribute set on an element.
+
+        Raises
+        ------
+        TooRichError
+            If the document as a whole asks for too many comparisons.
+        """
+        plain, important = self._of_rules(node) if self._by_key else ({}, {})
+        values = {**plain}
+        values |= {name: text for name, (text, mark) in inline.values.items() if not mark}
+        values |= important
+        return values | {name: text for name, (text, mark) in inline.values.items() if mark}
+
+    def _of_rules(self, node: Node) -> _Layers:
+        signature = (node.tag, node.attributes.get("id"), node.classes)
+        sure, open_ones = self._candidates(node, signature)
+        spend(_COMPARISON_NS * sum(len(r.selector.steps) for r in open_ones), _TOO_MANY)
+        met = [rule for rule in open_ones if rule.selector.matches(node)]
+        key = (signature, tuple(rule.order for rule in met))
+        if key not in self._merged:
+            rules = sorted([*sure, *met], key=_rank)
+            spend(_MERGE_NS * sum(len(rule.declarations.values) for rule in rules), _TOO_MANY)
+            self._merged[key] = _layers(rules)
+        return self._merged[key]
+
+    def _candidates(self, node: Node, signature: _Signature) -> tuple[list[Rule], list[Rule]]:
+        """Rules that are met for sure, and those that depend on the place."""
+        if signature not in self._plain:
+            keys = ["*", node.tag, f"#{signature[1]}", *(f".{c}" for c in sorted(node.classes))]
+            found = [rule for key in keys for rule in self._by_key.get(key, [])]
+            spend(_COMPARISON_NS * len(found), _TOO_MANY)
+            sure = [
+                rule for rule in found if rule.selector.is_plain and rule.selector.matches(node)
+            ]
+            open_ones = [rule for rule in found if not rule.selector.is_plain]
+            self._plain[signature] = (sure, open_ones)
+        return self._plain[signature]
+
+
+def _rank(rule: Rule) -> tuple[tuple[int, int, int], int]:
+    return rule.specificity, rule.order
+
+
+def _layers(rules: list[Rule]) -> _Layers:
+    plain: dict[str, str] = {}
+    important: dict[str, str] = {}
+    for rule in rules:
+        for name, (value, mark) in rule.declarations.values.items():
+            (important if mark else plain)[name] = value
+    return plain, important
+
+
+def _key(step: Compound) -> str:
+    if step.ids:
+        return f"#{min(step.ids)}"
+    if step.classes:
+        return f".{min(step.classes)}"
+    return step.tag or "*"

@@ -1,0 +1,116 @@
+"""Transforms of CSS to the ``transform`` attribute that every program reads alike.
+
+``translate``, ``rotate``, ``scale``, ``transform-origin`` and ``transform-box``, shares and
+lengths inside, all become one matrix.
+"""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.geometry import affine
+from packwork.readers.gate.plain.boxes import Box, fill_box
+from packwork.readers.gate.references import elements_by_id
+from packwork.readers.gate.vocabulary import CSS_MOVES
+from packwork.readers.svg.lengths import parse_length
+from packwork.readers.svg.page import PLAIN_VIEWPORT, Page, view_box
+from packwork.readers.svg.transforms import parse_transform
+
+ORIGIN, BOX = "transform-origin", "transform-box"
+
+_SHARED = re.compile(r"(translate[xy]?)\s*\(([^()]*%[^()]*)\)", re.IGNORECASE)
+_SIDES = {"left": 0.0, "top": 0.0, "center": 0.5, "right": 1.0, "bottom": 1.0}
+_ACROSS, _DOWN = frozenset({"left", "right"}), frozenset({"top", "bottom"})
+_OWN_BOXES = frozenset({"fill-box", "stroke-box", "content-box", "border-box"})
+
+
+def settle_moves(root: ET.Element, page: Page | None) -> None:
+    """Write every transform of a clean drawing as one attribute, in place.
+
+    Examples
+    --------
+    >>> root = ET.fromstring('<svg><g transform-origin="2 0" transform="scale(2)"/></svg>')
+    >>> settle_moves(root, None); root[0].attrib
+    {'transform': 'matrix(2 0 0 2 -2 0)'}
+    """
+    if not any(_is_special(element) for element in root.iter()):
+        return
+    view = view_box(root)
+    viewport = PLAIN_VIEWPORT if page is None else (page.width, page.height)
+    _settle(root, elements_by_id(root), (view[2], view[3]) if view else viewport)
+
+
+def _is_special(element: ET.Element) -> bool:
+    attributes = element.attrib
+    if ORIGIN in attributes or BOX in attributes or CSS_MOVES & attributes.keys():
+        return True
+    return "%" in attributes.get("transform", "")
+
+
+def _settle(
+    element: ET.Element, by_id: dict[str, ET.Element], viewport: tuple[float, float]
+) -> None:
+    inner = view_box(element) if element.tag in {"svg", "symbol"} else None
+    for child in element:
+        _settle(child, by_id, (inner[2], inner[3]) if inner else viewport)
+    if not _is_special(element):
+        return
+    origin, box_word = element.attrib.pop(ORIGIN, None), element.attrib.pop(BOX, "")
+    box: Box = (0.0, 0.0, *viewport)
+    if box_word in _OWN_BOXES:
+        box = fill_box(element, by_id, viewport) or box
+    own = _SHARED.sub(lambda call: _unshared(call, box), element.get("transform", ""))
+    matrix = affine.identity()
+    for name, read in _READERS.items():
+        matrix = affine.compose(matrix, read(element.attrib.pop(name, "none"), box))
+    matrix = affine.compose(matrix, parse_transform(own))
+    x, y = _origin(origin or "0 0", box)
+    there, back = affine.similarity(x, y, 0.0, 1.0), affine.similarity(-x, -y, 0.0, 1.0)
+    numbers = affine.compose(affine.compose(there, matrix), back).T.ravel()
+    element.set("transform", f"matrix({' '.join(f'{number:.12g}' for number in numbers)})")
+
+
+def _unshared(call: re.Match[str], box: Box) -> str:
+    """A translation by shares of a box as one by lengths."""
+    sides = (3, 3) if call[1].lower().endswith("y") else (2, 3)
+    words = call[2].replace(",", " ").split()
+    lengths = [parse_length(w, box[side]) or 0.0 for w, side in zip(words, sides, strict=False)]
+    return f"{call[1]}({' '.join(f'{length:.12g}' for length in lengths)})"
+
+
+def _translated(text: str, box: Box) -> FloatArray:
+    words = text.split()
+    x, y = (parse_length(w, box[2 + k]) or 0.0 for k, w in enumerate((*words, "0", "0")[:2]))
+    return affine.similarity(x, y, 0.0, 1.0)
+
+
+def _turned(text: str, _: Box) -> FloatArray:
+    words = text.split()
+    return parse_transform(f"rotate({words[-1]})") if words and words[-1] != "none" else _NOTHING
+
+
+def _scaled(text: str, _: Box) -> FloatArray:
+    shares = [parse_length(word, 1.0) for word in text.split()[:2]]
+    known = [share for share in shares if share is not None]
+    return _NOTHING if not known else np.array([[known[0], 0.0, 0.0], [0.0, known[-1], 0.0]])
+
+
+_NOTHING = affine.identity()
+_READERS = {"css-translate": _translated, "css-rotate": _turned, "css-scale": _scaled}
+
+
+def _origin(text: str, box: Box) -> tuple[float, float]:
+    words = text.lower().split()[:2]
+    if len(words) == 1:
+        words = ["center", *words] if words[0] in _DOWN else [*words, "center"]
+    if words[0] in _DOWN or words[1] in _ACROSS:
+        words.reverse()
+    places = [
+        box[k] + (_SIDES[w] * box[2 + k] if w in _SIDES else parse_length(w, box[2 + k]) or 0.0)
+        for k, w in enumerate(words)
+    ]
+    return places[0], places[1]
