@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import inspect
 import linecache
+import re
 import sys
 from functools import cache
 from typing import Any
@@ -54,3 +55,26 @@ def _described(body: ast.ClassDef) -> list[tuple[str, str]]:
         if isinstance(below, ast.Expr) and isinstance(below.value, ast.Constant)
         if isinstance(below.value.value, str)
     ]
+
+
+_WHOLE = re.compile(r"[+-]?[0-9]{1,12}")
+
+
+def number_or_auto(value: object) -> object:
+    """Whole number of a text, or ``auto``; what is no text stays as it is.
+
+    Raises
+    ------
+    ValueError
+        If the text is neither.
+
+    Examples
+    --------
+    >>> number_or_auto(" 12"), number_or_auto("auto"), number_or_auto(None)
+    (12, 'auto', None)
+    """
+    if not isinstance(value, str) or value == "auto":
+        return value
+    if not _WHOLE.fullmatch(value.strip()):
+        raise ValueError(f"must be a whole number or auto, not {value[:60]!r}")
+    return int(value)

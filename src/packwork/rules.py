@@ -15,7 +15,7 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.options import Options
+from packwork.options import Options, number_or_auto
 from packwork.scene.label import Label
 from packwork.units import parse_length
 
@@ -23,19 +23,8 @@ MAX_COUNT = 100_000
 """Most items in one run; more would not be seen on any sheet. Chosen."""
 
 
-_WHOLE = re.compile(r"[+-]?[0-9]{1,12}")
-
-
-def _number_or_auto(value: object) -> object:
-    if not isinstance(value, str) or value == "auto":
-        return value
-    if not _WHOLE.fullmatch(value.strip()):
-        raise ValueError(f"must be a whole number or auto, not {value[:60]!r}")
-    return int(value)
-
-
 ItemCount: TypeAlias = Annotated[
-    Annotated[int, Field(ge=1, le=MAX_COUNT)] | Literal["auto"], BeforeValidator(_number_or_auto)
+    Annotated[int, Field(ge=1, le=MAX_COUNT)] | Literal["auto"], BeforeValidator(number_or_auto)
 ]
 """How many items there are, or auto: as many as the container takes."""
 

@@ -8,10 +8,10 @@ from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
-from pydantic import Field, field_serializer, field_validator
+from pydantic import BeforeValidator, Field, field_serializer, field_validator
 
 from packwork.errors import RecipeError
-from packwork.options import Options
+from packwork.options import Options, number_or_auto
 from packwork.readers.colours import check_colour
 from packwork.readers.words.word import Word
 
@@ -36,7 +36,10 @@ class WordOptions(Options):
     """Text, a table of word,weight (.csv, .tsv, .json), or - for standard input; in Python
     also the text itself, or a dict of weights."""
 
-    count: Annotated[int, Field(ge=1, le=MOST_WORDS)] | Literal["auto"] = MOST_BY_DEFAULT
+    count: Annotated[
+        Annotated[int, Field(ge=1, le=MOST_WORDS)] | Literal["auto"],
+        BeforeValidator(number_or_auto),
+    ] = MOST_BY_DEFAULT
     """How many words at most: those of the largest weights. auto: as many as it takes for the
     container's shape to show."""
 
