@@ -22,7 +22,7 @@ PAGES = {
     "Begin": ("tutorial", "users", "how-it-works", "gallery"),
     "Uses": ("words", "photos", "charts", "films", "forces", "rules", "cutting", "python"),
     "Reference": tuple(f"reference/{name}" for name in REFERENCE),
-    "About": ("conventions", "architecture"),
+    "About": ("conventions", "architecture", "security"),
 }
 """What is in the sidebar by name; benchmarks, decisions and examples follow by themselves."""
 
