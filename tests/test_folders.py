@@ -110,7 +110,9 @@ def test_a_folder_that_is_not_ours_alone_is_not_used(place: Path) -> None:
 PROGRAM = (
     "import os, pwd, sys\n"
     "from packwork.folders import private_folder\n"
+    "from packwork.fonts import _folders\n"
     "if len(sys.argv) > 1: os.setgid(int(sys.argv[1])); os.setuid(int(sys.argv[1]))\n"
+    "_folders()\n"
     "print(private_folder('some'))"
 )
 
@@ -138,6 +140,13 @@ def test_a_home_that_cannot_be_written_to_gives_way_to_a_temporary_folder(tmp_pa
     found = found_by(tmp_path, HOME=str(tmp_path / "no-folder"), TMPDIR=str(tmp_path))
     assert found.parent == tmp_path
     assert not found.exists()
+
+
+@POSIX
+def test_a_home_that_is_missing_is_not_made(tmp_path: Path) -> None:
+    found = found_by(tmp_path, HOME=str(tmp_path / "home"), TMPDIR=str(tmp_path))
+    assert found == tmp_path / f"packwork-{os.getuid()}" / "some"
+    assert not (tmp_path / "home").exists()
 
 
 @pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="only root may")

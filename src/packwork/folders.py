@@ -183,9 +183,18 @@ def _system_cache() -> Path | None:
         return Path(local) if local else None
     if sys.platform != "darwin" and (chosen := os.environ.get("XDG_CACHE_HOME")):
         return Path(chosen)
-    # A user without an entry in the list of users has no home.
-    with contextlib.suppress(RuntimeError):
-        return Path.home() / ("Library/Caches" if sys.platform == "darwin" else ".cache")
+    home = home_folder()
+    if home is None:
+        return None
+    return home / ("Library/Caches" if sys.platform == "darwin" else ".cache")
+
+
+def home_folder() -> Path | None:
+    """The user's home; None where there is none, which is then not made either."""
+    # A user without an entry in the list of users has none, as services run by some.
+    with contextlib.suppress(RuntimeError, OSError):
+        home = Path.home()
+        return home if home.is_absolute() and home.is_dir() else None
     return None
 
 

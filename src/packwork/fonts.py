@@ -19,6 +19,8 @@ from importlib import resources
 from pathlib import Path
 from typing import BinaryIO
 
+from packwork.folders import home_folder
+
 FOLDERS = "PACKWORK_FONTS"
 """Environment variable: folders, separated as in ``PATH``, that are searched for fonts
 instead of the system's."""
@@ -227,7 +229,8 @@ def _folders() -> list[Path]:
     """Where fonts are looked for: as the environment says, else where this system has them."""
     if own := os.environ.get(FOLDERS):
         return [Path(folder) for folder in own.split(os.pathsep) if folder]
-    home = Path("~").expanduser()
+    # Folders that are not there are passed over.
+    home = home_folder() or Path(os.sep, "nonexistent")
     if sys.platform == "win32":
         windows = Path(os.environ.get("WINDIR", r"C:\Windows"), "Fonts")
         users = Path(os.environ.get("LOCALAPPDATA", home), "Microsoft", "Windows", "Fonts")
