@@ -210,7 +210,7 @@ def svg(body: str) -> bytes:
         ('<path d="M0 0L1e999 5 5 5z"/>', "inf"),
         ('<g transform="scale(1e7)"><rect transform="scale(1e7)" width="1" height="1"/></g>', "1e"),
         ('<rect width="1e-9" height="1e-9"/>', "too little"),
-        ('<rect width="100" height="1e-9"/>', "too little"),
+        ('<rect width="100" height="1e-9"/>', "too little|no area"),
         (
             '<path d="M0 0' + " ".join(f"L{k % 97} {k * k % 89}" for k in range(9000)) + 'z"/>',
             "cross",
