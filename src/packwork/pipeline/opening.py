@@ -11,7 +11,7 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import intersection, union
+from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts
 from packwork.geometry.snapping import sound
 from packwork.piles import Side
@@ -129,11 +129,11 @@ def _walls(
     hair = HAIR * max(right - left, bottom - top)
     # Narrowed, since walls along which an opening leads lie on its edge; a gate that is a line
     # lies there too, and is no wall.
-    narrowed = shapely.buffer(union(list(beyond)), -hair, join_style="mitre")
-    lines = [shapely.buffer(g, hair) for g, _ in gates if isinstance(g, shapely.LineString)]
+    narrowed = buffered(union(list(beyond)), -hair, join_style="mitre")
+    lines = [buffered(g, hair) for g, _ in gates if isinstance(g, shapely.LineString)]
     within = union([narrowed, *lines])
     edge = shapely.multilinestrings([np.vstack([r, r[:1]]) for r in oriented_rings(region)])
-    kept = shapely.difference(edge, within)
+    kept = difference(edge, within)
     parts = shapely.get_parts(shapely.line_merge(kept))
     return tuple(shapely.get_coordinates(part) for part in parts if part.length > 4 * hair)
 

@@ -7,6 +7,7 @@ from dataclasses import replace
 import shapely
 
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.options import GAPS_AUTO, GAPS_NONE
 from packwork.readers.unfit import notice
@@ -84,19 +85,17 @@ def without_slits(region: Region, width: float, *, is_auto: bool) -> Region:
         Whether it is left alone if nothing of that parts it or is long: notches are not slits.
     """
     style = {"join_style": "mitre", "mitre_limit": 2.0}
-    grown = shapely.buffer(region, width / 2, **style)
-    closing = shapely.buffer(grown, -width / 2, **style)
+    grown = buffered(region, width / 2, **style)
+    closing = buffered(grown, -width / 2, **style)
     filled = [
-        part
-        for part in polygon_parts(shapely.difference(closing, region))
-        if part.area > _LEAST * width**2
+        part for part in polygon_parts(difference(closing, region)) if part.area > _LEAST * width**2
     ]
     if not filled:
         return region
     # A little wider than they are, or rounding would leave hairs on both sides.
-    wider = shapely.buffer(shapely.MultiPolygon(filled), _WELD * width, **style)
-    allowed = shapely.union_all([region, closing])
-    closed = shapely.union_all([region, shapely.intersection(wider, allowed)])
+    wider = buffered(shapely.MultiPolygon(filled), _WELD * width, **style)
+    allowed = union([region, closing])
+    closed = union([region, intersection(wider, allowed)])
     is_long = max(part.length for part in filled) > 2 * LONG * width
     is_little = closed.area - region.area < LEAST_SHARE * region.area
     if is_auto and (is_little or not (is_long or _seams(closed) < _seams(region))):

@@ -17,7 +17,7 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import union
+from packwork.geometry.overlay import buffered, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, silhouette
 from packwork.scene.layout import Layout
 from packwork.units import convert, parse_length
@@ -122,7 +122,7 @@ def cut_rings(layout: Layout, options: CutOptions) -> list[FloatArray]:
     shapes = [silhouette(outline.region) for outline in layout.outlines]
     if options.kiss is not None:
         offset = kiss_cut(options.kiss, layout.container.unit, layout.container.side)
-        shapes = _apart([shapely.buffer(shape, offset, quad_segs=QUADRANT) for shape in shapes])
+        shapes = _apart([buffered(shape, offset, quad_segs=QUADRANT) for shape in shapes])
     if options.line != "outlines":
         shapes = _joined(shapes)
     return [ring for shape in shapes for ring in oriented_rings(silhouette(shape))]
@@ -172,7 +172,7 @@ def _join(joined: list[Region], k: int, others: shapely.STRtree) -> bool:
     left, top, right, bottom = joined[k].bounds
     for share in _JOINS:
         reach = share * max(right - left, bottom - top)
-        closed = shapely.buffer(shapely.buffer(joined[k], reach), -reach)
+        closed = buffered(buffered(joined[k], reach), -reach)
         whole = silhouette(union([closed, joined[k]]))
         if len(polygon_parts(whole)) == 1:
             if len(others.query(whole, predicate="intersects")):

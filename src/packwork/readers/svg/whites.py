@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import shapely
 
+from packwork.geometry.overlay import difference, intersection, union
 from packwork.geometry.polygon import Region
 from packwork.readers.svg.drawing import Drawing
 from packwork.readers.svg.extent import drawing_box
@@ -51,7 +52,7 @@ def without_whites(drawing: Drawing, region: Region) -> Region:
         What all shapes of the drawing cover.
     """
     holes = [hole for hole in _holes(drawing) if hole.area > 0]
-    return shapely.difference(region, shapely.union_all(holes)) if holes else region
+    return difference(region, union(holes)) if holes else region
 
 
 def has_whites(drawing: Drawing) -> bool:
@@ -74,9 +75,9 @@ def _holes(drawing: Drawing) -> Iterator[Region]:
         near = [dark[i] for i in tree.query(layer.region, "intersects")]
         below = [layers[i].region for i in near if i < k]
         if below:
-            above = shapely.union_all([layers[i].region for i in near if i > k])
-            hole = shapely.intersection(layer.region, shapely.union_all(below))
-            yield shapely.difference(hole, above)
+            above = union([layers[i].region for i in near if i > k])
+            hole = intersection(layer.region, union(below))
+            yield difference(hole, above)
 
 
 def _layers(shapes: Sequence[Painted], root: ET.Element, follower: Follower) -> Iterator[_Layer]:
