@@ -18,6 +18,10 @@ LEAST_SHAPE = 0.8
 """Overlap of container and closed layout below which the same is said. Larger blames a heart of
 twelve icons (0.88), smaller passes a guitar without its head (0.72). By eye, of 40 layouts."""
 
+ITEMS_REACH, WORDS_REACH = 0.85, 0.6
+"""Shares of a container that smaller copies of items and of words come to cover. Larger are not
+always reached, and then count as not met. Tried."""
+
 CLEARLY_MORE = 1.15
 """How many times as many items must be needed for more of them to be the advice. Chosen."""
 
@@ -85,7 +89,8 @@ def _remedy_of_words(job: Job) -> str:
 def _smaller_copies(recipe: Recipe) -> str:
     """Advice about what fills voids."""
     if recipe.target_coverage is None:
-        return "--target-coverage 0.85, smaller copies in the voids, would show it"
+        share = WORDS_REACH if recipe.words is not None else ITEMS_REACH
+        return f"--target-coverage {share:g}, smaller copies in the voids, would show it"
     if recipe.max_items is not None:
         return f"--max-items {np.ceil(2 * recipe.max_items):.0f} would show more of it"
     return "--smallest 0.3%, smaller copies yet, would show more of it"
