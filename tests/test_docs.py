@@ -36,8 +36,8 @@ PARAMETERS = [
 ]
 WRITING_OPTIONS = {
     "output", "pixels", "background", "show_container", "flatten", "halo", "report", "diagnose",
-    "cut", "kiss_cut", "bleed", "save_recipe", "no_clobber", "quiet", "loss", "show_saliency",
-    "film", *FilmOptions.model_fields,
+    "cut", "kiss_cut", "bleed", "dpi", "save_recipe", "no_clobber", "quiet", "loss",
+    "show_saliency", "film", *FilmOptions.model_fields,
 }  # fmt: skip
 
 ELSEWHERE = {"losses", "rules", "words", "chart", "photos", "share", "pile", "least_dpi", "film"}

@@ -294,7 +294,10 @@ def warm_up() -> None:
     """Load what every run needs, so that copies of this process have it."""
     import packwork.cli.running  # noqa: F401
     from packwork import pipeline
+    from packwork.cli.commands import Commands
 
+    for command in Commands().values():
+        assert command.name
     pipeline.warm_up()
 
 

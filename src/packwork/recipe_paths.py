@@ -164,7 +164,8 @@ def found_from(folder: Path) -> Callable[[str], str]:
         if not name or _SCHEME.match(name) or Path(name).is_absolute():
             return name
         if _is_there(folder / name):
-            return str(folder / name)
+            # A folder keeps its last stroke: without it, it may be called as what is bundled.
+            return str(folder / name) + ("/" if name.endswith("/") else "")
         if _is_pattern(name):
             return str(Path(glob.escape(str(folder)), name))
         is_path = len(Path(name).parts) > 1 or _ENDING.fullmatch(Path(name).suffix)
@@ -191,7 +192,7 @@ def seen_from(folder: Path) -> Callable[[str], str]:
         if not name or _SCHEME.match(name):
             return name
         if _is_there(Path(name)):
-            return _relative(Path(name).resolve(), home)
+            return _relative(Path(name).resolve(), home) + ("/" if name.endswith("/") else "")
         if _is_pattern(name):
             parts = Path(name).parts
             fixed = list(itertools.takewhile(lambda part: not glob.has_magic(part), parts))

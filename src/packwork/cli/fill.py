@@ -76,6 +76,7 @@ def fill(
     stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
+    dpi: shared.Dpi = None,
     background: shared.Background = None,
     halo: shared.Halo = "none",
     show_container: shared.ShowContainer = False,
@@ -156,7 +157,7 @@ def fill(
 
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
-            pixels=pixels, background=background, halo=halo,
+            pixels=pixels, dpi=dpi, background=background, halo=halo,
             show_container=show_container, flatten=flatten,
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,

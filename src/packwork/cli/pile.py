@@ -57,6 +57,7 @@ def pile(
     alpha_threshold: shared.AlphaThreshold = 0.5,
     seed: shared.Seed = 0,
     pixels: shared.Pixels = 1_600,
+    dpi: shared.Dpi = None,
     background: shared.Background = None,
     halo: shared.Halo = "none",
     show_container: shared.ShowContainer = False,
@@ -120,7 +121,7 @@ def pile(
         )
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
-            pixels=pixels, background=background, halo=halo,
+            pixels=pixels, dpi=dpi, background=background, halo=halo,
             show_container=show_container, flatten=flatten,
             film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=recipe.film, no_clobber=no_clobber,

@@ -64,6 +64,7 @@ def run(
         ),
     ] = False,
     pixels: shared.Pixels = 1_600,
+    dpi: shared.Dpi = None,
     background: shared.Background = None,
     halo: shared.Halo = "none",
     show_container: shared.ShowContainer = False,
@@ -111,7 +112,7 @@ def run(
         asked = make_recipe(**overridden(options, changes))
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
-            pixels=pixels, background=background, halo=halo,
+            pixels=pixels, dpi=dpi, background=background, halo=halo,
             show_container=show_container, flatten=flatten,
             text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop, easing=easing,
             film_pixels=film_pixels, recipes=asked.film, no_clobber=no_clobber,

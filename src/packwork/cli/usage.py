@@ -91,5 +91,8 @@ def _line(error: Any) -> str:
     said = " ".join(str(error.format_message()).replace("Value error, ", "").split()).rstrip(".")
     context = getattr(error, "ctx", None)
     said = _meant(error, context) or said
+    if type(error).__name__ == "MissingParameter" and context is not None:
+        pieces = " ".join(context.command.collect_usage_pieces(context)[1:])
+        said = f"{said}; use {context.command_path} {pieces}"
     command = context.command_path if context is not None else "packwork"
     return f"{said[0].lower()}{said[1:]}; see {command} --help"

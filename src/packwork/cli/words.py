@@ -101,6 +101,7 @@ def words(
     stay: shared.Stay = False,
     loss: shared.Loss = None,
     pixels: shared.Pixels = 1_600,
+    dpi: shared.Dpi = None,
     background: shared.Background = None,
     halo: shared.Halo = "none",
     show_container: shared.ShowContainer = False,
@@ -187,9 +188,9 @@ def words(
         )  # fmt: skip
         outputs = outputs_asked(
             output or [DEFAULT_OUTPUT], report=report, diagnose=diagnose, recipe=save_recipe,
-            pixels=pixels, background=background, halo=halo, show_container=show_container,
-            flatten=flatten, text=text, film=film, fps=fps, seconds=seconds, hold=hold, loop=loop,
-            easing=easing, film_pixels=film_pixels, recipes=recipe.film, saliency=show_saliency,
-            no_clobber=no_clobber, cut=cut, kiss_cut=kiss_cut, bleed=bleed,
+            pixels=pixels, dpi=dpi, background=background, halo=halo, text=text,
+            show_container=show_container, flatten=flatten, film=film, fps=fps, seconds=seconds,
+            hold=hold, loop=loop, easing=easing, film_pixels=film_pixels, recipes=recipe.film,
+            saliency=show_saliency, no_clobber=no_clobber, cut=cut, kiss_cut=kiss_cut, bleed=bleed,
         )  # fmt: skip
         raise typer.Exit(run_and_write(recipe, outputs, quiet))

@@ -16,6 +16,7 @@ from packwork.readers.svg.item import item_of_svg
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
+from packwork.units import SHEETS
 
 ALL_ICONS = "icons"
 """Name that stands for every bundled icon."""
@@ -123,6 +124,10 @@ def unknown_name(name: str, known: Iterable[str], kind: str) -> ReadError:
     hart: there is no such file and no built-in item of that name; did you mean heart?
     """
     names = list(known)
+    if name.isdecimal():
+        return ReadError(name, f"is no {kind}; -n {name} asks for so many")
+    if name.lower().removesuffix("-landscape") in SHEETS:
+        return ReadError(name, f"is a sheet; the whole of it is: page --canvas {name}")
     close = difflib.get_close_matches(name, names, n=3, cutoff=0.6)
     hint = f"did you mean {' or '.join(close)}?" if close else f"built in are {', '.join(names)}"
     return ReadError(name, f"there is no such file and no built-in {kind} of that name; {hint}")

@@ -134,7 +134,7 @@ def _container_of_file(
 ) -> Container:
     ending = path.suffix.lower()
     if is_folder(path):
-        raise ReadError(source, f"is a folder; a container is {_FORMS}")
+        raise ReadError(source, f"is a folder; the container comes first, and is {_FORMS}")
     if ending in {".svg", ".svgz"}:
         data = read_bytes(path, MAX_BYTES)
         return container_of_svg(data, stem(path), source, side, reading)
@@ -144,4 +144,6 @@ def _container_of_file(
             page = mask.width, mask.height
             canvas = canvas_box(mask.region.bounds, page, reading.trim, None)
         return placed_container(stem(path), source, mask.region, canvas, side or DEFAULT_SIDE)
-    raise ReadError(source, f"has the unknown ending {ending!r}; a container is {_FORMS}")
+    raise ReadError(
+        source, f"has the unknown ending {ending!r}; the container comes first, and is {_FORMS}"
+    )

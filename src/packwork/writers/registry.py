@@ -140,6 +140,22 @@ WRITERS: Mapping[str, Encoder] = MappingProxyType(
 PICTURES = frozenset({".png", ".jpg", ".jpeg", ".webp", ".tif", ".tiff"})
 """Endings of pictures of pixels."""
 
+INSTEAD: Mapping[str, str] = MappingProxyType(
+    {
+        ".ai": ".pdf or .svg",
+        ".eps": ".pdf",
+        ".ps": ".pdf",
+        ".cdr": ".pdf or .svg",
+        ".plt": ".dxf",
+        ".dwg": ".dxf",
+        ".psd": ".tif",
+        ".bmp": ".png",
+        ".heic": ".jpg",
+        ".html": ".svg",
+    }
+)
+"""Endings that people ask for, and what the programs that want them read too."""
+
 ONLY_FILMS = frozenset({".gif", ".apng", ".mp4", ".webm"})
 """Endings of pictures that move, which a layout alone is not."""
 
@@ -252,6 +268,8 @@ def _encoder(path: str | Path) -> Encoder:
         if ending in ONLY_FILMS:
             raise WriteError(path, "is a film; give it to --film (in Python to save_film)")
         met = f"the ending {ending!r} is not known" if ending else "the name has no ending"
+        if ending in INSTEAD:
+            raise WriteError(path, f"{met}; {INSTEAD[ending]} does for the same; all are {known}")
         raise WriteError(path, f"{met}; use one of {known}")
     check_extra(path)
     return WRITERS[ending]
