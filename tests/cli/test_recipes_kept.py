@@ -214,3 +214,8 @@ def test_a_text_full_of_dots_and_brackets_is_no_nesting(tmp_path: Path) -> None:
         encoding="utf-8",
     )
     assert len(read_recipe(file)["chart"]["data"]) == 200
+
+
+def test_a_container_with_a_hole_may_be_open(packwork) -> None:
+    result = packwork("pile text:A star -n 2 --size 9% --open top -q -o a.geojson")
+    assert result.exit_code in {0, 1}, result.output

@@ -132,7 +132,9 @@ def _walls(
     narrowed = buffered(union(list(beyond)), -hair, join_style="mitre")
     lines = [buffered(g, hair) for g, _ in gates if isinstance(g, shapely.LineString)]
     within = union([narrowed, *lines])
-    edge = shapely.multilinestrings([np.vstack([r, r[:1]]) for r in oriented_rings(region)])
+    edge = shapely.multilinestrings(
+        [shapely.LineString(np.vstack([r, r[:1]])) for r in oriented_rings(region)]
+    )
     kept = difference(edge, within)
     parts = shapely.get_parts(shapely.line_merge(kept))
     return tuple(shapely.get_coordinates(part) for part in parts if part.length > 4 * hair)
