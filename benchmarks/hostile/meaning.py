@@ -231,7 +231,7 @@ def run_line(line: Line) -> Ran:
         after = {path.name: path.read_bytes() for path in folder.iterdir()}
         text = said.read_text(encoding="utf-8", errors="replace") if said.exists() else ""
     lost = sum(after.get(file) != data for file, data in before.items())
-    lost += len(after) - len(before) if code == 2 else 0
+    lost += len(set(after) - set(before)) if code == 2 else 0
     return _judged(code, seconds, held, text, lost)
 
 

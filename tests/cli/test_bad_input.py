@@ -74,7 +74,7 @@ OPTIONS = [
     ("--stretch 0.5", "--stretch: must be at least 1, not 0.5"),
     ("--stretch nan", "--stretch: "),
     ("--stretch inf", "--stretch: "),
-    ("--rotate twist", "rotate: use free, none, 30"),
+    ("--rotate twist", "rotate: use free, upright, none, 30"),
     ("--levels fine", "levels: use resolutions like 50,200,600"),
     ("--levels 3", "levels: a level has"),
     ("--epochs 0", "epochs: "),

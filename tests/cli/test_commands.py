@@ -154,7 +154,7 @@ def test_an_item_without_a_place_is_1_and_named(folder: Path, packwork: Command)
     )
     assert result.exit_code == 1
     assert result.stderr.startswith("packwork: not placed: square (item 1): ")
-    assert item_count(folder / "out.geojson") == 2
+    assert item_count(folder / "out.geojson") == 0
 
 
 def test_an_unusable_file_among_many_is_left_out_and_named(

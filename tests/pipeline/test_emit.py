@@ -113,7 +113,7 @@ def test_items_come_from_lines_curves_and_regions(
         ({"emit": "-50%,20%"}, "lies outside the container"),
         ({"emit": "tap"}, "emit: use top"),
         ({"emit": "5%,5% 5%,5%"}, "has no length"),
-        ({"emit": "1parsec,2"}, "emit: use a length"),
+        ({"emit": "1parsec,2"}, "emit: use top"),
         ({"release": 3}, "release: says when"),
         ({"emit": "top", "release": -1}, "release: must be at least 0"),
     ],
