@@ -58,6 +58,7 @@ BAD: dict[str, list[Any]] = {
     "trim": ["perhaps", 7],
     "keep_page": ["perhaps", 7],
     "close_gaps": ["wide", "-1", "", None],
+    "stroke_width": ["thin", 2],
     "alpha_threshold": [0, 1, -1, NAN, "half"],
     "start": ["anywhere", "", 3],
     "effort": ["lazy", 1],

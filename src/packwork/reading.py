@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 
@@ -32,6 +32,10 @@ class Interpreted(Options):
     alpha_threshold: Annotated[float, Field(gt=0, lt=1)] = HALF
     """Opacity from which the paint of a picture belongs to its outline, as a share of its most
     opaque pixel: smaller takes soft shadows in, larger leaves more of soft edges out."""
+
+    stroke_width: Literal["scaled", "even"] = "scaled"
+    """Lines of items that are drawn in lines, as line icons: scaled (as wide as their sizes make
+    them) or even (alike on all of them: of larger ones thinner, once all are placed)."""
 
     @field_validator("close_gaps", mode="before")
     @classmethod

@@ -49,7 +49,7 @@ def fill(
         As on the command line: ``count`` (a number or ``"auto"``), ``font``, ``canvas``,
         ``seed``, ``sizes``, ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``,
         ``holes``, ``outline``, ``strict``, ``trim``, ``keep_page``, ``close_gaps``,
-        ``alpha_threshold``, ``start``, ``effort``, ``epochs``, ``levels``,
+        ``alpha_threshold``, ``stroke_width``, ``start``, ``effort``, ``epochs``, ``levels``,
         ``losses``, ``hero``, ``palette``, ``apart``; and ``rules`` about single items,
         tables as in a recipe file: ``[{"items": "star", "count": 3}]``.
 

@@ -101,6 +101,7 @@ Trim = Annotated[bool | None, flag("trim", "--trim/--no-trim", panel=PLACING)]
 KeepPage = Annotated[bool | None, flag("keep_page", "--keep-page/--drop-page", panel=PLACING)]
 CloseGaps = Annotated[str, flag("close_gaps", panel=PLACING)]
 AlphaThreshold = Annotated[float, flag("alpha_threshold", panel=PLACING)]
+StrokeWidth = Annotated[Literal["scaled", "even"], flag("stroke_width", panel=PLACING)]
 Seed = Annotated[int, flag("seed", panel=SOLVING)]
 Finish = Annotated[Literal["exact", "none"], flag("finish", panel=SOLVING)]
 TargetCoverage = Annotated[

@@ -55,6 +55,7 @@ def pile(
     keep_page: shared.KeepPage = None,
     close_gaps: shared.CloseGaps = "auto",
     alpha_threshold: shared.AlphaThreshold = 0.5,
+    stroke_width: shared.StrokeWidth = "scaled",
     seed: shared.Seed = 0,
     pixels: shared.Pixels = 1_600,
     dpi: shared.Dpi = None,
@@ -117,6 +118,7 @@ def pile(
             keep_page=keep_page,
             close_gaps=close_gaps,
             alpha_threshold=alpha_threshold,
+            stroke_width=stroke_width,
             seed=seed,
         )
         outputs = outputs_asked(

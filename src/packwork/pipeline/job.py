@@ -240,6 +240,10 @@ def _earlier(recipe: Recipe, items: Sequence[Item]) -> Layout | None:
 def _chart(recipe: Recipe) -> ChartRead:
     """Marks of the recipe's chart, whose colours are known to be enough."""
     assert recipe.chart is not None  # noqa: S101 - who asks has a chart
+    if recipe.stroke_width == "even":
+        raise RecipeError(
+            "stroke_width", "even changes the areas of marks, which stand for numbers; leave it out"
+        )
     chart = read_chart(recipe.chart, recipe.holes, recipe, recipe.read_options)
     chart_colours(recipe, chart)
     return chart

@@ -17,6 +17,7 @@ from packwork.pipeline.dressing import dressed
 from packwork.pipeline.dropping import left_out, named, without_some
 from packwork.pipeline.job import Job
 from packwork.pipeline.legend import legend_notes
+from packwork.pipeline.line_weights import evened
 from packwork.pipeline.mark_labels import mark_labels
 from packwork.pipeline.outcome import (
     Filling,
@@ -94,7 +95,11 @@ def judged(job: Job, found: Judged) -> Run:
     """The run's result: of what cannot be certified, without it."""
     recipe, clock, limits = job.recipe, job.clock, found.limits
     is_exact = found.unplaced is not None
-    shares = recipe.sizes == "shared" and limits is None
+    placed_items = job.items
+    with clock.time("finish"):
+        job = evened(job, found.poses)
+    # Areas of drawings whose lines are thinner are in shares no more.
+    shares = recipe.sizes == "shared" and limits is None and job.items is placed_items
     promise = Promise(recipe.padding_cu(job.container), shares) if is_exact else None
     total, numbers = len(job.items), found.numbers
     with clock.time("measure"):

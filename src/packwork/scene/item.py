@@ -101,7 +101,8 @@ class Item:
         Where it came from, as the user gave it.
     outline
         The region that must not overlap: the silhouette, or with its holes where they
-        are kept. In the item's own units, centroid at the origin.
+        are kept. In the item's own units, centroid at the origin (where it was, if its lines
+        have become thinner).
     ink
         What is really drawn, holes and gaps taken off; same units and origin.
     art
