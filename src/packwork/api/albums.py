@@ -36,8 +36,8 @@ def photos(
     observer, stop, progress
         As for :func:`packwork.fill`.
     options
-        As on the command line: ``shape``, ``border``, ``border_color``, and those of
-        :func:`packwork.fill`.
+        As on the command line: ``shape``, ``border``, ``border_color``, ``edge``, and those
+        of :func:`packwork.fill`.
 
     Raises
     ------

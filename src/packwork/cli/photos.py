@@ -42,6 +42,7 @@ def photos(
     shape: Annotated[str | None, _flag("shape")] = None,
     border: Annotated[str, _flag("border")] = "0%",
     border_color: Annotated[str, _flag("border_color")] = "white",
+    edge: Annotated[str, _flag("edge")] = "inside",
     add: Annotated[
         list[str] | None,
         typer.Option(
@@ -129,6 +130,7 @@ def photos(
             shape=shape,
             border=border,
             border_color=border_color,
+            edge=edge,
             canvas=canvas,
             quiet_share=quiet_share,
             keep_clear=keep_clear,

@@ -3,15 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 from shapely.errors import GEOSException
 
-from packwork.arrays import IntArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ReadError, UnresolvedError
 from packwork.piles import PileOptions
 from packwork.pipeline.beginning import new_items
+from packwork.pipeline.cropping import (
+    DEPTHS,
+    Back,
+    cropped,
+    crops,
+    followed,
+    lost,
+    refilled,
+    with_room,
+)
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.grouping import run_groups
 from packwork.pipeline.job import Job, read
@@ -85,6 +95,28 @@ def _run(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
         return _heaped(job, job.recipe.pile, observer, stop, record)
     if job.cells is not None:
         return _grouped(job, observer, stop, record)
+    if crops(job.recipe):
+        return _cropped(job, observer, stop, record)
+    solved = _solved(job, observer, stop, record)
+    return _with_track(judged(solved.job, solved.found), solved.recorder, solved.ids, solved.first)
+
+
+@dataclass(frozen=True, eq=False)
+class _Solved:
+    """Items in their places, voids filled; ``first`` is the job before that.
+
+    ``largest`` are scales that none may exceed.
+    """
+
+    job: Job
+    found: Judged
+    recorder: Recorder | None
+    ids: IntArray | None
+    first: Job
+    largest: FloatArray
+
+
+def _solved(job: Job, observer: Observer | None, stop: Stop, record: bool) -> _Solved:
     placed = placed_readably(job, observer, stop, record)
     job, exact, recorder = placed.job, placed.exact, placed.recorder
     start, poses = placed.start, placed.poses
@@ -101,7 +133,48 @@ def _run(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
     found = Judged(
         poses, start.method, start.limits, placed.outcome, unplaced, filling, faults=faults
     )
-    return _with_track(judged(job, found), recorder, ids, placed.job)
+    if start.limits is not None and len(start.limits.largest) == len(poses):
+        largest = start.limits.largest
+    elif job.recipe.sizes == "free" and len(start.nominal) == len(poses):
+        largest = start.nominal * job.recipe.size_ratio
+    else:
+        largest = poses.scale
+    return _Solved(job, found, recorder, ids, placed.job, largest)
+
+
+def _cropped(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    """Items that cover the container's edge, cut at its line; none is lost if that can be."""
+    tries = []
+    for share in DEPTHS:
+        room, depth = with_room(job, share)
+        solved = _solved(room, observer and Back(observer, depth), stop, record)
+        placed, given = solved.job, len(solved.first.items)
+        # Photos were placed at more even sizes than they may have: the rest is for the edge.
+        may_grow = solved.found.limits is None
+        spare = job.recipe.size_ratio / room.recipe.size_ratio if may_grow else 1.0
+        ids = np.arange(len(placed.items)) if solved.ids is None else solved.ids
+        found = cropped(job, placed, solved.found.poses, solved.largest * spare, depth)
+        tries.append((lost(found, placed, ids, given), solved, found, ids, depth))
+        if not tries[-1][0] or stop() or job.recipe.time is not None:
+            break
+    gone, solved, found, ids, depth = min(tries, key=lambda one: len(one[0]))
+    limits, kept = solved.found.limits, found.kept
+    if limits is not None and limits.kinds is not None:
+        limits = replace(limits, kinds=limits.kinds[kept])
+    filling = refilled(solved.found.filling, found, len(solved.first.items), ids)
+    done = judged(
+        found.job,
+        replace(
+            solved.found, poses=found.poses, limits=limits, unplaced=gone, filling=filling,
+            left_out=len(gone), numbers=ids[kept],
+        ),
+    )  # fmt: skip
+    if solved.recorder is None:
+        return done
+    which = np.arange(len(kept)) if done.kept is None else done.kept
+    whole = found.whole.some(kept[which])
+    track = solved.recorder.track(whole, ids[kept[which]], done.layout.items)
+    return replace(done, layout=replace(done.layout, track=followed(track, found, which, depth)))
 
 
 def _heaped(

@@ -64,7 +64,7 @@ def _cut_art(item: Item, at: float, x: float, y: float) -> FlatArt | VectorArt:
     art = item.art
     if not isinstance(art, VectorArt | PictureArt):
         return art if isinstance(art, FlatArt) else FlatArt()
-    inner = _markup(art)
+    inner = markup_of(art)
     left, top, _, bottom = item.ink.bounds
     # The line of the cut is sharp; on all other sides the window is wider than the drawing.
     free = bottom - top + at - left
@@ -78,7 +78,8 @@ def _cut_art(item: Item, at: float, x: float, y: float) -> FlatArt | VectorArt:
     return VectorArt(markup, affine.similarity(-x, -y, 0.0, 1.0))
 
 
-def _markup(art: VectorArt | PictureArt) -> str:
+def markup_of(art: VectorArt | PictureArt) -> str:
+    """What draws it, in units that its matrix maps."""
     if isinstance(art, VectorArt):
         return art.markup
     data = base64.b64encode(art.png).decode("ascii")

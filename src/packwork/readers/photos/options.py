@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from pydantic import Field, field_validator
 
@@ -40,6 +40,10 @@ class PhotoOptions(Options):
 
     border_color: str = "white"
     """Colour of the border."""
+
+    edge: Literal["inside", "crop"] = "inside"
+    """What becomes of photos at the container's edge: inside (all of each photo is seen) or crop
+    (they cover the edge and are cut at its line, for a clean rim)."""
 
     @property
     def border_share(self) -> float:

@@ -1,0 +1,155 @@
+"""Items at the container's edge, shifted and enlarged until they cover it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import product
+
+import numpy as np
+import shapely
+
+from packwork.arrays import BoolArray, FloatArray
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import intersection
+from packwork.geometry.polygon import Region
+from packwork.scene.pose import Poses
+
+FACTORS = (1.02, 1.06, 1.15, 1.3)
+SHIFTS = (0.02, 0.06, 0.15)
+"""Enlargements, and ways as shares of an item's extent, that are tried. More cover more and take
+longer. Tried."""
+
+SMALLER = (0.85, 0.75)
+"""Factors by which an item of which too little is seen becomes smaller. Tried."""
+
+ROUNDS = 6
+"""Times that all items are gone through at most. More change nothing that is seen. Tried."""
+
+GAIN = 1e-3
+"""Share of an item by which more of it has to be seen for a change to be made. Chosen."""
+
+_SLACK = 1e-9
+_NOTHING = shapely.Polygon()
+_SIDES = tuple(product((-1, 0, 1), repeat=2))
+
+
+def spread_to(
+    window: Region,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    largest: FloatArray,
+    may_move: BoolArray,
+    gap: float,
+    least: float,
+    smallest: float = 0.0,
+) -> Poses:
+    """Poses at which more of the items is seen in a window, which may hide parts of them.
+
+    Behind the window's edge nothing is seen, so items may overlap there.
+
+    Parameters
+    ----------
+    largest
+        ``(n,)`` scales that none exceeds.
+    gap
+        What is kept between what is seen of two items.
+    least
+        Share of an item that has to be seen.
+    smallest
+        Factor by which an item of which less is seen may become smaller, at most.
+
+    Examples
+    --------
+    >>> tile = Outline.from_rings([[[-1, -1], [1, -1], [1, 1], [-1, 1]]])
+    >>> at, one = np.array([1.5]), np.ones(1)
+    >>> window, poses = shapely.box(0, 0, 2.5, 2.5), Poses(at, at, 0 * at, one)
+    >>> found = spread_to(window, [tile], poses, 2 * one, one > 0, 0.0, 0.3)
+    >>> bool(found.scale[0] > 1.2)
+    True
+    """
+    seen = [intersection(o.mapped(poses.matrix(k)).region, window) for k, o in enumerate(outlines)]
+    # What is hardly seen is left out later, and others may cover its place.
+    seen = [
+        piece if piece.area >= least * float(poses.scale[k]) ** 2 * outlines[k].area else _NOTHING
+        for k, piece in enumerate(seen)
+    ]
+    loose = np.array([may_move[k] and not piece.is_empty for k, piece in enumerate(seen)])
+    for _ in range(ROUNDS):
+        has_changed = False
+        for k in np.flatnonzero(loose).tolist():
+            reach = (FACTORS[-1] - 1 + SHIFTS[-1]) * outlines[k].extent * float(poses.scale[k])
+            near = seen[k].buffer(2 * reach + gap)
+            others = [one for j, one in enumerate(seen) if j != k and one.intersects(near)]
+            rest = shapely.union_all(others) if others else None
+            most = seen[k].area * (1 + GAIN)
+            for row in _tried(outlines[k], poses, k, float(largest[k])):
+                whole = outlines[k].mapped(row.matrix(0)).region
+                piece = intersection(whole, window)
+                if piece.area <= most or piece.area < least * whole.area:
+                    continue
+                if rest is not None and piece.distance(rest) < gap:
+                    continue
+                most, seen[k], has_changed = piece.area, piece, True
+                poses = poses.with_some(np.array([k]), row)
+        if not has_changed:
+            break
+    return poses
+
+
+def _rescued(
+    window: Region,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    may_move: BoolArray,
+    least: float,
+    smallest: float,
+) -> Poses:
+    """Poses in which items are made smaller, about the place that is seen of them.
+
+    What is convex stays within itself so, and meets nothing that it did not meet before.
+    """
+    fitting = [factor for factor in SMALLER if factor >= smallest]
+    for k in np.flatnonzero(may_move).tolist():
+        whole = outlines[k].mapped(poses.matrix(k)).region
+        if not _is_short(whole, window, least):
+            continue
+        for row in _about_sides(outlines[k], poses, k, fitting):
+            fewer = outlines[k].mapped(row.matrix(0)).region
+            if not _is_short(fewer, window, least) and whole.buffer(_SLACK).covers(fewer):
+                poses = poses.with_some(np.array([k]), row)
+                break
+    return poses
+
+
+def _is_short(whole: Region, window: Region, least: float) -> bool:
+    return bool(intersection(whole, window).area < least * whole.area)
+
+
+def _about_sides(
+    outline: Outline, poses: Poses, k: int, factors: Sequence[float]
+) -> Iterator[Poses]:
+    """Poses of item ``k`` made larger or smaller about its corners, sides and middle."""
+    one, matrix = poses.some(np.array([k])), poses.matrix(k)
+    low, high = np.reshape(outline.bounds, (2, 2))
+    for factor, side in product(factors, _SIDES):
+        corner = (low + high) / 2 + (high - low) / 2 * side
+        fixed = affine.apply(matrix, corner[None])[0] - np.array([poses.x[k], poses.y[k]])
+        x, y = one.x + (1 - factor) * fixed[0], one.y + (1 - factor) * fixed[1]
+        yield replace(one, x=x, y=y, scale=one.scale * factor)
+
+
+def _tried(outline: Outline, poses: Poses, k: int, largest: float) -> Iterator[Poses]:
+    """Poses of item ``k``, shifted, and enlarged about corners, sides and its middle."""
+    one = poses.some(np.array([k]))
+    matrix, scale = poses.matrix(k), float(poses.scale[k])
+    low, high = np.reshape(outline.bounds, (2, 2))
+    middle, half = (low + high) / 2, (high - low) / 2
+    for side in _SIDES:
+        corner = middle + half * side
+        away = affine.apply(matrix, corner[None])[0] - affine.apply(matrix, middle[None])[0]
+        for shift in SHIFTS if any(side) else ():
+            yield replace(one, x=one.x + shift * away[0], y=one.y + shift * away[1])
+    fitting = [factor for factor in FACTORS if scale * factor <= largest]
+    yield from _about_sides(outline, poses, k, fitting)
