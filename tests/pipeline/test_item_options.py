@@ -236,7 +236,13 @@ def test_apart_leaves_fewer_side_by_side(items: list[str]) -> None:
 
 
 def test_a_palette_recolours_what_has_one_colour_evenly_and_unlike_its_neighbours() -> None:
-    met = run(items=["bolt", "owl", "star"], count=30, palette="red,#457b9d,gold", epochs=100)
+    met = run(
+        items=["bolt", "owl", "star"],
+        count=30,
+        palette="red,#457b9d,gold",
+        shades="keep",
+        epochs=100,
+    )
     colours = {}
     for k, item in enumerate(met.layout.items):
         if item.name == "owl":

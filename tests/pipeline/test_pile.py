@@ -178,7 +178,7 @@ def test_python_takes_items_and_containers() -> None:
         ({"size": "300%"}, "size: none of the 2 items fits"),
         ({"sizes": "free"}, "sizes: items of a pile keep"),
         ({"force": "down items=cow"}, "force: no item is called 'cow'"),
-        ({"force": "towards 1furlong,2"}, "force: use a length"),
+        ({"force": "towards 1furlong,2"}, "force: use towards or away with"),
         ({"rules": [{"items": "star", "pin": {"x": 3}}]}, "pin has no meaning in a pile"),
         ({"smallest": "1%", "filler": ["star"]}, "pile: is settled"),
     ],

@@ -84,7 +84,7 @@ def test_stopped_at_once_it_ends_with_what_it_has(album: str) -> None:
 
 
 class Watch:
-    """Keeps the progress of the levels."""
+    """Keeps the progress."""
 
     every = 10
 
@@ -93,8 +93,7 @@ class Watch:
 
     def on_step(self, step: Step) -> None:
         """Keep it."""
-        if not step.is_finish:
-            self.progress.append(step.progress)
+        self.progress.append(step.progress)
 
 
 def test_progress_of_several_starts_goes_from_0_to_1_once(album: str) -> None:
