@@ -19,7 +19,7 @@ PAGE = """# Peers
 Made by `packwork bench peers`, a section at a time; each says when and on what. One thread;
 times are the processor's where nothing else is said, medians with the least and the most in
 brackets, five runs each, one where a run took more than 10 s. Peers in Python come with
-`pip install 'packwork[bench,torch]'`, those in JavaScript with `packwork bench peers install`.
+`pip install -e '.[bench,torch]'`, those in JavaScript with `packwork bench peers install`.
 
 {sections}
 """

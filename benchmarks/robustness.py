@@ -60,13 +60,7 @@ recipe that is begun and stopped, a layout that is measured and written again) i
 that may take {memory} GiB of address space; the most that one held was {peak} MB.
 The slowest input took {slowest} s.
 
-## Meaning
-
-Command lines and recipes that are right in form: any options together, tiny and huge canvases,
-one to three items, paddings that leave no room, tables in tables, terminals that lack letters.
-A run that takes more than {run_seconds} s of the processor is a hang, one that holds more than
-{run_memory} GiB, or that refuses and writes something all the same, a crash or a lost file. The
-slowest took {run_slowest} s, the most that one held was {run_peak} MB.
+{meaning}
 
 ## Stops
 
@@ -78,6 +72,15 @@ the slowest run took {longest} s to end. {left}
 
 {surroundings}
 """
+
+
+MEANING = """## Meaning
+
+Command lines and recipes that are right in form: any options together, tiny and huge canvases,
+one to three items, paddings that leave no room, tables in tables, terminals that lack letters.
+A run that takes more than {seconds} s of the processor is a hang, one that holds more than
+{memory} GiB, or that refuses and writes something all the same, a crash or a lost file. The
+slowest took {slowest} s, the most that one held was {peak} MB."""
 
 
 def fuzzed(count: int, seed: int, processes: int, kinds: Sequence[str]) -> Part:
@@ -213,10 +216,12 @@ def _write(parts: dict[str, Part]) -> None:
         memory=f"{MEMORY_BYTES / 2**30:g}",
         peak=f"{parts['inputs'].facts['peak']:.0f}",
         slowest=f"{parts['inputs'].facts['slowest']:.1f}",
-        run_seconds=str(meaning.SECONDS_AT_MOST),
-        run_memory=f"{meaning.BYTES_AT_MOST / 2**30:g}",
-        run_peak=f"{parts['meaning'].facts['peak']:.0f}",
-        run_slowest=f"{parts['meaning'].facts['slowest']:.1f}",
+        meaning=MEANING.format(
+            seconds=meaning.SECONDS_AT_MOST,
+            memory=f"{meaning.BYTES_AT_MOST / 2**30:g}",
+            peak=f"{parts['meaning'].facts['peak']:.0f}",
+            slowest=f"{parts['meaning'].facts['slowest']:.1f}",
+        ),
         length=f"{stops['length']:.1f}",
         stops=" ".join(came),
         longest=f"{stops['longest, Ctrl-C']:.1f}",

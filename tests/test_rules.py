@@ -33,7 +33,7 @@ BAD: list[tuple[dict[str, Any], str]] = [
     ({"items": "star", "weight": 0}, "weight: must be more than 0"),
     ({"items": "star", "weight": float("inf")}, "weight: must be"),
     ({"items": "star", "pin": "middle"}, "pin: must be a table such as"),
-    ({"items": "star", "pin": {"X": 1}}, "pin: there is no 'X'; there are x, y, angle, size"),
+    ({"items": "star", "pin": {"X": 1}}, "pin: there is no 'X'; did you mean x?"),
     ({"items": "star", "pin": {"x": "wide"}}, "pin.x: use a length"),
     ({"items": "star", "pin": {"y": -3}}, "pin.y: use a length"),
     ({"items": "star", "pin": {"y": True}}, "pin.y: use a length"),

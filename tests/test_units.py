@@ -57,11 +57,15 @@ def test_lengths(text: str, unit: str, length: float) -> None:
     assert parse_length(text, unit, 200.0) == pytest.approx(length, rel=1e-14)
 
 
-@pytest.mark.parametrize(
-    "text", ["", "wide", "-1", "1 parsec", "nan", "inf", "1e999", "1e308in", "2 2", "%"]
-)
+@pytest.mark.parametrize("text", ["", "wide", "-1", "1 parsec", "nan", "inf", "2 2", "%"])
 def test_what_is_no_length_says_what_would_do(text: str) -> None:
     with pytest.raises(ValueError, match=f"use a length such as 4, 1mm.*not {text!r}"):
+        parse_length(text, "px", 1.0)
+
+
+@pytest.mark.parametrize("text", ["1e999", "1e308in", "1e-30mm"])
+def test_lengths_beyond_measure_are_refused(text: str) -> None:
+    with pytest.raises(ValueError, match=f"use a length of 1e-09 to 1e\\+09, or 0, not {text!r}"):
         parse_length(text, "px", 1.0)
 
 

@@ -8,14 +8,17 @@ from PIL import Image, ImageDraw
 
 from packwork import pipeline
 from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import polygon_parts
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.options import ReadOptions
+from packwork.readers.slits import closed_slits
 from packwork.readers.svg.walls import walled_container
 from packwork.readers.written.read import read_written
 from packwork.reading import Interpreted
 from packwork.recipe import make_recipe
+from packwork.scene.container import Container
 from packwork.writers.svg import svg_text
 
 SVG = '<svg xmlns="http://www.w3.org/2000/svg" {}>{}</svg>'
@@ -156,6 +159,14 @@ def test_wide_gaps_stay_unless_their_width_is_given(drawn):
     assert len(polygon_parts(closed.outline.region)) == 1
     assert len(polygon_parts(read_container(file, "100mm", reading=ReadOptions(
         close_gaps="2mm")).outline.region)) == 1  # fmt: skip
+
+
+def test_slits_are_not_looked_for_among_hairs(caplog):
+    hairs = [[[0, y], [9, y], [9, y + 1e-4], [0, y + 1e-4]] for y in np.linspace(0, 9, 600)]
+    outline = Outline.from_rings([np.array(hair) for hair in hairs])
+    container = Container("hairs", "hairs", outline, 9.0, 9.0)
+    assert closed_slits(container, "auto") is container
+    assert "is all edges" in caplog.text
 
 
 def test_a_slit_that_parts_nothing_is_closed_too(drawn):

@@ -30,6 +30,11 @@ Chosen."""
 MOST_POINTS = 300_000
 """Vertices of a container whose slits are looked for. More take minutes. Chosen."""
 
+MOST_DENSE = 0.5
+"""Area within the slits' width of the edges, counted edge by edge, as a share of the bounds, up
+to which slits are looked for. Hairs and spirals have 2 to 20, and growing them takes minutes;
+maps have less than a tenth. Larger takes longer, smaller leaves slits of fine maps. Tried."""
+
 _WELD = 1e-3
 _LEAST = 1e-3
 
@@ -46,7 +51,8 @@ def closed_slits(container: Container, asked: str) -> Container:
     --------
     >>> import numpy as np
     >>> halves = [[[0, 0], [4, 0], [4, 9], [0, 9]], [[4.01, 0], [9, 0], [9, 9], [4.01, 9]]]
-    >>> tile = Container("a", "a", Outline.from_rings(map(np.array, halves)), 9.0, 9.0)
+    >>> outline = Outline.from_rings([np.array(half, float) for half in halves])
+    >>> tile = Container("a", "a", outline, 9.0, 9.0)
     >>> len(closed_slits(tile, "auto").outline.rings), len(closed_slits(tile, "none").outline.rings)
     (1, 2)
     """
@@ -63,6 +69,10 @@ def closed_slits(container: Container, asked: str) -> Container:
         notice(f"has {len(outline.points):,} points, so its slits were not looked for")
         return container
     before = outline.region
+    left, top, right, bottom = outline.bounds
+    if before.length * width > MOST_DENSE * (right - left) * (bottom - top):
+        notice("is all edges, so its slits were not looked for")
+        return container
     after = without_slits(before, width, is_auto=is_auto)
     if after is before:
         return container

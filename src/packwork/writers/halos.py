@@ -65,7 +65,7 @@ def faint_items(layout: Layout, background: str | None) -> tuple[Item, ...]:
     >>> items = [Item(c, "", tile, tile, FlatArt(c)) for c in ("ivory", "black")]
     >>> two = np.ones(2)
     >>> layout = Layout(Container("", "", tile, 4, 4), tuple(items), Poses(two, two, two, two), two)
-    >>> [[item.name for item in faint_items(layout, paper)] for paper in (None, "#111")]
+    >>> [[item.name for item in faint_items(layout, paper)] for paper in (None, "black")]
     [['ivory'], ['black']]
     """
     if layout.container.backdrop is not None:
@@ -78,12 +78,10 @@ def haloed(layout: Layout, choice: HaloChoice, background: str | None) -> Layout
     """Layout whose items have halos as chosen; those that they have stay."""
     if choice == "none" or layout.container.backdrop is not None:
         return layout
-    faint = {shape_key(item) for item in faint_items(layout, background)}
+    faint = {_look(item) for item in faint_items(layout, background)}
     rim = RIM_ON_LIGHT if _ground(background)[0] >= _LIGHT else RIM_ON_DARK
     items = tuple(
-        replace(item, halo=item.halo or rim)
-        if choice == "all" or shape_key(item) in faint
-        else item
+        replace(item, halo=item.halo or rim) if choice == "all" or _look(item) in faint else item
         for item in layout.items
     )
     return replace(layout, items=items)
@@ -94,8 +92,8 @@ def faint_told(layout: Layout, background: str | None) -> str:
     faint = faint_items(layout, background)
     if not faint:
         return ""
-    keys = {shape_key(item) for item in faint}
-    count = sum(shape_key(item) in keys for item in layout.items)
+    keys = {_look(item) for item in faint}
+    count = sum(_look(item) in keys for item in layout.items)
     names = list(dict.fromkeys(item.name for item in faint))
     shown = ", ".join(names[:3]) + (", ..." if len(names) > 3 else "")
     ground = "white" if background is None else background
@@ -121,14 +119,19 @@ def _better_ground(layout: Layout, background: str | None) -> str | None:
 
 def _edges(layout: Layout) -> list[tuple[Item, FloatArray]]:
     """Each drawing once, the largest first, with the colours of its edge (Oklab)."""
-    found: dict[int, Item] = {}
+    found: dict[tuple[int, str], Item] = {}
     order = np.argsort(-layout.areas, kind="stable")
     for item in (layout.items[k] for k in order):
         if item.text is None and not isinstance(item.art, PhotoArt) and not item.halo:
-            found.setdefault(shape_key(item), item)
+            found.setdefault(_look(item), item)
     looked = list(found.values())[:MOST_DRAWINGS]
     edges = [(item, _edge(item)) for item in looked]
     return [(item, edge) for item, edge in edges if len(edge)]
+
+
+def _look(item: Item) -> tuple[int, str]:
+    """Same for items that are drawn alike, in one colour."""
+    return shape_key(item), item.art.fill if isinstance(item.art, FlatArt) else ""
 
 
 def _edge(item: Item) -> FloatArray:
