@@ -15,7 +15,7 @@ import pytest
 from packwork.cli import watch
 
 PROGRAM = """
-import hashlib, signal, sys
+import hashlib, signal, sys, threading
 from packwork.cli.watch import WATCH
 
 def be_deaf():
@@ -24,7 +24,8 @@ def be_deaf():
 
 with WATCH.listening():
     {before}
-    print("ready", flush=True)
+    # Said once the call is under way: before it, Ctrl-C is Python's own.
+    threading.Timer(1.0, print, ["ready"], {{"flush": True}}).start()
     {wait}
 """
 
