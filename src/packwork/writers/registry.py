@@ -18,11 +18,10 @@ from packwork.writers.extras import check_extra
 from packwork.writers.frame import check_side, picture_frame, side_at
 from packwork.writers.geojson import geojson_text
 from packwork.writers.halos import HaloChoice, haloed
-from packwork.writers.jpeg import jpeg_bytes
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.printing import DPI, SPARE, printed, printed_on_paper
-from packwork.writers.stills import check_webp_side, tiff_bytes, webp_bytes
+from packwork.writers.stills import check_webp_side, jpeg_bytes, tiff_bytes, webp_bytes
 from packwork.writers.svg import SvgOptions, TextChoice, svg_text
 
 MOST_DPI = 2_400

@@ -1,4 +1,4 @@
-"""Layouts as WebP and TIFF: the PNG that would be written, in another wrapping."""
+"""Layouts as JPEG, WebP and TIFF: the PNG that would be written, in another wrapping."""
 
 from __future__ import annotations
 
@@ -14,12 +14,17 @@ from packwork.writers.png import PngOptions, png_bytes
 if TYPE_CHECKING:
     from PIL import Image
 
+JPEG_QUALITY = 95
+"""Of 95 at most. Smaller shows its blocks round edges of plain colour. Chosen."""
+
 MOST_WEBP_PX = 16_383
 """Longer side of a WebP at most. Derived: its header has 14 bits."""
 
 
-def webp_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
-    """WebP file of a layout, without loss, as :func:`packwork.writers.png.png_bytes` draws it.
+def jpeg_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
+    r"""JPEG file of a layout, as :func:`packwork.writers.png.png_bytes` draws it.
+
+    Where the background is clear, it is white: a JPEG knows no other.
 
     Raises
     ------
@@ -39,8 +44,25 @@ def webp_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None =
     >>> empty = Layout(
     ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
     ... )
-    >>> webp_bytes(empty, 16)[8:12], tiff_bytes(empty, 16)[:2]
-    (b'WEBP', b'II')
+    >>> jpeg_bytes(empty, 16)[:2], webp_bytes(empty, 16)[8:12], tiff_bytes(empty, 16)[:2]
+    (b'\xff\xd8', b'WEBP', b'II')
+    """
+    from PIL import Image
+
+    picture = _drawn(layout, longer_side_px, options)
+    paper = Image.new("RGB", picture.size, "white")
+    paper.paste(picture, mask=picture.getchannel("A"))
+    known = _density(layout, longer_side_px)
+    return _saved(paper, "JPEG", quality=JPEG_QUALITY, **known)
+
+
+def webp_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
+    """WebP file of a layout, without loss.
+
+    Raises
+    ------
+    RecipeError, WriteError
+        As :func:`jpeg_bytes`; also if it is longer than a WebP can be.
     """
     check_webp_side(longer_side_px)
     return _saved(_drawn(layout, longer_side_px, options), "WEBP", lossless=True, quality=80)
@@ -70,14 +92,19 @@ def tiff_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None =
     Raises
     ------
     RecipeError, WriteError
-        As :func:`webp_bytes`.
+        As :func:`jpeg_bytes`.
     """
     picture = _drawn(layout, longer_side_px, options)
     if picture.getextrema()[-1] == (255, 255):
         picture = picture.convert("RGB")
-    density = dots_per_inch(layout.container, longer_side_px)
-    known = {} if density is None else {"dpi": (density, density)}
+    known = _density(layout, longer_side_px)
     return _saved(picture, "TIFF", compression="tiff_adobe_deflate", **known)
+
+
+def _density(layout: Layout, longer_side_px: int) -> dict[str, Any]:
+    """Pixels to the inch, across and down, as Pillow takes them; nothing of a canvas in px."""
+    density = dots_per_inch(layout.container, longer_side_px)
+    return {} if density is None else {"dpi": (density, density)}
 
 
 def _drawn(layout: Layout, longer_side_px: int, options: PngOptions | None) -> Image.Image:
