@@ -12,7 +12,7 @@ import shapely
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import intersection
+from packwork.geometry.overlay import buffered, intersection, union
 from packwork.geometry.polygon import Region
 from packwork.scene.pose import Poses
 
@@ -80,9 +80,9 @@ def spread_to(
         has_changed = False
         for k in np.flatnonzero(loose).tolist():
             reach = (FACTORS[-1] - 1 + SHIFTS[-1]) * outlines[k].extent * float(poses.scale[k])
-            near = seen[k].buffer(2 * reach + gap)
+            near = buffered(seen[k], 2 * reach + gap)
             others = [one for j, one in enumerate(seen) if j != k and one.intersects(near)]
-            rest = shapely.union_all(others) if others else None
+            rest = union(others) if others else None
             most = seen[k].area * (1 + GAIN)
             for row in _tried(outlines[k], poses, k, float(largest[k])):
                 whole = outlines[k].mapped(row.matrix(0)).region
@@ -117,7 +117,7 @@ def _rescued(
             continue
         for row in _about_sides(outlines[k], poses, k, fitting):
             fewer = outlines[k].mapped(row.matrix(0)).region
-            if not _is_short(fewer, window, least) and whole.buffer(_SLACK).covers(fewer):
+            if not _is_short(fewer, window, least) and buffered(whole, _SLACK).covers(fewer):
                 poses = poses.with_some(np.array([k]), row)
                 break
     return poses
