@@ -35,7 +35,7 @@ class Interpreted(Options):
 
     stroke_width: Literal["scaled", "even"] = "scaled"
     """Lines of items that are drawn in lines, as line icons: scaled (as wide as their sizes make
-    them) or even (alike on all of them: of larger ones thinner, once all are placed)."""
+    them) or even (alike on all of them: of larger ones thinner, before items grow together)."""
 
     @field_validator("close_gaps", mode="before")
     @classmethod

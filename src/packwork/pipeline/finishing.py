@@ -59,6 +59,11 @@ DWARF = 1.5
 """How many times smaller than free sizes go an item may be and still count as placed. Larger
 leaves specks unsaid. Chosen by eye."""
 
+LEAST_KEPT = 0.9
+"""Share of its scale that an item keeps where a clean layout is to grow. Larger leaves large ones
+less to grow by, smaller makes the small ones dwarfs, whose lines then set the width of all.
+Chosen."""
+
 PRESSING = frozenset(
     {
         "containment",
@@ -81,17 +86,25 @@ def finished(
     observer: Observer | None,
     stop: Stop,
     forces: Forces | None = None,
+    *,
+    grows: bool = False,
 ) -> Finished:
     """Exact poses near the solver's, of the true outlines.
 
     Items pinned in place stay as they are and count as wall. Those that a zone holds come
     first, in their zone; all others take what is left. Where a time was given, the rounds
     end with it; what they have then is clean too.
+
+    Parameters
+    ----------
+    grows
+        Whether the poses are clean, and are to be larger: none gets much smaller then.
     """
     outlines = solid_outlines(job.recipe, job.items)
     until = until_over(stop, job.seconds_left(1.0))
     is_enough = until_over(stop, job.seconds_left(TRIALS_SHARE))
-    smallest, largest = scale_ranges(job, start, poses)
+    allowed, largest = scale_ranges(job, start, poses)
+    smallest = np.maximum(allowed, LEAST_KEPT * poses.scale) if grows else allowed
     limits = start.limits
     groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
     results, before = [], poses
@@ -123,7 +136,7 @@ def finished(
         done = np.append(done, items)
     if limits is not None and job.recipe.sizes == "shared":
         poses = _one_factor(before, poses, limits)
-    return _without_dwarfs_that_may_be(job, smallest, _together(poses, results))
+    return _without_dwarfs_that_may_be(job, allowed, _together(poses, results))
 
 
 def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished) -> Finished:
@@ -134,6 +147,8 @@ def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished
     real = []
     for k in result.undersized:
         short = float(smallest[k] / result.poses.scale[k])
+        if short <= 1:
+            continue
         if short > DWARF or "scale" in job.asked[k].values or "size" in job.asked[k].pin:
             real.append(k)
             continue

@@ -19,6 +19,7 @@ from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.leaning import job_leanings
 from packwork.pipeline.letters import held_down, with_readable, without_hopeless
+from packwork.pipeline.line_weights import evened
 from packwork.pipeline.onward import BEFORE_VOIDS, LEVELS, stretch
 from packwork.pipeline.padding import check_found, check_padding, padded
 from packwork.pipeline.recording import Recorder
@@ -128,6 +129,11 @@ def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Pl
         exact = finished(job, start, outcome.poses, observer, stop, kept)
         if not (recipe.stay or stop()):
             check_found(job.container, recipe.padding_cu(job.container), exact)
+        thinner = job if stop() else evened(job, exact.poses, tells=False)
+        if thinner is not job:
+            # Thinner lines leave room to grow into.
+            job = thinner
+            exact = finished(job, start, exact.poses, observer, stop, kept, grows=True)
         exact = held_down(job, start, exact, observer, stop, kept)
     return Placed(job, start, outcome, exact, recorder)
 

@@ -24,6 +24,7 @@ from packwork.pipeline.forcing import forces_of
 from packwork.pipeline.given import given_scales
 from packwork.pipeline.job import NO_CONTAINER, Job
 from packwork.pipeline.judging import Judged, judged
+from packwork.pipeline.line_weights import evened
 from packwork.pipeline.matching import matched
 from packwork.pipeline.opening import Opened, opened
 from packwork.pipeline.outcome import Run, Unplaced
@@ -106,6 +107,8 @@ def _heaped(
     clock = job.clock
     with clock.time("start"):
         poses, known = _first_poses(job, factor)
+        # Sizes are known: what lies closer with thinner lines may do so.
+        job = evened(job, poses, tells=False)
         outlines = solid_outlines(job.recipe, job.items)
         discs = np.pi * (np.array([o.radius for o in outlines]) * poses.scale) ** 2
         room = opened(job.container, asked.open, job.mouths, float(discs.sum()))

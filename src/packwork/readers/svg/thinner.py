@@ -42,6 +42,7 @@ ROUNDING = 1e-12
 millionth of the least gap. Smaller refuses butt ends that lie askew. Derived."""
 
 _WIDTH = "stroke-width"
+_STROKE = re.compile(r"\bstroke\s*[=:]\s*[\"']?\s*(?!none)[#\w]")
 _NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)")
 
 
@@ -135,6 +136,22 @@ def line_drawing(item: Item) -> LineDrawing | None:
     up_to = np.cumsum(lengths[order])
     middle = order[int(np.searchsorted(up_to, up_to[-1] / 2))]
     return LineDrawing(item, float(widths[middle]) * _size(art.matrix), art, drawing)
+
+
+def has_traced_lines(item: Item) -> bool:
+    """Whether an item is a drawing with lines that its shapes do not tell.
+
+    Examples
+    --------
+    >>> from packwork.readers.svg.item import item_of_svg
+    >>> data = b'<svg><path d="M0 0h20" stroke="red" stroke-width="4"/></svg>'
+    >>> has_traced_lines(item_of_svg(data, "line", "line.svg"))
+    False
+    """
+    art = item.art
+    if item.text is not None or not isinstance(art, VectorArt) or not art.is_traced:
+        return False
+    return _STROKE.search(art.markup) is not None
 
 
 def _is_within(inner: Outline, outer: Outline) -> bool:

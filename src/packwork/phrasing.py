@@ -1,0 +1,38 @@
+"""Counts and lists of names in messages: one row, two rows, a, b, c and 4 more."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+MOST_NAMED = 3
+"""Names in a line that stands for more, unless said otherwise. Chosen."""
+
+
+def counted(count: int, one: str, several: str | None = None) -> str:
+    """A number with its noun in the singular or the plural, and with what follows the noun.
+
+    Parameters
+    ----------
+    one
+        What is said of one, without the number.
+    several
+        What is said of any other number; None for ``one`` and an s.
+
+    Examples
+    --------
+    >>> counted(1, "row"), counted(2, "row"), counted(1200, "item is", "items are")
+    ('1 row', '2 rows', '1,200 items are')
+    """
+    return f"{count:,} {one if count == 1 else several or f'{one}s'}"
+
+
+def listed(names: Sequence[str], most: int = MOST_NAMED) -> str:
+    """Names with commas between them, and how many there are beyond the first few.
+
+    Examples
+    --------
+    >>> listed(["a", "b"]), listed(list("abcdef"))
+    ('a, b', 'a, b, c and 3 more')
+    """
+    more = f" and {len(names) - most} more" if len(names) > most else ""
+    return ", ".join(names[:most]) + more
