@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import shapely
 
 from packwork.finish.detail import Detail
+from packwork.geometry.nearness import distance
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, intersection
 from packwork.scene.container import Container
@@ -69,7 +69,7 @@ def _offender(
     if j == len(outlines):
         whole = container.outline.region
         outside = float(difference(first, whole).area)
-        return Offender(i, None, outside, float(shapely.distance(whole.boundary, first)))
+        return Offender(i, None, outside, distance(whole.boundary, first))
     second = outlines[j].mapped(poses.matrix(j)).region
     shared = float(intersection(first, second).area)
-    return Offender(i, j, shared, float(shapely.distance(first, second)))
+    return Offender(i, j, shared, distance(first, second))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import shapely
 
+from packwork.geometry.nearness import is_clear
 from packwork.geometry.overlay import Region, buffered, polygon_parts, union, valid
 
 STEP = 1e-7
@@ -54,7 +55,7 @@ def sound(shape: Region, step: float = STEP) -> Region:
     left, top, right, bottom = shape.bounds if shape.area > 0 else (0.0, 0.0, 0.0, 0.0)
     least = step * max(right - left, bottom - top)
     for _ in range(MOST_ROUNDS):
-        if not least > 0 or shapely.minimum_clearance(shape) >= least / 2:
+        if not least > 0 or is_clear(shape, least / 2):
             break
         # A region that says it lies on the grid is not looked at again.
         loose = shapely.set_precision(shape, 0.0, mode="pointwise")
@@ -81,7 +82,7 @@ def without_clefts(shape: Region, width: float = CLEFT) -> Region:
     """
     left, top, right, bottom = shape.bounds
     least = width * max(right - left, bottom - top)
-    if shapely.minimum_clearance(shape) >= least:
+    if is_clear(shape, least):
         return shape
     grown = buffered(shape, least / 2, join_style="mitre")
     bays = [shapely.Polygon(hole) for part in polygon_parts(grown) for hole in part.interiors]

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
+from packwork.geometry.nearness import distance
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import Region, difference, intersection, valid
 
@@ -49,9 +50,11 @@ def culprits(outlines: Sequence[Outline], container: Outline, gap: float) -> tup
     first, second = shapely.STRtree(regions).query(regions, predicate="dwithin", distance=gap)
     pairs = [(int(i), int(j)) for i, j in zip(first, second, strict=True) if i < j]
     shapely.prepare(whole)
-    near = ~shapely.covers(whole, regions) | shapely.dwithin(regions, whole.boundary, gap)
+    edge = whole.boundary
+    shapely.prepare(edge)
+    near = ~shapely.covers(whole, regions) | shapely.dwithin(edge, regions, gap)
     found = [_culprit(i, j, regions[i], regions[j]) for i, j in pairs]
-    found += [_sticking_out(int(k), regions[k], whole) for k in np.flatnonzero(near)]
+    found += [_sticking_out(int(k), regions[k], whole, edge) for k in np.flatnonzero(near)]
     return tuple(
         one for one in sorted(found, key=lambda one: one.item)
         if one.overlap_cu2 > 0 or one.gap_cu < gap
@@ -60,9 +63,9 @@ def culprits(outlines: Sequence[Outline], container: Outline, gap: float) -> tup
 
 def _culprit(i: int, j: int, first: Region, second: Region) -> Culprit:
     shared = float(intersection(first, second).area)
-    return Culprit(i, j, shared, float(shapely.distance(first, second)))
+    return Culprit(i, j, shared, distance(first, second))
 
 
-def _sticking_out(k: int, one: Region, whole: Region) -> Culprit:
+def _sticking_out(k: int, one: Region, whole: Region, edge: Region) -> Culprit:
     outside = float(difference(one, whole).area)
-    return Culprit(k, None, outside, float(shapely.distance(one, whole.boundary)))
+    return Culprit(k, None, outside, distance(edge, one))

@@ -13,6 +13,7 @@ import shapely
 
 from packwork.arrays import IntArray
 from packwork.errors import ShapeError
+from packwork.geometry.nearness import distance
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import (
     Region,
@@ -257,4 +258,4 @@ def _least_distance(first: _Regions, second: _Regions, reach: float) -> float:
             first, second, reach = first[near], second[near], middle
         else:
             least = middle
-    return float(shapely.distance(first, second).min())
+    return min(distance(one, other) for one, other in zip(first, second, strict=True))

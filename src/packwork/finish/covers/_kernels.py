@@ -42,12 +42,28 @@ def _change(points, after, before, v, corner):
     return height / length if length > 0.0 else 0.0
 
 
+@helper
+def _rank(costs, best, v):
+    """Play all matches of vertex ``v`` anew, from its own up to the final.
+
+    ``best`` is a tournament (a segment tree): ``best[1]`` is the cheapest vertex of all, that of
+    the lowest number among equals, and ``best[k]`` the winner of ``best[2k]`` and ``best[2k + 1]``.
+    """
+    k = (best.shape[0] // 2 + v) // 2
+    while k >= 1:
+        first, second = best[2 * k], best[2 * k + 1]
+        is_first = second < 0 or costs[first] <= costs[second]
+        best[k] = first if is_first else second
+        k //= 2
+
+
 @kernel
 def shed(points, tolerance):
     """Vertices of a ring whose solid holds that of ``points``, the cheapest changes first.
 
     The solid lies where a positive ring has its inside. No change grows it by more than
-    ``tolerance``; together they may by a third more, since they get larger and larger.
+    ``tolerance``; together they may by a third more, since they get larger and larger. Takes
+    n log n steps: the cheapest is known from a tournament, not looked for among all.
     """
     count = points.shape[0]
     points = points.copy()
@@ -57,9 +73,18 @@ def shed(points, tolerance):
         after[v], before[v] = (v + 1) % count, (v - 1) % count
     for v in range(count):
         costs[v] = _change(points, after, before, v, corners[v])
+    leaves = 1
+    while leaves < count:
+        leaves *= 2
+    best = np.full(2 * leaves, -1)
+    for v in range(count):
+        best[leaves + v] = v
+    for k in range(leaves - 1, 0, -1):
+        first, second = best[2 * k], best[2 * k + 1]
+        best[k] = first if second < 0 or costs[first] <= costs[second] else second
     left, last = count, 0
     while left > 3:
-        v = int(np.argmin(costs))
+        v = best[1]
         if costs[v] > tolerance:
             break
         if contact.side(points, before[v], v, after[v]) <= 0.0:
@@ -69,12 +94,14 @@ def shed(points, tolerance):
             points[v, 0], points[v, 1] = corners[v, 0], corners[v, 1]
         after[before[gone]], before[after[gone]] = after[gone], before[gone]
         costs[gone] = np.inf
+        _rank(costs, best, gone)
         left -= 1
         last = before[gone]
         # All whose change touches what has moved: two back, and two on.
         u = before[before[last]]
         for _ in range(5):
             costs[u] = _change(points, after, before, u, corners[u])
+            _rank(costs, best, u)
             u = after[u]
     ring = np.empty((left, 2))
     for k in range(left):

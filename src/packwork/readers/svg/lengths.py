@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 import re
 
 from packwork.readers.unfit import UnfitError
@@ -89,7 +88,7 @@ def checked(number: float) -> float:
     >>> checked(2.5)
     2.5
     """
-    if not math.isfinite(number) or abs(number) > MAX_COORDINATE:
+    if not -MAX_COORDINATE <= number <= MAX_COORDINATE:
         raise UnfitError(
             f"holds the coordinate {number:g}; numbers up to {MAX_COORDINATE:g} can be used"
         )

@@ -11,7 +11,13 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.readers.budget import spend
 from packwork.readers.svg.arcs import arc_cubics
-from packwork.readers.svg.lengths import NUMBER, checked, parse_numbers, refuse_not_finite
+from packwork.readers.svg.lengths import (
+    MAX_COORDINATE,
+    NUMBER,
+    checked,
+    parse_numbers,
+    refuse_not_finite,
+)
 from packwork.readers.unfit import UnfitError
 
 _SEGMENT_NS, _COUNTED = 1.5e4, 1_000
@@ -22,6 +28,9 @@ MAX_SEGMENTS = 200_000
 
 _COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 _SEPARATOR = r"[\s,]*+"
+_NUMBER = re.compile(NUMBER)
+_PLAIN = re.compile(rf"(?:[ \t\r\n\f,]*+{NUMBER})*+[ \t\r\n\f,]*+")
+"""Numbers and what parts them, nothing else: what almost all commands have."""
 _ARC = re.compile(
     rf"{_SEPARATOR}({NUMBER}){_SEPARATOR}({NUMBER}){_SEPARATOR}({NUMBER})"
     rf"{_SEPARATOR}([01]){_SEPARATOR}([01]){_SEPARATOR}({NUMBER}){_SEPARATOR}({NUMBER})"
@@ -105,6 +114,10 @@ def _repeated(name: str) -> str:
 def _arguments(name: str, text: str) -> tuple[list[float], bool]:
     """Arguments before the first error, and whether there was none."""
     if name not in "Aa":
+        if _PLAIN.fullmatch(text):
+            plain = [float(number) for number in _NUMBER.findall(text)]
+            if not plain or (max(plain) <= MAX_COORDINATE and min(plain) >= -MAX_COORDINATE):
+                return plain, True
         numbers = parse_numbers(text)
         return numbers, not re.sub(rf"{NUMBER}|[\s,]", "", text)
     found: list[float] = []
