@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image, ImageCms, ImageDraw
 
+from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
 from packwork.raster.drawing import drawn_png
 from packwork.readers.photos.developing import developed, inspected
@@ -106,6 +107,22 @@ def test_a_window_is_cut_where_it_says_at_any_size() -> None:
     assert part.shape == (40, 30, 3)
     expected = 255 / 599 * (150 + 10 * (np.arange(30) + 0.5) - 0.5)
     assert np.abs(part[20, :, 0] - expected).max() < 4
+
+
+def test_soft_shadows_count_from_the_threshold_asked(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    pixels = np.zeros((90, 120, 4), np.uint8)
+    pixels[20:60, 20:60, 3] = 255
+    pixels[30:80, 60:100, 3] = 90
+    Image.fromarray(pixels).save(tmp_path / "cup.png")
+    source = str(tmp_path / "cup.png")
+    recipe = pipeline.photos_recipe("square", [source])
+    (tight,) = pipeline.read(recipe).items
+    assert "--alpha-threshold" in caplog.text
+    (wide,) = pipeline.read(recipe.model_copy(update={"alpha_threshold": 0.2})).items
+    assert tight.outline.area == pytest.approx(40 * 40, rel=0.02)
+    assert wide.outline.area == pytest.approx(40 * 40 + 50 * 40, rel=0.02)
 
 
 def test_cut_outs_keep_their_outline(tmp_path: Path) -> None:

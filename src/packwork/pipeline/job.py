@@ -259,7 +259,8 @@ def _items(
     items: tuple[Item, ...] = ()
     skipped: tuple[PackworkError, ...] = ()
     if recipe.photos is not None:
-        photos = read_photos(recipe.photos, strict=recipe.strict)
+        threshold = recipe.alpha_threshold
+        photos = read_photos(recipe.photos, strict=recipe.strict, threshold=threshold)
         items, skipped = photos.items, photos.skipped
     if given is not None:
         return (*items, *given), skipped

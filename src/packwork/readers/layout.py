@@ -14,7 +14,7 @@ from shapely.errors import GEOSException
 from shapely.geometry import MultiPolygon, Polygon
 
 from packwork.arrays import FloatArray, as_points
-from packwork.errors import ReadError, RecipeError
+from packwork.errors import ReadError, RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
@@ -155,7 +155,23 @@ def _container(found: list[_Placed], collection: Mapping[str, Any]) -> Container
         known = ", ".join(UNITS)
         raise UnfitError(f"canvas.unit: must be one of {known}, not {str(canvas['unit'])[:20]!r}")
     name = str(properties.get("name", "container"))
-    return Container(name, str(properties.get("source", name)), outline, width, height, unit)
+    source = str(properties.get("source", name))
+    walls = _walls(properties, where)
+    return Container(name, source, outline, width, height, unit, walls=walls)
+
+
+def _walls(properties: Mapping[str, Any], where: str) -> tuple[FloatArray, ...] | None:
+    """Lines that are seen of a container with openings; None where it has none."""
+    said = properties.get("walls")
+    if said is None:
+        return None
+    try:
+        lines = tuple(as_points(line) for line in said)
+    except (TypeError, ValueError, ShapeError):
+        lines = (np.full((1, 2), math.inf),)
+    if any(len(line) < 2 or _reach(line) > MAX_COORDINATE for line in lines):
+        raise UnfitError(f"{where}.walls: must be lines of [x, y] pairs up to {MAX_COORDINATE:g}")
+    return lines
 
 
 def _item(feature: Mapping[str, Any], where: str) -> Item:

@@ -82,6 +82,19 @@ def tell_if_full(share: float, why: str) -> None:
         notice(f"fills {min(share, 1.0):.1%} of its page, for {why}")
 
 
+def without_holes(ink: Region) -> Region:
+    """Silhouette of what is drawn, bays that are all but closed filled as its holes are.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> ring = shapely.box(0, 0, 4, 4) - shapely.box(1, 1, 3, 3)
+    >>> round(without_holes(ring - shapely.box(1.9, 0, 1.900001, 2)).area, 3)
+    16.0
+    """
+    return silhouette(without_clefts(silhouette(ink)))
+
+
 def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
     """Outline and ink with the outline's centroid at the origin, and the map that did it.
 
@@ -92,8 +105,7 @@ def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
     >>> outline.bounds, place[:, 2].tolist()
     ((-1.0, -2.0, 1.0, 2.0), [-3.0, -4.0])
     """
-    shape = silhouette(without_clefts(silhouette(ink))) if holes == "fill" else ink
-    outline = Outline.from_region(shape)
+    outline = Outline.from_region(without_holes(ink) if holes == "fill" else ink)
     x, y = outline.centroid
     place = affine.similarity(-float(x), -float(y), 0.0, 1.0)
     return outline.mapped(place), Outline.from_region(ink).mapped(place), place

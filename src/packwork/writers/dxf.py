@@ -42,6 +42,10 @@ packed as a disc. Where other lines are to be cut, outlines are on the layer ``i
 ITEMS = {"items": 9}
 """Name and colour number (light grey) of the layer of outlines that are not cut."""
 
+ROOM = {"room": 9}
+"""Name and colour number (light grey) of the layer of what items may lie in, which is switched off,
+where the container has openings: on the layer ``container`` are then its walls, open lines."""
+
 PRECISION = 1e-9
 """Last digit of a coordinate, as a share of the canvas's longer side. As in GeoJSON."""
 
@@ -86,7 +90,9 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
         space = drawing.modelspace()
         space.reset_extents(points.min(axis=0).tolist(), points.max(axis=0).tolist())
         for lot, ring in lines:
-            line = space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": lot.layer})
+            line = space.add_lwpolyline(
+                ring.tolist(), close=not lot.is_open, dxfattribs={"layer": lot.layer}
+            )
             if lot.said:
                 line.set_xdata(APPLICATION, [(_TEXT, text) for text in lot.said])
         stream = io.StringIO()
@@ -112,9 +118,11 @@ def _empty_drawing(layout: Layout, used: Set[str]) -> Drawing:
     unit = paper_unit(container.unit)
     width, height = (convert(v, container.unit, unit) for v in (container.width, container.height))
     drawing = ezdxf.new(VERSION, units=_INSERT_UNITS[unit])
-    more = {name: colour for name, colour in ITEMS.items() if name in used}
+    more = {name: colour for name, colour in {**ITEMS, **ROOM}.items() if name in used}
     for name, colour in {**LAYERS, **more}.items():
-        drawing.layers.add(name, color=colour)
+        layer = drawing.layers.add(name, color=colour)
+        if name in ROOM:
+            layer.off()
     drawing.appids.add(APPLICATION)
     drawing.modelspace().reset_limits((0.0, 0.0), (width, height))
     drawing.set_modelspace_vport(height, center=(width / 2, height / 2))
@@ -134,16 +142,22 @@ class _Lot:
     said
         Texts that go with each: of the container the gap that was promised and whether
         areas are in shares, of an item its number, name and weight.
+    is_open
+        Whether they are lines with two ends.
     """
 
     layer: str
     rings: list[FloatArray]
     said: tuple[str, ...] = ()
+    is_open: bool = False
 
 
 def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
     is_other = cut.kiss is not None or cut.line == "silhouette"
-    yield _Lot("container", layout.container.outline.rings, _promise(layout))
+    walls = layout.container.walls
+    layer = "container" if walls is None else "room"
+    yield _Lot(layer, layout.container.outline.rings, _promise(layout))
+    yield _Lot("container", list(walls or ()), is_open=True)
     bare = {id(item): item for item in layout.items}
     details = {key: _bare_rings(item) for key, item in bare.items()}
     weights = stated_weights(layout)

@@ -92,7 +92,11 @@ def _json(value: Any) -> str:
 
 def _container_feature(layout: Layout, digits: int) -> dict[str, Any]:
     container = layout.container
-    properties = {"role": "container", "name": container.name, "source": container.source}
+    properties: dict[str, Any] = {"role": "container"}
+    properties |= {"name": container.name, "source": container.source}
+    if container.walls is not None:
+        # Seen are the walls; the outline is what items lie in, and is measured.
+        properties["walls"] = [np.round(line, digits).tolist() for line in container.walls]
     return _feature(properties, container.outline, digits)
 
 

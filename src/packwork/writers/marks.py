@@ -8,13 +8,20 @@ import re
 from collections.abc import Mapping
 
 import numpy as np
+import shapely
 
-from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference
+from packwork.geometry.polygon import polygon_parts, silhouette
 from packwork.scene.colour import css_colour
 from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.writers.colours import hex_colour
 from packwork.writers.notation import attributes, matrix_text, path_data
+
+LEAST_BAY = 1e-6
+"""Share of an item's area below which a bay is rounding. Larger leaves out what can be measured,
+smaller makes files longer for nothing. Chosen, as the specks of readers."""
 
 _ID = re.compile(r"""\bid\s*=\s*(["'])([^"']+)\1""")
 
@@ -79,15 +86,14 @@ def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
     '<path id="a" transform="scale(2)" fill-rule="evenodd" d="M-1 -1 2 -1 -1 2Z"/>'
     """
     art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
+    told = _told(item, art, digits)
     if isinstance(art, VectorArt):
-        told = {"data-outline": _outline(item, art.matrix, digits)} if art.is_traced else {}
         head = attributes({**own, **told, "transform": place + matrix_text(art.matrix)})
         return f"<g{head}>{art.markup}</g>"
     if isinstance(art, PictureArt):
-        told = {"data-outline": _outline(item, art.matrix, digits)} if art.is_traced else {}
         head = attributes({**own, **told, "transform": place + matrix_text(art.matrix)})
         return f"<image{head}{_picture(art)}/>"
-    head = attributes({**own, "transform": place})
+    head = attributes({**own, **told, "transform": place})
     return f'<path{head} fill-rule="evenodd" d="{path_data(item.ink, digits)}"/>'
 
 
@@ -109,13 +115,32 @@ def with_fresh_ids(markup: str, suffix: str) -> str:
     return uses.sub(rf"\g<1>\g<2>{suffix}", markup)
 
 
-def _outline(item: Item, matrix: FloatArray, digits: int) -> str:
-    """Outline of a drawing that only a rendering tells, in the units of its markup.
-
-    What is traced again comes out a little otherwise: the file holds what was placed.
-    """
+def _told(item: Item, art: FlatArt | VectorArt | PictureArt, digits: int) -> dict[str, str]:
+    """What of an item's outline its drawing does not show, in the units of its markup."""
+    matrix = affine.identity() if isinstance(art, FlatArt) else art.matrix
     finer = max(0, math.ceil(math.log10(np.linalg.norm(matrix[:, :2], 2))))
-    return path_data(item.outline.mapped(affine.inverse(matrix)), digits + finer)
+    back = affine.inverse(matrix)
+    if not isinstance(art, FlatArt) and art.is_traced:
+        # What is traced again comes out a little otherwise: the file holds what was placed.
+        return {"data-outline": path_data(item.outline.mapped(back), digits + finer)}
+    bays = _filled_bays(item)
+    return {} if bays is None else {"data-bays": path_data(bays.mapped(back), digits + finer)}
+
+
+def _filled_bays(item: Item) -> Outline | None:
+    """Bays of a drawing that count as its own, for their mouths are all but closed.
+
+    Whether they do is near a limit: followed again, a mouth may come out on its other side.
+    """
+    outline = item.outline.region
+    if item.outline.has_holes:
+        return None
+    seen = silhouette(item.ink.region)
+    least = LEAST_BAY * outline.area
+    if seen.area > outline.area - least:
+        return None
+    bays = [part for part in polygon_parts(difference(outline, seen)) if part.area > least]
+    return Outline.from_region(shapely.MultiPolygon(bays)) if bays else None
 
 
 def _picture(art: PictureArt) -> str:

@@ -10,10 +10,11 @@ import shapely
 from packwork.geometry import affine
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
-from packwork.readers.options import AS_DRAWN
+from packwork.readers.options import AS_DRAWN, HALF
 from packwork.readers.photos.developing import Negative, Window, developed
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.pictures.silhouette import outline_of_cut_out
+from packwork.readers.pictures.transparency import solidity, tell_what_is_faint
 
 CUT_OUT_PX = 800
 """Longer side at which the outline of a cut-out is traced. Larger traces finer and gives the
@@ -50,8 +51,15 @@ class Frame:
     is_cut: bool
 
 
-def framed(data: bytes, negative: Negative, options: PhotoOptions) -> Frame:
+def framed(
+    data: bytes, negative: Negative, options: PhotoOptions, threshold: float = HALF
+) -> Frame:
     """Frame of a photo: its rectangle, its cut-out, or the largest shape in its middle.
+
+    Parameters
+    ----------
+    threshold
+        Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
 
     Raises
     ------
@@ -68,7 +76,7 @@ def framed(data: bytes, negative: Negative, options: PhotoOptions) -> Frame:
     elif options.shape is not None and options.rounding is None:
         window, picture = _shaped(options.shape, full)
     elif negative.has_alpha:
-        window, picture = full, _cut_out(data, negative)
+        window, picture = full, _cut_out(data, negative, threshold)
     else:
         window, picture = full, shapely.box(*full)
     is_cut = picture.area < (1 - 1e-9) * shapely.box(*window).area
@@ -98,13 +106,14 @@ def _shaped(shape: str, full: Window) -> tuple[Window, Region]:
     return (max(x0, 0.0), max(y0, 0.0), min(x1, full[2]), min(y1, full[3])), placed
 
 
-def _cut_out(data: bytes, negative: Negative) -> Region:
+def _cut_out(data: bytes, negative: Negative, threshold: float) -> Region:
     """What is not clear of a photo."""
     scale = min(1.0, CUT_OUT_PX / max(negative.width, negative.height))
     size = max(1, round(negative.width * scale)), max(1, round(negative.height * scale))
     full = (0.0, 0.0, float(negative.width), float(negative.height))
     pixels = np.asarray(developed(data, full, size))
-    traced = outline_of_cut_out(pixels)
+    tell_what_is_faint(solidity(pixels), threshold)
+    traced = outline_of_cut_out(pixels, threshold)
     ratio = np.array([negative.width / size[0], negative.height / size[1]])
     return shapely.transform(traced, lambda points: points * ratio)
 

@@ -13,6 +13,7 @@ from PIL import Image
 
 from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.files import read_bytes, stem
+from packwork.readers.options import HALF
 from packwork.readers.photos.developing import Negative, Window, developed, inspected
 from packwork.readers.photos.frames import framed
 from packwork.readers.photos.options import PhotoOptions
@@ -104,13 +105,15 @@ class Photograph:
         return VectorArt(clip + border + image, place, is_traced=True)
 
 
-def read_photo(file: str, options: PhotoOptions, number: int = 1) -> Item:
+def read_photo(file: str, options: PhotoOptions, number: int = 1, threshold: float = HALF) -> Item:
     """Item of a photo, its units the pixels of the file.
 
     Parameters
     ----------
     number
         Which photo of a run it is: one file may be there twice.
+    threshold
+        Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
 
     Raises
     ------
@@ -132,7 +135,7 @@ def read_photo(file: str, options: PhotoOptions, number: int = 1) -> Item:
     data = read_bytes(file, MAX_PICTURE_BYTES)
     with naming(file):
         negative = inspected(data)
-        frame = framed(data, negative, options)
+        frame = framed(data, negative, options, threshold)
         whole = clean_union(frame.whole, speck=SPECK)
         outline, ink, place = centred(whole, "fill")
     has_border = options.border_share > 0

@@ -15,6 +15,7 @@ from packwork.errors import ReadError
 from packwork.readers.files import exists, is_folder
 from packwork.readers.folders import LOOK_LIKE_PICTURES, Listing, listed, matched
 from packwork.readers.items import ItemsRead
+from packwork.readers.options import HALF
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.photo import read_photo
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
@@ -37,7 +38,9 @@ class _Named:
     by_itself: bool
 
 
-def read_photos(options: PhotoOptions, *, strict: bool = False) -> ItemsRead:
+def read_photos(
+    options: PhotoOptions, *, strict: bool = False, threshold: float = HALF
+) -> ItemsRead:
     """Items of all photos, in the order of the sources, files of a folder by name.
 
     A file named by itself must be usable; one among many of a folder or a pattern is left
@@ -47,6 +50,8 @@ def read_photos(options: PhotoOptions, *, strict: bool = False) -> ItemsRead:
     ----------
     strict
         Whether an unusable file among many is an error too.
+    threshold
+        Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
 
     Raises
     ------
@@ -67,7 +72,7 @@ def read_photos(options: PhotoOptions, *, strict: bool = False) -> ItemsRead:
     # not set aside warnings each for itself.
     with warnings.catch_warnings(), ThreadPoolExecutor(_threads()) as threads:
         warnings.simplefilter("ignore")
-        results = list(threads.map(_reading(options), named, range(1, len(named) + 1)))
+        results = list(threads.map(_reading(options, threshold), named, range(1, len(named) + 1)))
     items: list[Item] = []
     skipped: list[ReadError] = []
     for one, result in zip(named, results, strict=True):
@@ -84,10 +89,10 @@ def read_photos(options: PhotoOptions, *, strict: bool = False) -> ItemsRead:
     return ItemsRead(tuple(items), (*skipped, *unread))
 
 
-def _reading(options: PhotoOptions) -> Callable[[_Named, int], Item | ReadError]:
+def _reading(options: PhotoOptions, threshold: float) -> Callable[[_Named, int], Item | ReadError]:
     def read(one: _Named, number: int) -> Item | ReadError:
         try:
-            return read_photo(one.file, options, number)
+            return read_photo(one.file, options, number, threshold)
         except ReadError as error:
             return error
 

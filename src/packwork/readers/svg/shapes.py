@@ -152,14 +152,21 @@ def _line(element: ET.Element, viewport: Viewport) -> list[SubPath]:
 
 
 def _polyline(element: ET.Element, _: Viewport) -> list[SubPath]:
-    return _pieces_through(_points(element), is_closed=False)
+    return _pieces_through(points_of(element), is_closed=False)
 
 
 def _polygon(element: ET.Element, _: Viewport) -> list[SubPath]:
-    return _polygon_through(_points(element))
+    return _polygon_through(points_of(element))
 
 
-def _points(element: ET.Element) -> list[tuple[float, float]]:
+def points_of(element: ET.Element) -> list[tuple[float, float]]:
+    """Corners of a polygon or a polyline, in its own units.
+
+    Examples
+    --------
+    >>> points_of(ET.Element("polyline", {"points": "0 0 2,1.5"}))
+    [(0.0, 0.0), (2.0, 1.5)]
+    """
     numbers = parse_numbers(element.get("points"))
     if len(numbers) > 2 * MAX_SEGMENTS:
         raise UnfitError(f"has a polygon of more than {MAX_SEGMENTS:,} points; simplify it")

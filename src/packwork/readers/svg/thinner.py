@@ -16,8 +16,7 @@ from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import silhouette
-from packwork.geometry.snapping import without_clefts
-from packwork.readers.regions import Holes, clean_union
+from packwork.readers.regions import Holes, clean_union, without_holes
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import Drawing, read_drawing
 from packwork.readers.svg.extent import drawing_box
@@ -93,9 +92,8 @@ class LineDrawing:
             # Curves are followed as they were, so that edges that stay are the same.
             painted = PaintedInk(painted_shapes(root, None), extent)
             body = clean_union(painted.body)
-            solid = silhouette(body)
-            shape = silhouette(without_clefts(solid)) if holes == "fill" else body
-            is_sure = holes == "keep" or shape.area <= (1 + UNSURE) * solid.area
+            shape = without_holes(body) if holes == "fill" else body
+            is_sure = holes == "keep" or shape.area <= (1 + UNSURE) * silhouette(body).area
             outline = Outline.from_region(shape).mapped(place)
             ink = Outline.from_region(clean_union(painted.whole)).mapped(place)
             if not _is_within(outline, self.item.outline):

@@ -9,6 +9,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import shapely
 
+from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
@@ -58,6 +59,8 @@ class Sheet:
         Whether it promised areas in the shares of the weights.
     on_trust
         What of it could not be seen and was believed, a sentence each.
+    walls
+        Lines that are seen of a container with openings, canvas units; None: all of its edge.
     """
 
     width: float
@@ -68,6 +71,7 @@ class Sheet:
     areas_in_shares: bool = False
     items: Sequence[Found] = field(default_factory=tuple)
     on_trust: tuple[str, ...] = ()
+    walls: tuple[FloatArray, ...] | None = None
 
 
 def assembled(sheet: Sheet, name: str) -> Layout:
@@ -90,7 +94,9 @@ def assembled(sheet: Sheet, name: str) -> Layout:
     ([2.0], (1.0, 1.0, 3.0, 2.0), 0.5)
     """
     outline = _outline(sheet.container, "the container")
-    container = Container(name, name, outline, sheet.width, sheet.height, sheet.unit)
+    container = Container(
+        name, name, outline, sheet.width, sheet.height, sheet.unit, walls=sheet.walls
+    )
     outlines = [
         _outline(one.region, f"item {number} ({one.name})")
         for number, one in enumerate(sheet.items, start=1)

@@ -35,7 +35,10 @@ def layout_of_dxf(text: str, name: str) -> Layout:
     tags = tags_of(text)
     width, height, unit = _canvas(header_of(tags))
     lines = lines_of(tags)
-    walls = [line for line in lines if line.layer == "container"]
+    # A container that has openings shows its walls; what is measured has a layer of its own.
+    seen = [line for line in lines if line.layer == "container"]
+    room = [line for line in lines if line.layer == "room"]
+    walls = room or [line for line in seen if line.is_closed]
     if not walls:
         raise UnfitError(f"has no line on the layer container, {_NOT_OURS}")
     gap, shares = _promise(walls[0])
@@ -47,6 +50,7 @@ def layout_of_dxf(text: str, name: str) -> Layout:
         gap=gap,
         areas_in_shares=shares,
         items=_items(_outlines(lines), height),
+        walls=tuple(_down(line.points, height) for line in seen) if room else None,
     )
     return assembled(sheet, name)
 

@@ -20,6 +20,9 @@ from packwork.readers.unfit import UnfitError
 APPLICATION = "PACKWORK"
 """Name under which our files say what a line belongs to."""
 
+OPEN_LAYER = "container"
+"""Where lines may be open: the walls of a container that has openings."""
+
 Tag: TypeAlias = tuple[int, str]
 
 _CLOSED = 1
@@ -28,7 +31,7 @@ _FIRST_EXTENDED = 1_000
 
 @dataclass(frozen=True, eq=False)
 class Line:
-    """One closed polyline.
+    """One polyline.
 
     Parameters
     ----------
@@ -38,11 +41,14 @@ class Line:
         ``(n, 2)``, drawing units, y up.
     said
         What our files say of it: numbers and texts in order.
+    is_closed
+        Whether its end is its begin.
     """
 
     layer: str
     points: FloatArray
     said: tuple[str, ...]
+    is_closed: bool = True
 
 
 def tags_of(text: str) -> list[Tag]:
@@ -89,12 +95,12 @@ def header_of(tags: Sequence[Tag]) -> dict[str, list[float]]:
 
 
 def lines_of(tags: Sequence[Tag]) -> list[Line]:
-    """Closed polylines of the drawing, in their order.
+    """Polylines of the drawing, in their order.
 
     Raises
     ------
     UnfitError
-        If one is open, bent or has coordinates that are none.
+        If one is bent, has coordinates that are none, or is open and no wall of a container.
 
     Examples
     --------
@@ -128,11 +134,12 @@ def _line(tags: Sequence[Tag]) -> Line:
     flags = next((_number(value) for code, value in plain if code == 70), 0.0)
     x, y = ([_number(value) for code, value in plain if code == axis] for axis in (10, 20))
     is_bent = any(code == 42 and _number(value) != 0 for code, value in plain)
-    if is_bent or not (flags == flags and int(flags) & _CLOSED):
+    is_closed = flags == flags and bool(int(flags) & _CLOSED)
+    if is_bent or not (is_closed or layer == OPEN_LAYER):
         raise UnfitError(f"holds a line on layer {layer[:20]!r} that is open or bent")
-    if len(x) != len(y) or len(x) < 3 or not _is_sane([*x, *y]):
+    if len(x) != len(y) or len(x) < (3 if is_closed else 2) or not _is_sane([*x, *y]):
         raise UnfitError(f"holds a line on layer {layer[:20]!r} whose points are none")
-    return Line(layer, np.column_stack([x, y]), tuple(_said(tags)))
+    return Line(layer, np.column_stack([x, y]), tuple(_said(tags)), is_closed)
 
 
 def _said(tags: Sequence[Tag]) -> Iterator[str]:

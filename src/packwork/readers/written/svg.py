@@ -19,6 +19,7 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region, silhouette
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.pictures.decode import decode_picture
@@ -28,6 +29,7 @@ from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.lengths import parse_length
 from packwork.readers.svg.page import view_box
+from packwork.readers.svg.shapes import points_of
 from packwork.readers.svg.transforms import parse_transform
 from packwork.readers.unfit import UnfitError
 from packwork.readers.written.assembly import Found, Sheet, assembled, sound_gap, sound_weight
@@ -49,6 +51,9 @@ LOST_ITEMS = (
 )
 LOST_CONTAINER = "has no group named container any more: the page is taken for it"
 """What is said of files from which another program has taken our groups."""
+
+_OWN = frozenset({"transform", "data-bays"})
+"""Attributes of a drawing's element that are not its own."""
 
 _SAME = 1e-9
 _SPACE = "{http://www.w3.org/2000/svg}"
@@ -106,6 +111,7 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
             *([LOST_ITEMS] if items is None else []),
             *([LOST_CONTAINER] if walls is None else []),
         ),
+        walls=None if walls is None else _walls(walls, affine.compose(to_canvas, _place(walls))),
     )
     return assembled(sheet, name)
 
@@ -176,10 +182,16 @@ class _Drawings:
             path = _path(source.attrib["data-outline"], "nonzero")
             return _placed(self._followed([path], size * _size(own)), own)
         if tag(source) == "image":
-            return _placed(_picture(source), own)
-        bare = copy.copy(source)
-        bare.attrib = {key: v for key, v in source.attrib.items() if key != "transform"}
-        return _placed(self._followed([bare], size * _size(own)), own)
+            seen = _picture(source)
+        else:
+            bare = copy.copy(source)
+            bare.attrib = {key: v for key, v in source.attrib.items() if key not in _OWN}
+            seen = self._followed([bare], size * _size(own))
+        if "data-bays" in source.attrib:
+            # No matter of trust: whatever is added makes the item larger.
+            bays = self._followed([_path(source.attrib["data-bays"])], size * _size(own))
+            seen = union([seen, bays])
+        return _placed(seen, own)
 
     def _followed(self, elements: list[ET.Element], size: float) -> Region:
         """What elements paint, in their own units, fine enough for a copy of that size."""
@@ -198,6 +210,15 @@ def _found(
     placed = _placed(ink, affine.compose(to_canvas, _place(drawn)))
     name, weight = drawn.get("data-name", "item"), drawn.get("data-weight", "1")
     return Found(name, placed if keeps_holes else silhouette(placed), sound_weight(weight))
+
+
+def _walls(group: ET.Element, place: FloatArray) -> tuple[FloatArray, ...] | None:
+    """Lines that are seen of a container with openings; None if its outline is."""
+    lines = [np.array(points_of(e)) for e in group if tag(e) == "polyline"]
+    seen = tuple(affine.apply(place, line) for line in lines if len(line) > 1)
+    # An outline that is not drawn has its walls beside it, be it none at all.
+    is_drawn = any(e.get("stroke") != "none" for e in group if tag(e) == "path")
+    return None if is_drawn and not seen else seen
 
 
 def _place(element: ET.Element) -> FloatArray:
