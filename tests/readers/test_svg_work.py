@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from unittest.mock import Mock
+
 import numpy as np
 import pytest
 import shapely
 
 from packwork.errors import ReadError
+from packwork.geometry import affine
 from packwork.readers import budget
 from packwork.readers.gate.door import admit
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg
+from packwork.readers.svg.touched import touched
 from packwork.readers.svg.trace import MAX_POINTS, MAX_RINGS
+from packwork.readers.svg.walk import painted_shapes
 from packwork.readers.unfit import TooRichError
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1000 1000">{}</svg>'
@@ -95,3 +100,28 @@ def test_plain_drawings_spend_little_of_their_budget():
         item_of_svg(data(body), "a", "a.svg", is_compared=True)
     assert spent.left("shapes") > 0.5 * budget.SHAPES_NS
     assert spent.left("pictures") > 0.8 * budget.PICTURES_NS
+
+
+def test_every_pixel_that_a_line_crosses_is_touched_and_no_other():
+    path = '<path d="M5 5H95V45M20 60h0M30 70l40 20M60 95z" fill="none" stroke="#000"/>'
+    root = admit(f'<svg viewBox="0 0 100 100">{path}</svg>'.encode())
+    found = touched(painted_shapes(root, None), (0.0, 0.0, 100.0, 100.0), (100, 100))
+    expected = np.zeros((100, 100), dtype=bool)
+    expected[5, 5:96] = expected[5:46, 95] = expected[60, 20] = True
+    along = np.linspace(0.0, 1.0, 2_000)
+    expected[(70 + 20 * along).astype(int), (30 + 40 * along).astype(int)] = True
+    expected[95, 60] = True
+    assert (found & ~expected).sum() == 0
+    assert (expected & ~found).sum() <= 2
+
+
+def test_thousands_of_dots_are_looked_up_together(monkeypatch):
+    """Per line of a path nothing is done but lists: one lookup for all of them."""
+    dots = "".join(f"M{k % 200} {k // 200}h0" for k in range(3_000))
+    path = f'<path d="{dots}" stroke-linecap="round" stroke="#000"/>'
+    root = admit(f'<svg viewBox="0 0 200 200">{path}</svg>'.encode())
+    placed = Mock(wraps=affine.apply)
+    shapes = painted_shapes(root, None)
+    monkeypatch.setattr(affine, "apply", placed)
+    assert touched(shapes, (0.0, 0.0, 200.0, 200.0), (200, 200)).sum() == 3_000
+    assert placed.call_count <= 2

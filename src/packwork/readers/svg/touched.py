@@ -9,7 +9,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from packwork.arrays import BoolArray
+from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
 from packwork.readers.svg.painted import Painted
 from packwork.readers.svg.shapes import flattened_all
@@ -47,19 +47,34 @@ def touched(
         if painted.window is not None and painted.window.is_empty:
             continue
         tolerance = px / max(np.abs(painted.matrix[:, :2]).max(), 1e-12)
-        for line, piece in zip(
-            flattened_all(painted.pieces, tolerance), painted.pieces, strict=True
-        ):
-            ends = affine.apply(painted.matrix, line)
-            if piece.is_closed or painted.painting.has_fill:
-                ends = np.concatenate([ends, ends[:1]])
-            if len(ends) < 2:
-                continue
-            along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(ends, axis=0).T))])
-            at = np.linspace(0.0, along[-1], 2 + int(along[-1] / step))
-            columns, rows = (
-                ((np.interp(at, along, ends[:, k]) - part[k]) / px).astype(int) for k in (0, 1)
-            )
-            is_shown = (rows >= 0) & (rows < shape[0]) & (columns >= 0) & (columns < shape[1])
-            found[rows[is_shown], columns[is_shown]] = True
+        lines = flattened_all(painted.pieces, tolerance)
+        has_fill = painted.painting.has_fill
+        is_closed = np.array([has_fill or piece.is_closed for piece in painted.pieces])
+        ends = _edges(painted.matrix, lines, is_closed)
+        columns, rows = ((_along(ends, step) - part[:2]) / px).astype(int).T
+        is_shown = (rows >= 0) & (rows < shape[0]) & (columns >= 0) & (columns < shape[1])
+        found[rows[is_shown], columns[is_shown]] = True
     return found
+
+
+def _edges(matrix: FloatArray, lines: Sequence[FloatArray], is_closed: BoolArray) -> FloatArray:
+    """``(n, 2, 2)`` both ends of each edge; after an open line's last point, that point twice."""
+    counts = np.array([len(line) for line in lines])
+    is_line = counts >= np.where(is_closed, 1, 2)
+    counts, is_closed = counts[is_line], is_closed[is_line]
+    if len(counts) == 0:
+        return np.empty((0, 2, 2))
+    points = np.concatenate([line for line, is_one in zip(lines, is_line, strict=True) if is_one])
+    last = np.cumsum(counts) - 1
+    after = np.arange(1, len(points) + 1)
+    after[last] = np.where(is_closed, last - counts + 1, last)
+    placed = affine.apply(matrix, points)
+    return np.stack([placed, placed[after]], axis=1)
+
+
+def _along(ends: FloatArray, step: float) -> FloatArray:
+    """Points along edges, a step apart at most, the first end of each among them."""
+    counts = 1 + (np.hypot(*(ends[:, 1] - ends[:, 0]).T) / step).astype(int)
+    edge = np.repeat(np.arange(len(ends)), counts)
+    share = (np.arange(len(edge)) - np.repeat(np.cumsum(counts) - counts, counts)) / counts[edge]
+    return np.asarray(ends[edge, 0] + share[:, None] * (ends[edge, 1] - ends[edge, 0]))
