@@ -51,7 +51,7 @@ _OTHER_GENERIC = frozenset(
 
 
 @dataclass(frozen=True, kw_only=True)
-class Fonts:
+class FontChoice:
     """What the letters of a document are set in.
 
     Parameters
@@ -69,7 +69,7 @@ class Fonts:
     monospace: str
 
 
-def fonts_of(document: str) -> Fonts | None:
+def fonts_of(document: str) -> FontChoice | None:
     """Fonts for whatever text there is in an SVG document; None if there is none.
 
     Parameters
@@ -92,7 +92,7 @@ def fonts_of(document: str) -> Fonts | None:
     return fonts_for(wishes, html.unescape(_TAG.sub("", texts)))
 
 
-def fonts_for(wishes: Iterable[str], letters: str) -> Fonts:
+def fonts_for(wishes: Iterable[str], letters: str) -> FontChoice:
     """Fonts for lists of families as ``font-family`` writes them.
 
     Of each list the first family that is installed; where nothing is, the bundled font. If
@@ -116,7 +116,7 @@ def fonts_for(wishes: Iterable[str], letters: str) -> Fonts:
     if any(letter > _PLAIN_LETTERS for letter in letters):
         needed += sorted(installed)
     files = [file for name in needed for file in installed.get(name.lower(), ())]
-    return Fonts(
+    return FontChoice(
         files=tuple(dict.fromkeys((*files, bundled_file()))),
         serif=generic["serif"],
         sans_serif=generic["sans-serif"],

@@ -64,8 +64,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     """What to fill: a mask (PNG, JPEG), SVG, text:WORD, around:IMAGE, a built-in name or page."""
 
     font: str | None = None
-    """Font file (TTF, OTF, TTC) for a container text:WORD, or for words; for these also an
-    installed family, and several in turn. Default: a bundled bold sans."""
+    """Font file (TTF, OTF, TTC) or installed family, for a container text:WORD or for words;
+    for these also several in turn. Default: a bundled bold sans, others for what it lacks."""
 
     items: tuple[str, ...] = ("builtin:icons",)
     """What to place: SVGs, pictures, folders of them, or built-in names."""

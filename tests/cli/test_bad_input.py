@@ -20,7 +20,7 @@ CONTAINERS = [
     ("hart", "did you mean heart"),
     ("note.txt", "unknown ending '.txt'"),
     ("text:", "holds no word; give one, as in text:HELLO"),
-    ("text:中", "has no glyph for"),
+    ("text:\U0010fffe", "no font installed has"),
     ("text:A --font missing.ttf", "there is no such file"),
     ("text:A --font note.txt", "note.txt: is not a font; give a TTF"),
     ("heart --font note.txt", "font: sets a container of words, as in text:HELLO, not 'heart'"),

@@ -40,7 +40,7 @@ def test_words_without_a_font_are_named_and_the_rest_is_written(
     (folder / "t.csv").write_text("bear,2\nfox,1\n中,1\n", encoding="utf-8")
     result = packwork(f"words circle t.csv {QUICK} -o c.svg", "--font", "Inter Display")
     assert result.exit_code == 1
-    assert "not placed: 中 (item 3): no font of the fonts given has 中" in result.stderr
+    assert "not placed: 中 (item 3): no font given has '中'" in result.stderr
     assert Path("c.svg").exists()
 
 

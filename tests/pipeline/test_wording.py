@@ -53,7 +53,7 @@ def test_a_word_that_no_font_can_draw_is_reported_after_the_others() -> None:
     run = fill(words_recipe("circle", {**WEIGHTS, "中": 1.0}, fonts=["Inter Display"], **QUICK))
     (undrawn,) = run.unplaced
     assert (undrawn.item, undrawn.index) == ("中", 4)
-    assert "no font of the fonts given has 中" in undrawn.reason
+    assert "no font given has '中'" in undrawn.reason
     report = run.report()
     assert (report["items"], report["placed"], report["certified"]) == (5, 4, True)
 

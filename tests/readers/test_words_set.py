@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from made_fonts import variable_font
 from packwork.errors import ReadError, RecipeError
-from packwork.readers.typeface.face import Typeface, bundled_typeface
-from packwork.readers.typeface.fonts import open_fonts
+from packwork.readers.fonts.face import Typeface, bundled_typeface
+from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import EM_PX, read_word_items, word_item
 from packwork.readers.words.options import WordOptions

@@ -16,8 +16,8 @@ from fontTools.ttLib import TTFont
 
 import packwork as pw
 from made_fonts import variable_font
-from packwork.readers.typeface.face import Typeface
-from packwork.readers.typeface.fonts import Fonts
+from packwork.readers.fonts.face import Typeface
+from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.words.items import word_item
 from packwork.readers.words.word import Word
 from packwork.readers.written.read import read_written

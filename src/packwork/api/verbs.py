@@ -279,7 +279,7 @@ def read_container(
         Its longer side (``600``, ``"200mm"``, ``"8in"``) or a sheet (``"200x150mm"``,
         ``"A4"``). None: an SVG in mm, cm, in or pt keeps its size, any other is 600 px.
     font
-        Font file for ``text:WORD``; the bundled one if None.
+        Font file or installed family for ``text:WORD``; the bundled one if None.
     trim, close_gaps, alpha_threshold
         As for :func:`fill`.
 

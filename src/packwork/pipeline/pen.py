@@ -9,8 +9,8 @@ import numpy as np
 
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.readers.typeface.fonts import Fonts, open_fonts
-from packwork.readers.typeface.lettering import Lettering
+from packwork.readers.fonts.fallback import Fonts, open_fonts
+from packwork.readers.fonts.lettering import Lettering
 from packwork.readers.unfit import UnfitError
 from packwork.scene.note import Note
 from packwork.writers.notation import path_data

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from packwork.fonts import Fonts, fonts_of
+from packwork.fonts import FontChoice, fonts_of
 
 _DPI = 96
 _LONGEST_REASON = 160
@@ -47,7 +47,7 @@ def drawn_png(document: str) -> bytes:
     return bytes(picture)
 
 
-def font_options(fonts: Fonts) -> dict[str, Any]:
+def font_options(fonts: FontChoice) -> dict[str, Any]:
     """The same, as resvg's options are called.
 
     Examples

@@ -51,7 +51,7 @@ def read_container(
         Its size, as ``scene.canvas`` reads it. None: that of an SVG in real units,
         else 600 px on the longer side.
     font
-        Font file for ``text:WORD``; the bundled one if None.
+        Font file or installed family for ``text:WORD``; the bundled one if None.
     quiet
         Which part of the picture ``around:IMAGE`` is; 40 % of it if None.
     reading

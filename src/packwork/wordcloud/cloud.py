@@ -8,7 +8,6 @@ import os
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from importlib import resources
 from pathlib import Path
 from random import Random
 from typing import Any, Literal, Self
@@ -18,8 +17,8 @@ import numpy.typing as npt
 from PIL import Image, ImageColor, ImageDraw
 
 from packwork import writers
-from packwork.readers.text.container import FONT
-from packwork.readers.typeface.fonts import open_fonts
+from packwork.fonts import bundled_file
+from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.words.items import EM_PX
 from packwork.scene.layout import Layout
 from packwork.wordcloud.colours import ColourFunction, colormap_color_func
@@ -35,9 +34,7 @@ _LOG = logging.getLogger("packwork")
 Entry = tuple[tuple[str, float], int, tuple[int, int], Any, Any]
 """Word and frequency, font size, place (row, column), orientation, colour."""
 
-FONT_PATH = os.environ.get(
-    "FONT_PATH", str(resources.files("packwork.bundled").joinpath("fonts", FONT))
-)
+FONT_PATH = os.environ.get("FONT_PATH", bundled_file())
 """Font where none is given."""
 
 FAINT = 4

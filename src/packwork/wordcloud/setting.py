@@ -13,9 +13,9 @@ import shapely
 
 from packwork import pipeline
 from packwork.geometry.outline import Outline
+from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.svg.container import placed_container
-from packwork.readers.typeface.fonts import Fonts
 from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import EM_PX, word_item
 from packwork.readers.words.word import Word
@@ -143,7 +143,7 @@ def placed(
 
     Examples
     --------
-    >>> from packwork.readers.typeface.fonts import open_fonts
+    >>> from packwork.readers.fonts.fallback import open_fonts
     >>> asked = Setting(container_of_mask(None, 90, 60), open_fonts([]), 1.0, 1.0, 4.0, 20.0)
     >>> found = placed(asked, ["ox", "bee"], np.array([1.0, 0.5]), Random(0))
     >>> (found.layout.poses.scale * EM_PX).round(6).tolist()

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
-from importlib import resources
 from pathlib import Path
 
-from packwork.readers.files import read_bytes
+from packwork.readers.fonts.fallback import Fonts, is_font_file, open_fonts, typeface_of_file
 from packwork.readers.regions import clean_union
 from packwork.readers.svg.container import placed_container
 from packwork.readers.text import PREFIX
-from packwork.readers.text.face import Letter, letters
-from packwork.readers.text.setting import lines_of, set_lines
-from packwork.readers.text.sfnt import MAX_FONT_BYTES
+from packwork.readers.text.letters import letters_of
+from packwork.readers.text.lines import lines_of, set_lines
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
 
-FONT = "InterDisplay-Black.otf"
-"""The bundled font: thick strokes, in Latin, Greek and Cyrillic letters."""
+WEIGHT = 900
+"""Of installed families: the thickest letters hold the most. Chosen."""
 
 MARGIN = 0.02
 """Free edge of the canvas, as a share of the words' longer side. Chosen."""
@@ -27,15 +25,16 @@ def container_of_words(
 ) -> Container:
     """Container of ``text:`` and words, ``|`` between lines, on a canvas about them.
 
-    One glyph a character, left to right: no ligatures, no scripts whose letters join.
-    The counters of letters are holes.
+    Words of any script, shaped as its readers expect. Letters stand apart, but those that
+    join in writing, as in Arabic and Hindi. The counters of letters are holes.
 
     Parameters
     ----------
     side
         Longer side of the canvas, in canvas units.
     font
-        A TTF, OTF or TTC file; the bundled bold sans if None.
+        A TTF, OTF or TTC file, or an installed family. If None the bundled bold sans, and
+        installed fonts for what it lacks.
 
     Raises
     ------
@@ -50,18 +49,15 @@ def container_of_words(
     """
     with naming(source):
         lines = lines_of(source.removeprefix(PREFIX))
-    with naming(FONT if font is None else str(font)):
-        found = _letters(font, "".join(lines))
-    with naming(source):
-        words = clean_union(set_lines(lines, found))
+        fonts = _fonts(None if font is None else str(font))
+        words = clean_union(set_lines([letters_of(line) for line in fonts.settings(lines)]))
     left, top, right, bottom = words.bounds
     edge = MARGIN * max(right - left, bottom - top)
     canvas = (left - edge, top - edge, right - left + 2 * edge, bottom - top + 2 * edge)
     return placed_container(" ".join(lines), source, words, canvas, side)
 
 
-def _letters(font: str | Path | None, characters: str) -> dict[str, Letter]:
-    if font is not None:
-        return letters(read_bytes(font, MAX_FONT_BYTES), characters)
-    bundled = resources.files("packwork.bundled").joinpath("fonts", FONT)
-    return letters(bundled.read_bytes(), characters)
+def _fonts(font: str | None) -> Fonts:
+    if font is None:
+        return open_fonts([], WEIGHT)
+    return Fonts([typeface_of_file(font)]) if is_font_file(font) else open_fonts([font], WEIGHT)

@@ -14,11 +14,11 @@ from packwork.arrays import FloatArray
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.readers.fonts.fallback import Fonts, open_fonts
+from packwork.readers.fonts.lettering import Lettering
+from packwork.readers.fonts.pictures import Picture
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.typeface.fonts import Fonts, open_fonts
-from packwork.readers.typeface.lettering import Lettering
-from packwork.readers.typeface.pictures import Picture
 from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.options import WeightIs, WordOptions
 from packwork.readers.words.source import ranked_words

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
-from importlib import resources
 from itertools import combinations
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -16,17 +16,44 @@ from fontTools.pens.t2CharStringPen import T2CharStringPen
 from fontTools.pens.ttGlyphPen import TTGlyphPen
 from fontTools.ttLib import TTCollection, TTFont
 from fontTools.ttLib.tables._c_m_a_p import CmapSubtable
+from PIL import Image
+from shapely import Polygon
 
+from made_fonts import EMOJI, STRIKE_PX, emoji_font
 from packwork.errors import ReadError
+from packwork.fonts import FOLDERS, bundled_file
 from packwork.geometry.polygon import polygon_parts
 from packwork.readers.container import read_container
-from packwork.readers.text.characters import glyph_numbers
-from packwork.readers.text.container import FONT, container_of_words
-from packwork.readers.text.face import Letter, letters
-from packwork.readers.text.setting import LETTER_GAP, LINE_GAP, MOST_CHARACTERS, set_lines
+from packwork.readers.fonts.face import Typeface
+from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.text.container import container_of_words
+from packwork.readers.text.letters import Letter, letters_of
+from packwork.readers.text.lines import LETTER_GAP, LINE_GAP, MOST_CHARACTERS, set_lines
+from packwork.readers.unfit import naming
 
-BUNDLED = resources.files("packwork.bundled").joinpath("fonts", FONT).read_bytes()
+BUNDLED = Path(bundled_file()).read_bytes()
+SCRIPTS = Path(__file__).parent.parent / "fonts"
 EM = 1000
+
+
+def letters(data: bytes, text: str) -> list[Letter]:
+    """Letters of one line, by a font file's bytes."""
+    with naming("own.ttf"):
+        (line,) = Fonts([Typeface(data, "own.ttf")]).settings([text])
+        return letters_of(line)
+
+
+def squares(count: int):
+    """Glyphs by name, the k-th a square of k tenths of an em."""
+    glyphs = {".notdef": TTGlyphPen(None).glyph()}
+    for k in range(1, count + 1):
+        pen = TTGlyphPen(None)
+        pen.moveTo((0, 0))
+        for place in ((0, 100 * k), (100 * k, 100 * k), (100 * k, 0)):
+            pen.lineTo(place)
+        pen.closePath()
+        glyphs[f"g{k}"] = pen.glyph()
+    return glyphs
 
 
 def draw_block(pen, left=100):
@@ -95,7 +122,7 @@ def test_letters_are_those_that_fonttools_draws():
     font = TTFont(io.BytesIO(BUNDLED))
     glyphs, names = font.getGlyphSet(), font.getBestCmap()
     em = font["head"].unitsPerEm
-    for character, letter in letters(BUNDLED, text).items():
+    for character, letter in zip(text, letters(BUNDLED, text), strict=True):
         glyph = glyphs[names[ord(character)]]
         area, bounds = AreaPen(glyphs), BoundsPen(glyphs)
         glyph.draw(area)
@@ -108,25 +135,24 @@ def test_letters_are_those_that_fonttools_draws():
         assert letter.advance == glyph.width / em
 
 
-def test_every_character_of_the_bundled_font_finds_its_glyph():
-    font = TTFont(io.BytesIO(BUNDLED))
-    expected = {chr(code): font.getGlyphID(name) for code, name in font.getBestCmap().items()}
-    assert glyph_numbers(font.reader["cmap"], expected) == expected
-
-
 @pytest.mark.parametrize("form", [0, 4, 6, 12, 13])
 def test_all_forms_of_character_tables(form):
-    codes = [65, 66, 67, 90, 200] if form == 0 else [65, 66, 67, 300, 0x4E2D]
+    codes = [65, 66, 67, 90] if form == 0 else [65, 66, 67, 300, 0x4E2D]
     codes += [0x1F600, 0x1F601] if form >= 12 else []
+    font = TTFont(io.BytesIO(built(squares(len(codes)), {})))
+    names = font.getGlyphOrder()
     table = CmapSubtable.newSubtable(form)
     table.platformID, table.platEncID, table.language = 3, 10 if form >= 12 else 1, 0
-    names = [f"g{k}" for k in range(len(codes) + 1)]
     table.cmap = {code: names[k + 1] for k, code in enumerate(codes)}
-    font = TTFont()
-    font.setGlyphOrder(names)
-    header = b"\0\0\0\1" + bytes([0, 3, 0, table.platEncID, 0, 0, 0, 12])
-    found = glyph_numbers(header + table.compile(font), [*map(chr, codes), "!", "\U0010fffe"])
-    assert list(found.values()) == [*range(1, len(codes) + 1), 0, 0]
+    font["cmap"].tables = [table]
+    stream = io.BytesIO()
+    font.save(stream)
+    widths = [row.region.bounds[2] for row in letters(stream.getvalue(), "".join(map(chr, codes)))]
+    assert widths == pytest.approx([0.1 * (k + 1) for k in range(len(codes))])
+    with pytest.raises(
+        ReadError, match=r"given has '!' \(U\+0021\), '.*' \(U\+10FFFE\); choose another"
+    ):
+        letters(stream.getvalue(), "A!\U0010fffe")
 
 
 def test_symbols_are_found_where_symbol_fonts_keep_them():
@@ -139,11 +165,11 @@ def test_symbols_are_found_where_symbol_fonts_keep_them():
     font["cmap"].tables = [kept]
     stream = io.BytesIO()
     font.save(stream)
-    assert letters(stream.getvalue(), "B")["B"].region.area == pytest.approx(0.18)
+    assert letters(stream.getvalue(), "B")[0].region.area == pytest.approx(0.18)
 
 
 def test_truetype_outlines_composites_and_holes(truetype):
-    found = letters(truetype, "BDX ")
+    found = dict(zip("BDX ", letters(truetype, "BDX "), strict=True))
     assert found["B"].region.area == pytest.approx(0.4 * 0.7 - 0.2 * 0.5)
     assert found["B"].region.bounds == pytest.approx((0.1, -0.7, 0.5, 0))
     assert found["D"].region.bounds == pytest.approx((0, -0.6, 0.6, 0))
@@ -157,15 +183,15 @@ def test_side_bearings_move_truetype_letters():
     before = letters(built(glyphs, CMAP), "BX")
     moved = {name: (600, getattr(glyph, "xMin", 0) + 50) for name, glyph in glyphs.items()}
     after = letters(built(glyphs, CMAP, moved), "BX")
-    for name in "BX":
-        shift = np.subtract(after[name].region.bounds, before[name].region.bounds)
+    for one, other in zip(before, after, strict=True):
+        shift = np.subtract(other.region.bounds, one.region.bounds)
         assert shift == pytest.approx((0.05, 0, 0.05, 0), abs=1e-9)
 
 
 def test_postscript_outlines(postscript):
-    found = letters(postscript, "B")
-    assert found["B"].region.area == pytest.approx(0.18)
-    assert len(polygon_parts(found["B"].region)[0].interiors) == 1
+    (found,) = letters(postscript, "B")
+    assert found.region.area == pytest.approx(0.18)
+    assert len(polygon_parts(found.region)[0].interiors) == 1
 
 
 def test_first_font_of_a_collection(truetype, postscript):
@@ -173,7 +199,7 @@ def test_first_font_of_a_collection(truetype, postscript):
     collection.fonts = [TTFont(io.BytesIO(truetype)), TTFont(io.BytesIO(postscript))]
     stream = io.BytesIO()
     collection.save(stream)
-    assert letters(stream.getvalue(), "X").keys() == {"X"}
+    assert len(letters(stream.getvalue(), "X")) == 1
 
 
 def test_words_lie_inside_their_canvas_with_counters_open():
@@ -202,17 +228,78 @@ def test_no_two_letters_touch():
 
 
 def test_marks_stay_on_their_letters():
-    block, mark = shapely.box(0, -0.7, 0.5, 0), shapely.box(-0.4, -0.9, -0.1, -0.7)
-    table = {"x": Letter(block, 0.6), "\u0331": Letter(mark, 0.0)}
-    left, top, right, _ = set_lines(["x\u0331"], table).bounds
-    assert (right - left, top) == (0.5, 0.0)
+    """The font says where: below an x, with the x's own distances to its neighbours."""
+    plain, marked = (container_of_words(f"text:{text}", 600) for text in ("oxo", "ox\u0331o"))
+    assert len(polygon_parts(marked.outline.region)) == 4
+    assert marked.width / marked.height < plain.width / plain.height
 
 
 def test_letters_are_moved_apart_and_lines_are_centred():
-    table = {"a": Letter(shapely.box(0, -1, 1, 0), 0.5)}
-    left, top, right, bottom = set_lines(["aaa", "a"], table).bounds
+    letter = Letter(shapely.box(0, -1, 1, 0), 0.5)
+    left, top, right, bottom = set_lines([[letter] * 3, [letter]]).bounds
     assert (left, right) == pytest.approx((-1.5 - LETTER_GAP, 1.5 + LETTER_GAP), rel=1e-4)
     assert (top, bottom) == pytest.approx((0, 2 + LINE_GAP))
+
+
+def parts_of(text: str, font: str) -> list[Polygon]:
+    """Parts of a container of words, from left to right."""
+    region = container_of_words(f"text:{text}", 1000, SCRIPTS / font).outline.region
+    return sorted(polygon_parts(region), key=lambda part: part.bounds[0])
+
+
+def test_arabic_letters_join_and_run_to_the_left():
+    font = "NotoNaskhArabic.ttf"
+    ba, ta = "\u0628", "\u0629"
+    # A ba's dot is below, the two of a final ta above: it stands on the left.
+    joined, apart = parts_of(ba + ta, font), parts_of(f"{ba}\u200c{ta}", font)
+    letter = max(joined, key=lambda part: part.area)
+    assert len(apart) == len(joined) + 1
+    below = [part for part in joined if part.bounds[1] > letter.centroid.y]
+    above = [part for part in joined if part.bounds[3] < letter.centroid.y]
+    assert min(part.bounds[0] for part in below) > max(part.bounds[2] for part in above)
+
+
+def test_hindi_words_hang_on_one_line():
+    word, two = (parts_of(text, "NotoSansDevanagari.ttf") for text in ("हिन्दी", "हिन्दी हिन्दी"))
+    assert len(word) < 3
+    assert len(two) == 2 * len(word)
+
+
+def test_thai_marks_stack_and_letters_stand_apart():
+    parts = parts_of("น้ำ", "NotoSansThai.ttf")
+    assert len(parts) == 4
+    assert min(a.distance(b) for a, b in combinations(parts, 2)) > 0
+
+
+def test_chinese_and_hebrew_words_are_containers():
+    han = container_of_words("text:汉语|世界", 600, SCRIPTS / "NotoSansSC.otf")
+    assert 0.8 < han.width / han.height < 1.2
+    assert len(parts_of("שלום", "NotoSansHebrew.ttf")) == 4
+
+
+def test_scripts_take_the_fonts_that_a_machine_has(machine):
+    if machine == "many fonts":
+        assert len(read_container("text:ภาษา", 300).outline.rings) == 4
+        assert len(read_container("text:A ภาษา", 300).outline.rings) == 4 + 2
+    else:
+        with pytest.raises(ReadError, match=r"no font installed has 'ภ' \(U\+0E20\)"):
+            read_container("text:A ภาษา")
+
+
+def test_an_installed_family_is_a_font_too(font_folders, monkeypatch):
+    monkeypatch.setenv(FOLDERS, font_folders["many fonts"])
+    container = read_container("text:ภาษา", 300, "Noto Sans Thai")
+    assert len(container.outline.rings) == 4
+    with pytest.raises(ReadError, match="no installed family; similar are noto sans thai"):
+        read_container("text:A", 300, "Noto Sans Thay")
+
+
+def test_emoji_are_their_silhouettes(tmp_path):
+    file = io.BytesIO()
+    Image.new("RGBA", (STRIKE_PX, STRIKE_PX), "teal").save(file, format="png")
+    (tmp_path / "faces.ttf").write_bytes(emoji_font(file.getvalue()))
+    container = read_container(f"text:{EMOJI}", 300, tmp_path / "faces.ttf")
+    assert container.outline.area == pytest.approx((300 / 1.04) ** 2, rel=0.01)
 
 
 def test_a_font_of_ones_own(truetype, tmp_path):
@@ -233,13 +320,12 @@ def test_composed_and_decomposed_words_are_the_same():
     [
         ("text:", "text:: holds no word; give one, as in text:HELLO"),
         ("text: | \u200d", "holds no word"),
-        ("text:A中", "has no glyph for '中' \\(U\\+4E2D\\); choose another font"),
-        ("text:上中下国人口手足", "and 2 more"),
-        ("text:שלום", "written from right to left"),
+        ("text:A中", "no font installed has '中' \\(U\\+4E2D\\); install one, or give its file"),
         ("text:" + "A" * (MOST_CHARACTERS + 1), "longer than 500 characters"),
     ],
 )
-def test_words_that_cannot_be_set(source, problem):
+def test_words_that_cannot_be_set(source, problem, font_folders, monkeypatch):
+    monkeypatch.setenv(FOLDERS, font_folders["no fonts"])
     with pytest.raises(ReadError, match=problem):
         read_container(source)
 
@@ -250,8 +336,8 @@ def test_words_that_cannot_be_set(source, problem):
         (b"", "own.ttf: is not a font; give a TTF"),
         (b"plain text", "is not a font"),
         (b"wOF2" + bytes(99), "packed for the web"),
-        (b"\0\1\0\0", "damaged font"),
-        (b"ttcf" + bytes(99), "damaged font"),
+        (b"\0\1\0\0", "without its table 'head'"),
+        (b"ttcf" + bytes(99), "without its table 'head'"),
         (b"OTTO" + bytes(99), "without its table 'head'"),
     ],
 )
@@ -269,3 +355,9 @@ def test_a_font_that_draws_nothing(truetype, tmp_path):
         read_container("text:B", 100, tmp_path / "own.ttf")
     with pytest.raises(ReadError, match="there is no such file"):
         read_container("text:B", 100, tmp_path / "missing.ttf")
+
+
+def test_all_characters_that_a_font_lacks_are_named(truetype, tmp_path):
+    (tmp_path / "own.ttf").write_bytes(truetype)
+    with pytest.raises(ReadError, match=r"has '上' \(U\+4E0A\), .* and 2 more; choose another"):
+        read_container("text:上中下国人口手足", 100, tmp_path / "own.ttf")

@@ -11,20 +11,13 @@ import numpy as np
 from shapely import affinity
 
 from packwork.arrays import FloatArray
-from packwork.geometry.bezier import flatten_cubic
 from packwork.geometry.polygon import Region, region, united
+from packwork.readers.fonts.curves import path_data, points_of, rings_of
+from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Segment, Shaped, Typeface
+from packwork.readers.fonts.guard import check_glyph
+from packwork.readers.fonts.itemise import Piece, visual_order
+from packwork.readers.fonts.pictures import Picture, picture_of
 from packwork.readers.svg.follow import FLATTENING
-from packwork.readers.text.pen import check_glyph
-from packwork.readers.typeface.face import (
-    UNKNOWN_LANGUAGE,
-    Glyph,
-    Segment,
-    Shaped,
-    Typeface,
-    points_of,
-)
-from packwork.readers.typeface.itemise import Piece, itemised, visual_order
-from packwork.readers.typeface.pictures import Picture, picture_of
 from packwork.readers.unfit import UnfitError
 from packwork.scene.live_text import TextRun
 
@@ -72,8 +65,8 @@ class Setting:
     face: Typeface
 
 
-def lettering(lines: Sequence[str], face: Typeface) -> Lettering | None:
-    """Word of one or several centred lines; None if the font lacks one of its characters.
+def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LANGUAGE) -> Lettering:
+    """Word of one or several centred lines, each piece drawn by its own font.
 
     Curves are followed to ``FLATTENING`` of the word's extent.
 
@@ -84,36 +77,16 @@ def lettering(lines: Sequence[str], face: Typeface) -> Lettering | None:
 
     Examples
     --------
-    >>> from packwork.readers.typeface.face import bundled_typeface
-    >>> word = lettering(["ox"], bundled_typeface())
-    >>> len(word.region.geoms), word.path[:1], [run.text for run in word.runs]
-    (2, 'M', ['ox'])
-    """
-    return lettering_of([[Setting(piece, face) for piece in itemised(line)] for line in lines])
-
-
-def lettering_of(
-    lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LANGUAGE
-) -> Lettering | None:
-    """Word whose pieces are drawn by fonts of their own, as :func:`lettering`.
-
-    Raises
-    ------
-    UnfitError
-        As there.
-
-    Examples
-    --------
-    >>> from packwork.readers.typeface.face import bundled_typeface
+    >>> from packwork.readers.fonts.face import bundled_typeface
     >>> face = bundled_typeface()
     >>> word = lettering_of([[Setting(Piece("o"), face), Setting(Piece("x"), face)]])
     >>> [run.text for run in word.runs], word.runs[0].x < word.runs[1].x
     (['o', 'x'], True)
+    >>> len(word.region.geoms), word.path[:1]
+    (2, 'M')
     """
     units = lines[0][0].face.units
     shaped = [_line(line, k, units, language) for k, line in enumerate(lines)]
-    if any(glyph.number == 0 for line in shaped for run in line for glyph in run.glyphs):
-        return None
     runs = [run for line in shaped for run in line]
     contours = [contour for run in runs for contour in run.contours()]
     pictures = tuple(picture for run in runs for picture in run.pictures())
@@ -130,21 +103,6 @@ def lettering_of(
         tuple(run.text for run in runs),
         pictures,
     )
-
-
-def path_data(segments: Sequence[Segment]) -> str:
-    """SVG path data of segments, as exact as they are.
-
-    Examples
-    --------
-    >>> path_data([("M", (0.0, -1.5)), ("L", (2.0, 1.0)), ("Z", ())])
-    'M0-1.5L2 1Z'
-    """
-    pieces = []
-    for letter, values in segments:
-        numbers = " ".join(f"{value:.10g}" for value in values)
-        pieces.append(letter + numbers.replace(" -", "-"))
-    return "".join(pieces)
 
 
 @dataclass(frozen=True)
@@ -243,29 +201,6 @@ def _tolerance(corners: Sequence[FloatArray]) -> float:
 @lru_cache(maxsize=MOST_KNOWN)
 def _glyph_region(face: Typeface, number: int, tolerance: float) -> Region:
     """What a glyph covers about its origin, its curves followed to ``tolerance``."""
-    rings = _rings(face.drawing(number), tolerance)
+    rings = rings_of(face.drawing(number), tolerance)
     check_glyph(rings)
     return region(rings, "nonzero")
-
-
-def _rings(segments: Sequence[Segment], tolerance: float) -> list[FloatArray]:
-    """Contours as flattened rings."""
-    rings: list[list[FloatArray]] = []
-    for segment in segments:
-        letter, points = segment[0], points_of(segment)
-        if letter == "M":
-            rings.append([points])
-        elif letter == "L":
-            rings[-1].append(points)
-        elif letter in {"Q", "C"}:
-            start = rings[-1][-1][-1]
-            rings[-1].append(flatten_cubic(start, *_cubic(start, points), tolerance))
-    return [np.concatenate(ring) for ring in rings]
-
-
-def _cubic(start: FloatArray, points: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Handles and end of a curve as a cubic's."""
-    if len(points) == 3:
-        return points[0], points[1], points[2]
-    handle, end = points
-    return (start + 2 * handle) / 3, (end + 2 * handle) / 3, end

@@ -11,16 +11,16 @@ import pytest
 from PIL import Image, ImageDraw
 
 from made_fonts import EMOJI, STRIKE_PX, emoji_font
-from packwork.readers.typeface.face import Typeface
-from packwork.readers.typeface.fonts import Fonts, open_fonts
-from packwork.readers.typeface.itemise import clusters, itemised, visual_order
+from packwork.readers.fonts.face import Typeface
+from packwork.readers.fonts.fallback import Fonts, open_fonts
+from packwork.readers.fonts.itemise import clusters, itemised, visual_order
 from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import word_item
 from packwork.readers.words.word import Word
 from packwork.scene.item import VectorArt
 from packwork.writers.recolour import has_one_colour
 
-FONTS = Path(__file__).parent / "fonts"
+FONTS = Path(__file__).parent
 INTER = str(resources.files("packwork.bundled").joinpath("fonts/InterDisplay-Black.otf"))
 
 
@@ -54,12 +54,12 @@ def test_words_are_set_by_the_fonts_that_a_machine_has(machine: str) -> None:
     if machine == "many fonts":
         assert not fonts.lettering(["ภาษา"]).region.is_empty
     else:
-        with pytest.raises(UnfitError, match=r"no font installed has [ภาษา]"):
+        with pytest.raises(UnfitError, match=r"no font installed has '[ภาษา]'"):
             fonts.lettering(["ภาษา"])
 
 
 def test_a_character_that_no_font_has_is_named() -> None:
-    with pytest.raises(UnfitError, match="has 中"):
+    with pytest.raises(UnfitError, match=r"has '中' \(U\+4E2D\); choose another with --font"):
         open_fonts([INTER]).lettering(["go中"])
 
 

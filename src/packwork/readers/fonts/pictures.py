@@ -12,9 +12,9 @@ from PIL import Image
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
+from packwork.readers.fonts.face import Bitmap
 from packwork.readers.pictures.decode import Pixels, decode_picture
 from packwork.readers.pictures.silhouette import outline_of_cut_out
-from packwork.readers.typeface.face import Bitmap
 
 MOST_PX = 1_024
 """Longer side of a glyph's picture; fonts have 136 and 160. Chosen."""

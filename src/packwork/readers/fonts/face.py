@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
 
-from packwork.arrays import FloatArray
-from packwork.readers.text.sfnt import MAX_FONT_BYTES as MAX_FONT_BYTES
+from packwork.fonts import bundled_file
+from packwork.readers.fonts.guard import MAX_SEGMENTS, check_drawing, checked_face
 from packwork.readers.unfit import UnfitError
 from packwork.scene.live_text import FontFile
 
@@ -22,9 +23,6 @@ UNKNOWN_LANGUAGE = "und"
 
 Segment: TypeAlias = tuple[str, tuple[float, ...]]
 """A letter of SVG's paths (M, L, Q, C or Z) and its absolute coordinates, y down."""
-
-MAX_SEGMENTS = 20_000
-"""Lines and curves in one glyph. Ornaments have thousands. Chosen."""
 
 MOST_GLYPHS = 2_000
 """Glyphs of one word or phrase: rules of a font may make thousands of one letter. Chosen."""
@@ -43,11 +41,15 @@ class Glyph:
         Which one of the font; 0 shows that the font lacks a character.
     x, y
         Where its origin stands, in the font's units, y down.
+    cluster
+        Place in the text of the first character that it draws: glyphs of one place, such as
+        a letter and its marks, belong together.
     """
 
     number: int
     x: float
     y: float
+    cluster: int = 0
 
 
 @dataclass(frozen=True)
@@ -114,11 +116,7 @@ class Typeface:
     def __init__(self, data: bytes, name: str, index: int = 0, weight: int | None = None) -> None:
         import uharfbuzz as hb
 
-        if data[:4] in (b"wOFF", b"wOF2"):
-            raise UnfitError("is a font packed for the web (WOFF); unpack it to a TTF or an OTF")
-        face = hb.Face(data, index)
-        if face.glyph_count == 0:
-            raise UnfitError("is not a font; give a TTF, an OTF or a TTC")
+        face = checked_face(data, index)
         self.name = name
         self.units = float(face.upem)
         self._hb = hb
@@ -144,6 +142,13 @@ class Typeface:
         lean = float(self._font.get_style_value(tags.ITALIC) != 0)
         lean += abs(float(self._font.get_style_value(tags.SLANT_ANGLE)))
         return lean, abs(float(self._font.get_style_value(tags.WIDTH)) - UPRIGHT_WIDTH)
+
+    def draws(
+        self, run: str, *, is_leftward: bool = False, language: str = UNKNOWN_LANGUAGE
+    ) -> bool:
+        """Whether there is a glyph for all of a run, as it is shaped."""
+        glyphs = self.shaped(run, is_leftward=is_leftward, language=language).glyphs
+        return all(glyph.number for glyph in glyphs)
 
     def has(self, characters: str) -> bool:
         """Whether there is a glyph for each character by itself."""
@@ -177,7 +182,8 @@ class Typeface:
         x = y = 0.0
         found = []
         for info, place in zip(buffer.glyph_infos, buffer.glyph_positions, strict=True):
-            found.append(Glyph(info.codepoint, x + place.x_offset, y - place.y_offset))
+            origin = x + place.x_offset, y - place.y_offset
+            found.append(Glyph(info.codepoint, *origin, info.cluster))
             x += place.x_advance
             y -= place.y_advance
         return Shaped(tuple(found), x)
@@ -198,18 +204,28 @@ class Typeface:
         Raises
         ------
         UnfitError
-            If it has more than ``MAX_SEGMENTS``.
+            If it has more than ``MAX_SEGMENTS``, reaches too far, or is damaged.
         """
         if number not in self._known:
             pen = _Pen()
             self._font.draw_glyph(number, _draw_functions(), pen)
-            if pen.count > MAX_SEGMENTS:
-                raise UnfitError(
-                    f"is a font with a glyph of {pen.count:,} pieces, more than {MAX_SEGMENTS:,}; "
-                    "give a plainer one"
-                )
+            check_drawing(pen.count, np.array(pen.values), self.units)
+            self._check_whole(number, pen.segments)
             self._known[number] = tuple(pen.segments)
         return self._known[number]
+
+    def _check_whole(self, number: int, drawn: list[Segment]) -> None:
+        """Refuse a glyph that HarfBuzz gave up on: it draws a part of it, or nothing."""
+        box, face = self._font.get_glyph_extents(number), self._font.face
+        if drawn:
+            is_whole = box is not None
+        elif face.has_color_png or face.has_color_layers or face.has_color_paint:
+            # Other tables may draw it.
+            is_whole = True
+        else:
+            is_whole = box is not None and not (box.width and box.height)
+        if not is_whole:
+            raise UnfitError("is a font with a glyph that cannot be drawn; give an intact one")
 
 
 def bundled_typeface() -> Typeface:
@@ -220,12 +236,7 @@ def bundled_typeface() -> Typeface:
     >>> bundled_typeface().has("aяω")
     True
     """
-    from importlib import resources
-
-    from packwork.readers.text.container import FONT
-
-    place = resources.files("packwork.bundled").joinpath("fonts", FONT)
-    return Typeface(place.read_bytes(), "Inter Display")
+    return Typeface(Path(bundled_file()).read_bytes(), "Inter Display")
 
 
 class _Pen:
@@ -236,6 +247,7 @@ class _Pen:
 
     def __init__(self) -> None:
         self.segments: list[Segment] = []
+        self.values: list[float] = []
         self.count = 0
 
     def add(self, letter: str, *points: float) -> None:
@@ -244,6 +256,7 @@ class _Pen:
             return
         turned = tuple(value if k % 2 == 0 else -value for k, value in enumerate(points))
         self.segments.append((letter, turned))
+        self.values.extend(turned)
 
 
 _functions: list[Any] = []
@@ -262,14 +275,3 @@ def _draw_functions() -> Any:
         made.set_close_path_func(lambda pen: pen.add("Z"))
         _functions.append(made)
     return _functions[0]
-
-
-def points_of(segment: Segment) -> FloatArray:
-    """``(k, 2)`` points of a segment.
-
-    Examples
-    --------
-    >>> points_of(("L", (1.0, 2.0))).tolist()
-    [[1.0, 2.0]]
-    """
-    return np.array(segment[1], dtype=np.float64).reshape(-1, 2)

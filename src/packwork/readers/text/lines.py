@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import shapely
 from shapely import affinity
 
 from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region
-from packwork.readers.text.face import Letter, named
+from packwork.readers.text.letters import Letter
 from packwork.readers.unfit import UnfitError
 
 MOST_CHARACTERS = 500
@@ -23,6 +23,11 @@ lets items of one letter crowd those of the next. Chosen."""
 LINE_GAP = 0.12
 """Distance between the boxes of two lines, in ems. Chosen."""
 
+_JOINERS = "\u200c\u200d"
+"""Where letters are to join, and where not."""
+
+_NOTHING = _JOINERS + " \ufe0e\ufe0f"
+
 
 def lines_of(text: str) -> list[str]:
     """Lines of a text, ``|`` between them, in composed characters, single spaces.
@@ -30,7 +35,7 @@ def lines_of(text: str) -> list[str]:
     Raises
     ------
     UnfitError
-        If nothing is left, it is too long, or runs from right to left.
+        If nothing is left, or it is too long.
 
     Examples
     --------
@@ -39,25 +44,24 @@ def lines_of(text: str) -> list[str]:
     """
     composed = "".join(c for c in unicodedata.normalize("NFC", text) if not _is_unseen(c))
     lines = [" ".join(line.split()) for line in composed.split("|")]
-    kept = [line for line in lines if line]
+    kept = [line for line in lines if line.strip(_NOTHING)]
     if not kept:
         raise UnfitError("holds no word; give one, as in text:HELLO")
     if sum(map(len, kept)) > MOST_CHARACTERS:
         raise UnfitError(f"is longer than {MOST_CHARACTERS} characters; give fewer words")
-    backward = sorted(c for c in set(composed) if unicodedata.bidirectional(c) in {"R", "AL"})
-    if backward:
-        raise UnfitError(
-            f"holds {named(backward)}, written from right to left, which cannot be set yet; "
-            "draw it as an SVG"
-        )
     return kept
 
 
-def set_lines(lines: Sequence[str], letters: Mapping[str, Letter]) -> Region:
+def set_lines(lines: Sequence[Sequence[Letter]]) -> Region:
     """Region of centred lines, one under the other, in ems.
 
     Letters stand by their advance, moved apart where they would come nearer than
     ``LETTER_GAP``; lines stand ``LINE_GAP`` under each other's ink.
+
+    Parameters
+    ----------
+    lines
+        Letters of each from left to right.
 
     Raises
     ------
@@ -67,31 +71,29 @@ def set_lines(lines: Sequence[str], letters: Mapping[str, Letter]) -> Region:
     Examples
     --------
     >>> block = Letter(shapely.box(0, -1, 1, 0), 1.0)
-    >>> set_lines(["aa", "a"], {"a": block}).bounds
+    >>> set_lines([[block, block], [block]]).bounds
     (-1.02, 0.0, 1.02, 2.12)
     """
     placed, top = [], 0.0
     for line in lines:
-        ink = _set_line(line, letters)
+        ink = _set_line(line)
         left, low, right, high = ink.bounds
         placed.append(affinity.translate(ink, -(left + right) / 2, top - low))
         top += high - low + LINE_GAP
     return union(placed)
 
 
-def _set_line(line: str, letters: Mapping[str, Letter]) -> Region:
+def _set_line(line: Sequence[Letter]) -> Region:
     pieces: list[Region] = []
     x = 0.0
-    for character in line:
-        letter = letters[character]
+    for letter in line:
         moved = affinity.translate(letter.region, x)
-        is_apart = not unicodedata.combining(character)
-        push = _push(pieces[-1], moved) if pieces and is_apart and not moved.is_empty else 0.0
+        push = _push(pieces[-1], moved) if pieces and not moved.is_empty else 0.0
         if not moved.is_empty:
             pieces.append(affinity.translate(moved, push))
         x += push + letter.advance
     if not pieces:
-        raise UnfitError(f"draws nothing for {line!r}; choose another font")
+        raise UnfitError("holds a line that draws nothing; choose other signs")
     return union(pieces)
 
 
@@ -107,5 +109,5 @@ def _push(before: Region, after: Region) -> float:
 
 
 def _is_unseen(character: str) -> bool:
-    """Whether a character only steers the text: joiners, marks of direction, variants."""
-    return unicodedata.category(character) == "Cf" or 0xFE00 <= ord(character) <= 0xFE0F
+    """Whether a character only steers the text, as marks of direction do; joiners stay."""
+    return unicodedata.category(character) == "Cf" and character not in _JOINERS

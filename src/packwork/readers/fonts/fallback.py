@@ -1,4 +1,4 @@
-"""Font files and installed families to a list of typefaces, each asked in turn."""
+"""Font fallback: files and installed families as a list of typefaces, each asked in turn."""
 
 from __future__ import annotations
 
@@ -11,18 +11,17 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.fonts import installed_families
 from packwork.readers.files import exists, read_bytes
-from packwork.readers.typeface.face import (
-    MAX_FONT_BYTES,
-    UNKNOWN_LANGUAGE,
-    Typeface,
-    bundled_typeface,
-)
-from packwork.readers.typeface.itemise import Piece, clusters, itemised
-from packwork.readers.typeface.lettering import Lettering, Setting, lettering_of
+from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Typeface, bundled_typeface
+from packwork.readers.fonts.guard import MAX_FONT_BYTES
+from packwork.readers.fonts.itemise import Piece, clusters, itemised
+from packwork.readers.fonts.lettering import Lettering, Setting, lettering_of
 from packwork.readers.unfit import UnfitError, naming
 
 MOST_FACES = 64
 """Faces of one collection that are looked at. Chosen."""
+
+MOST_NAMED = 6
+"""Characters that a message about missing ones names. Chosen."""
 
 _ENDINGS = frozenset({".ttf", ".otf", ".ttc", ".otc"})
 _PREFERRED = ("noto sans", "noto", "dejavu sans")
@@ -52,31 +51,58 @@ class Fonts:
     _installed: list[Typeface] = field(default_factory=list)
 
     def lettering(self, lines: Sequence[str]) -> Lettering:
-        """Lines as the first font draws them that has all their characters.
-
-        Where none has all, each part is drawn by the first font that has it.
+        """Lines as a word of its own.
 
         Raises
         ------
         UnfitError
-            If there is none, naming the characters that no font has.
+            If no font has one of the characters, or they draw nothing.
 
         Examples
         --------
         >>> Fonts([bundled_typeface()]).lettering(["ox"]).region.is_valid
         True
         """
+        return lettering_of(self.settings(lines), self._language)
+
+    def settings(self, lines: Sequence[str]) -> list[list[Setting]]:
+        """Pieces of lines, each with the font that draws it: the first that has all characters.
+
+        Where none has all, each part is drawn by the first font that has it.
+
+        Raises
+        ------
+        UnfitError
+            If no font has one of the characters, naming those.
+
+        Examples
+        --------
+        >>> [found] = Fonts([bundled_typeface()]).settings(["Кот"])
+        >>> found[0].piece.text, found[0].face.name
+        ('Кот', 'Inter Display')
+        """
         pieces = [itemised(line) for line in lines]
         for face in self._asked("".join(lines)):
             whole = [[Setting(piece, face) for piece in line] for line in pieces]
-            found = lettering_of(whole, self.language or UNKNOWN_LANGUAGE)
-            if found is not None:
-                return found
+            if self._is_drawn(whole):
+                return whole
         mixed = [[part for piece in line for part in self._parts(piece)] for line in pieces]
-        found = lettering_of(mixed, self.language or UNKNOWN_LANGUAGE)
-        if found is None:
+        if not self._is_drawn(mixed):
             raise UnfitError(self._lacking("".join(lines)))
-        return found
+        return mixed
+
+    @property
+    def _language(self) -> str:
+        return self.language or UNKNOWN_LANGUAGE
+
+    def _is_drawn(self, lines: Sequence[Sequence[Setting]]) -> bool:
+        return all(
+            one.face.draws(
+                one.piece.text, is_leftward=one.piece.is_leftward, language=self._language
+            )
+            for line in lines
+            for one in line
+        )
 
     def _parts(self, piece: Piece) -> list[Setting]:
         """A piece, cut where its font changes."""
@@ -84,7 +110,7 @@ class Fonts:
         for cluster in clusters(piece.text):
             face = next((face for face in self._asked(cluster) if face.has(_seen(cluster))), None)
             if face is None:
-                raise UnfitError(self._lacking(cluster))
+                raise UnfitError(self._lacking(cluster if self.is_open else piece.text))
             if found and found[-1].face is face:
                 cluster = found.pop().piece.text + cluster
             found.append(Setting(replace(piece, text=cluster), face))
@@ -105,9 +131,22 @@ class Fonts:
             c for c in dict.fromkeys(text)
             if not _is_unseen(c) and not any(face.has(c) for face in self.faces)
         ]  # fmt: skip
-        what = " ".join(missing[:6]) or "all of its characters at once"
-        whom = "of the fonts given" if not self.is_open else "installed"
-        return f"no font {whom} has {what}; give one with --font"
+        what = named(missing) if missing else "all of its characters at once"
+        if self.is_open:
+            return f"no font installed has {what}; install one, or give its file with --font"
+        return f"no font given has {what}; choose another with --font"
+
+
+def named(characters: Sequence[str]) -> str:
+    """Characters as a person can find them again.
+
+    Examples
+    --------
+    >>> named("aé")
+    "'a' (U+0061), 'é' (U+00E9)"
+    """
+    more = f" and {len(characters) - MOST_NAMED} more" if len(characters) > MOST_NAMED else ""
+    return ", ".join(f"{c!r} (U+{ord(c):04X})" for c in characters[:MOST_NAMED]) + more
 
 
 def open_fonts(names: Sequence[str], weight: int = 700, language: str = "") -> Fonts:
@@ -128,10 +167,38 @@ def open_fonts(names: Sequence[str], weight: int = 700, language: str = "") -> F
     return Fonts([_named(name, weight) for name in names], weight, language=language)
 
 
+def is_font_file(name: str) -> bool:
+    """Whether a name is meant as that of a file, be it there or not.
+
+    Examples
+    --------
+    >>> is_font_file("no such.ttf"), is_font_file("Inter Display")
+    (True, False)
+    """
+    return exists(name) or Path(name[-20:]).suffix.lower() in _ENDINGS
+
+
+def typeface_of_file(name: str, weight: int | None = None) -> Typeface:
+    """First face of a font file, a variable one at its own weight if none is given.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read.
+
+    Examples
+    --------
+    >>> typeface_of_file("no such.ttf")
+    Traceback (most recent call last):
+    packwork.errors.ReadError: no such.ttf: there is no such file
+    """
+    with naming(name):
+        return Typeface(read_bytes(name, MAX_FONT_BYTES), name, 0, weight)
+
+
 def _named(name: str, weight: int) -> Typeface:
-    if exists(name) or Path(name[-20:]).suffix.lower() in _ENDINGS:
-        with naming(name):
-            return Typeface(read_bytes(name, MAX_FONT_BYTES), name, 0, weight)
+    if is_font_file(name):
+        return typeface_of_file(name, weight)
     files = installed_families().get(name.strip().lower())
     if not files:
         known = sorted(installed_families())

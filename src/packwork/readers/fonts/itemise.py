@@ -10,10 +10,13 @@ from __future__ import annotations
 import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import groupby
 
+MOST_KNOWN = 4096
+"""Clusters whose scripts are remembered: those of a long Chinese text. Chosen."""
+
 _LEFTWARD, _RIGHTWARD = ("R", "AL"), ("L", "EN", "AN")
-_ANY_SCRIPT = ("Zyyy", "Zinh", "Zzzz")
 _JOINER = "\u200d"
 _FIRST_TONE, _LAST_TONE = "\U0001f3fb", "\U0001f3ff"
 _FIRST_FLAG, _LAST_FLAG = "\U0001f1e6", "\U0001f1ff"
@@ -88,6 +91,23 @@ def clusters(text: str) -> list[str]:
     return found
 
 
+@lru_cache(maxsize=MOST_KNOWN)
+def script_of(text: str) -> str:
+    """Script of the first character that is of one, by its four letters; empty if none is.
+
+    Examples
+    --------
+    >>> [script_of(text) for text in ("a", "(я)", "漢", "हि", "2!")]
+    ['Latn', 'Cyrl', 'Hani', 'Deva', '']
+    """
+    import uharfbuzz as hb
+
+    buffer = hb.Buffer()
+    buffer.add_str(text)
+    buffer.guess_segment_properties()
+    return buffer.script or ""
+
+
 def _belongs(character: str, before: str) -> bool:
     if before.endswith(_JOINER) or _FIRST_TONE <= character <= _LAST_TONE:
         return True
@@ -128,15 +148,10 @@ def _between(strengths: list[bool | None], k: int, is_leftward: bool) -> bool:
 
 
 def _of_one_script(run: str) -> list[str]:
-    if run.isascii():
-        return [run]
-    # A table of all of Unicode, which ASCII words do without.
-    from fontTools.unicodedata import script  # type: ignore[import-untyped]
-
     found: list[str] = []
     current = ""
     for cluster in clusters(run):
-        own = next((s for s in map(script, cluster) if s not in _ANY_SCRIPT), "")
+        own = script_of(cluster)
         if found and (not own or not current or _alike(own, current)):
             found[-1] += cluster
         else:

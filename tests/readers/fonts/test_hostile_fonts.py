@@ -17,15 +17,14 @@ from fontTools.ttLib import TTFont, newTable
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-import packwork.readers.typeface.face as face_module
+import packwork.readers.fonts.face as face_module
 from made_fonts import doubled_font, nested_font, scribbled_font
 from packwork.errors import ReadError
-from packwork.readers.text.characters import glyph_numbers
+from packwork.readers.fonts.face import Typeface
+from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.fonts.guard import MAX_FONT_BYTES
 from packwork.readers.text.container import container_of_words
-from packwork.readers.text.face import letters
-from packwork.readers.text.sfnt import MAX_FONT_BYTES
-from packwork.readers.typeface.face import Typeface
-from packwork.readers.typeface.fonts import Fonts
+from packwork.readers.text.letters import Letter, letters_of
 from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.items import word_item
 from packwork.readers.words.word import Word
@@ -70,14 +69,20 @@ def saved(font: TTFont) -> bytes:
 TRUETYPE, POSTSCRIPT = small_font(True), small_font(False)
 
 
+def letters(data: bytes, text: str) -> list[Letter]:
+    """Letters as a container sets them, by a font file's bytes."""
+    with naming("a.ttf"):
+        (line,) = Fonts([Typeface(data, "a.ttf")]).settings([text])
+        return letters_of(line)
+
+
 def letters_or_read_error(data: bytes) -> None:
     try:
-        with naming("a.ttf"):
-            found = letters(data, "ab")
+        found = letters(data, "ab")
     except ReadError as error:
         message = str(error)
     else:
-        assert all(letter.region.is_valid for letter in found.values())
+        assert all(letter.region.is_valid for letter in found)
         return
     assert message.startswith("a.ttf: ")
     assert len(message.splitlines()) == 1
@@ -125,7 +130,12 @@ def test_characters_claimed_by_the_billion(form):
     groups = struct.pack(">LLL", 0, 0xFFFFFFFF, 1) * 10_000
     table = struct.pack(">HHLLL", form, 0, 16 + len(groups), 0, 10_000) + groups
     cmap = struct.pack(">HHHHL", 0, 1, 3, 10, 12) + table
-    assert glyph_numbers(cmap, "a")["a"] > 0
+
+    def claim(font: TTFont) -> None:
+        font["cmap"] = newTable("cmap")
+        font["cmap"].compile = lambda _: cmap
+
+    letters_or_read_error(changed(TRUETYPE, claim))
 
 
 @pytest.mark.usefixtures("soon")
@@ -147,8 +157,23 @@ def test_a_glyph_made_of_a_thousand_copies_of_a_thousand_copies():
         for table in font["cmap"].tables:
             table.cmap = {ord("a"): "a", ord("b"): "a"}
 
-    with pytest.raises(UnfitError, match="more than 20,000 pieces"):
+    with pytest.raises(ReadError, match=r"draws nothing for 'a'"):
         letters(changed(TRUETYPE, nest), "a")
+
+
+def font_of(side: int) -> bytes:
+    """A font whose letter a is a square of so many units, 1,000 in an em."""
+    pen = TTGlyphPen(None)
+    pen.moveTo((0, 0))
+    for place in ((0, side), (side, side), (side, 0)):
+        pen.lineTo(place)
+    pen.closePath()
+
+    def enlarge(font: TTFont) -> None:
+        font["glyf"]["a"] = pen.glyph()
+        font["glyf"]["a"].recalcBounds(font["glyf"])
+
+    return changed(TRUETYPE, enlarge)
 
 
 RICH = {
@@ -157,15 +182,17 @@ RICH = {
     "doubled": lambda: doubled_font(24),
     "nested": lambda: nested_font(10),
     "less nested": lambda: nested_font(4),
+    "nested too deep": lambda: nested_font(12, 2),
+    "far": lambda: font_of(32_100),
 }
-REASON = "cross too often|more than 20,000|reaches too far|no outlines to draw"
+REASON = "cross too often|more than 20,000|reaches too far|cannot be drawn"
 
 
 @pytest.mark.usefixtures("soon")
 @pytest.mark.parametrize("kind", RICH)
 def test_glyphs_that_would_take_all_memory_are_refused(kind):
     data = RICH[kind]()
-    with pytest.raises(UnfitError, match=REASON):
+    with pytest.raises(ReadError, match=REASON):
         letters(data, "a")
     # HarfBuzz calls us back: what is raised there it passes over, and goes on.
     with pytest.raises(UnfitError, match=REASON):
@@ -181,7 +208,7 @@ def test_a_glyph_that_is_too_rich_is_counted_and_not_kept():
 
 
 def test_a_glyph_of_a_few_copies_is_drawn():
-    found = letters(doubled_font(3), "a")["a"].region
+    (found,) = (letter.region for letter in letters(doubled_font(3), "a"))
     item = word_item(Word("a", 1.0), Fonts([Typeface(doubled_font(3), "a.ttf")]))
     assert found.area == pytest.approx(0.304 * 0.504, rel=0.05)
     assert item.outline.area > 0
@@ -208,7 +235,7 @@ def test_a_glyph_made_of_itself():
     def loop(font: TTFont) -> None:
         font["glyf"]["b"].components[0].glyphName = "b"
 
-    with pytest.raises(UnfitError, match="damaged font"):
+    with pytest.raises(ReadError, match="cannot be drawn"):
         letters(changed(TRUETYPE, loop), "b")
 
 
@@ -224,8 +251,18 @@ def test_a_program_of_ten_calls_of_ten_calls():
         program = T2CharString(program=call, private=top.Private, globalSubrs=top.GlobalSubrs)
         top.CharStrings["a"] = program
 
-    with pytest.raises(UnfitError, match=r"more than (20,000 pieces|200,000 steps)"):
+    with pytest.raises(ReadError, match=r"more than 20,000|cannot be drawn"):
         letters(changed(POSTSCRIPT, nest), "a")
+
+
+@pytest.mark.usefixtures("soon")
+def test_a_letter_that_a_damaged_font_does_not_draw_is_not_left_out():
+    def empty(font: TTFont) -> None:
+        top = font["CFF "].cff[0]
+        top.CharStrings["a"] = T2CharString(program=["endchar"], private=top.Private)
+
+    with pytest.raises(ReadError, match="draws nothing for 'a'"):
+        letters(changed(POSTSCRIPT, empty), "ba")
 
 
 @pytest.mark.usefixtures("soon")
@@ -238,7 +275,7 @@ def test_places_of_glyphs_that_run_backwards():
         font["glyf"] = newTable("glyf")
         font["glyf"].compile = lambda _: glyf
 
-    with pytest.raises(UnfitError, match="its glyphs overlap in the file"):
+    with pytest.raises(ReadError, match="its glyphs overlap in the file"):
         letters(changed(TRUETYPE, reverse), "a")
 
 
@@ -246,7 +283,7 @@ def test_a_font_without_an_em():
     at = TRUETYPE.index(b"head") + 8
     (offset,) = struct.unpack_from(">L", TRUETYPE, at)
     data = TRUETYPE[: offset + 18] + b"\0\0" + TRUETYPE[offset + 20 :]
-    with pytest.raises(UnfitError, match="an em of 0 units"):
+    with pytest.raises(ReadError, match="an em of 0 units"):
         letters(data, "a")
 
 
@@ -255,9 +292,9 @@ def test_a_font_without_an_em():
     [(TRUETYPE, b"glyf", "without outlines"), (POSTSCRIPT, b"CFF ", "without outlines")],
 )
 def test_fonts_without_outlines(data, without, problem):
-    with pytest.raises(UnfitError, match=problem):
+    with pytest.raises(ReadError, match=problem):
         letters(data.replace(without, b"zzzz", 1), "a")
-    with pytest.raises(UnfitError, match="CFF2 outlines"):
+    with pytest.raises(ReadError, match=r"draws nothing for 'a'|cannot be drawn"):
         letters(data.replace(without, b"CFF2", 1), "a")
 
 

@@ -1,6 +1,6 @@
 """Scripts as their readers expect them: our outlines against another renderer's pictures.
 
-The fonts in ``fonts/`` are cut down to these words.
+The fonts beside this file are cut down to these words.
 """
 
 from __future__ import annotations
@@ -14,10 +14,10 @@ from PIL import Image, ImageDraw, ImageFont, features
 
 from packwork.geometry.outline import Outline
 from packwork.raster.coverage import coverage
-from packwork.readers.typeface.face import Typeface
-from packwork.readers.typeface.lettering import lettering
+from packwork.readers.fonts.face import Typeface
+from packwork.readers.fonts.fallback import Fonts
 
-FONTS = Path(__file__).parent / "fonts"
+FONTS = Path(__file__).parent
 INTER = Path(str(resources.files("packwork.bundled").joinpath("fonts/InterDisplay-Black.otf")))
 EM_PX = 200
 LEAST_LIKENESS = 0.95
@@ -43,8 +43,7 @@ WORDS = [
 
 
 def ours(font: Path, word: str) -> np.ndarray:
-    drawn = lettering([word], Typeface(font.read_bytes(), font.name))
-    assert drawn is not None
+    drawn = Fonts([Typeface(font.read_bytes(), font.name)]).lettering([word])
     outline = Outline.from_region(drawn.region)
     points = (outline.points - outline.points.min(axis=0)) * EM_PX + 2
     width, height = np.ceil(points.max(axis=0)).astype(int) + 2

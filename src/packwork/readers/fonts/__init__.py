@@ -1,0 +1,1 @@
+"""Fonts: files are checked, words shaped, glyphs made curves and regions; fallback among fonts."""

@@ -1,1 +1,0 @@
-"""Words as fonts shape them: letters that join, marks that stack, any direction."""
