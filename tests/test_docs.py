@@ -8,20 +8,20 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import click
 import pytest
 import typer.main
 
 from packwork.cli import app
+from packwork.cli.files import LayoutFiles, SideFiles, Terminal
 from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
 from packwork.metrics.pixel import PixelMetrics
 from packwork.metrics.shape import ShapeMetrics
-from packwork.readers.charts.options import ChartOptions
-from packwork.readers.photos.options import PhotoOptions
-from packwork.readers.words.options import WordOptions
+from packwork.offers import Offered
+from packwork.options import offered
 from packwork.recipe import Recipe
+from packwork.verbs import VERBS, default_of, options_of
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.film.registry import FILMS
 
@@ -34,15 +34,12 @@ PARAMETERS = [
     for name, command in COMMANDS.items()
     for parameter in command.params
 ]
-WRITING_OPTIONS = {
-    "output", "pixels", "background", "show_container", "flatten", "halo", "report", "diagnose",
-    "cut", "kiss_cut", "bleed", "dpi", "save_recipe", "no_clobber", "quiet", "loss",
-    "show_saliency", "film", *FilmOptions.model_fields,
-}  # fmt: skip
+VERB_OF = {str(verb.name).lower(): verb for verb in VERBS}
+OFFERED = [(name, option) for name, verb in VERB_OF.items() for option in options_of(verb)]
+FILES = [option for model in (LayoutFiles, SideFiles, Terminal) for option in offered(model)]
 
-ELSEWHERE = {"losses", "rules", "words", "chart", "photos", "share", "pile", "least_dpi", "film"}
-"""Fields that ``fill`` does not offer: rules stand in files only, words, photos
-and piles are commands, a film's table is several flags."""
+IN_ITS_OWN_WORDS = {"--font", "--color-by"}
+"""Options of words that say the same thing as elsewhere, of words."""
 
 
 def defines(page: str, name: str) -> bool:
@@ -70,7 +67,7 @@ def test_every_command_says_what_it_does_and_shows_an_example(name: str) -> None
 @pytest.mark.parametrize(
     "parameter", [p for _, p in PARAMETERS], ids=[name for name, _ in PARAMETERS]
 )
-def test_every_parameter_has_a_help_text(parameter: click.Parameter) -> None:
+def test_every_parameter_has_a_help_text(parameter: Any) -> None:
     assert getattr(parameter, "help", None)
 
 
@@ -81,48 +78,39 @@ def test_every_recipe_field_says_what_it_means(name: str) -> None:
     assert description.endswith(".")
 
 
-def test_fill_offers_every_recipe_field_under_its_own_name() -> None:
-    offered = {parameter.name for parameter in COMMANDS["fill"].params}
-    fields = set(Recipe.model_fields) - ELSEWHERE
-    assert offered == fields | WRITING_OPTIONS
+@pytest.mark.parametrize("name", VERB_OF)
+def test_a_command_offers_what_the_fields_say(name: str) -> None:
+    there = {p.name for p in COMMANDS[name].params if p.param_type_name == "option"}
+    files = {option.name for option in FILES if VERB_OF[name] in option.verbs}
+    assert there == files | {option.name for command, option in OFFERED if command == name}
+
+
+def test_every_field_of_a_recipe_is_offered_or_said_not_to_be() -> None:
+    somewhere = {option.name for _, option in OFFERED}
+    elsewhere = {"container", "rules", "words", "chart", "pile", "film"}
+    assert set(Recipe.model_fields) == (somewhere & set(Recipe.model_fields)) | elsewhere
+    assert not somewhere & elsewhere
 
 
 @pytest.mark.parametrize(
-    "name",
-    sorted(set(Recipe.model_fields) - ELSEWHERE - {"container", "items"}),
+    ("name", "option"), OFFERED, ids=[f"{name} {option.name}" for name, option in OFFERED]
 )
-def test_help_and_default_of_an_option_are_the_recipes(name: str) -> None:
-    (option,) = (p for p in COMMANDS["fill"].params if p.name == name)
-    field = Recipe.model_fields[name]
-    assert option.help == field.description
-    assert option.default == field.default
+def test_help_and_default_of_an_option_are_its_fields(name: str, option: Offered) -> None:
+    (flag,) = (p for p in COMMANDS[name].params if p.name == option.name)
+    verb, is_open = VERBS[VERB_OF[name]], flag.multiple or option.name in FilmOptions.model_fields
+    default = verb.typed_defaults.get(option.name, default_of(VERB_OF[name], option))
+    assert flag.help == option.help
+    assert flag.default == (None if is_open else default)
+    assert flag.rich_help_panel == option.offer.group
 
 
-@pytest.mark.parametrize("name", sorted(set(WordOptions.model_fields) - {"source", "fonts"}))
-def test_words_offer_every_option_of_theirs_with_its_help_and_default(name: str) -> None:
-    (option,) = (p for p in COMMANDS["words"].params if p.name == name)
-    field = WordOptions.model_fields[name]
-    if name not in Recipe.model_fields and name not in WRITING_OPTIONS:
-        assert option.help == field.description
-        assert option.default == field.default
-    assert f"`--{name.replace('_', '-')}" in DOCS
+OWN = {option.name: option for verb in VERBS.values() if verb.part for option in offered(verb.part)}
 
 
-@pytest.mark.parametrize("name", sorted(set(ChartOptions.model_fields) - {"data", "paper"}))
-def test_charts_offer_every_option_of_theirs_with_its_help_and_default(name: str) -> None:
-    (option,) = (p for p in COMMANDS["chart"].params if p.name == name)
-    field = ChartOptions.model_fields[name]
-    assert option.help == field.description
-    assert (option.default or None) == (field.default or None)
-    assert f"`--{name.replace('_', '-')}" in DOCS
-
-
-@pytest.mark.parametrize("name", sorted(set(PhotoOptions.model_fields) - {"sources"}))
-def test_photos_offer_every_option_of_theirs_with_its_help_and_default(name: str) -> None:
-    (option,) = (p for p in COMMANDS["photos"].params if p.name == name)
-    field = PhotoOptions.model_fields[name]
-    assert (option.help, option.default) == (field.description, field.default)
-    assert f"`--{name.replace('_', '-')}" in DOCS
+@pytest.mark.parametrize("name", OWN)
+def test_every_option_that_one_verb_has_alone_is_documented(name: str) -> None:
+    flag = (OWN[name].offer.flags or f"--{name.replace('_', '-')}").split("/")[0]
+    assert f"`{flag}" in DOCS
 
 
 @pytest.mark.parametrize("command", ["fill", "words", "photos", "run"])
@@ -144,9 +132,9 @@ def test_one_option_means_one_thing_in_all_commands() -> None:
     helps: dict[str, set[str]] = {}
     for command in COMMANDS.values():
         for parameter in command.params:
-            if isinstance(parameter, click.Option):
+            if parameter.param_type_name == "option":
                 helps.setdefault(parameter.opts[-1], set()).add(str(parameter.help))
-    assert not {name: texts for name, texts in helps.items() if len(texts) > 1}
+    assert {name for name, texts in helps.items() if len(texts) > 1} == IN_ITS_OWN_WORDS
 
 
 @pytest.mark.parametrize("name", LOSSES)

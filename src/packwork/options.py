@@ -1,4 +1,9 @@
-"""What all options are: frozen values that refuse unknown keys and say what they mean."""
+"""What all options are: frozen values that refuse unknown keys and say what they mean.
+
+A field is all that there is of an option: its name, type, bounds, default and docstring, and a
+:class:`packwork.offers.Offer` where it is offered otherwise than the other fields of its class.
+Command lines, signatures in Python, the reference and forms are made of :func:`offered`.
+"""
 
 from __future__ import annotations
 
@@ -7,18 +12,23 @@ import inspect
 import linecache
 import re
 import sys
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from functools import cache
-from typing import Any
+from typing import Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict
+from pydantic.fields import FieldInfo
+
+from packwork.offers import NOT_OFFERED, Offer, Offered
 
 
 class Options(BaseModel):
     """Options whose descriptions are the docstrings of their fields.
 
-    Pydantic would read them too, but by tokenising each class in Python; and it would build at
-    once what checks each model, also where only the recipe, which holds them all, is made.
-    Without sources there are no descriptions.
+    Pydantic would read the docstrings too, but by tokenising each class in Python; and it would
+    build at once what checks each model, also where only the recipe, which holds them all, is
+    made. Without sources there are no descriptions.
 
     Examples
     --------
@@ -29,6 +39,9 @@ class Options(BaseModel):
 
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
+    offers: ClassVar[Offer] = NOT_OFFERED
+    """How fields of the class are offered that do not say otherwise."""
+
     @classmethod
     def __pydantic_init_subclass__(cls, **settings: Any) -> None:
         """Describe the fields of a new class of options."""
@@ -36,6 +49,49 @@ class Options(BaseModel):
         for name, text in _docstrings(cls.__module__).get(cls.__qualname__, {}).items():
             if name in cls.model_fields:
                 cls.model_fields[name].description = text
+
+
+@cache
+def offered(model: type[Options]) -> tuple[Offered, ...]:
+    """Options of a model as faces list them: its own fields, then those of the parts it is made of.
+
+    Examples
+    --------
+    >>> from packwork.piles import PileOptions
+    >>> [option.name for option in offered(PileOptions)]
+    ['open', 'size', 'emit', 'release', 'compact']
+    """
+    classes = [c for c in model.__mro__ if issubclass(c, Options) and c is not Options]
+    found = {
+        name: _offered(name, model.model_fields[name], owner.offers)
+        for owner in classes
+        for name in vars(owner).get("__annotations__", {})
+        if name in model.model_fields
+    }
+    listed: list[Offered] = []
+    for first in (option for option in found.values() if option.offer.after not in found):
+        listed += _with_followers(first, found)
+    return tuple(option for option in listed if option.verbs)
+
+
+def _offered(name: str, field: FieldInfo, common: Offer) -> Offered:
+    own = next((said for said in field.metadata if isinstance(said, Offer)), common)
+    return Offered(
+        name=name,
+        field=field,
+        offer=replace(
+            own,
+            group=common.group if own.group is None else own.group,
+            verbs=common.verbs if own.verbs is None else own.verbs,
+        ),
+    )
+
+
+def _with_followers(option: Offered, found: Mapping[str, Offered]) -> Iterator[Offered]:
+    yield option
+    for other in found.values():
+        if other.offer.after == option.name:
+            yield from _with_followers(other, found)
 
 
 @cache

@@ -9,6 +9,7 @@ from typing import Annotated, Literal, TypeAlias
 from pydantic import BeforeValidator, Field, field_validator
 
 from packwork.errors import RecipeError
+from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
 from packwork.readers.photos.options import PhotoOptions
 from packwork.units import parse_share
@@ -48,34 +49,71 @@ def share_of_kinds(value: object) -> dict[str, float]:
     return shares
 
 
+def known_palette(value: object) -> object:
+    """The same value, refused unless it is a palette, colours or None.
+
+    Raises
+    ------
+    RecipeError
+        About ``palette``.
+    """
+    if value is not None:
+        # Loads the picture library, which the command line's help can do without.
+        from packwork.scene.palette import palette_colours
+
+        try:
+            palette_colours(value)
+        except ValueError as error:
+            raise RecipeError("palette", str(error)) from None
+    return value
+
+
 Shades: TypeAlias = Literal["tint", "nearest", "keep"]
 """What a palette does to drawings of several colours."""
+
+
+_ADDED = Offer(
+    verbs=Verbs.WORDS, typed=list[str], after="items",
+    help="Photos that are placed too: files, folders or patterns. May be given several times.",
+)  # fmt: skip
 
 
 class Pictured(Options):
     """Photographs that are placed, the picture round which items are, and what a palette does."""
 
-    shades: Shades = "tint"
+    offers = Offer(group=Group.PLACED, verbs=Verbs.COLLAGES)
+
+    shades: Annotated[Shades, Offer(verbs=Verbs.FILL | Verbs.PILE, after="palette")] = "tint"
     """What --palette does to drawings of several colours: tint (each in the tints and shades of one
     colour, by lightness), nearest (each of their colours becomes the palette's nearest) or keep
     (they keep their own, as among words)."""
 
-    photos: PhotoOptions | None = None
+    photos: Annotated[PhotoOptions | None, _ADDED] = None
     """Photographs to place: which, and what becomes of their edges (``packwork photos``)."""
 
-    least_dpi: Annotated[float, Field(gt=0, le=10_000)] | None = None
+    least_dpi: Annotated[
+        Annotated[float, Field(gt=0, le=10_000)] | None, Offer(verbs=Verbs.PHOTOS, after="weights")
+    ] = None
     """Enlarge no photo beyond so many of its own pixels to the inch: those of few pixels stay
     small. Default: photos are as large as suits the layout."""
 
-    quiet_share: Annotated[float, Field(ge=0.02, le=0.98), BeforeValidator(parse_share)] = 0.4
+    quiet_share: Annotated[
+        float,
+        Field(ge=0.02, le=0.98),
+        BeforeValidator(parse_share),
+        Offer(metavar="SHARE", after="canvas"),
+    ] = 0.4
     """Of a container around:IMAGE: the share of the picture that is filled, as 0.4 or 40%: that
     in which least is to be seen."""
 
-    keep_clear: tuple[str, ...] | None = None
+    keep_clear: Annotated[tuple[str, ...] | None, Offer(after="quiet_share")] = None
     """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or
     a box left,top,width,height such as 10%,20%,30%,30%."""
 
-    share: dict[str, float] | None = None
+    share: Annotated[
+        dict[str, float] | None,
+        Offer(verbs=Verbs.WORDS | Verbs.PHOTOS, typed=str, after="photos"),
+    ] = None
     """Shares of the area where words, photos and other items are mixed:
     words=50%,photos=30%,items=20%."""
 

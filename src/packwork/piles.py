@@ -9,9 +9,10 @@ from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.forces.spec import ForceTexts, is_pair
+from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options
 from packwork.recipe_paths import split_words
-from packwork.refusals import length_asked
+from packwork.refusals import length_of
 
 Side: TypeAlias = Literal["top", "bottom", "left", "right"]
 """Where a container is open."""
@@ -78,11 +79,13 @@ def parse_emitter(text: str) -> Emitter:
 class PileOptions(Options):
     """How items of given sizes are heaped."""
 
+    offers = Offer(group=Group.PLACED, verbs=Verbs.PILE)
+
     open: Annotated[tuple[Side, ...], BeforeValidator(_one_or_more)] = ()
     """Take the lid off on that side (top, bottom, left or right): items come in through it and
     may heap up beyond it, to the canvas' edge. May be given several times."""
 
-    size: str | float | None = None
+    size: Annotated[str | float | None, length_of("size")] = None
     """Longer side of each item, a length as for the padding; with weights, of one of weight 1.
     Default: in the proportions of their files, and so large that all find room and the pile is
     about two thirds high; without a container as large as in their files."""
@@ -112,24 +115,23 @@ class PileOptions(Options):
             raise RecipeError("release", "says when items come, so --emit must say from where")
         return self
 
-    @field_validator("size")
-    @classmethod
-    def _size_is_a_length(cls, value: str | float | None) -> str | float | None:
-        if value is not None and length_asked("size", value, "px", 1.0) <= 0:
-            raise RecipeError("size", f"must be more than nothing, not {value}")
-        return value
-
 
 class Moving(Options):
     """The part of a recipe that says how items move."""
 
-    force: ForceTexts = None
+    offers = Offer(group=Group.PLACED)
+
+    force: Annotated[
+        ForceTexts, Offer(verbs=Verbs.FILL | Verbs.WORDS | Verbs.PILE, after="hero")
+    ] = None
     """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
     balance or together; docs/forces.md has all. May be given several times."""
 
-    pile: PileOptions | None = None
+    pile: Annotated[PileOptions | None, NOT_OFFERED] = None
     """Items of given sizes, heaped by forces (``packwork pile``)."""
 
-    stay: bool = False
+    stay: Annotated[
+        bool, Offer(group=Group.SOLVED, verbs=Verbs.FILL | Verbs.WORDS, after="start")
+    ] = False
     """With --start LAYOUT: items stay as near to where they were as the result allows. They are
     told by their names; new ones go into voids, and those no longer asked for leave."""

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, field_validator
 
 from packwork.errors import RecipeError
+from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
 from packwork.readers.options import GAPS_AUTO, GAPS_NONE, HALF, ReadOptions
 from packwork.refusals import length_asked
@@ -15,12 +16,14 @@ from packwork.refusals import length_asked
 class Interpreted(Options):
     """What files do not say of themselves."""
 
+    offers = Offer(group=Group.PLACED, verbs=Verbs.EVERY)
+
     trim: bool | None = None
     """Leave out the page round a container's drawing (an SVG or a mask), or keep it. Default: left
     out where the drawing takes less than a third of it across and down, but a page in mm, cm, in
     or pt is kept. Items are their drawings in any case."""
 
-    keep_page: bool | None = None
+    keep_page: Annotated[bool | None, Offer(flags="--keep-page/--drop-page")] = None
     """Whether the white page behind an item's drawing, or the plain background of a picture, is
     part of it. Default: left out where it looks like a page (nothing on it touches its edges, and
     most files of the same folder do not fill theirs)."""
@@ -33,7 +36,9 @@ class Interpreted(Options):
     """Opacity from which the paint of a picture belongs to its outline, as a share of its most
     opaque pixel: smaller takes soft shadows in, larger leaves more of soft edges out."""
 
-    stroke_width: Literal["scaled", "even"] = "scaled"
+    stroke_width: Annotated[
+        Literal["scaled", "even"], Offer(verbs=Verbs.FILL | Verbs.WORDS | Verbs.PILE)
+    ] = "scaled"
     """Lines of items that are drawn in lines, as line icons: scaled (as wide as their sizes make
     them) or even (alike on all of them: of larger ones thinner, before items grow together)."""
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal, TypeAlias
 
@@ -18,7 +19,8 @@ from pydantic import (
 
 from packwork.errors import RecipeError
 from packwork.levels import checked_levels, parse_levels
-from packwork.pictures import Pictured
+from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
+from packwork.pictures import Pictured, known_palette
 from packwork.piles import Moving
 from packwork.presets import PRESETS
 from packwork.readers.charts.options import ChartOptions
@@ -26,8 +28,17 @@ from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
 from packwork.reading import Interpreted
 from packwork.recipe_paths import check_names
-from packwork.refusals import length_asked, refusal
-from packwork.rules import MAX_COUNT, ItemCount, Rotation, Rule, as_text, hero_rule, rotation_text
+from packwork.refusals import length_asked, length_of, refusal
+from packwork.rules import (
+    MAX_COUNT,
+    ItemCount,
+    Rotation,
+    Rule,
+    as_text,
+    known_hero,
+    known_rotation,
+    some_rules,
+)
 from packwork.solve.options import (
     MAX_STRETCH,
     ImageLossFunction,
@@ -36,7 +47,7 @@ from packwork.solve.options import (
     SolveOptions,
 )
 from packwork.start.options import LAYOUTS, StartOptions
-from packwork.units import CanvasSize, canvas_size, parse_share
+from packwork.units import CanvasSize, canvas_size, known_canvas, parse_share
 from packwork.writers.film.options import FilmOptions
 
 if TYPE_CHECKING:
@@ -53,136 +64,175 @@ APART = 0.5
 MAX_SECONDS = 86_400.0
 """Longest time for one run. Chosen."""
 
+Seconds: TypeAlias = Annotated[float, Field(gt=0, le=MAX_SECONDS, allow_inf_nan=False)]
+
 DEFAULT_SMALLEST = "0.5%"
 """Of the canvas' longer side: 3 px of 600, below which a copy is a speck. Chosen by eye."""
+
+
+_COLLAGES = Offer(verbs=Verbs.COLLAGES)
+_LEVELS = Offer(group=Group.SOLVED, verbs=Verbs.LEVELLED)
+_VOIDS = Offer(group=Group.VOIDS, verbs=Verbs.COLLAGES)
+_LOSS = replace(
+    _LEVELS, flags="--loss", typed=list[str],
+    help="A loss and its weight, in place of the preset's or beside them: NAME=1 or "
+    "MODULE:FUNCTION=1; 0 switches one off. May be given several times.",
+)  # fmt: skip
+_ADDED = Offer(
+    verbs=Verbs.WORDS | Verbs.PHOTOS, flags="--add", after="count",
+    help="Items that are placed too: files, folders or built-in names; among words each is as "
+    "large as a middling one. May be given several times.",
+)  # fmt: skip
 
 
 class Recipe(Pictured, Moving, TableFormat, Interpreted):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
-    container: str
+    offers = Offer(group=Group.PLACED, verbs=Verbs.EVERY)
+
+    container: Annotated[str, NOT_OFFERED]
     """What to fill: a mask (PNG, JPEG), SVG, text:WORD, around:IMAGE, a built-in name or page."""
 
-    font: str | None = None
+    font: Annotated[
+        str | None, Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE, after="share")
+    ] = None
     """Font file (TTF, OTF, TTC) or installed family, for a container text:WORD or for words;
     for these also several in turn. Default: a bundled bold sans, others for what it lacks."""
 
-    items: tuple[str, ...] = ("builtin:icons",)
+    items: Annotated[tuple[str, ...], _ADDED] = ("builtin:icons",)
     """What to place: SVGs, pictures, folders of them, or built-in names."""
 
-    words: WordOptions | None = None
+    words: Annotated[WordOptions | None, NOT_OFFERED] = None
     """Words to place: what they are and how they are set (``packwork words``)."""
 
-    chart: ChartOptions | None = None
+    chart: Annotated[ChartOptions | None, NOT_OFFERED] = None
     """Rows of a table, a mark for each (``packwork chart``)."""
-    count: ItemCount | None = None
+
+    count: Annotated[
+        ItemCount | None, Offer(verbs=Verbs.EVERY & ~Verbs.CHART, flags="-n --count")
+    ] = None
     """How many items in all; the given ones are repeated in turn. Default: one of each.
     Of words: how many at most, those of the largest weights; default 100. auto: as many as it
     takes for the container's shape to show."""
 
-    canvas: str | float | None = None
+    canvas: Annotated[str | float | None, AfterValidator(known_canvas)] = None
     """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as
     200x150mm, A4 (A0 to A6, letter) or A4-landscape. Its unit is that of all results.
     Default: an SVG container in mm, cm, in or pt keeps its size; any other becomes 600 px."""
 
-    seed: Annotated[int, Field(ge=0, le=2**63 - 1)] = 0
+    seed: Annotated[int, Field(ge=0, le=2**63 - 1), Offer(group=Group.SOLVED)] = 0
     """Same seed, same machine, same versions: same layout."""
 
-    sizes: SizeMode = "free"
+    sizes: Annotated[SizeMode, _COLLAGES] = "free"
     """free: each item finds its size; shared: all have equal areas, or areas in the shares
     of the weights; fixed: as large as in their files."""
 
-    size_ratio: Annotated[float, Field(ge=1, le=100)] = 2.0
+    size_ratio: Annotated[float, Field(ge=1, le=100), _COLLAGES] = 2.0
     """With free sizes: 2 lets an item be half to twice as large as the typical one."""
 
-    stretch: Annotated[float, Field(ge=1, le=MAX_STRETCH, allow_inf_nan=False)] = 1.0
+    stretch: Annotated[
+        float, Field(ge=1, le=MAX_STRETCH, allow_inf_nan=False), Offer(verbs=Verbs.FILL)
+    ] = 1.0
     """1.5 lets each item become up to 1.5 times as wide for its height as it was drawn, or
     as high for its width, at the same area. 1 keeps all proportions."""
 
-    rotate: str = "free"
+    rotate: Annotated[str, BeforeValidator(known_rotation)] = "free"
     """free (words: within 90 degrees, never upside down), none, 30 (within 30 degrees of upright;
     upright is the same) or 0,90 (only these angles); also horizontal, vertical (read upwards),
     mixed (one in four vertical)."""
 
-    padding: str | float = "0"
+    padding: Annotated[str | float, length_of("padding", may_be_zero=True)] = "0"
     """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt,
     0.5cm, 0.1in, or 1% of the canvas' longer side."""
 
-    weights: str | dict[str, float] | None = None
+    weights: Annotated[
+        str | dict[str, float] | None, Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE)
+    ] = None
     """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
 
-    hero: str | None = None
+    hero: Annotated[str | None, AfterValidator(known_hero), _COLLAGES] = None
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
-    palette: str | tuple[str, ...] | None = None
+    palette: Annotated[
+        str | tuple[str, ...] | None,
+        BeforeValidator(known_palette),
+        Offer(verbs=Verbs.EVERY & ~Verbs.PHOTOS),
+    ] = None
     """New colours for items, neighbours unlike: #e63946,#457b9d or okabe-ito, tol-bright,
     tol-vibrant, tol-muted, tol-high-contrast. Photographs keep theirs."""
 
-    apart: bool = False
+    apart: Annotated[bool, Offer(verbs=Verbs.FILL | Verbs.PHOTOS)] = False
     """Keep copies of one item from lying side by side, as far as that goes."""
 
-    rules: tuple[Rule, ...] = ()
+    rules: Annotated[tuple[Rule, ...], BeforeValidator(some_rules), NOT_OFFERED] = ()
     """What is asked of single items (in Python and recipe files)."""
 
-    holes: Literal["fill", "keep"] = "fill"
+    holes: Annotated[Literal["fill", "keep"], Offer(verbs=Verbs.EVERY & ~Verbs.PHOTOS)] = "fill"
     """keep: the holes of items stay free, so that small items may sit in them."""
 
-    outline: OutlineChoice = "exact"
+    outline: Annotated[OutlineChoice, Offer(verbs=Verbs.FILL | Verbs.WORDS)] = "exact"
     """What an item is taken for while it is placed: exact (its true outline), fitted (20
     smooth curves) or hull (no item in another's bays). What is measured and written is the
     true outline."""
 
-    strict: bool = False
+    strict: Annotated[bool, Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE)] = False
     """Refuse a folder with an unusable file instead of leaving that file out."""
 
-    start: str | None = None
+    start: Annotated[str | None, Offer(group=Group.SOLVED, after="levels")] = None
     """How the first places are found: distance-field (into the largest room), medial-axis (along
     the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;
     for words and shared sizes), or a layout (.geojson, .svg, .dxf; edited ones too). Default: what
     suits the sizes, of photos the best of distance-field, medial-axis and scatter."""
 
-    finish: Literal["exact", "none"] = "exact"
+    finish: Annotated[Literal["exact", "none"], _LEVELS] = "exact"
     """exact: after the levels, items are moved, turned and sized in exact geometry until
     nothing overlaps and nothing sticks out; none: what the levels gave, not certified."""
 
-    target_coverage: Annotated[float, Field(gt=0, lt=1), BeforeValidator(parse_share)] | None = None
+    target_coverage: Annotated[
+        Annotated[float, Field(gt=0, lt=1), BeforeValidator(parse_share)] | None,
+        replace(_VOIDS, metavar="SHARE"),
+    ] = None
     """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids,
     round by round, until it is reached or nothing more fits."""
 
-    max_items: Annotated[int, Field(ge=1, le=MAX_COUNT)] | None = None
+    max_items: Annotated[Annotated[int, Field(ge=1, le=MAX_COUNT)] | None, _VOIDS] = None
     """Most items in all once smaller copies have been put into the voids. Default: 1000."""
 
-    smallest: str | float | None = None
+    smallest: Annotated[str | float | None, length_of("smallest"), _VOIDS] = None
     """Put smaller copies into the voids, down to this longer side, a length as for the padding
     (default 0.5%). Of words: the least font size; smaller ones are left out and named."""
 
-    filler: tuple[str, ...] | None = None
+    filler: Annotated[tuple[str, ...] | None, _VOIDS] = None
     """Items to put into the voids, in place of smaller copies of the items."""
 
-    effort: Effort = "normal"
+    effort: Annotated[Effort, _LEVELS] = "normal"
     """How many iterations: draft, normal or best."""
 
-    epochs: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
+    epochs: Annotated[Annotated[int, Field(ge=1, le=1_000_000)] | None, _LEVELS] = None
     """Iterations in all, instead of an effort."""
 
-    time: Annotated[float, Field(gt=0, le=MAX_SECONDS, allow_inf_nan=False)] | None = None
+    time: Annotated[Seconds | None, _LEVELS] = None
     """Seconds for the whole run, instead of a number of iterations: results then depend on
     the machine."""
 
-    preset: Literal["default", "paper"] = "default"
+    preset: Annotated[Literal["default", "paper"], Offer(group=Group.SOLVED, verbs=Verbs.FILL)] = (
+        "default"
+    )
     """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
 
-    levels: Annotated[str | None, BeforeValidator(as_text), AfterValidator(checked_levels)] = None
+    levels: Annotated[
+        str | None, BeforeValidator(as_text), AfterValidator(checked_levels), _LEVELS
+    ] = None
     """Resolutions from coarse to fine, pixels on the longer side, each with its share of
     the epochs, as 50:9,200:23,600:68 (the default); without shares, as 50,200,600 (the
     paper's), they are even."""
 
-    losses: dict[str | ImageLossFunction, float] = Field(default_factory=dict)
+    losses: Annotated[dict[str | ImageLossFunction, float], _LOSS] = Field(default_factory=dict)
     """Weights of losses, by name, module:function or (in Python) as functions: in place of
     the preset's, or beside them; 0 switches one off."""
 
-    film: FilmOptions | None = None
+    film: Annotated[FilmOptions | None, NOT_OFFERED] = None
     """How a film of the run is made, where one is asked for (``--film``)."""
 
     @field_validator("font", mode="before")
@@ -194,61 +244,6 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
                 "font", f"sets a container of words, as in text:HELLO, not {container!r}"
             )
         return str(font) if isinstance(font, Path) else font
-
-    @field_validator("rotate", mode="before")
-    @classmethod
-    def _rotation_is_known(cls, value: object) -> object:
-        text = rotation_text(value)
-        if isinstance(text, str):
-            Rotation.parse(text)
-        return text
-
-    @field_validator("rules", mode="before")
-    @classmethod
-    def _rules_are_tables(cls, value: object) -> object:
-        if not isinstance(value, list | tuple):
-            raise RecipeError("rules", f"must be a list of tables, not {str(value)[:60]!r}")
-        return value
-
-    @field_validator("hero")
-    @classmethod
-    def _hero_is_known(cls, text: str | None) -> str | None:
-        if text is not None:
-            hero_rule(text)
-        return text
-
-    @field_validator("palette", mode="before")
-    @classmethod
-    def _palette_is_known(cls, value: object) -> object:
-        if value is not None:
-            # Loads the picture library, which the command line's help can do without.
-            from packwork.scene.palette import palette_colours
-
-            try:
-                palette_colours(value)
-            except ValueError as error:
-                raise RecipeError("palette", str(error)) from None
-        return value
-
-    @field_validator("canvas")
-    @classmethod
-    def _canvas_has_a_size(cls, value: str | float | None) -> str | float | None:
-        if value is not None:
-            canvas_size(value)
-        return value
-
-    @field_validator("padding")
-    @classmethod
-    def _padding_is_alength_asked(cls, value: str | float) -> str | float:
-        length_asked("padding", value, "px", 1.0)
-        return value
-
-    @field_validator("smallest")
-    @classmethod
-    def _smallest_is_a_size(cls, value: str | float | None) -> str | float | None:
-        if value is None or length_asked("smallest", value, "px", 1.0) > 0:
-            return value
-        raise RecipeError("smallest", f"must be more than nothing, not {value}")
 
     @field_validator("losses")
     @classmethod

@@ -6,7 +6,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
-from pydantic import BaseModel, ValidationError
+from pydantic import AfterValidator, BaseModel, ValidationError
 
 from packwork.errors import RecipeError
 from packwork.synonyms import key_meant
@@ -110,3 +110,22 @@ def length_asked(key: str, value: str | float, unit: str, whole: float) -> float
         return parse_length(str(value), unit, whole)
     except ValueError as error:
         raise RecipeError(key, str(error)) from None
+
+
+def length_of(key: str, *, may_be_zero: bool = False) -> AfterValidator:
+    """What checks that an option is a length, or None.
+
+    Parameters
+    ----------
+    key
+        The option.
+    may_be_zero
+        Whether nothing will do.
+    """
+
+    def check(value: str | float | None) -> str | float | None:
+        if value is None or length_asked(key, value, "px", 1.0) > 0 or may_be_zero:
+            return value
+        raise RecipeError(key, f"must be more than nothing, not {value}")
+
+    return AfterValidator(check)

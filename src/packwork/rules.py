@@ -158,6 +158,25 @@ def rotation_text(value: object) -> object:
     return f"{text}," if isinstance(value, tuple | list) and len(value) == 1 else text
 
 
+def known_rotation(value: object) -> object:
+    """As :func:`rotation_text`, refused unless it has a meaning.
+
+    Raises
+    ------
+    RecipeError
+        About ``rotate``.
+
+    Examples
+    --------
+    >>> known_rotation((0, 90))
+    '0,90'
+    """
+    text = rotation_text(value)
+    if isinstance(text, str):
+        Rotation.parse(text)
+    return text
+
+
 class Pin(Options):
     """What of one item's pose is given; the rest is free."""
 
@@ -326,6 +345,20 @@ def hero_rule(text: str) -> Rule:
             "hero", f"use lengths such as 50%,40%=30% or 30mm,40mm=60mm, not {text!r}"
         ) from None
     return Rule(items=(name,), pin=pin)
+
+
+def known_hero(text: str | None) -> str | None:
+    """The same text, if it names a hero as :func:`hero_rule` has it, or None."""
+    if text is not None:
+        hero_rule(text)
+    return text
+
+
+def some_rules(value: object) -> object:
+    """The same value, refused unless it can be a list of rules."""
+    if not isinstance(value, list | tuple):
+        raise RecipeError("rules", f"must be a list of tables, not {str(value)[:60]!r}")
+    return value
 
 
 def _degrees(part: str, text: str) -> float:

@@ -7,12 +7,15 @@ from pathlib import Path
 from typing import Any
 
 from packwork.api.layout import Layout
+from packwork.api.signatures import of_verb
 from packwork.api.verbs import fill
+from packwork.offers import Verbs
 from packwork.pipeline.photographing import photo_choices
 from packwork.progress import Observer, Stop, never
 from packwork.scene.container import Container
 
 
+@of_verb(Verbs.PHOTOS)
 def photos(
     container: str | Path | Container,
     sources: str | Path | Sequence[str | Path],
@@ -36,8 +39,7 @@ def photos(
     observer, stop, progress
         As for :func:`packwork.fill`.
     options
-        As on the command line: ``shape``, ``border``, ``border_color``, ``edge``, and those
-        of :func:`packwork.fill`.
+        As on the command line, by the names in the signature.
 
     Raises
     ------

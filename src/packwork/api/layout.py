@@ -8,7 +8,10 @@ from functools import cached_property, partial
 from pathlib import Path
 from typing import Any
 
+from pydantic import ValidationError
+
 from packwork import writers
+from packwork.api.signatures import of_model
 from packwork.display.axes import drawn_on
 from packwork.display.bar import bar_for, shown
 from packwork.display.frame import data_frame
@@ -16,7 +19,10 @@ from packwork.display.picture import notebook_png, notebook_svg
 from packwork.metrics.measure import measure
 from packwork.pipeline.filming import film_options
 from packwork.readers.layout import read_layout
+from packwork.refusals import refusal
 from packwork.scene import layout as scene
+from packwork.writers.film.options import FilmOptions
+from packwork.writers.options import DrawingOptions
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -80,20 +86,11 @@ class Layout(scene.Layout):
         """
         return public(read_layout(Path(path)))
 
+    @of_model(DrawingOptions)
     def save(
         self,
         path: str | Path,
-        *,
-        pixels: int = 1_600,
-        dpi: float | None = None,
-        background: str | None = None,
-        show_container: bool = False,
-        flatten: bool = False,
-        text: writers.TextChoice = "outlines",
-        cut: writers.CutLine | None = None,
-        kiss_cut: str | float | None = None,
-        bleed: str | float | None = None,
-        halo: writers.HaloChoice = "none",
+        **options: Any,
     ) -> None:
         """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
 
@@ -101,30 +98,15 @@ class Layout(scene.Layout):
         ----------
         path
             Where to; an older file is replaced only when the new one is complete.
-        pixels
-            Longer side of a PNG or JPEG.
-        dpi
-            Pixels to the inch: of photos (300 if None), and of PNG and JPEG, not ``pixels``.
-        background
-            Any CSS colour, or ``none``. Default: none in SVG and PDF, white in PNG.
-        show_container
-            Draw the container's line.
-        flatten
-            In SVG, repeat each drawing in place, for tools that choke on ``use``.
-        text
-            ``live``: words in SVG are text; ``outlines``: they are curves.
-        cut, kiss_cut
-            Lines for a cutter: ``outlines``, or ``silhouette`` for one closed line round each
-            item; or at a distance round each, as ``"2mm"``.
-        bleed
-            What a PDF's background reaches beyond the canvas, as ``"3mm"``.
-        halo
-            A rim round ``faint`` items, those hardly to be seen on the background, or ``all``.
+        options
+            As on the command line: ``pixels``, ``dpi``, ``background``, ``halo`` ...
 
         Raises
         ------
         WriteError
             If the ending is unknown or the file cannot be written.
+        RecipeError
+            If an option has no meaning.
 
         Examples
         --------
@@ -134,12 +116,13 @@ class Layout(scene.Layout):
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
         """
-        options = writers.write_options(
-            pixels=pixels, dpi=dpi, background=background, show_container=show_container,
-            flatten=flatten, text=text, cut=cut, kiss_cut=kiss_cut, bleed=bleed, halo=halo,
-        )  # fmt: skip
-        writers.write(self, path, options)
+        try:
+            drawing = writers.write_options(**options)
+        except ValidationError as error:
+            raise refusal(error, DrawingOptions) from error
+        writers.write(self, path, drawing)
 
+    @of_model(FilmOptions)
     def save_film(
         self,
         path: str | Path,

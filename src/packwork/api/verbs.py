@@ -8,7 +8,10 @@ from typing import Any, Literal
 
 from packwork import pipeline
 from packwork.api.layout import Layout, public
+from packwork.api.signatures import of_verb
 from packwork.display.bar import bar_for, shown
+from packwork.offers import Verbs
+from packwork.options import offered
 from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
@@ -16,8 +19,13 @@ from packwork.reading import Interpreted
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.writers.options import DrawingOptions
+
+(BACKGROUND,) = (option for option in offered(DrawingOptions) if option.name == "background")
+"""Colours of words and charts are made to be read on it."""
 
 
+@of_verb(Verbs.FILL)
 def fill(
     container: str | Path | Container,
     items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
@@ -46,12 +54,8 @@ def fill(
     record
         Keep the way of the items, for :meth:`Layout.save_film`.
     options
-        As on the command line: ``count`` (a number or ``"auto"``), ``font``, ``canvas``,
-        ``seed``, ``sizes``, ``size_ratio``, ``stretch``, ``rotate``, ``padding``, ``weights``,
-        ``holes``, ``outline``, ``strict``, ``trim``, ``keep_page``, ``close_gaps``,
-        ``alpha_threshold``, ``stroke_width``, ``start``, ``effort``, ``epochs``, ``levels``,
-        ``losses``, ``hero``, ``palette``, ``apart``; and ``rules`` about single items,
-        tables as in a recipe file: ``[{"items": "star", "count": 3}]``.
+        As on the command line, by the names in the signature; and ``rules`` about single
+        items, tables as in a recipe file: ``[{"items": "star", "count": 3}]``.
 
     Raises
     ------
@@ -76,6 +80,7 @@ def fill(
     return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
 
 
+@of_verb(Verbs.WORDS, BACKGROUND)
 def words(
     container: str | Path | Container,
     source: str | Path | Mapping[str, float] | Any,
@@ -101,11 +106,8 @@ def words(
     observer, stop, progress, record
         As for :func:`fill`.
     options
-        As on the command line: ``count``, ``min_count``, ``language``, ``stopwords``,
-        ``phrases``, ``plurals``, ``case``, ``min_word_length``, ``include_numbers``,
-        ``regexp``, ``fonts``, ``font_weight``, ``weight_is``, ``smallest``, ``largest``,
-        ``color_by`` (also a function of a word), ``contrast``, ``background`` (to be given to
-        ``save`` too), and those of :func:`fill` but ``count`` and ``weights``.
+        As on the command line, by the names in the signature. ``color_by`` may be a function
+        of a word; a ``background`` is to be given to ``save`` too.
 
     Raises
     ------
@@ -134,6 +136,7 @@ def words(
     return _run(recipe, None, whole, observer, stop, progress, record)
 
 
+@of_verb(Verbs.PILE)
 def pile(
     container: str | Path | Container,
     items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
@@ -154,8 +157,7 @@ def pile(
     items, observer, stop, progress, record
         As for :func:`fill`.
     options
-        As on the command line: ``force`` (one or several), ``open``, ``size``, ``emit``,
-        ``release``, ``compact``, and those of :func:`fill` about items, canvas and seed.
+        As on the command line, by the names in the signature.
 
     Raises
     ------
@@ -180,6 +182,7 @@ def pile(
     return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
 
 
+@of_verb(Verbs.CHART, BACKGROUND)
 def chart(
     container: str | Path | Container,
     data: Any,
@@ -202,9 +205,8 @@ def chart(
         A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
         dict of columns.
     options
-        As on the command line: ``size_by``, ``size_is``, ``unit``, ``color_by``, ``mark``,
-        ``mark_by``, ``label_by``, ``by``, ``by_step``, ``title``, ``legend``, ``background``; those
-        of :func:`fill`.
+        As on the command line, by the names in the signature; a ``background`` is to be given
+        to ``save`` too.
 
     Raises
     ------

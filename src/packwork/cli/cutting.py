@@ -10,9 +10,15 @@ from packwork.cli.terminal import say
 from packwork.errors import RecipeError, WriteError
 from packwork.recipe import Recipe
 from packwork.units import split_length
+from packwork.verbs import VERBS, default_of, options_of
 from packwork.writers.cutting import kiss_cut
 
-UNASKED = frozenset({"0", "0.2%", "0.3%"})
+UNASKED = frozenset(
+    default_of(verb, option)
+    for verb in VERBS
+    for option in options_of(verb)
+    if option.name == "padding"
+)
 """Paddings that commands have by themselves."""
 
 HAIR = 1.001

@@ -25,14 +25,16 @@ TEASER = "teaser"
 NAMES = f"{', '.join(DEMOS)}, {TEASER} or another built-in container."
 
 
+@shared.by_name
 def demo(
     name: Annotated[
         str,
         typer.Argument(metavar="[NAME]", help=NAMES),
     ] = "bear",
     folder: Annotated[Path, typer.Option("--folder", help="Where the pictures go.")] = Path("out"),
-    no_clobber: shared.NoClobber = False,
-    quiet: shared.Quiet = False,
+    *,
+    no_clobber: bool,
+    quiet: bool,
 ) -> None:
     """Make a collage of the built-in icons and write it as SVG and PNG.
 

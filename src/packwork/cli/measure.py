@@ -12,6 +12,7 @@ from packwork.cli.failure import SHORTFALL, clear_errors
 from packwork.cli.terminal import say
 
 
+@shared.by_name
 def measure(
     layout: Annotated[
         Path,
@@ -19,11 +20,12 @@ def measure(
             metavar="LAYOUT", help="A layout that was saved, as .geojson, .svg or .dxf."
         ),
     ],
-    report: shared.Report = None,
-    diagnose: shared.Diagnose = None,
-    pixels: shared.Pixels = 1_600,
-    no_clobber: shared.NoClobber = False,
-    quiet: shared.Quiet = False,
+    *,
+    report: Path | None,
+    diagnose: Path | None,
+    pixels: int,
+    no_clobber: bool,
+    quiet: bool,
 ) -> None:
     """Measure a saved layout: coverage, overlap, what sticks out, evenness, gaps.
 

@@ -11,8 +11,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
+import typer
 from rich.console import Console
 
 from packwork import pipeline, writers
@@ -40,6 +41,7 @@ from packwork.pipeline.filming import film_options
 from packwork.pipeline.job import NO_CONTAINER
 from packwork.recipe import Recipe
 from packwork.writers.film.options import FilmOptions
+from packwork.writers.options import DrawingOptions
 
 MOST_NAMED = 5
 """Lines about items without a place on the terminal; a report names all. Chosen."""
@@ -139,66 +141,46 @@ class Outputs:
                 writers.check_picture_size(path, job.container, self.options)
 
 
-def outputs_asked(
-    files: Sequence[Path],
-    *,
-    report: Path | None = None,
-    diagnose: Path | None = None,
-    recipe: Path | None = None,
-    saliency: Path | None = None,
-    no_clobber: bool = False,
-    pixels: int = 1_600,
-    dpi: float | None = None,
-    background: str | None = None,
-    show_container: bool = False,
-    flatten: bool = False,
-    text: writers.TextChoice = "outlines",
-    cut: writers.CutLine | None = None,
-    kiss_cut: str | None = None,
-    bleed: str | None = None,
-    halo: writers.HaloChoice = "none",
-    film: Sequence[Path] | None = None,
-    recipes: FilmOptions | None = None,
-    **filming: Any,
-) -> Outputs:
-    """What the flags of a command ask to be written.
+def carry_out(recipe: Recipe, asked: Mapping[str, Any], default: Path) -> NoReturn:
+    """Run and write what a command line asks for, and leave with the exit code of that.
 
     Parameters
     ----------
-    files
-        Layouts.
-    report, diagnose, recipe, saliency
-        As in :class:`Outputs`.
-    no_clobber
-        Refuse files that are there already.
-    pixels, dpi, background, show_container, flatten, text, cut, kiss_cut, bleed, halo
-        How layouts are drawn, and films but for their size.
-    film
-        Films; None for none.
-    recipes, filming
-        How films are made: as the recipe says, and as the flags do.
+    recipe
+        What to run.
+    asked
+        All options of the command by name.
+    default
+        File to write where none is named.
     """
+    outputs = outputs_asked(asked, default, recipe.film)
+    raise typer.Exit(run_and_write(recipe, outputs, asked["quiet"]))
+
+
+def outputs_asked(
+    asked: Mapping[str, Any], default: Path, recipes: FilmOptions | None = None
+) -> Outputs:
+    """What the options of a command ask to be written.
+
+    Parameters
+    ----------
+    asked, default
+        As for :func:`carry_out`.
+    recipes
+        How the recipe makes films; None if it does not say.
+    """
+    drawing = {key: asked[key] for key in DrawingOptions.model_fields if key in asked}
+    filming = {key: asked[key] for key in FilmOptions.model_fields if key in asked}
     return Outputs(
-        files=files,
-        options=writers.write_options(
-            pixels=pixels,
-            dpi=dpi,
-            background=background,
-            halo=halo,
-            show_container=show_container,
-            flatten=flatten,
-            text=text,
-            cut=cut,
-            kiss_cut=kiss_cut,
-            bleed=bleed,
-        ),
-        films=film or (),
+        files=asked["output"] or [default],
+        options=writers.write_options(**drawing),
+        films=asked["film"] or (),
         filming=film_options(recipes, **filming),
-        report=report,
-        diagnose=diagnose,
-        recipe=recipe,
-        saliency=saliency,
-        keeps_files=no_clobber,
+        report=asked["report"],
+        diagnose=asked["diagnose"],
+        recipe=asked["save_recipe"],
+        saliency=asked.get("show_saliency"),
+        keeps_files=asked["no_clobber"],
     )
 
 

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 from pydantic import ValidationError
 
 from packwork.errors import RecipeError
+from packwork.offers import Verbs
 from packwork.readers.charts.options import ChartOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe_paths import check_names
 from packwork.refusals import refusal
-
-DEFAULTS: Mapping[str, Any] = {"sizes": "shared", "rotate": "none", "padding": "0.2%"}
-"""What is another choice than that of other items: sizes say numbers, marks stand upright and
-just apart. Chosen by eye."""
+from packwork.verbs import with_defaults
 
 NOT_OURS = ("sizes", "weights", "count", "size_ratio", "stretch", "target_coverage")
 """Options that would let sizes say something else than the data."""
@@ -56,5 +53,5 @@ def chart_recipe(container: str, data: object, **options: Any) -> Recipe:
         raise refusal(error, ChartOptions) from error
     if asked.by is not None and container.startswith("around:"):
         raise RecipeError("by", "repeats the container, and a picture's quiet part is there once")
-    chosen = {**DEFAULTS, **{key: value for key, value in options.items() if value is not None}}
+    chosen = with_defaults(Verbs.CHART, options)
     return make_recipe(container=container, items=[], chart=asked, **chosen)

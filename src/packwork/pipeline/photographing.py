@@ -7,14 +7,12 @@ from typing import Any
 
 from pydantic import ValidationError
 
+from packwork.offers import Verbs
 from packwork.readers.photos.options import PhotoOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe_paths import check_names
 from packwork.refusals import refusal
-
-DEFAULTS: Mapping[str, Any] = {"rotate": "15"}
-"""What is another choice than that of other items: photos lie as if strewn on a table, and
-none is upside down."""
+from packwork.verbs import with_defaults
 
 
 def photos_recipe(
@@ -58,9 +56,9 @@ def photo_choices(sources: object, **options: Any) -> dict[str, Any]:
     >>> sorted(photo_choices("holidays/", border="4%", seed=1, count=None))
     ['photos', 'rotate', 'seed']
     """
-    said = {key: value for key, value in options.items() if value is not None}
+    said = with_defaults(Verbs.PHOTOS, options)
     own = {key: said.pop(key) for key in list(said) if key in PhotoOptions.model_fields}
-    return {**DEFAULTS, **said, "photos": _photo_options({"sources": sources, **own})}
+    return {**said, "photos": _photo_options({"sources": sources, **own})}
 
 
 def _photo_options(values: Mapping[str, Any]) -> PhotoOptions:

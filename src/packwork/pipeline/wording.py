@@ -8,12 +8,14 @@ from typing import Any
 from pydantic import ValidationError
 
 from packwork.errors import RecipeError
+from packwork.offers import Verbs
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe_paths import AROUND, check_names
 from packwork.refusals import refusal
 from packwork.scene.contrast import readable
 from packwork.scene.palette import palette_colours
+from packwork.verbs import with_defaults
 
 PALETTE = "ink"
 """Colours of words that are given none."""
@@ -23,10 +25,6 @@ RAMP = "viridis"
 
 PAPER = "white"
 """What words are read on where no background is given."""
-
-DEFAULTS: Mapping[str, Any] = {"sizes": "shared", "rotate": "horizontal", "padding": "0.3%"}
-"""What is another choice than that of other items. Proportions of weights are kept, and
-words stand far enough apart to be read one by one; less fills more. Chosen by eye."""
 
 
 def words_recipe(
@@ -54,7 +52,7 @@ def words_recipe(
     """
     own = {key: options.pop(key) for key in list(options) if key in WordOptions.model_fields}
     asked = _word_options({"source": _plain_source(source), **own})
-    chosen = {**DEFAULTS, **{key: value for key, value in options.items() if value is not None}}
+    chosen = with_defaults(Verbs.WORDS, options)
     chosen["palette"] = words_colours(chosen.get("palette"), asked, container)
     return make_recipe(container=container, items=list(add), words=asked, **chosen)
 

@@ -11,12 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from packwork.writers.atomic import check_outputs, check_writable, write_all, write_atomic
-    from packwork.writers.cutting import CutLine
     from packwork.writers.diagnose import diagnose_png
     from packwork.writers.film.film import Film, tell_nobody
     from packwork.writers.film.registry import FILMS, check_film, film_bytes
     from packwork.writers.geojson import geojson_text
-    from packwork.writers.halos import HaloChoice, faint_told
+    from packwork.writers.halos import faint_told
     from packwork.writers.png import PngOptions, png_bytes
     from packwork.writers.recipe import recipe_bytes
     from packwork.writers.registry import (
@@ -29,17 +28,14 @@ if TYPE_CHECKING:
         write_options,
     )
     from packwork.writers.report import json_bytes
-    from packwork.writers.svg import SvgOptions, TextChoice, svg_text
+    from packwork.writers.svg import SvgOptions, svg_text
 
 __all__ = [
     "FILMS",
     "WRITERS",
-    "CutLine",
     "Film",
-    "HaloChoice",
     "PngOptions",
     "SvgOptions",
-    "TextChoice",
     "WriteOptions",
     "check_film",
     "check_output",
@@ -63,13 +59,12 @@ __all__ = [
 ]
 
 _HOMES = {
-    "cutting": ("CutLine",),
     "atomic": ("check_outputs", "check_writable", "write_all", "write_atomic"),
     "diagnose": ("diagnose_png",),
     "film.film": ("Film", "tell_nobody"),
     "film.registry": ("FILMS", "check_film", "film_bytes"),
     "geojson": ("geojson_text",),
-    "halos": ("HaloChoice", "faint_told"),
+    "halos": ("faint_told",),
     "png": ("PngOptions", "png_bytes"),
     "recipe": ("recipe_bytes",),
     "registry": (
@@ -77,7 +72,7 @@ _HOMES = {
         "write_options",
     ),
     "report": ("json_bytes",),
-    "svg": ("SvgOptions", "TextChoice", "svg_text"),
+    "svg": ("SvgOptions", "svg_text"),
 }  # fmt: skip
 
 

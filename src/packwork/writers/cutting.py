@@ -10,7 +10,6 @@ from __future__ import annotations
 import logging
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Literal, TypeAlias
 
 import shapely
 
@@ -22,10 +21,9 @@ from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, sil
 from packwork.scene.layout import Layout
 from packwork.units import convert, parse_length
 from packwork.writers.notation import attributes, path_data
+from packwork.writers.options import CutLine
 
 _LOG = logging.getLogger(__name__)
-
-CutLine: TypeAlias = Literal["outlines", "silhouette"]
 
 SPOT = "CutContour"
 """Name of the colour that print-and-cut programs look for."""

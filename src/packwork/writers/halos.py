@@ -5,7 +5,6 @@ from __future__ import annotations
 import io
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Literal, TypeAlias
 
 import numpy as np
 from PIL import Image
@@ -17,10 +16,8 @@ from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout
 from packwork.writers.colours import hex_colour, parse_colour
 from packwork.writers.marks import shape_key
+from packwork.writers.options import HaloChoice
 from packwork.writers.swatch import small_png
-
-HaloChoice: TypeAlias = Literal["none", "faint", "all"]
-"""Which items have a rim that makes them stand out from the background."""
 
 PAPER = "#ffffff"
 """What a clear background is taken for."""

@@ -6,23 +6,24 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from types import MappingProxyType
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from packwork.errors import RecipeError, WriteError
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.writers.atomic import check_writable, write_atomic
-from packwork.writers.cutting import CutLine, CutOptions
+from packwork.writers.cutting import CutOptions
 from packwork.writers.dxf import dxf_bytes
 from packwork.writers.extras import check_extra
 from packwork.writers.frame import check_side, picture_frame, side_at
 from packwork.writers.geojson import geojson_text
-from packwork.writers.halos import HaloChoice, haloed
+from packwork.writers.halos import haloed
+from packwork.writers.options import DrawingOptions, HaloChoice
 from packwork.writers.pdf import pdf_bytes
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.printing import DPI, SPARE, printed, printed_on_paper
 from packwork.writers.stills import check_webp_side, jpeg_bytes, tiff_bytes, webp_bytes
-from packwork.writers.svg import SvgOptions, TextChoice, svg_text
+from packwork.writers.svg import SvgOptions, svg_text
 
 MOST_DPI = 2_400
 """Pixels to the inch at most: what the finest printers set. Chosen."""
@@ -274,46 +275,18 @@ def _encoder(path: str | Path) -> Encoder:
     return WRITERS[ending]
 
 
-def write_options(
-    *,
-    pixels: int = 1_600,
-    dpi: float | None = None,
-    background: str | None = None,
-    show_container: bool = False,
-    flatten: bool = False,
-    text: TextChoice = "outlines",
-    cut: CutLine | None = None,
-    kiss_cut: str | float | None = None,
-    bleed: str | float | None = None,
-    halo: HaloChoice = "none",
-) -> WriteOptions:
+def write_options(**options: Any) -> WriteOptions:
     """Options of every format from the few that people give.
 
     Parameters
     ----------
-    pixels
-        Longer side of a PNG or JPEG.
-    dpi
-        Pixels to the inch of paper, of photos and, in place of ``pixels``, of PNG and JPEG.
-    background
-        Any CSS colour, or ``none``. None: none in SVG and PDF, white in PNG.
-    show_container
-        Draw the container's line.
-    flatten
-        In SVG, repeat each drawing in place.
-    text
-        Words in SVG: ``outlines``, or ``live`` text.
-    cut
-        Lines for a cutter: ``outlines``, or ``silhouette`` for one closed line round each item.
-    kiss_cut
-        Distance from the items of the line to cut, a length.
-    bleed
-        What a PDF's background reaches beyond the canvas on each side, a length.
-    halo
-        A rim round ``faint`` items, that is those like the background, round ``all`` or ``none``.
+    options
+        Those of :class:`packwork.writers.options.DrawingOptions`.
 
     Raises
     ------
+    pydantic.ValidationError
+        If there is no such option, or its value is of another type.
     RecipeError
         If a value has no meaning.
 
@@ -322,19 +295,21 @@ def write_options(
     >>> write_options(background="none").png.background is None
     True
     """
+    asked = DrawingOptions.model_validate(options)
+    background, kiss, bleed = asked.background, asked.kiss_cut, asked.bleed
     colour = None if background in {None, "none", "transparent"} else background
-    png = PngOptions(show_container=show_container)
+    png = PngOptions(show_container=asked.show_container)
     return WriteOptions(
         svg=SvgOptions(
             background=colour,
-            show_container=show_container,
-            flatten=flatten,
-            text=text,
-            cut=CutOptions(line=cut, kiss=None if kiss_cut is None else str(kiss_cut)),
+            show_container=asked.show_container,
+            flatten=asked.flatten,
+            text=asked.text,
+            cut=CutOptions(line=asked.cut, kiss=None if kiss is None else str(kiss)),
         ),
         png=png if background is None else replace(png, background=colour),
-        png_side_px=pixels,
-        dpi=dpi,
+        png_side_px=asked.pixels,
+        dpi=asked.dpi,
         bleed=None if bleed is None else str(bleed),
-        halo=halo,
+        halo=asked.halo,
     )

@@ -13,7 +13,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, TypeAlias
 
 from packwork.geometry import affine
 from packwork.scene.container import Backdrop
@@ -35,6 +34,7 @@ from packwork.writers.notation import (
     points_text,
     xml_text,
 )
+from packwork.writers.options import TextChoice
 from packwork.writers.promise import promised, stated_weights
 
 PRECISION = 1e-7
@@ -59,9 +59,6 @@ CONTAINER_STROKE = "#1a202c"
 
 CONTAINER_STROKE_SHARE = 1 / 500
 """Width of the container's drawn line, as a share of the canvas. Chosen by eye."""
-
-
-TextChoice: TypeAlias = Literal["outlines", "live"]
 
 
 @dataclass(frozen=True, kw_only=True)

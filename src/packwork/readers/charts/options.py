@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
+from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options
 from packwork.readers.colours import check_colour
 
@@ -18,7 +19,9 @@ SizeIs: TypeAlias = Literal["area", "height", "width"]
 class ChartOptions(Options):
     """Where rows come from and what of a mark says what of them."""
 
-    data: str | tuple[dict[str, Any], ...]
+    offers = Offer(group=Group.SHOWN, verbs=Verbs.CHART)
+
+    data: Annotated[str | tuple[dict[str, Any], ...], NOT_OFFERED]
     """A table: .csv, .tsv, .json or (with pandas) .parquet; in Python also a data frame, rows
     as dicts, or a dict of columns."""
 
@@ -59,7 +62,7 @@ class ChartOptions(Options):
     legend: bool = True
     """Keys to sizes, colours and marks under the chart."""
 
-    paper: str = "white"
+    paper: Annotated[str, NOT_OFFERED] = "white"
     """What is behind the chart: colours are made to be seen on it."""
 
     @model_validator(mode="after")

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, field_validator
 
 from packwork.errors import RecipeError
+from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options
 from packwork.readers.colours import check_colour
 
@@ -27,7 +28,9 @@ _WIDEST = 50.0
 class PhotoOptions(Options):
     """Photographs, and what becomes of their edges."""
 
-    sources: tuple[str, ...] = Field(min_length=1)
+    offers = Offer(group=Group.EDGES, verbs=Verbs.PHOTOS)
+
+    sources: Annotated[tuple[str, ...], Field(min_length=1), NOT_OFFERED]
     """Photos (JPEG, PNG, WebP), folders of them, or patterns such as *.jpg."""
 
     shape: str | None = None

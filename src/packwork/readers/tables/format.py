@@ -8,6 +8,7 @@ from typing import Literal
 from pydantic import field_validator
 
 from packwork.errors import RecipeError
+from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
 
 NAMES = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";", "space": " ", "pipe": "|"}
@@ -16,6 +17,8 @@ NAMES = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";", "space": " ",
 
 class TableFormat(Options):
     """How tables of text are written. Nothing has to be said of what is plain from a file."""
+
+    offers = Offer(group=Group.TABLES, verbs=Verbs.EVERY)
 
     delimiter: str | None = None
     """What parts the cells of a table: one character, such as ; or tab. Default: what parts all of

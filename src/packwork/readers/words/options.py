@@ -11,6 +11,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import BeforeValidator, Field, field_serializer, field_validator
 
 from packwork.errors import RecipeError
+from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options, number_or_auto
 from packwork.readers.colours import check_colour
 from packwork.readers.words.word import Word
@@ -29,10 +30,15 @@ MOST_BY_DEFAULT = 100
 """The same unless asked: as many as can be read on a screen. Chosen."""
 
 
+_TYPE = Offer(group=Group.TYPE)
+
+
 class WordOptions(Options):
     """Where words come from and how they are set."""
 
-    source: str | dict[str, float]
+    offers = Offer(group=Group.PLACED, verbs=Verbs.WORDS)
+
+    source: Annotated[str | dict[str, float], NOT_OFFERED]
     """Text, a table of word,weight (.csv, .tsv, .json), or - for standard input; in Python
     also the text itself, or a dict of weights."""
 
@@ -68,36 +74,36 @@ class WordOptions(Options):
     plurals: Literal["merge", "keep"] = "merge"
     """merge: English plurals count as their singular, if that stands in the text too."""
 
-    case: Literal["common", "lower", "upper"] = "common"
+    case: Annotated[Literal["common", "lower", "upper"], _TYPE] = "common"
     """How words are written: as they mostly stand in the text, lower or upper."""
 
-    fonts: tuple[str, ...] = ()
+    fonts: Annotated[tuple[str, ...], Offer(group=Group.TYPE, flags="--font")] = ()
     """Font file or installed family; the next ones set what the first cannot. Default: a
     bundled black sans, then whatever is installed and has the letters."""
 
-    font_weight: Annotated[int, Field(ge=1, le=1_000)] = 700
+    font_weight: Annotated[int, Field(ge=1, le=1_000), _TYPE] = 700
     """Weight of a family or a variable font: 400 is regular, 700 bold."""
 
-    weight_is: WeightIs = "height"
+    weight_is: Annotated[WeightIs, _TYPE] = "height"
     """What is in the proportion of the weights: height (of the letters), area (of the
     letters: their height by the root) or ink (of the whole word: long ones are lower)."""
 
-    smallest: str | float | None = None
+    smallest: Annotated[str | float | None, NOT_OFFERED] = None
     """Font size of the smallest word, a length as for the padding: words that would come out
     smaller are left out, the lightest first, and named."""
 
-    largest: str | float | None = None
+    largest: Annotated[str | float | None, _TYPE] = None
     """Font size of the largest word at most, a length as for the padding, such as 48pt or 10%;
     all others stay in proportion."""
 
-    color_by: str | ColourOf | None = None
+    color_by: Annotated[str | ColourOf | None, _TYPE] = None
     """weight (the palette from small to large), a column of the table, or a picture under
     the words; in Python also a function of a word. Default: neighbours unlike."""
 
-    background: str | None = None
+    background: Annotated[str | None, NOT_OFFERED] = None
     """Colour behind the words: theirs are made to be read on it. Default: white."""
 
-    contrast: Annotated[float, Field(ge=1, le=21)] = 3.0
+    contrast: Annotated[float, Field(ge=1, le=21), _TYPE] = 3.0
     """Least contrast of words and background, as WCAG counts it; 1 leaves colours alone."""
 
     @property

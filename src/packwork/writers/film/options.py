@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self, TypeAlias
 from pydantic import Field, model_validator
 
 from packwork.errors import RecipeError
+from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
 
 Easing: TypeAlias = Literal["smooth", "linear"]
@@ -28,6 +29,8 @@ MAX_FRAMES = 20_000
 class FilmOptions(Options):
     """How a film of a run is made."""
 
+    offers = Offer(group=Group.FILMED, verbs=Verbs.EVERY)
+
     fps: Annotated[float, Field(ge=1, le=MAX_FPS, allow_inf_nan=False)] = 30.0
     """Pictures a second of a film. Any number: they are drawn between what was recorded."""
 
@@ -37,7 +40,7 @@ class FilmOptions(Options):
     hold: Annotated[float, Field(ge=0, le=MAX_SECONDS, allow_inf_nan=False)] = 1.0
     """Seconds for which the last picture of a film stays after that."""
 
-    loop: bool = True
+    loop: Annotated[bool, Offer(flags="--loop/--once")] = True
     """Whether a film begins again at its end; in MP4 and WebM the player decides."""
 
     easing: Easing = "smooth"

@@ -1,0 +1,56 @@
+"""Signatures in Python whose options are those of the fields: ``help`` and notebooks show them."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable
+from typing import Any, ParamSpec, TypeVar
+
+from packwork.offers import Offered, Verbs
+from packwork.options import Options, offered
+from packwork.recipe import Recipe
+from packwork.verbs import default_of, run_options
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+RULES = inspect.Parameter(
+    "rules", inspect.Parameter.KEYWORD_ONLY, default=Recipe.model_fields["rules"].default
+)
+"""What Python and recipe files have and no command line."""
+
+
+def of_verb(verb: Verbs, *more: Offered) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Show, in place of ``**options``, those of a verb, further ones and ``rules``."""
+    listed = (*(option for option in run_options(verb) if option.name != "items"), *more)
+    return _showing([*(_parameter(o, default_of(verb, o)) for o in listed), RULES])
+
+
+def of_model(model: type[Options]) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    """Show, in place of ``**options``, those of a model."""
+    return _showing([_parameter(option, option.default) for option in offered(model)])
+
+
+def _parameter(option: Offered, default: Any) -> inspect.Parameter:
+    return inspect.Parameter(
+        option.name,
+        inspect.Parameter.KEYWORD_ONLY,
+        default=default,
+        annotation=option.type,
+    )
+
+
+def _showing(
+    parameters: Iterable[inspect.Parameter],
+) -> Callable[[Callable[P, R]], Callable[P, R]]:
+    def signed(function: Callable[P, R]) -> Callable[P, R]:
+        own = inspect.signature(function)
+        kept = {
+            name: each for name, each in own.parameters.items() if each.kind != each.VAR_KEYWORD
+        }
+        added = [each for each in parameters if each.name not in kept]
+        changed: Any = function
+        changed.__signature__ = own.replace(parameters=[*kept.values(), *added])
+        return function
+
+    return signed

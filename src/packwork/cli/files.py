@@ -1,0 +1,55 @@
+"""Which files a command line asks for, and how the terminal is talked to."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from packwork.offers import Group, Offer, Verbs
+from packwork.options import Options
+
+
+class LayoutFiles(Options):
+    """The layouts and films of a run."""
+
+    offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
+
+    output: Annotated[tuple[Path, ...], Offer(flags="-o --output")] = ()
+    """File to write; the ending (.svg, .png, .jpg, .webp, .tif, .pdf, .dxf, .geojson) picks the
+    format. May be given several times."""
+
+    film: Annotated[tuple[Path, ...], Offer(group=Group.FILMED)] = ()
+    """Film of the run to write; the ending (.svg, .gif, .apng, .webp, .mp4, .webm, .json for
+    Lottie) picks the format. May be given several times."""
+
+
+class SideFiles(Options):
+    """What is written beside them, and what is said."""
+
+    offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
+
+    show_saliency: Annotated[Path | None, Offer(verbs=Verbs.COLLAGES)] = None
+    """Write a picture (PNG) of what was found of a container around:IMAGE: what stands out red, a
+    line round what is filled."""
+
+    report: Path | None = None
+    """Write measures and times as JSON."""
+
+    diagnose: Path | None = None
+    """Write the diagnostic picture (PNG): container yellow, items grey, overlap red, what sticks
+    out blue."""
+
+    save_recipe: Path | None = None
+    """Write the recipe (TOML) that repeats this run."""
+
+    no_clobber: bool = False
+    """Keep files that are there already: refuse to run if one is to be written."""
+
+
+class Terminal(Options):
+    """What is said."""
+
+    offers = Offer(verbs=Verbs.EVERY)
+
+    quiet: Annotated[bool, Offer(flags="-q --quiet")] = False
+    """Print nothing but warnings and errors."""

@@ -1,0 +1,59 @@
+"""How layouts are drawn, of all formats together: what faces offer."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, TypeAlias
+
+from packwork.offers import Group, Offer, Verbs
+from packwork.options import Options
+
+CutLine: TypeAlias = Literal["outlines", "silhouette"]
+"""Lines for a cutter as they are, or one round each item."""
+
+HaloChoice: TypeAlias = Literal["none", "faint", "all"]
+"""Which items have a rim that makes them stand out from the background."""
+
+TextChoice: TypeAlias = Literal["outlines", "live"]
+"""Words as curves or as text."""
+
+
+class DrawingOptions(Options):
+    """How a layout is drawn; each format heeds its own of these."""
+
+    offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
+
+    pixels: int = 1_600
+    """Longer side of a PNG or JPEG."""
+
+    dpi: float | None = None
+    """Pixels to the inch of paper: of photos (default 300), and of a PNG or JPEG in place of
+    --pixels."""
+
+    background: str | None = None
+    """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
+
+    halo: HaloChoice = "none"
+    """A rim that makes items stand out from the background, in SVG, PNG, JPEG and PDF: faint (of
+    those that are hardly to be seen on it) or all."""
+
+    show_container: bool = False
+    """Draw the container's line."""
+
+    flatten: Annotated[bool, Offer(verbs=Verbs.EVERY & ~Verbs.PHOTOS)] = False
+    """In SVG, repeat each drawing in place, for tools that choke on <use>."""
+
+    text: Annotated[TextChoice, Offer(verbs=Verbs.WORDS)] = "outlines"
+    """Words in SVG: outlines, or live text that can be selected and found, in parts of their fonts
+    that the file carries."""
+
+    cut: CutLine | None = None
+    """Lines for a cutter in SVG and PDF (there in the spot colour CutContour) too: outlines, or
+    silhouette: one closed line round each item. Default: outlines in DXF only."""
+
+    kiss_cut: str | float | None = None
+    """Cut at this distance round each item, a length such as 2mm, in DXF, SVG and PDF; the padding
+    is at least twice that."""
+
+    bleed: str | float | None = None
+    """Let a PDF's background reach beyond the sheet on each side, a length such as 3mm; its boxes
+    say where it is trimmed."""
