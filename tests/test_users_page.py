@@ -58,6 +58,8 @@ def no_overlap(results: list[Result]) -> None:
 def any_script(results: list[Result]) -> None:
     told = report("arabic.json")
     assert (told["placed"], told["unplaced"]) == (25, [])
+    assert report("peace.json")["placed"] > 0
+    assert len(read_written("peace.svg").container.outline.rings) > 1
 
 
 def true_sizes(results: list[Result]) -> None:

@@ -39,6 +39,7 @@ INPUTS = {
     "cup.svg": "chart-coffee/cup.svg",
     "nobel.csv": "chart-nobel/nobel-us.csv",
     "words.csv": "words-icons/words.csv",
+    "arabic.ttf": "words-arabic/NotoNaskhArabic-Bold.ttf",
 }
 """Files of the examples that runs read, by the name that they have there."""
 
@@ -69,6 +70,7 @@ RUNS = {
     "fill-paper": "fill circle -n 10 --preset paper -o a.geojson",
     "fill-mask": "fill mask.png -n 10 -o a.svg -o a.geojson",
     "fill-text": "fill 'text:AB|C' -n 16 -o a.svg -o a.geojson",
+    "fill-text-arabic": "fill text:سلام --font arabic.ttf -n 10 -o a.geojson",
     "fill-parts": "fill islands -n 16 --apart -o a.geojson",
     "fill-padding": "fill heart -n 8 --canvas 80mm --padding 1mm -o a.dxf -o a.svg -o a.geojson",
     "fill-angles": "fill hexagon -n 8 --rotate 0,90 -o a.geojson",

@@ -286,6 +286,11 @@ def test_scripts_take_the_fonts_that_a_machine_has(machine):
             read_container("text:A ภาษา")
 
 
+def test_a_font_without_a_space_is_told_so():
+    with pytest.raises(ReadError, match=r"no font given has ' ' \(U\+0020\)"):
+        letters(built(truetype_glyphs(), {66: "block"}), "B B")
+
+
 def test_an_installed_family_is_a_font_too(font_folders, monkeypatch):
     monkeypatch.setenv(FOLDERS, font_folders["many fonts"])
     container = read_container("text:ภาษา", 300, "Noto Sans Thai")

@@ -127,11 +127,9 @@ class Fonts:
                 yield face
 
     def _lacking(self, text: str) -> str:
-        missing = [
-            c for c in dict.fromkeys(text)
-            if not _is_unseen(c) and not any(face.has(c) for face in self.faces)
-        ]  # fmt: skip
-        what = named(missing) if missing else "all of its characters at once"
+        missing = [c for c in dict.fromkeys(text) if not any(face.has(c) for face in self.faces)]
+        seen = [character for character in missing if not _is_unseen(character)]
+        what = named(seen or missing) if missing else "all of its characters at once"
         if self.is_open:
             return f"no font installed has {what}; install one, or give its file with --font"
         return f"no font given has {what}; choose another with --font"
