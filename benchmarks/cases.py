@@ -12,7 +12,7 @@ from typing import Any
 
 import frozen
 from manifests import DOCS, Manifest
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.geometry import affine
 from packwork.readers.builtin import builtin_item
 from packwork.readers.container import read_container
@@ -93,11 +93,11 @@ def recipe_of(case: Case, seed: int, photos: Path, options: Mapping[str, Any]) -
     given = {"seed": seed, **options}
     if case.kind == "words":
         weights = vocabulary(WORDS)
-        return pipeline.words_recipe(
+        return uses.words_recipe(
             case.name, weights, count=WORDS, padding="0", rotate="mixed", **given
         )
     if case.kind == "photos":
-        return pipeline.photos_recipe(case.name, str(photos), **given)
+        return uses.photos_recipe(case.name, str(photos), **given)
     return make_recipe(container=case.name, items=["icons"], **given)
 
 
@@ -127,7 +127,7 @@ def _run(recipe: Recipe, case: Case, container: Container) -> tuple[pipeline.Run
     """A run, and its figures; seconds are the processor's, of everything but writing."""
     began = time.process_time()
     items = frozen.items() if case.kind == "icons" else None
-    run = pipeline.fill(recipe, items, container)
+    run = uses.fill(recipe, items, container)
     seconds = time.process_time() - began
     pixel, exact = run.metrics.pixel, run.metrics.exact
     return run, {

@@ -20,7 +20,7 @@ import numpy as np
 
 from manifests import write_page
 from measuring import markdown_table, ranged
-from packwork import pipeline, writers
+from packwork import pipeline, uses, writers
 from packwork.readers.written.read import read_written
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "examples"
@@ -78,9 +78,7 @@ CHARTS = (
 
 def row(chart: Chart, seeds: tuple[int, ...], folder: Path) -> list[str]:
     runs = [
-        pipeline.fill(
-            pipeline.chart_recipe(chart.container, str(chart.data), seed=seed, **chart.options)
-        )
+        uses.fill(uses.chart_recipe(chart.container, str(chart.data), seed=seed, **chart.options))
         for seed in seeds
     ]
     layout = runs[0].layout

@@ -11,7 +11,7 @@ import numpy as np
 
 import frozen
 from measuring import markdown_table
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 
@@ -36,7 +36,7 @@ def run(container: Container, count: int, **options: Any) -> tuple[pipeline.Run,
     recipe = make_recipe(container="frozen", items=["icons"], count=count, **options)
     items = list(islice(cycle(frozen.items()[: len(frozen.ICONS)]), count))
     began = time.process_time()
-    done = pipeline.fill(recipe, items, container)
+    done = uses.fill(recipe, items, container)
     return done, time.process_time() - began
 
 

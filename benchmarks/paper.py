@@ -23,7 +23,7 @@ import overview
 import resolution
 from manifests import Manifest, stamp, write_manifest, write_text
 from measuring import machine, markdown_table, ranged
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.recipe import make_recipe
 from published import COMPARISONS, Comparison
 
@@ -94,7 +94,7 @@ def _evenness_pictures() -> Manifest:
     found = {}
     for name, losses in {"without": {"evenness": 0.0}, "with": {}}.items():
         recipe = make_recipe(container=ABLATED, items=["icons"], finish="none", losses=losses)
-        run = pipeline.fill(recipe, frozen.items(), container)
+        run = uses.fill(recipe, frozen.items(), container)
         found[name] = {**cases.draw(f"evenness {name}", run), "LnU": run.metrics.pixel.LnU}
     return found
 

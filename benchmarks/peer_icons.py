@@ -17,7 +17,7 @@ import shapely
 
 import frozen
 from manifests import Manifest
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull
@@ -110,7 +110,7 @@ def ours(own: Sequence[Outline], length: float, seed: int, seconds: int) -> Resu
     recipe = make_recipe(
         container="rectangle", items=["-"], sizes="shared", effort="best", time=seconds, seed=seed
     )
-    run, clock, processor = timed(lambda: pipeline.fill(recipe, items, container))
+    run, clock, processor = timed(lambda: uses.fill(recipe, items, container))
     return measured(run.layout.outlines, rectangle, clock, processor)
 
 

@@ -17,7 +17,7 @@ import frozen
 import node
 from circles import RADIUS, circle
 from manifests import Manifest
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.recipe import make_recipe
@@ -105,7 +105,7 @@ def _ours(task: str, count: int) -> Manifest:
         recipe = make_recipe(container="disc", items=["-"], sizes="fixed", rotate="none", seed=seed)
         container = Container("disc", "peers", disc, 2 * room, 2 * room)
         began = time.process_time()
-        run = pipeline.fill(recipe, items, container)
+        run = uses.fill(recipe, items, container)
         seconds = time.process_time() - began
         placed = [outline.points - room for outline in run.layout.outlines]
         return _faults(placed, room), seconds

@@ -18,7 +18,7 @@ import frozen
 from epochs import EDGES, epoch_of
 from manifests import Manifest
 from measuring import timed
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
@@ -206,7 +206,7 @@ def _our_run() -> Manifest:
     seconds, container = [], frozen.round_container()
     for _ in range(RUNS):
         began = time.process_time()
-        run = pipeline.fill(recipe, frozen.items(), container)
+        run = uses.fill(recipe, frozen.items(), container)
         seconds.append(time.process_time() - began)
     known = str(version("packwork"))
     return entry("packwork", known, _whole(), frozen.COUNT, seconds, _figures(run.layout))

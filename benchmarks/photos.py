@@ -22,7 +22,7 @@ from PIL import Image
 
 from manifests import write_page
 from measuring import markdown_table, ranged
-from packwork import pipeline
+from packwork import pipeline, uses
 
 CONTAINERS = ("moon", "fish", "heart")
 RATIOS = (2.0, 2**0.5)
@@ -73,9 +73,7 @@ def rows(folder: Path, seeds: tuple[int, ...]) -> list[list[str]]:
     for container in CONTAINERS:
         for ratio in RATIOS:
             runs = [
-                pipeline.fill(
-                    pipeline.photos_recipe(container, str(folder), size_ratio=ratio, seed=seed)
-                )
+                uses.fill(uses.photos_recipe(container, str(folder), size_ratio=ratio, seed=seed))
                 for seed in seeds
             ]
             found.append(row(container, ratio, runs))

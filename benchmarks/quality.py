@@ -26,10 +26,10 @@ import many
 import others
 from manifests import write_page
 from measuring import machine, markdown_table, ranged
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.metrics.exact import exact_metrics
 from packwork.pipeline.job import Clock
-from packwork.pipeline.packing import placed_readably
+from packwork.pipeline.placing import placed_as_asked
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -134,8 +134,8 @@ def measured(kit: Kit, container: Container, mode: str, effort: str, seed: int) 
     options = weighted(items, mode)
     recipe = make_recipe(container=kit.name, items=["-"], seed=seed, effort=effort, **options)
     clock = Clock(now=time.process_time)
-    job = replace(pipeline.read(recipe, items, container), clock=clock)
-    placed = placed_readably(job, None, lambda: False, record=False)
+    job = replace(uses.read(recipe, items, container), clock=clock)
+    placed = placed_as_asked(job, None, lambda: False, record=False)
     result = placed.exact
     assert result is not None
     rough, exact = (

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 import frozen
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.arrays import FloatArray
 from packwork.progress import Step
 from packwork.recipe import Recipe, make_recipe
@@ -41,7 +41,7 @@ def timed_fill(
     recipe: Recipe, items: Sequence[Item] | None = None, container: Container | None = None
 ) -> tuple[pipeline.Run, float]:
     """A run, and the processor seconds of its start and levels."""
-    job = pipeline.read(recipe, items, container)
+    job = uses.read(recipe, items, container)
     watch = Stopwatch()
     return pipeline.run(job, watch), watch.seconds
 

@@ -32,7 +32,7 @@ import overview
 from epochs import epoch_of
 from manifests import Manifest, known, stamp, write_manifest, write_text
 from measuring import machine, timed_in_turn
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.readers.container import read_container
 from packwork.recipe import make_recipe
 from scaling_page import draw, page
@@ -65,7 +65,7 @@ def child(count: int, side: int, seed: int) -> Manifest:
     pipeline.warm_up()
     before = _peak()
     began = time.process_time()
-    run = pipeline.fill(recipe, items, container)
+    run = uses.fill(recipe, items, container)
     return {
         "seconds": time.process_time() - began,
         "stages": run.seconds,
@@ -142,7 +142,7 @@ def bear(runs: int) -> list[float]:
     for seed in range(runs):
         recipe = make_recipe(container="bear", items=["icons"], count=100, seed=seed)
         began = time.process_time()
-        pipeline.fill(recipe, container=container)
+        uses.fill(recipe, container=container)
         seconds.append(time.process_time() - began)
     return seconds
 

@@ -22,9 +22,10 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.metrics.pixel import pixel_metrics
-from packwork.pipeline.beginning import NOMINAL_COVERAGE
+from packwork.pipeline.plan.plan import Plan
+from packwork.pipeline.start import NOMINAL_COVERAGE
 from packwork.readers.builtin import builtin_container, container_names
-from packwork.recipe import Recipe, make_recipe
+from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
@@ -86,8 +87,8 @@ def setting(container: Container, count: int, seed: int) -> Setting:
 
 def outcome(case: Setting, start: Poses, epochs: int) -> list[float]:
     """LC, OO, EA and L-nU after a solve."""
-    recipe: Recipe = make_recipe(container="given", epochs=epochs)
-    ends = solve(case.container, case.outlines, start, case.nominal, recipe.solve_options())
+    plan = Plan.of(make_recipe(container="given", epochs=epochs), case.container)
+    ends = solve(case.container, case.outlines, start, case.nominal, plan.solve_options())
     items = tuple(frozen.items()[: len(case.outlines)])
     placed = Layout(case.container, items, ends.poses, np.ones(len(items))).outlines
     m = pixel_metrics(placed, case.container)

@@ -24,7 +24,7 @@ from scipy import ndimage
 
 from manifests import write_page
 from measuring import markdown_table
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.geometry.outline import joined
 from packwork.raster.membership import centre_count
 from packwork.readers.container import read_container
@@ -93,10 +93,10 @@ def vocabulary(count: int) -> dict[str, float]:
 
 def ours(container: Container, weights: dict[str, float], **options: Any) -> Cloud:
     began = time.process_time()
-    recipe = pipeline.words_recipe(
+    recipe = uses.words_recipe(
         container.name, weights, count=len(weights), padding="0", rotate="mixed", **options
     )
-    run = pipeline.fill(recipe, container=container)
+    run = uses.fill(recipe, container=container)
     seconds = time.process_time() - began
     layout, exact = run.layout, run.metrics.exact
     names = [item.name for item in layout.items]

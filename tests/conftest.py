@@ -9,6 +9,7 @@ from hypothesis import HealthCheck, settings
 from made_fonts import make_font_folders
 from packwork.display import bar
 from packwork.fonts import FOLDERS
+from packwork.readers.svg import kept
 
 # Kernels compile on their first call, and run uncompiled under NUMBA_DISABLE_JIT=1: no
 # example may fail for being slow. Search wider with `--hypothesis-profile=explore`.
@@ -22,6 +23,20 @@ settings.load_profile("check")
 def _no_lines_of_slow_machines(monkeypatch: pytest.MonkeyPatch) -> None:
     """Lines of progress come with time; what a test sees may not."""
     monkeypatch.setattr(bar, "SECONDS_BETWEEN_LINES", float("inf"))
+
+
+class _OfThisSession(dict[str, bytes]):
+    """Drawings read by these tests: what other runs left on this machine decides nothing."""
+
+    put = dict.__setitem__
+
+
+_DRAWINGS = _OfThisSession()
+
+
+@pytest.fixture(autouse=True)
+def _no_drawings_of_other_runs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(kept, "STORE", _DRAWINGS)
 
 
 @pytest.fixture

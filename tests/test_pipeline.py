@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry.simplify import hull
 from packwork.losses.term import Term
@@ -27,7 +27,7 @@ QUICK = {"container": "circle", "epochs": 25, "levels": "32,64"}
 
 
 def run(**options: Any) -> pipeline.Run:
-    return pipeline.fill(make_recipe(**(QUICK | options)))
+    return uses.fill(make_recipe(**(QUICK | options)))
 
 
 def features(layout: Layout) -> list[Any]:
@@ -67,7 +67,7 @@ def test_the_manifest_says_what_was_done(three: pipeline.Run) -> None:
 
 
 def test_the_recipe_of_the_manifest_makes_the_same_layout(three: pipeline.Run) -> None:
-    again = pipeline.fill(make_recipe(**three.layout.manifest["recipe"]))
+    again = uses.fill(make_recipe(**three.layout.manifest["recipe"]))
     assert features(again.layout) == features(three.layout)
 
 
@@ -149,7 +149,7 @@ def test_a_weight_must_be_positive(weight: float) -> None:
 
 
 def test_stopping_gives_what_there_is() -> None:
-    stopped = pipeline.fill(make_recipe(**QUICK, items=("star",), count=4), stop=lambda: True)
+    stopped = uses.fill(make_recipe(**QUICK, items=("star",), count=4), stop=lambda: True)
     assert stopped.ending is Ending.STOPPED
     assert len(stopped.layout.items) == 4
     assert stopped.report()["ending"] == Ending.STOPPED.value
@@ -177,7 +177,7 @@ def test_an_earlier_layout_keeps_its_stretches_within_the_bounds_of_now(tmp_path
     write(wide.layout, file)
     for bound in (1.0, 1.2, 3.0):
         recipe = make_recipe(**(QUICK | options), start=str(file), stretch=bound, finish="none")
-        after = pipeline.fill(recipe, stop=lambda: True).layout.poses.stretch
+        after = uses.fill(recipe, stop=lambda: True).layout.poses.stretch
         np.testing.assert_allclose(after, np.clip(before, 1 / bound, bound), rtol=1e-12)
     assert before.max() > 1.2
 
@@ -213,7 +213,7 @@ def test_hulls_do_not_reach_into_each_other() -> None:
 def test_fixed_sizes_are_real_sizes(canvas: str | float, size: float) -> None:
     item = flat_item("tile", square(45.0))
     recipe = make_recipe(**QUICK, items=["tile"], sizes="fixed", canvas=canvas)
-    (outline,) = pipeline.fill(recipe, [item]).layout.outlines
+    (outline,) = uses.fill(recipe, [item]).layout.outlines
     assert outline.area == pytest.approx(size**2, rel=1e-9)
 
 
@@ -231,7 +231,7 @@ def test_the_unit_of_the_canvas_changes_nothing_but_the_numbers(canvas: str) -> 
 def test_a_container_that_was_read_is_fitted_onto_the_canvas_asked_for() -> None:
     item, given = flat_item("tile", square(9.0)), square_container(100.0)
     kept, moved = (
-        pipeline.fill(make_recipe(**QUICK, items=["tile"], canvas=canvas), [item], given).layout
+        uses.fill(make_recipe(**QUICK, items=["tile"], canvas=canvas), [item], given).layout
         for canvas in (None, "80x40mm")
     )
     assert kept.container is given
@@ -249,7 +249,7 @@ def test_items_that_cannot_fit_are_named(finish: str, reason: str) -> None:
         container="square", items=["giant"], sizes="fixed", epochs=20, levels="32,64",
         finish=finish,
     )  # fmt: skip
-    met = pipeline.fill(recipe, [giant], square_container(100.0, 20.0))
+    met = uses.fill(recipe, [giant], square_container(100.0, 20.0))
     (unplaced,) = met.unplaced
     assert (unplaced.item, unplaced.index) == ("giant", 0)
     assert reason in unplaced.reason
@@ -263,7 +263,7 @@ def test_an_earlier_layout_is_where_the_next_run_begins(
 ) -> None:
     earlier = tmp_path / "earlier.geojson"
     write(three.layout, earlier)
-    same = pipeline.fill(
+    same = uses.fill(
         make_recipe(
             **QUICK, items=("star", "circle", "heart"), count=7, start=str(earlier), finish="none"
         ),
@@ -307,7 +307,7 @@ def test_an_earlier_layout_follows_its_container_onto_another_canvas(
     write(three.layout, earlier)
     options = {"items": ("star", "circle", "heart"), "count": 7, "start": str(earlier)}
     recipe = make_recipe(**QUICK, **options, canvas=canvas, finish="none")
-    moved = pipeline.fill(recipe, stop=lambda: True).layout
+    moved = uses.fill(recipe, stop=lambda: True).layout
     old, new = three.layout.container.outline, moved.container.outline
     scale = new.extent / old.extent
     for place, side in (("x", 0), ("y", 1)):

@@ -17,15 +17,23 @@ from pydantic import BaseModel
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.levels import parse_levels
+from packwork.pipeline.plan.plan import Plan
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.recipe import read_recipe
 from packwork.readers.words.options import WordOptions
-from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe, parse_levels
+from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe
 from packwork.rules import Rule
 from packwork.solve.options import MAX_RESOLUTION, MIN_RESOLUTION
 from packwork.writers import recipe_bytes
 from scenes import square_container
+
+
+def plan(**options: Any) -> Plan:
+    """What a recipe comes to in a square."""
+    return Plan.of(make_recipe(**{"container": "heart", **options}), square_container())
+
 
 NAN, INF = float("nan"), float("inf")
 
@@ -104,7 +112,7 @@ def test_every_field_has_a_bad_value_here() -> None:
 )
 def test_a_bad_value_is_refused_under_its_name_on_one_line(field: str, value: Any) -> None:
     with pytest.raises(RecipeError) as refusal:
-        make_recipe(**{"container": "heart", field: value}).start_options()
+        plan(**{field: value})
     assert refusal.value.key == field
     assert str(refusal.value).startswith(f"{field}: ")
     assert "\n" not in str(refusal.value)
@@ -187,7 +195,7 @@ def test_any_text_is_a_rotation_or_refused(text: str) -> None:
 def test_the_solver_turns_items_only_as_far_as_asked(
     rotate: str, rate_is_zero: bool, limit: float | None
 ) -> None:
-    options = make_recipe(container="heart", rotate=rotate).solve_options()
+    options = plan(rotate=rotate).solve_options()
     assert (options.turn_rate == 0) == rate_is_zero
     assert options.turn_limit == limit
 
@@ -218,10 +226,9 @@ def test_any_text_is_levels_or_refused(text: str) -> None:
 
 
 def test_effort_bounds_epochs_and_a_number_of_epochs_wins() -> None:
-    asked = [make_recipe(container="heart", effort=effort) for effort in EPOCHS]
-    counts = [recipe.solve_options().epochs for recipe in asked]
+    counts = [plan(effort=effort).solve_options().epochs for effort in EPOCHS]
     assert counts == sorted(set(counts))
-    assert make_recipe(container="heart", effort="best", epochs=7).solve_options().epochs == 7
+    assert plan(effort="best", epochs=7).solve_options().epochs == 7
 
 
 @pytest.mark.parametrize("start", ["earlier.geojson", "EARLIER.GEOJSON", "folder/a.json"])
@@ -231,16 +238,15 @@ def test_a_start_with_the_ending_of_a_layout_is_a_file(start: str) -> None:
 
 @pytest.mark.parametrize("method", ["distance-field", "scatter"])
 def test_a_start_is_a_method_else(method: str) -> None:
-    recipe = make_recipe(container="heart", start=method)
-    assert recipe.layout_file is None
-    assert recipe.start_options().method == method
+    assert make_recipe(container="heart", start=method).layout_file is None
+    assert plan(start=method).start_options().method == method
 
 
 def test_numbers_and_tuples_say_the_same_as_text() -> None:
     recipe = make_recipe(container="heart", rotate=30, levels=(50, 200))
     assert recipe == make_recipe(container="heart", rotate="30", levels="50,200")
     assert make_recipe(container="heart", rotate=(0,)).rotation.choices == (0.0,)
-    assert make_recipe(container="heart", levels=[64]).solve_options().levels == (64,)
+    assert plan(levels=[64]).solve_options().levels == (64,)
 
 
 @pytest.mark.parametrize(

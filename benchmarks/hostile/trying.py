@@ -16,7 +16,7 @@ from typing import Any
 
 from hostile.inputs import Input
 from hostile.originals import PICTURE_PX, TABLE, originals
-from packwork import pipeline, writers
+from packwork import pipeline, uses, writers
 from packwork.errors import PackworkError
 from packwork.metrics.measure import measure
 from packwork.pipeline import charting, wording
@@ -160,7 +160,7 @@ def _weights(path: Path) -> None:
 
 def _recipe(path: Path) -> None:
     recipe = make_recipe(**read_recipe(path))
-    job = pipeline.read(recipe)
+    job = uses.read(recipe)
     if len(job.items) > FEW:
         return
     layout = pipeline.run(job, stop=lambda: True).layout

@@ -18,11 +18,10 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.levels import checked_levels, parse_levels
+from packwork.levels import checked_levels
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.pictures import Pictured, known_palette
 from packwork.piles import Moving
-from packwork.presets import PRESETS
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
@@ -44,9 +43,8 @@ from packwork.solve.options import (
     ImageLossFunction,
     OutlineChoice,
     SizeMode,
-    SolveOptions,
 )
-from packwork.start.options import LAYOUTS, StartOptions
+from packwork.start.options import LAYOUTS
 from packwork.units import CanvasSize, canvas_size, known_canvas, parse_share
 from packwork.writers.film.options import FilmOptions
 
@@ -330,48 +328,6 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
         """Longer side of the smallest copy put into a void, canvas units."""
         asked = DEFAULT_SMALLEST if self.smallest is None else self.smallest
         return length_asked("smallest", asked, container.unit, container.side)
-
-    def may_press(self, padding_cu: float) -> bool:
-        """Whether items may be pressed together for even gaps: else it would cost overlap."""
-        return self.sizes == "free" and padding_cu == 0
-
-    def start_options(self) -> StartOptions:
-        """Options of the start stage."""
-        if self.layout_file:
-            return StartOptions()
-        method = "distance-field" if self.start is None else self.start
-        asked = {"method": method, "coverage": PRESETS[self.preset].coverage}
-        try:
-            return StartOptions.model_validate(asked)
-        except ValidationError as error:
-            raise refusal(error, StartOptions, {"method": "start"}) from error
-
-    def solve_options(self, padding_cu: float = 0.0, seconds: float | None = None) -> SolveOptions:
-        """Options of the solve stage, of which only the padding depends on the container.
-
-        ``seconds``, if given, bounds the levels in place of epochs.
-        """
-        changes: dict[str, Any] = {}
-        if not any(rule.rotate for rule in self.rules):
-            # Where rules turn items each in their own way, the limits of items hold.
-            rotation = self.rotation
-            changes = {"turn_rate": 0.0} if rotation.is_still else {"turn_limit": rotation.limit}
-        preset = PRESETS[self.preset].solve
-        if self.levels is not None:
-            changes["levels"], changes["shares"] = parse_levels(self.levels)
-        losses = {**preset.losses, "apart": APART if self.apart else 0.0, **self.losses}
-        if "evenness" not in self.losses and not self.may_press(padding_cu):
-            losses.pop("evenness", None)
-        changes |= {
-            "epochs": self.epochs or EPOCHS[self.effort],
-            "seconds": seconds,
-            "sizes": self.sizes,
-            "size_ratio": self.size_ratio,
-            "stretch": self.stretch,
-            "losses": {loss: weight for loss, weight in losses.items() if weight},
-            "margin": padding_cu / 2,
-        }
-        return SolveOptions(**{**dict(preset), **changes})
 
 
 def make_recipe(**options: Any) -> Recipe:

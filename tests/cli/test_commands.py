@@ -258,11 +258,14 @@ def test_demo_writes_three_files(
 
 def test_every_demo_is_a_recipe() -> None:
     from packwork.cli.demo import DEMOS
+    from packwork.pipeline.plan.plan import Plan
+    from packwork.readers.builtin import builtin_container
     from packwork.recipe import make_recipe
 
     assert "bear" in DEMOS
     for name, options in DEMOS.items():
-        make_recipe(container=name, **options).solve_options()
+        recipe = make_recipe(container=name, **options)
+        Plan.of(recipe, builtin_container("heart")).solve_options()
 
 
 def test_the_teaser_lays_letters_beside_each_other(

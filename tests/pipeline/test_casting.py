@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.errors import RecipeError
-from packwork.pipeline.casting import Cast, cast, turns
+from packwork.pipeline.plan.cast import Cast, cast, turns
 from packwork.recipe import make_recipe
 from packwork.scene.item import Item
 from scenes import disc, flat_item

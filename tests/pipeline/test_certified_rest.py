@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork import pipeline, writers
+from packwork import pipeline, uses, writers
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.exact import exact_metrics
 from packwork.readers.written.read import read_written
@@ -23,7 +23,7 @@ def _crowded() -> pipeline.Run:
     """Nine tiles of a size of which four fit."""
     tile = flat_item("tile", square(24.0))
     recipe = make_recipe(container="square", items=["tile"], count=9, sizes="fixed", **QUICK)
-    return pipeline.fill(recipe, [tile], square_container(100.0))
+    return uses.fill(recipe, [tile], square_container(100.0))
 
 
 def test_what_is_not_placed_is_not_drawn(tmp_path: Path) -> None:
@@ -45,7 +45,7 @@ def test_what_is_not_placed_is_not_drawn(tmp_path: Path) -> None:
 def test_if_nothing_is_left_nothing_is_certified() -> None:
     giant = flat_item("giant", square(60.0))
     recipe = make_recipe(container="square", items=["giant"], sizes="fixed", **QUICK)
-    met = pipeline.fill(recipe, [giant], square_container(100.0, 20.0))
+    met = uses.fill(recipe, [giant], square_container(100.0, 20.0))
     assert len(met.layout.items) == 0
     assert not met.certified
     assert met.report()["placed"] == 0
@@ -55,7 +55,7 @@ def test_if_nothing_is_left_nothing_is_certified() -> None:
 def test_the_way_of_what_was_left_out_is_left_out() -> None:
     tile = flat_item("tile", square(24.0))
     recipe = make_recipe(container="square", items=["tile"], count=9, sizes="fixed", **QUICK)
-    met = pipeline.fill(recipe, [tile], square_container(100.0), record=True)
+    met = uses.fill(recipe, [tile], square_container(100.0), record=True)
     assert met.layout.track is not None
     np.testing.assert_allclose(met.layout.track.at(1.0).x, met.layout.poses.x)
 
@@ -65,7 +65,7 @@ def test_a_hero_that_found_no_room_says_what_came_of_it() -> None:
     recipe = make_recipe(
         container="stripe:6", items=["bar", "tile"], count=2, hero="bar=30%", rotate="none", **QUICK
     )
-    met = pipeline.fill(recipe, [bar, tile])
+    met = uses.fill(recipe, [bar, tile])
     (said,) = met.broken
     assert "30 % asked; the container's widest place is 17 % across" in said
     assert said.startswith("bar (item ")
@@ -85,7 +85,7 @@ def test_a_size_of_a_rule_that_is_not_met_is_told() -> None:
 @pytest.mark.parametrize("size", ["1e308", "1e-300", "-1", "1e10%"])
 def test_sizes_that_cannot_be_computed_with_are_refused(size: str) -> None:
     with pytest.raises(pw.PackworkError, match="use a length"):
-        pipeline.pile_recipe("square", ["star"], size=size)
+        uses.pile_recipe("square", ["star"], size=size)
 
 
 @pytest.mark.parametrize(
@@ -104,9 +104,9 @@ def test_lengths_and_places_have_bounds(options: dict[str, object]) -> None:
 
 
 def test_a_pile_in_which_nothing_fits_is_refused_in_one_line() -> None:
-    recipe = pipeline.pile_recipe(
+    recipe = uses.pile_recipe(
         "square", ["owl"], count=2, size="40%", open="left", compact=True, canvas="200x20mm",
         padding="20%",
     )  # fmt: skip
     with pytest.raises(pw.PackworkError, match="none of the 2 items fits"):
-        pipeline.fill(recipe)
+        uses.fill(recipe)

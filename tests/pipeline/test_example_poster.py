@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from packwork import pipeline
+from packwork import uses
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
 from packwork.rules import Pin, Rule
@@ -17,7 +17,7 @@ PAGE = (ROOT / "docs" / "rules.md").read_text(encoding="utf-8")
 
 def test_the_recipe_of_the_poster_can_be_run() -> None:
     folder = ROOT / "examples" / "poster"
-    job = pipeline.read(make_recipe(**read_recipe(folder / "recipe.toml")))
+    job = uses.read(make_recipe(**read_recipe(folder / "recipe.toml")))
     names = [item.name for item in job.items]
     assert len(names) == job.recipe.count
     assert [names.count(name) for name in ("owl", "moon", "star")] == [1, 1, 22]

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.errors import RecipeError
 from packwork.progress import Step
 from packwork.recipe import make_recipe
@@ -18,7 +18,7 @@ QUICK = {"container": "circle", "items": ("star", "heart"), "count": 8, "epochs"
 
 
 def run(**options: Any) -> pipeline.Run:
-    return pipeline.fill(make_recipe(**QUICK | options))
+    return uses.fill(make_recipe(**QUICK | options))
 
 
 def extents(layout: pw.Layout) -> np.ndarray:
@@ -109,7 +109,7 @@ def test_a_stop_ends_it() -> None:
         return len(seen) > 0 and len(seen[-1].poses) > 8
 
     recipe = make_recipe(**QUICK, max_items=900)
-    ended = pipeline.fill(recipe, observer=Watcher(), stop=stop)
+    ended = uses.fill(recipe, observer=Watcher(), stop=stop)
     assert ended.filling is not None
     assert ended.filling.ending == "the run was stopped"
     assert ended.certified

@@ -11,12 +11,12 @@ import pytest
 import shapely
 
 import packwork as pw
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.errors import ReadError, RecipeError
 from packwork.finish.sizing import SIZE_TOLERANCE
-from packwork.pipeline.beside import beside, same_kind_beside
-from packwork.pipeline.casting import kinds
-from packwork.pipeline.limiting import LEAD
+from packwork.pipeline.dress.neighbours import beside, same_kind_beside
+from packwork.pipeline.plan.cast import kinds
+from packwork.pipeline.plan.limits import LEAD
 from packwork.progress import Step
 from packwork.recipe import make_recipe
 from packwork.scene.item import FlatArt, Item
@@ -29,7 +29,7 @@ NAMES = ["star", "circle", "heart"]
 
 def run(*rules: dict[str, Any], observer: Any = None, **options: Any) -> pipeline.Run:
     given = {"items": NAMES, "count": 15, "finish": "none"} | QUICK | options
-    return pipeline.fill(make_recipe(rules=rules, **given), observer=observer)
+    return uses.fill(make_recipe(rules=rules, **given), observer=observer)
 
 
 def only(layout: Layout, name: str) -> list[int]:
@@ -105,9 +105,9 @@ def test_ranges_of_sizes_are_kept_and_used(finish: str) -> None:
     plain = run()
     stars, hearts = only(met.layout, "star"), only(met.layout, "heart")
     # The typical size is the same in both runs: that of unruled items.
-    from packwork.pipeline.beginning import begin
+    from packwork.pipeline.start import begin
 
-    job = pipeline.read(make_recipe(items=NAMES, count=15, **QUICK))
+    job = uses.read(make_recipe(items=NAMES, count=15, **QUICK))
     nominal = begin(job, job.container, [item.outline for item in job.items]).nominal
     small = [one.index for one in met.unplaced]
     # The last steps of a finish end a little off their bounds.
@@ -312,7 +312,7 @@ def test_what_cannot_be_is_named(
 ) -> None:
     recipe = make_recipe(**QUICK, items=["a", "b"], rules=rules, **options)
     with pytest.raises(RecipeError) as refusal:
-        pipeline.fill(recipe, [giant("a"), giant("b")], square_container(100.0, 5.0))
+        uses.fill(recipe, [giant("a"), giant("b")], square_container(100.0, 5.0))
     assert problem in str(refusal.value)
     assert "\n" not in str(refusal.value)
 
@@ -328,6 +328,6 @@ def test_pinned_items_leave_the_rest_the_room_that_is_left() -> None:
         **QUICK | {"epochs": 120}, items=["a", "b"], count=9, finish="none",
         rules=[{"items": "a", "count": 1, "pin": {"x": 50, "y": 50, "angle": 0, "size": 54}}],
     )  # fmt: skip
-    met = pipeline.fill(recipe, items, square_container(100.0, 5.0))
+    met = uses.fill(recipe, items, square_container(100.0, 5.0))
     assert met.metrics.exact.overlap < 0.01
     assert not met.unplaced

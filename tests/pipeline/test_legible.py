@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 import packwork as pw
-from packwork.pipeline.legible import TEXT, ground_luminance, luminances_under
+from packwork.pipeline.dress.legible import TEXT, ground_luminance, luminances_under
 from packwork.scene.contrast import contrast, contrast_over, readable_over
 from packwork.writers.svg import svg_text
 from packwork.writers.swatch import representative_colour

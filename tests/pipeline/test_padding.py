@@ -12,10 +12,10 @@ from packwork.errors import RecipeError
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
-from packwork.pipeline import fill, words_recipe
-from packwork.pipeline.padding import check_padding
+from packwork.pipeline.plan.padding import check_padding
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.uses import fill, words_recipe
 
 WORDS = {f"word{k}": 100 // (k + 1) + 1 for k in range(25)}
 

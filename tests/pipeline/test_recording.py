@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork import pipeline
-from packwork.pipeline.recording import MOST_KEYFRAMES, Recorder
+from packwork import uses
+from packwork.pipeline.film.recorder import MOST_KEYFRAMES, Recorder
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
 from packwork.scene.track import SCALE
@@ -59,7 +59,7 @@ def test_an_observer_is_told_as_often_as_without_a_recording() -> None:
 
 
 def test_fillers_grow_from_nothing_where_they_are_first_seen() -> None:
-    run = pipeline.fill(make_recipe(container="circle", **QUICK, max_items=25), record=True)
+    run = uses.fill(make_recipe(container="circle", **QUICK, max_items=25), record=True)
     track, added = run.layout.track, len(run.layout.items) - 8
     assert track is not None
     assert added > 4

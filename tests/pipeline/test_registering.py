@@ -10,7 +10,7 @@ import pytest
 
 import packwork as pw
 from packwork.geometry import affine
-from packwork.pipeline.registering import turn_of
+from packwork.pipeline.registration import turn_of
 from packwork.readers.builtin import builtin_item
 
 QUICK = {"count": 8, "epochs": 40, "levels": "32,64", "effort": "draft", "seed": 3}
@@ -93,7 +93,7 @@ def test_few_new_items_make_nobody_jump(tmp_path: Path) -> None:
 
 
 def _who(after: pw.Layout, before: pw.Layout) -> list[int]:
-    from packwork.pipeline.matching import matched
+    from packwork.pipeline.earlier import matched
 
     names = ([item.name for item in layout.items] for layout in (after, before))
     return [int(k) for k in matched(*names)]

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork import pipeline
+from packwork import uses
 from packwork.pipeline import gaps
 from packwork.recipe import make_recipe
 from scenes import flat_item, round_container, star
@@ -35,7 +35,7 @@ def test_filling_gaps_ends_when_its_work_is_done(monkeypatch: pytest.MonkeyPatch
     recipe = make_recipe(
         container="circle", items=["star"], target_coverage=0.99, smallest="0.1%", **QUICK
     )
-    met = pipeline.fill(recipe, [flat_item("star", star(9.0, 4.0))], round_container(100.0))
+    met = uses.fill(recipe, [flat_item("star", star(9.0, 4.0))], round_container(100.0))
     assert met.filling is not None
     assert "take too long; a higher --effort would do" in met.filling.ending
     assert met.certified

@@ -11,8 +11,8 @@ from PIL import Image
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.pictures import share_of_kinds
-from packwork.pipeline import read, words_recipe
-from packwork.pipeline.sharing import kinds_of
+from packwork.pipeline.plan.shares import kinds_of
+from packwork.uses import read, words_recipe
 
 WORDS = {"honey": 3, "bear": 2, "bee": 1}
 QUICK = {"effort": "draft", "levels": "50", "seed": 0}

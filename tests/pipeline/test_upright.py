@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from packwork import pipeline
+from packwork import uses
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from scenes import box, flat_item
@@ -16,7 +16,7 @@ def _angle_and_scale(container: Container, width: float, **options: object) -> t
     recipe = make_recipe(
         container="tile", items=["bar"], effort="draft", levels="50,100", **options
     )
-    run = pipeline.fill(recipe, [item], container)
+    run = uses.fill(recipe, [item], container)
     assert run.certified
     assert run.layout.manifest["recipe"]["rotate"] == options.get("rotate", "free")
     poses = run.layout.poses

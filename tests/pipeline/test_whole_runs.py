@@ -10,7 +10,7 @@ import pytest
 import shapely
 from hypothesis import given
 
-from packwork import pipeline
+from packwork import pipeline, uses
 from packwork.errors import PackworkError
 from packwork.metrics.certificate import SHARE_TOLERANCE, Promise, broken
 from packwork.metrics.measure import measure
@@ -24,7 +24,7 @@ from scenes import disc, flat_item, poses, square_container, star
 
 def run_of(scenario: Scenario) -> pipeline.Run:
     recipe = make_recipe(container="made up", items=["-"], **scenario.options)
-    return pipeline.fill(recipe, scenario.items, scenario.container)
+    return uses.fill(recipe, scenario.items, scenario.container)
 
 
 def met(layout: Layout) -> list[str]:

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from packwork.errors import PackworkError, ReadError, RecipeError
-from packwork.pipeline import chart_recipe
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.table import read_table
+from packwork.uses import chart_recipe
 
 LANDS = ({"land": "Peru", "kg": 25, "kind": "Red"}, {"land": "Kenya", "kg": 10, "kind": "blue"})
 

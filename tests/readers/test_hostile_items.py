@@ -128,7 +128,7 @@ RICH = (
 NUMBERS = st.sampled_from([b"0", b"-1", b"1e7", b"1e-7", b"NaN", b"99", b"0.5", b"1e5", b"#"])
 
 
-@settings(deadline=None, max_examples=25)
+@settings(deadline=None, max_examples=8)
 @given(st.data())
 def test_changed_numbers_of_rich_drawings(data):
     changed = RICH

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image, ImageDraw
 
-from packwork import pipeline
+from packwork import uses
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import polygon_parts
@@ -326,7 +326,7 @@ def test_what_was_taken_in_is_measured(shadowed, tmp_path):
         container="square", items=[shadowed], alpha_threshold=0.1, effort="draft", levels="50",
         canvas=100,
     )  # fmt: skip
-    run = pipeline.fill(recipe)
+    run = uses.fill(recipe)
     assert run.certified
     (tmp_path / "out.svg").write_text(svg_text(run.layout))
     (measured,) = read_written(tmp_path / "out.svg").outlines

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from packwork.folders import Store
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import Read
 from packwork.readers.svg import item as svg_item
@@ -31,6 +32,7 @@ PAGE = (
 def readings(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Names of the drawings that were read and not remembered; a cache of its own."""
     monkeypatch.setenv("PACKWORK_CACHE_DIR", str(tmp_path / "cache"))
+    monkeypatch.setattr(kept, "STORE", Store("drawings", kept.MOST_BYTES))
     anew, names = svg_item._read_anew, list[str]()
 
     def noting(data: bytes, name: str, *rest: object, **how: object) -> Read:

@@ -10,12 +10,12 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from packwork.pipeline.opening import opened
 
 from packwork.errors import ReadError
 from packwork.geometry.polygon import Region
 from packwork.metrics.exact import exact_metrics
 from packwork.piles import Side
-from packwork.pipeline.opening import opened
 from packwork.readers.svg.container import container_of_svg
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.written.read import read_written

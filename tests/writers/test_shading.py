@@ -13,12 +13,12 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from packwork import pipeline
+from packwork import uses
 from packwork.geometry.outline import Outline
-from packwork.pipeline.wording import words_recipe
 from packwork.recipe import make_recipe
 from packwork.scene.contrast import oklab
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
+from packwork.uses.words.recipe import words_recipe
 from packwork.writers.shading import APART, in_palette, shaded
 from scenes import box
 
@@ -129,7 +129,7 @@ def dressed(shades: str, **options: Any) -> list[str]:
         container="circle", items=["owl", "star"], count=4, palette=[BLUE, "#d55e00"],
         shades=shades, epochs=3, levels="16", **options,
     )  # fmt: skip
-    layout = pipeline.fill(recipe).layout
+    layout = uses.fill(recipe).layout
     return [i.art.markup if isinstance(i.art, VectorArt) else str(i.art) for i in layout.items]
 
 
@@ -148,10 +148,10 @@ def test_a_rule_goes_before_the_palette() -> None:
 
 
 def test_among_words_icons_keep_their_colours() -> None:
-    plain = pipeline.fill(make_recipe(container="circle", items=["owl"], epochs=3, levels="16"))
+    plain = uses.fill(make_recipe(container="circle", items=["owl"], epochs=3, levels="16"))
     recipe = words_recipe("circle", {"ox": 1}, add=["owl"], effort="draft")
-    assert pipeline.fill(recipe).layout.items[1].art is not None
-    before, after = plain.layout.items[0].art, pipeline.fill(recipe).layout.items[1].art
+    assert uses.fill(recipe).layout.items[1].art is not None
+    before, after = plain.layout.items[0].art, uses.fill(recipe).layout.items[1].art
     assert isinstance(before, VectorArt)
     assert isinstance(after, VectorArt)
     assert before.markup == after.markup

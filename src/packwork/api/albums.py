@@ -10,9 +10,9 @@ from packwork.api.layout import Layout
 from packwork.api.signatures import of_verb
 from packwork.api.verbs import fill
 from packwork.offers import Verbs
-from packwork.pipeline.photographing import photo_choices
 from packwork.progress import Observer, Stop, never
 from packwork.scene.container import Container
+from packwork.uses.photos.recipe import photo_choices
 
 
 @of_verb(Verbs.PHOTOS)

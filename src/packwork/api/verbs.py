@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, Literal
 
-from packwork import pipeline
+from packwork import uses
 from packwork.api.layout import Layout, public
 from packwork.api.signatures import of_verb
 from packwork.display.bar import bar_for, shown
@@ -127,7 +127,7 @@ def words(
     """
     whole = container if isinstance(container, Container) else None
     mixed_in = [add] if isinstance(add, str | Path) else add
-    recipe = pipeline.words_recipe(
+    recipe = uses.words_recipe(
         whole.source if whole else str(container),
         source,
         add=[str(item) for item in mixed_in],
@@ -174,7 +174,7 @@ def pile(
     """
     given = [items] if isinstance(items, str | Path | Item) else list(items)
     whole = container if isinstance(container, Container) else None
-    recipe = pipeline.pile_recipe(
+    recipe = uses.pile_recipe(
         whole.source if whole else str(container),
         [entry.source if isinstance(entry, Item) else str(entry) for entry in given],
         **options,
@@ -220,7 +220,7 @@ def chart(
     4.0
     """
     whole = container if isinstance(container, Container) else None
-    recipe = pipeline.chart_recipe(whole.source if whole else str(container), data, **options)
+    recipe = uses.chart_recipe(whole.source if whole else str(container), data, **options)
     return _run(recipe, None, whole, observer, stop, progress, record)
 
 
@@ -312,7 +312,7 @@ def _run(
 ) -> Layout:
     bar = bar_for(progress, observer)
     with shown(bar):
-        run = pipeline.fill(recipe, items, container, bar or observer, stop, record)
+        run = uses.fill(recipe, items, container, bar or observer, stop, record)
     layout = public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = run.metrics.as_dict()

@@ -44,7 +44,7 @@ def chart(
     """
     with clear_errors():
         from packwork.cli.running import carry_out
-        from packwork.pipeline import chart_recipe
+        from packwork.uses import chart_recipe
 
         said = shared.of_run(Verbs.CHART, asked)
         recipe = chart_recipe(container, data, background=asked["background"], **said)

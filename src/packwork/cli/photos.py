@@ -46,7 +46,7 @@ def photos(
     """
     with clear_errors():
         from packwork.cli.running import carry_out
-        from packwork.pipeline.photographing import photos_recipe
+        from packwork.uses.photos.recipe import photos_recipe
 
         said = shared.of_run(Verbs.PHOTOS, asked)
         recipe = photos_recipe(container, sources, add=said.pop("items") or (), **said)

@@ -38,7 +38,7 @@ def pile(
     """
     with clear_errors():
         from packwork.cli.running import carry_out
-        from packwork.pipeline import pile_recipe
+        from packwork.uses import pile_recipe
 
         said = shared.of_run(Verbs.PILE, asked)
         carry_out(pile_recipe(container, items or ["builtin:icons"], **said), asked, DEFAULT_OUTPUT)

@@ -47,8 +47,8 @@ def run(
     """
     with clear_errors(recipe):
         from packwork.cli.running import carry_out
-        from packwork.pipeline.overriding import overridden
         from packwork.readers.recipe import read_recipe
+        from packwork.uses.overriding import overridden
 
         options = read_recipe(recipe, allow_code=allow_code)
         outside = files_outside(options, [recipe.parent, Path.cwd()])

@@ -16,7 +16,7 @@ from typing import Any, NoReturn
 import typer
 from rich.console import Console
 
-from packwork import pipeline, writers
+from packwork import pipeline, uses, writers
 from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.existing import check_new
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
@@ -38,8 +38,8 @@ from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
 from packwork.pipeline.filming import film_options
-from packwork.pipeline.job import NO_CONTAINER
 from packwork.recipe import Recipe
+from packwork.uses.room import NO_CONTAINER
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 
@@ -199,7 +199,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     recipe = with_room(recipe, outputs.kiss)
     console = Paper(quiet=quiet, highlight=False)
     with NOTICES.joining():
-        job = pipeline.read(recipe)
+        job = uses.read(recipe)
     outputs.check_read(job)
     check_room(job, outputs.kiss)
     # Beforehand, so that no run is lost to what its recipe holds.

@@ -45,7 +45,7 @@ class Letter:
     @property
     def recipe(self) -> Recipe:
         """What to run."""
-        from packwork.pipeline import pile_recipe
+        from packwork.uses import pile_recipe
 
         make = pile_recipe if self.is_pile else make_recipe
         return make(container=f"text:{self.name[0]}", items=list(self.items), **self.options)

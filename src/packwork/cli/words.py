@@ -45,7 +45,7 @@ def words(
     """
     with clear_errors():
         from packwork.cli.running import carry_out
-        from packwork.pipeline.wording import words_recipe
+        from packwork.uses.words.recipe import words_recipe
 
         said = shared.of_run(Verbs.WORDS, asked)
         photos = said.pop("photos")

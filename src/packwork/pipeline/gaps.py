@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 import shapely
@@ -13,22 +13,20 @@ from packwork.finish.admission import admitted
 from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
-from packwork.pipeline.asking import Asked
-from packwork.pipeline.beginning import Beginning
-from packwork.pipeline.casting import kinds
-from packwork.pipeline.finishing import (
+from packwork.pipeline.exact import (
     Closing,
     gap_with_bulge,
     scale_ranges,
     solid_outlines,
     without,
 )
-from packwork.pipeline.job import Job
-from packwork.pipeline.onward import stretch
-from packwork.pipeline.outcome import Filling
+from packwork.pipeline.placed import Placed
+from packwork.pipeline.plan.asked import Asked
+from packwork.pipeline.plan.cast import kinds
+from packwork.pipeline.plan.plan import VoidPlan
+from packwork.pipeline.progress import stretch
+from packwork.pipeline.result import Filling
 from packwork.progress import Observer, Stop, until_over
-from packwork.readers.words.items import EM_PX
-from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.start.angles import nearest_allowed
 from packwork.start.fitting import SECTORS
@@ -58,103 +56,80 @@ other's boxes take minutes, smaller ends before voids are full. Tried: 60 icons 
 IMAGE_WORK = 1.5e8
 """What looking for voids in an image counts in a round. Measured: 0.7 s."""
 
-REPEATED = 0.75
-"""Height of a repeated word over that of the word itself, at most: so no weight is told
-wrong. Larger fills more. Chosen."""
-
 STYLE = frozenset({"color", "link", "title"})
 """What of the rules about an item holds for the smaller copies of it too."""
 
 
-@dataclass(frozen=True, eq=False)
-class GapFilling:
-    """A layout whose voids were filled.
-
-    Parameters
-    ----------
-    job, start
-        Those of the run, with the items that were added.
-    exact
-        All poses.
-    filling
-        What came of it.
-    ids
-        What the items were called by in steps, as some of them have left again.
-    """
-
-    job: Job
-    start: Beginning
-    exact: Finished
-    filling: Filling
-    ids: IntArray
-
-
-def fill_gaps(
-    job: Job, start: Beginning, exact: Finished, observer: Observer | None, stop: Stop
-) -> GapFilling:
+def fill_gaps(placed: Placed, exact: Finished, observer: Observer | None, stop: Stop) -> Placed:
     """Put smaller copies into voids until the coverage asked for is reached or nothing fits.
 
     Each round finds the voids in an image, puts copies where they fit, and lets all items
     that may yield grow and make room in exact geometry. Where sizes are data or rules
     hold items, only the fillers move.
     """
-    run = _Run(job, start, exact, observer, until_over(stop, job.seconds_left(1.0)))
+    job = placed.job
+    if job.plan.voids is None:
+        return placed
+    filling = _Filling(
+        placed, job.plan.voids, exact, observer, until_over(stop, job.seconds_left(1.0))
+    )
     ending = None if exact.clean else "the layout was not clean"
     while ending is None:
-        ending = run.round()
-    return run.result(ending)
+        ending = filling.round()
+    return filling.result(ending)
 
 
-class _Run:
+class _Filling:
     """State of one gap filling between its rounds."""
 
     def __init__(
-        self, job: Job, start: Beginning, exact: Finished, observer: Observer | None, stop: Stop
+        self,
+        placed: Placed,
+        voids: VoidPlan,
+        exact: Finished,
+        observer: Observer | None,
+        stop: Stop,
     ) -> None:
+        job, start = placed.job, placed.start
+        self._placed, self._voids = placed, voids
         self._job, self._start, self._exact = job, start, exact
         self._observer, self._stop, self._rounds = observer, stop, 0
         self._sorts = job.fillers
-        self._shapes = solid_outlines(job.recipe, self._sorts)
-        self._rng = np.random.default_rng(job.recipe.seed)
+        self._shapes = solid_outlines(job.plan.outline, self._sorts)
+        self._rng = np.random.default_rng(job.plan.seed)
         self._first = len(job.items)
         self.poses, self.added = exact.poses, list[int]()
         self._ids, self._tried = np.arange(self._first), self._first
-        self._originals = solid_outlines(job.recipe, job.items)
-        self._yields = job.recipe.sizes == "free" and start.limits is None
+        self._originals = solid_outlines(job.plan.outline, job.items)
+        self._yields = job.plan.sizes == "free" and start.limits is None
         self._ranges = scale_ranges(job, start, exact.poses)
         own = np.array([outline.area for outline in self._shapes])
         extents = np.array([outline.extent for outline in self._shapes])
-        self._smallest = job.recipe.smallest_cu(job.container) / extents
-        if job.letters is not None and job.letters.smallest and not job.recipe.filler:
-            # The copies are words too, and to be read.
-            self._smallest = np.full(len(extents), job.letters.smallest / EM_PX)
         # No filler outgrows what is a fair share for the items of before.
-        self._largest = np.sqrt(job.container.outline.area / self._first / own)
-        if job.words is not None and not job.recipe.filler:
-            self._largest = np.minimum(
-                self._largest, REPEATED * _scales_of(self._sorts, exact, job)
-            )
+        fair = np.sqrt(job.container.outline.area / self._first / own)
+        self._smallest, self._largest = job.use.filler_scales(
+            job, exact, voids.smallest / extents, fair
+        )
         self._gap = gap_with_bulge(job, np.arange(self._first), self._ranges[1])
         self._work = 0.0
 
     def round(self) -> str | None:
         """One round of fillers; why the last one was the last, or None."""
-        recipe, before = self._job.recipe, self.coverage()
-        if recipe.target_coverage is not None and before >= recipe.target_coverage:
-            return f"{100 * recipe.target_coverage:g} % are covered"
-        room = (recipe.max_items or MOST_ITEMS) - len(self.poses)
+        voids, effort, before = self._voids, self._job.plan.effort, self.coverage()
+        if voids.target is not None and before >= voids.target:
+            return f"{100 * voids.target:g} % are covered"
+        room = (voids.most or MOST_ITEMS) - len(self.poses)
         if room <= 0:
             return f"{len(self.poses)} items are the most that were asked for"
         if self._stop():
             return "the run was stopped"
-        if self._work > MOST_WORK[recipe.effort]:
-            more = "fewer corners" if recipe.effort == "best" else "a higher --effort"
+        if self._work > MOST_WORK[effort]:
+            more = "fewer corners" if effort == "best" else "a higher --effort"
             return f"more than {len(self.poses)} of such items take too long; {more} would do"
         self._work += IMAGE_WORK
         count = min(max(AT_LEAST, round(MORE * len(self.poses))), room)
         if self._let_in(count) == 0 or self._grow() - before < WORTHWHILE:
-            smallest = recipe.smallest_cu(self._job.container)
-            return f"no void holds an item of {smallest:.3g} {self._job.container.unit}"
+            return f"no void holds an item of {voids.smallest:.3g} {self._job.container.unit}"
         return None
 
     def coverage(self) -> float:
@@ -162,8 +137,8 @@ class _Run:
         own = np.array([outline.area for outline in self._all_outlines()])
         return float((own * self.poses.scale**2).sum()) / self._job.container.outline.area
 
-    def result(self, ending: str) -> GapFilling:
-        """The job with all its items, and where they are."""
+    def result(self, ending: str) -> Placed:
+        """What was placed, with all that was put into voids."""
         job, start = self._job, self._start
         asked = dict(zip((item.name for item in job.items), job.asked, strict=True))
         new = [self._sorts[k] for k in self.added]
@@ -179,17 +154,19 @@ class _Run:
             if start.limits.kinds is not None:
                 limits = replace(limits, kinds=kinds(grown.items))
         nominal = np.append(start.nominal, self.poses.scale[self._first :])
-        return GapFilling(
-            grown,
-            replace(start, nominal=nominal, limits=limits),
-            replace(self._exact, poses=self.poses),
-            Filling(len(new), ending, self.coverage(), job.recipe.target_coverage),
-            self._ids,
+        return replace(
+            self._placed,
+            job=grown,
+            before=job,
+            start=replace(start, nominal=nominal, limits=limits),
+            exact=replace(self._exact, poses=self.poses),
+            filling=Filling(len(new), ending, self.coverage(), self._voids.target),
+            numbers=self._ids,
         )
 
     def _let_in(self, count: int) -> int:
         """Put copies into voids; how many found a place."""
-        container, rotation = self._job.container, self._job.recipe.rotation
+        container, rotation = self._job.container, self._job.plan.rotation
         outlines = self._all_outlines()
         placed = [outline.mapped(self.poses.matrix(k)) for k, outline in enumerate(outlines)]
         turns = 2 * np.pi * np.arange(SECTORS) / SECTORS
@@ -224,10 +201,10 @@ class _Run:
 
     def _grow(self) -> float:
         """Let all that may yield grow and make room; the coverage then."""
-        recipe, container = self._job.recipe, self._job.container
+        plan, container = self._job.plan, self._job.container
         outlines, (smallest, largest) = self._all_outlines(), self._all_ranges()
         movers = np.arange(0 if self._yields else self._first, len(outlines))
-        self._work += ROUNDS[recipe.effort] * corner_pairs(outlines, self.poses)
+        self._work += ROUNDS[plan.effort] * corner_pairs(outlines, self.poses)
         walls = [outlines[k].mapped(self.poses.matrix(k)) for k in range(movers[0])]
         result = finish(
             replace(container, outline=without(container.outline, walls)),
@@ -237,9 +214,9 @@ class _Run:
                 gap_cu=self._gap,
                 smallest=tuple(np.minimum(smallest, self.poses.scale)[movers].tolist()),
                 largest=tuple(np.maximum(largest, self.poses.scale)[movers].tolist()),
-                turning=not recipe.rotation.is_still,
-                turn_limit=None if recipe.rotation.is_still else recipe.rotation.limit,
-                rounds=ROUNDS[recipe.effort],
+                turning=not plan.rotation.is_still,
+                turn_limit=None if plan.rotation.is_still else plan.rotation.limit,
+                rounds=ROUNDS[plan.effort],
                 refining=True,
             ),
             self._closing(movers),
@@ -281,12 +258,6 @@ def corner_pairs(outlines: Sequence[Outline], poses: Poses) -> float:
     regions = shapely.box(*boxes.T)
     first, second = shapely.STRtree(regions).query(regions)
     return float((corners[first] * corners[second])[first < second].sum())
-
-
-def _scales_of(sorts: Sequence[Item], exact: Finished, job: Job) -> FloatArray:
-    """``(n,)`` scale that each sort's own item has in the layout."""
-    known = dict(zip(job.items, exact.poses.scale, strict=True))
-    return np.array([known[item] for item in sorts])
 
 
 def _styled(asked: Asked | None) -> Asked:

@@ -1,164 +1,100 @@
-"""Which way of finding first places suits a run, and the places that it finds."""
+"""Items to their places in one container: start, levels, exact finish."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from dataclasses import replace
+from itertools import count
 
 import numpy as np
 
-from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
-from packwork.finish.finish import COMMON_COARSE
-from packwork.finish.options import HAIR
-from packwork.forces.forces import PRESSURE, FieldForce, Forces
-from packwork.geometry.outline import Outline
-from packwork.pipeline.forcing import forces_of
+from packwork.pipeline.dress.line_weights import evened
+from packwork.pipeline.exact import finished
 from packwork.pipeline.job import Job
-from packwork.pipeline.leaning import job_leanings
-from packwork.pipeline.sharing import kinds_of
-from packwork.progress import Stop, never, until_over
-from packwork.scene.container import Container
-from packwork.scene.leaning import turn_sides
-from packwork.scene.limits import Limits
-from packwork.start.angles import spread_angles
-from packwork.start.first_fit.first_fit import first_fit
-from packwork.start.first_poses import FirstPoses, first_poses
-
-ATTEMPTS = {"draft": 1, "normal": 4, "best": 24}
-"""Orders tried for each size, by effort. More find a little more, ever less so. Tried."""
-
-ANGLES, ANY_ANGLES = 5, 8
-"""Angles tried for an item that may turn within a limit, and for one that may turn any way."""
-
-MOST_ITEMS = 1_500
-"""Items at most that are put one after another unless asked: 100 upright icons take 0.7 s of
-processor time, 400 take 5 s, 1,000 take 10 s, 1,500 take 14 s. Measured."""
-
-MOST_TURNING = 150
-"""The same of items that may turn any way, and are no words: 100 of them take 3 s, 400 take 40 s,
-where the levels take 0.6 s and 2.5 s. Measured."""
-
-TIME_SHARE = 0.3
-"""Share of the time left that it may take, where one was given. Chosen."""
+from packwork.pipeline.levels import begun_and_solved, buoyant_forces
+from packwork.pipeline.placed import Placed
+from packwork.pipeline.plan.padding import check_found
+from packwork.pipeline.progress import BEFORE_VOIDS, LEVELS, Turn, stretch
+from packwork.pipeline.upright import is_as_good, upright_job
+from packwork.progress import Observer, Stop, together
 
 
-def first_places(
-    job: Job,
-    container: Container,
-    outlines: Sequence[Outline],
-    scales: FloatArray,
-    angles: FloatArray,
-    limits: Limits | None,
-    rng: np.random.Generator,
-    forces: Forces | None = None,
-    stop: Stop = never,
-) -> FirstPoses:
-    """Poses by the method asked for, or else by the one that suits.
+def placed_as_asked(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
+    """Poses of all items, before voids are filled.
 
-    Raises
-    ------
-    RecipeError
-        If that method was asked for where it cannot be.
+    Where some come out otherwise than they may be, as words whose letters are too small, fewer
+    are placed anew.
     """
-    recipe = job.recipe
-    asked = recipe.start == "first-fit"
-    if asked and recipe.sizes != "shared":
-        raise RecipeError(
-            "start",
-            f"first-fit seeks one size for all; use it with sizes shared, not {recipe.sizes}",
-        )
-    if asked or (recipe.start is None and _suits(job, forces)):
-        is_over = until_over(stop, job.seconds_left(TIME_SHARE))
-        poses = first_fit(
-            container,
-            outlines,
-            scales,
-            _angles(job, angles, limits),
-            np.random.default_rng(recipe.seed),
-            margin_cu=recipe.padding_cu(job.container) / 2 + HAIR * job.container.side,
-            slack=COMMON_COARSE,
-            attempts=ATTEMPTS[recipe.effort],
-            limits=limits,
-            fields=_fields(job),
-            kinds=_kinds(job),
-            stop=is_over,
-        )
-        if poses is not None:
-            return FirstPoses(poses, "first-fit")
-    return first_poses(container, outlines, scales, angles, recipe.start_options(), rng, limits)
+    job = job.use.before(job)
+    for attempt in count(1):
+        placed = _upright_if_as_good(job, observer, stop, record)
+        fewer = job if stop() else job.use.fewer(job, placed.poses, attempt)
+        if fewer is job:
+            break
+        job = fewer
+    return placed
 
 
-def needs_levels(job: Job, forces: Forces | None) -> bool:
-    """Whether something is asked that only the levels know."""
-    recipe = job.recipe
-    has_bonds = forces is not None and bool(forces.bonds)
-    return (
-        bool(recipe.levels or recipe.epochs or recipe.losses)
-        or recipe.preset != "default"
-        or recipe.finish != "exact"
-        or recipe.stretch > 1.0
-        or recipe.keeps_apart
-        or has_bonds
-    )
+def _upright_if_as_good(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
+    """Poses of all items; of one by itself, its own pose if it is about as large so."""
+    plain = upright_job(job)
+    if plain is None:
+        return _placed(job, observer, stop, record)
+    first, second = (None if observer is None else Turn(observer, k, 2) for k in range(2))
+    turned = _placed(job, first, stop, record)
+    if stop() or turned.exact is None:
+        return turned
+    try:
+        upright = _placed(plain, second, stop, record)
+    except RecipeError:
+        return turned
+    if upright.exact is None or not is_as_good(upright.exact, turned.exact):
+        return turned
+    return replace(upright, job=job)
 
 
-def _suits(job: Job, forces: Forces | None) -> bool:
-    """Whether putting items one after another leaves less room than the levels would.
-
-    So it does where all have one size, and of words. Photos by themselves fill more by the
-    levels: three points.
-    """
-    recipe = job.recipe
-    is_turning = recipe.rotation.limit is None and recipe.rotation.choices is None
-    most = MOST_TURNING if is_turning and recipe.words is None else MOST_ITEMS
-    return (
-        recipe.sizes == "shared"
-        and not needs_levels(job, forces)
-        and (recipe.words is not None or recipe.photos is None)
-        and len(job.items) <= most
-    )
-
-
-def _kinds(job: Job) -> IntArray | None:
-    """Numbers of words, photos and items where they have shares; None if nothing is to be mixed."""
-    if job.recipe.share is None:
-        return None
-    spoken = () if job.words is None else job.words.items
-    return np.unique(kinds_of(job.items, spoken), return_inverse=True)[1].astype(np.int64)
-
-
-def _fields(job: Job) -> Sequence[FieldForce]:
-    """What draws items to places, with little of what draws all alike.
-
-    That would only press them together. Nobody is pushed the other way, as in the levels: those
-    drawn least would fill the far ends first, and leave the near ones to the smallest.
-    """
-    texts = job.recipe.force
-    if not texts:
-        return ()
-    forces = forces_of(texts, job.items, job.weights, job.container)
-    found = []
-    for force in forces.fields:
-        pull = force.strengths
-        least = pull[np.argmin(np.abs(pull))]
-        found.append(FieldForce(force.field, pull - (1 - PRESSURE) * least))
-    return found
+def _placed(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
+    """Poses of all items, whatever their sizes."""
+    # What follows the levels takes its share of the way.
+    whole = BEFORE_VOIDS if job.plan.voids is not None else 1.0
+    until = whole * (LEVELS if job.plan.is_exact else 1.0)
+    solved = _best_solved(job, stretch(observer, 0.0, until), stop, record)
+    if not job.plan.is_exact:
+        return solved
+    observer = together(stretch(observer, until, whole), solved.recorder)
+    with job.clock.time("finish"):
+        # What is to stay where it was is not pushed on.
+        forces = None if job.plan.stays else buoyant_forces(job)
+        exact = finished(job, solved.start, solved.poses, observer, stop, forces)
+        if not (job.plan.stays or stop()):
+            check_found(job.container, job.plan.gap, exact)
+        thinner = job if stop() else evened(job, exact.poses, tells=False)
+        if thinner is not job:
+            # Thinner lines leave room to grow into.
+            job = thinner
+            exact = finished(job, solved.start, exact.poses, observer, stop, forces, grows=True)
+        exact = job.use.bounded(job, solved.start, exact, observer, stop, forces)
+    return replace(solved, job=job, exact=exact)
 
 
-def _angles(job: Job, first: FloatArray, limits: Limits | None) -> list[FloatArray]:
-    """For each item the angles to try; the first alone where it must be kept."""
-    rng = np.random.default_rng(job.recipe.seed)
-    leans = job_leanings(job)
-    found = []
-    for k, one in enumerate(job.asked):
-        rotation = one.rotation or job.recipe.rotation
-        is_given = limits is not None and bool(limits.held[k, 2])
-        if is_given or rotation.is_still or rotation.choices is not None:
-            found.append(first[k : k + 1])
-        else:
-            number = ANY_ANGLES if rotation.limit is None else ANGLES
-            spread = spread_angles(number, rotation.limit, rng)
-            if leans is not None and leans[k] and rotation.limit is not None:
-                spread = np.clip(spread, *turn_sides(rotation.limit, np.full(number, leans[k])))
-            found.append(spread)
-    return found
+def _best_solved(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Placed:
+    """The levels' outcome; of several starts, that from which most comes to be covered."""
+    tried = job.use.starts(job)
+    found: list[Placed] = []
+    for number, one in enumerate(tried):
+        turn = None if observer is None else Turn(observer, number, len(tried))
+        found.append(replace(begun_and_solved(one, turn, stop, record), job=job))
+        if len(tried) == 1 or stop():
+            return found[0]
+    with job.clock.time("finish"):
+        worths = [_worth(one, stop) for one in found]
+    return found[worths.index(max(worths))]
+
+
+def _worth(solved: Placed, stop: Stop) -> tuple[bool, float]:
+    """Whether a finish without trials comes out clean, and the area that is covered then."""
+    job = solved.job
+    quick = replace(job, plan=replace(job.plan, effort="draft"))
+    exact = finished(quick, solved.start, solved.poses, None, stop, buoyant_forces(job))
+    own = np.array([item.outline.area for item in job.items])
+    return not exact.offenders, float(own @ exact.poses.scale**2)

@@ -7,7 +7,7 @@ import numpy as np
 from packwork.forces.bonds import Home
 from packwork.forces.forces import BondForce, Forces
 from packwork.geometry.overlay import symmetric_difference
-from packwork.pipeline.beginning import new_items, who_is_who
+from packwork.pipeline.earlier import new_items, who_is_who
 from packwork.pipeline.job import Job
 from packwork.scene.canvas import brought_over
 from packwork.scene.container import Container
@@ -29,7 +29,7 @@ outside. Tried."""
 
 def needs_no_levels(job: Job) -> bool:
     """Whether the exact finish alone can bring an earlier layout to what is asked now."""
-    if not job.recipe.stay or job.earlier is None or len(new_items(job)):
+    if not job.plan.stays or job.earlier is None or len(new_items(job)):
         # What is new needs room that only the levels can make.
         return False
     before, now = job.earlier.container, job.container
@@ -56,7 +56,7 @@ def as_it_was(job: Job, poses: Poses) -> Poses:
 
     A run begins with sizes that fit what is asked for now.
     """
-    if not job.recipe.stay or job.earlier is None:
+    if not job.plan.stays or job.earlier is None:
         return poses
     found = who_is_who(job, job.earlier)
     known = np.flatnonzero(found >= 0)

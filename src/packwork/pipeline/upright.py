@@ -6,10 +6,13 @@ from dataclasses import replace
 
 from packwork.finish.finish import Finished
 from packwork.pipeline.job import Job
+from packwork.rules import Rotation
 
 AS_LARGE = 0.97
 """Area that an item has upright, as a share of what it has turned, from which it is left upright.
 Larger turns it for what nobody sees, smaller wastes room. Chosen."""
+
+_STILL = Rotation(limit=0.0)
 
 
 def upright_job(job: Job) -> Job | None:
@@ -17,14 +20,20 @@ def upright_job(job: Job) -> Job | None:
 
     Where someone chose an angle, a force, an earlier layout or the time, that holds.
     """
-    recipe = job.recipe
-    if len(job.items) != 1 or recipe.rotation.is_still or recipe.rotation.choices is not None:
+    plan = job.plan
+    if len(job.items) != 1 or plan.rotation.is_still or plan.rotation.choices is not None:
         return None
     asked = job.asked[0]
-    is_told = asked.rotation is not None or "angle" in asked.pin or recipe.force or job.earlier
-    if is_told or recipe.time is not None or recipe.finish != "exact" or recipe.fills_gaps:
+    is_told = asked.rotation is not None or "angle" in asked.pin or bool(plan.forces)
+    if (
+        is_told
+        or job.earlier is not None
+        or plan.seconds is not None
+        or not plan.is_exact
+        or plan.voids is not None
+    ):
         return None
-    return replace(job, recipe=recipe.model_copy(update={"rotate": "none"}))
+    return replace(job, plan=replace(plan, rotation=_STILL))
 
 
 def is_as_good(upright: Finished, turned: Finished) -> bool:

@@ -32,7 +32,7 @@ from packwork.finish.programme import _kernels as programme
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
-from packwork.pipeline.outcome import find_unplaced
+from packwork.pipeline.result import find_unplaced
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout

@@ -11,8 +11,16 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from packwork import pipeline
+from packwork import pipeline, uses
+from packwork.finish.finish import Finished
+from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
+from packwork.pipeline.job import Job
+from packwork.pipeline.result import Run
+from packwork.pipeline.run import run_along
+from packwork.pipeline.start import Beginning
+from packwork.pipeline.use import Use
+from packwork.progress import Observer, Stop
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.svg.container import placed_container
@@ -23,6 +31,7 @@ from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.uses.words.letters import held_down
 
 SMALLEST_CANVAS = 4
 """Pixels on a side below which nothing is tried. Chosen."""
@@ -187,6 +196,30 @@ def _likely(
     return kept[: max(int(np.count_nonzero(ems >= asked.smallest)), 1)] if kept else []
 
 
+@dataclass(frozen=True)
+class _LetterBound(Use):
+    """Words that are there as items already, no letter larger than so many canvas units."""
+
+    largest: float | None
+
+    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+        """The common road."""
+        return run_along(job, observer, stop, record)
+
+    def bounded(
+        self,
+        job: Job,
+        start: Beginning,
+        exact: Finished,
+        observer: Observer | None,
+        stop: Stop,
+        forces: Forces | None,
+    ) -> Finished:
+        """Exact poses whose letters are no larger."""
+        count = len(job.items)
+        return held_down(job, start, exact, count, self.largest, observer, stop, forces)
+
+
 def _solved(
     asked: Setting, items: Sequence[Item], heights: npt.NDArray[np.float64], seed: int
 ) -> Layout:
@@ -203,8 +236,8 @@ def _solved(
         effort="draft",
         seed=seed,
     )
-    job = pipeline.read(recipe, items, asked.container)
-    return pipeline.run(replace(job, letters=pipeline.Letters(largest=asked.largest))).layout
+    job = uses.read(recipe, items, asked.container)
+    return pipeline.run(replace(job, use=_LetterBound(asked.largest))).layout
 
 
 def _is_white(mask: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:

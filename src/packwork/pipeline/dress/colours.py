@@ -1,0 +1,132 @@
+"""Colours, names, links and tooltips, once it is known who lies beside whom."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TypeAlias
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.pipeline.dress.legible import legible
+from packwork.pipeline.dress.neighbours import beside
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.asked import Asked
+from packwork.rules import OWN_COLOURS
+from packwork.scene.item import Art, Item, PhotoArt
+from packwork.scene.label import Label
+from packwork.scene.layout import Layout
+from packwork.scene.mixing import mixed
+from packwork.scene.palette import palette_colours
+from packwork.writers.recolour import has_one_colour, recoloured
+from packwork.writers.shading import in_palette, shaded
+
+_Arts: TypeAlias = dict[tuple[int, int, str, bool], Art]
+
+
+def dressed(job: Job, layout: Layout) -> Layout:
+    """Layout whose items look and are called as was asked, and can be told from what is behind."""
+    return legible(job, _as_asked(job, layout))
+
+
+def _as_asked(job: Job, layout: Layout) -> Layout:
+    """Layout whose items look and are called as rules and palette ask.
+
+    Colours of a palette are given out in the order of the items, as many of each; then
+    neighbours of one colour exchange theirs with others. What has several colours gets their
+    tints and shades.
+    """
+    if job.plan.shades == "nearest":
+        layout = _in_nearest(job, layout)
+    coloured = job.use.colours(job, layout)
+    palettes: list[tuple[str, ...]] = [] if coloured else _palettes(job)
+    if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
+        return layout
+    colours = _colours(palettes, layout) if coloured is None else coloured
+    known: dict[tuple[int, str | None, Label | None, bool], Item] = {}
+    arts: _Arts = {}
+    items = []
+    for item, one, colour in zip(layout.items, job.asked, colours, strict=True):
+        key = (id(item), colour, _label(one), coloured is None and "color" not in one.values)
+        if key not in known:
+            known[key] = _dressed(item, *key[1:], arts)
+        items.append(known[key])
+    return replace(layout, items=tuple(items))
+
+
+def _in_nearest(job: Job, layout: Layout) -> Layout:
+    """Layout in which each colour of a drawing of several has become the palette's nearest."""
+    palette = job.plan.palette
+    if not (palette and job.use.has_nearest):
+        return layout
+    known: dict[int, Item] = {}
+    for item in layout.items:
+        if id(item) not in known:
+            stays = isinstance(item.art, PhotoArt) or has_one_colour(item.art)
+            known[id(item)] = item if stays else in_palette(item, palette)
+    pairs = zip(layout.items, job.asked, strict=True)
+    items = [item if "color" in one.values else known[id(item)] for item, one in pairs]
+    return replace(layout, items=tuple(items))
+
+
+def _dressed(
+    item: Item, colour: str | None, label: Label | None, tinted: bool, arts: _Arts
+) -> Item:
+    """Item in its colour; items that share a drawing share it in each colour too.
+
+    ``tinted`` lets a drawing of several colours have tints and shades of it.
+    """
+    if colour is not None:
+        key = (id(item.art), id(item.ink), colour, tinted)
+        if key not in arts:
+            arts[key] = (shaded if tinted else recoloured)(item, colour).art
+        item = replace(item, art=arts[key])
+    return item if label is None else replace(item, label=label)
+
+
+def _label(one: Asked) -> Label | None:
+    said = {key: one.values[key] for key in ("name", "link", "title") if key in one.values}
+    return Label(**said) if said else None
+
+
+def _palettes(job: Job) -> list[tuple[str, ...]]:
+    """Colours that each copy may have; none for those that keep theirs."""
+    common = job.plan.palette
+    plain: dict[int, bool] = {}
+    found = []
+    for item, one in zip(job.items, job.asked, strict=True):
+        if "color" in one.values:
+            color = one.values["color"]
+            found.append(() if color == OWN_COLOURS else palette_colours(color))
+            continue
+        if common and id(item) not in plain:
+            plain[id(item)] = has_one_colour(item.art) or _is_tinted(job, item)
+        found.append(common if plain.get(id(item)) else ())
+    return found
+
+
+def _is_tinted(job: Job, item: Item) -> bool:
+    """Whether a drawing of several colours is to have the tints and shades of one.
+
+    Not among words, whose palette is theirs: emoji and icons keep their colours there.
+    """
+    is_asked = job.plan.shades == "tint" and job.use.palette_tints
+    return is_asked and not isinstance(item.art, PhotoArt)
+
+
+def _colours(palettes: list[tuple[str, ...]], layout: Layout) -> list[str | None]:
+    """One colour of each copy's palette, unlike its neighbours' where there is a choice."""
+    several = sorted({palette for palette in palettes if palette})
+    known = sorted({colour for palette in several for colour in palette})
+    numbers = {colour: k for k, colour in enumerate(known)}
+    # Copies that keep their colours are like nobody.
+    labels: IntArray = len(known) + np.arange(len(palettes))
+    groups = np.full(len(palettes), -1)
+    for number, palette in enumerate(several):
+        members = [k for k, own in enumerate(palettes) if own == palette]
+        groups[members] = number
+        labels[members] = np.resize([numbers[colour] for colour in palette], len(members))
+    if any(len(palette) > 1 for palette in several):
+        pairs = beside(layout)
+        labels = labels[mixed(labels, pairs, groups)]
+    return [known[label] if label < len(known) else None for label in labels]

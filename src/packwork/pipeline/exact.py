@@ -1,0 +1,319 @@
+"""From the solver's layout to an exact one."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import ShapeError
+from packwork.finish.finish import Finished, finish
+from packwork.finish.options import HAIR, FinishOptions
+from packwork.finish.pinned import settled
+from packwork.forces.forces import Forces
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference, union
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.leaning import job_leanings
+from packwork.pipeline.result import Unplaced
+from packwork.pipeline.start import Beginning
+from packwork.pipeline.staying import needs_no_levels
+from packwork.progress import Observer, Step, Stop, until_over
+from packwork.readers.svg.follow import FLATTENING
+from packwork.scene.item import Item
+from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
+from packwork.solve.options import OutlineChoice
+from packwork.solve.solver import scale_bounds
+from packwork.solve.stand_ins import stand_ins
+
+_LOG = logging.getLogger(__name__)
+
+TRIALS = {"draft": 0, "normal": 4, "best": 40}
+"""Turns and exchanges tried for each item, by effort: 4 ms each. More fill better, ever less
+so. Measured in docs/benchmarks-quality."""
+
+MOST_TRIALS = {"draft": 0, "normal": 3_000, "best": 20_000}
+"""Such trials at most: what a person waits for must not grow with the items for ever. With
+500, four containers of 1,000 items took 15 s each and ended at a mean LC of 0.805; with 3,000
+they take 25 s and end at 0.812; 100 items end at 0.811. Measured."""
+
+MANY, MOST_OF_MANY = 2_000, {"draft": 0, "normal": 1_500, "best": 20_000}
+"""Items above which there are so many at most: each trial then gains little of the whole.
+Measured in decision 0022."""
+
+TRIALS_SHARE = 0.6
+"""Share of the time left, where one was given, after which no more is tried. Chosen."""
+
+DWARF = 1.5
+"""How many times smaller than free sizes go an item may be and still count as placed. Larger
+leaves specks unsaid. Chosen by eye."""
+
+LEAST_KEPT = 0.9
+"""Share of its scale that an item keeps where a clean layout is to grow. Larger leaves large ones
+less to grow by, smaller makes the small ones dwarfs, whose lines then set the width of all.
+Chosen."""
+
+PRESSING = frozenset(
+    {
+        "containment",
+        "overlap",
+        "filling",
+        "evenness",
+        "paper-containment",
+        "paper-evenness",
+        "area-shares",
+        "apart",
+    }
+)
+"""Losses that have no say in which room stays free."""
+
+
+def finished(
+    job: Job,
+    start: Beginning,
+    poses: Poses,
+    observer: Observer | None,
+    stop: Stop,
+    forces: Forces | None = None,
+    *,
+    grows: bool = False,
+) -> Finished:
+    """Exact poses near the solver's, of the true outlines.
+
+    Items pinned in place stay as they are and count as wall. Those that a zone holds come
+    first, in their zone; all others take what is left. Where a time was given, the rounds
+    end with it; what they have then is clean too.
+
+    Parameters
+    ----------
+    grows
+        Whether the poses are clean, and are to be larger: none gets much smaller then.
+    """
+    outlines = solid_outlines(job.plan.outline, job.items)
+    until = until_over(stop, job.seconds_left(1.0))
+    is_enough = until_over(stop, job.seconds_left(TRIALS_SHARE))
+    allowed, largest = scale_ranges(job, start, poses)
+    smallest = np.maximum(allowed, LEAST_KEPT * poses.scale) if grows else allowed
+    limits = start.limits
+    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
+    results, before = [], poses
+    done = np.flatnonzero(groups < 0)
+    if limits is not None and len(done):
+        gap = gap_with_bulge(job, done, largest[done]) + HAIR * job.container.side
+        kept = replace(limits, smallest=smallest, largest=largest)
+        poses = settled(job.container, outlines, poses, kept, done, gap)
+    for group in [*range(1, groups.max(initial=0) + 1), 0]:
+        items = np.flatnonzero(groups == group)
+        if len(items) == 0:
+            continue
+        whole = job.container.outline if group == 0 or limits is None else (
+            limits.zones[group - 1].outline
+        )  # fmt: skip
+        room = without(whole, [outlines[k].mapped(poses.matrix(int(k))) for k in done])
+        result = finish(
+            replace(job.container, outline=room),
+            [outlines[k] for k in items],
+            poses.some(items),
+            _options(job, start, items, smallest[items], largest[items]),
+            None if observer is None else Closing(observer, poses, items),
+            until,
+            is_enough,
+            None if forces is None else forces.some(items),
+        )
+        poses = poses.with_some(items, result.poses)
+        results.append((items, result))
+        done = np.append(done, items)
+    if limits is not None and job.plan.sizes == "shared":
+        poses = _one_factor(before, poses, limits)
+    return _without_dwarfs_that_may_be(job, allowed, _together(poses, results))
+
+
+def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished) -> Finished:
+    """The result without items a little smaller than free sizes go, unless a rule sizes them.
+
+    That range is what looks well, not what somebody asked for; a notice tells of them.
+    """
+    real = []
+    for k in result.undersized:
+        short = float(smallest[k] / result.poses.scale[k])
+        if short <= 1:
+            continue
+        if short > DWARF or "scale" in job.asked[k].values or "size" in job.asked[k].pin:
+            real.append(k)
+            continue
+        share = 100 * (1 - 1 / short)
+        _LOG.warning(
+            "%s (item %d) is %.1f %% smaller than --size-ratio allows",
+            job.items[k].name, k + 1, share,
+        )  # fmt: skip
+    return replace(result, undersized=tuple(real))
+
+
+def solid_outlines(asked: OutlineChoice, items: Sequence[Item]) -> list[Outline]:
+    """What items are taken for in exact geometry."""
+    # A hull holds its item, so what is clean for hulls is clean; a fitted outline may not.
+    choice: OutlineChoice = "hull" if asked == "hull" else "exact"
+    return stand_ins([item.outline for item in items], choice)
+
+
+def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:
+    """Poses in which all groups have grown alike: as much as the one that grew least."""
+    is_free = ~limits.held[:, 3]
+    common = np.min(poses.scale / before.scale, where=is_free, initial=np.inf)
+    return replace(poses, scale=np.where(is_free, before.scale * common, poses.scale))
+
+
+def scale_ranges(job: Job, start: Beginning, poses: Poses) -> tuple[FloatArray, FloatArray]:
+    """Smallest and largest scale of each item, ``(n,)`` each."""
+    options = job.plan.solve_options()
+    smallest, largest = scale_bounds(start.nominal, poses.scale, options, start.limits)
+    if any(loss not in PRESSING for loss in job.plan.losses):
+        # Room that a loss of one's own keeps free must not be grown into.
+        largest = np.minimum(largest, poses.scale)
+    if start.limits is not None:
+        # Items of a zone come first: they may not grow over those that come later.
+        early = start.limits.groups > 0
+        largest = np.where(early, np.minimum(largest, np.maximum(poses.scale, smallest)), largest)
+    return smallest, largest
+
+
+def _options(
+    job: Job, start: Beginning, items: IntArray, smallest: FloatArray, largest: FloatArray
+) -> FinishOptions:
+    plan, rotation = job.plan, job.plan.rotation
+    turning, limit = not rotation.is_still, rotation.limit
+    leans = job_leanings(job)
+    if start.limits is not None:
+        # One bound for all of a group: the narrowest that a rule gives.
+        turning = turning and bool(np.isnan(start.limits.angle[items]).all())
+        narrowest = float(start.limits.turn_limit[items].min())
+        limit = narrowest if np.isfinite(narrowest) else None
+    # Put together so closely, items have nowhere to go: a tenth of a point in twice the time.
+    is_settled = start.is_tight and plan.effort != "best"
+    return FinishOptions(
+        gap_cu=gap_with_bulge(job, items, largest),
+        sizes=plan.sizes,
+        smallest=tuple(smallest.tolist()),
+        largest=tuple(largest.tolist()),
+        turning=turning,
+        turn_limit=limit if turning else None,
+        leans=None if leans is None or not turning else tuple(leans[items].tolist()),
+        trials=0 if plan.stays or is_settled else trials_for(job, len(items)),
+        relieving=not is_settled,
+        refining=needs_no_levels(job),
+        staying=plan.stays,
+        seed=plan.seed,
+    )
+
+
+def trials_for(job: Job, count: int) -> int:
+    """How many turns and exchanges of ``count`` items are tried.
+
+    None where a trial would not know what was wanted: from whom copies stay apart, which
+    of two is to be larger, or what a loss of one's own keeps free.
+    """
+    plan = job.plan
+    is_ranked = plan.sizes == "free" and np.ptp(job.weights) > 0
+    if plan.keeps_apart or is_ranked or any(loss not in PRESSING for loss in plan.losses):
+        return 0
+    each = TRIALS[plan.effort] * plan.trial_factor
+    return min(each * count, (MOST_OF_MANY if count > MANY else MOST_TRIALS)[plan.effort])
+
+
+def without(whole: Outline, walls: Sequence[Outline]) -> Outline:
+    """A region less the items that stand in it."""
+    if not walls:
+        return whole
+    solid = union([wall.region for wall in walls])
+    try:
+        return Outline.from_region(difference(whole.region, solid))
+    except ShapeError:
+        return whole
+
+
+def _together(poses: Poses, results: Sequence[tuple[IntArray, Finished]]) -> Finished:
+    """One result of all groups, items numbered as in the run."""
+    offenders = tuple(
+        replace(
+            found,
+            item=int(items[found.item]),
+            other=None if found.other is None else int(items[found.other]),
+        )
+        for items, result in results
+        for found in result.offenders
+    )
+    undersized = tuple(int(items[k]) for items, result in results for k in result.undersized)
+    return Finished(
+        poses,
+        not offenders,
+        offenders,
+        undersized,
+        sum(result.rounds for _, result in results),
+        sum(result.seconds for _, result in results),
+    )
+
+
+def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
+    """Gap between outlines that leaves the one asked for between curves.
+
+    Those may come nearer than the polygons that stand for them.
+
+    Parameters
+    ----------
+    items
+        Who is to keep it.
+    largest
+        ``(m,)`` how large they may become.
+    """
+    extents = np.array([job.items[k].outline.extent for k in items])
+    bulge = 2 * FLATTENING * float(np.max(extents * largest))
+    return job.plan.gap + bulge
+
+
+def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
+    """Items that are still in conflict, or smaller than they may be, and why."""
+    unit = job.container.unit
+    found: dict[int, str] = {}
+    for offender in result.offenders:
+        partner = None if offender.other is None else job.items[offender.other].name
+        whom = "the container's edge" if partner is None else f"{partner}"
+        if offender.overlap_cu2 > 0:
+            how = "sticks out of the container" if partner is None else f"overlaps {partner}"
+            reason = f"{how} by {offender.overlap_cu2:.3g} {unit}²"
+        else:
+            reason = f"is {offender.gap_cu:.3g} {unit} from {whom}, nearer than asked"
+        found.setdefault(offender.item, reason)
+    for k in result.undersized:
+        found.setdefault(k, "is smaller than it may be: there was no room at its smallest size")
+    return tuple(Unplaced(job.items[k].name, k, found[k]) for k in sorted(found))
+
+
+class Closing:
+    """Passes steps of some items on as those of a last level of all.
+
+    Parameters
+    ----------
+    observer
+        The run's.
+    poses
+        Of all items.
+    items
+        Whom the steps are of.
+    ids
+        What all items are called by, as in ``Step``.
+    """
+
+    def __init__(
+        self, observer: Observer, poses: Poses, items: IntArray, ids: IntArray | None = None
+    ) -> None:
+        self._observer, self._poses, self._items, self._ids = observer, poses, items, ids
+        self.every = observer.every
+
+    def on_step(self, step: Step) -> None:
+        """Tell the run's observer."""
+        poses = self._poses.with_some(self._items, step.poses)
+        self._observer.on_step(replace(step, poses=poses, is_finish=True, ids=self._ids))

@@ -1,0 +1,150 @@
+"""Which way of finding first places suits a run, and the places that it finds."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
+from packwork.finish.finish import COMMON_COARSE
+from packwork.finish.options import HAIR
+from packwork.forces.forces import PRESSURE, FieldForce, Forces
+from packwork.geometry.outline import Outline
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.leaning import job_leanings
+from packwork.pipeline.plan.shares import kinds_of
+from packwork.progress import Stop, never, until_over
+from packwork.scene.container import Container
+from packwork.scene.leaning import turn_sides
+from packwork.scene.limits import Limits
+from packwork.start.angles import spread_angles
+from packwork.start.first_fit.first_fit import first_fit
+from packwork.start.first_poses import FirstPoses, first_poses
+
+ATTEMPTS = {"draft": 1, "normal": 4, "best": 24}
+"""Orders tried for each size, by effort. More find a little more, ever less so. Tried."""
+
+ANGLES, ANY_ANGLES = 5, 8
+"""Angles tried for an item that may turn within a limit, and for one that may turn any way."""
+
+TIME_SHARE = 0.3
+"""Share of the time left that it may take, where one was given. Chosen."""
+
+
+def first_places(
+    job: Job,
+    container: Container,
+    outlines: Sequence[Outline],
+    scales: FloatArray,
+    angles: FloatArray,
+    limits: Limits | None,
+    rng: np.random.Generator,
+    forces: Forces | None = None,
+    stop: Stop = never,
+) -> FirstPoses:
+    """Poses by the method asked for, or else by the one that suits.
+
+    Raises
+    ------
+    RecipeError
+        If that method was asked for where it cannot be.
+    """
+    plan = job.plan
+    asked = plan.method == "first-fit"
+    if asked and plan.sizes != "shared":
+        raise RecipeError(
+            "start",
+            f"first-fit seeks one size for all; use it with sizes shared, not {plan.sizes}",
+        )
+    if asked or (plan.method is None and _suits(job, forces)):
+        is_over = until_over(stop, job.seconds_left(TIME_SHARE))
+        poses = first_fit(
+            container,
+            outlines,
+            scales,
+            _angles(job, angles, limits),
+            np.random.default_rng(plan.seed),
+            margin_cu=plan.gap / 2 + HAIR * job.container.side,
+            slack=COMMON_COARSE,
+            attempts=ATTEMPTS[plan.effort],
+            limits=limits,
+            fields=_fields(job),
+            kinds=_kinds(job),
+            stop=is_over,
+        )
+        if poses is not None:
+            return FirstPoses(poses, "first-fit")
+    return first_poses(container, outlines, scales, angles, plan.start_options(), rng, limits)
+
+
+def needs_levels(job: Job, forces: Forces | None) -> bool:
+    """Whether something is asked that only the levels know."""
+    plan = job.plan
+    has_bonds = forces is not None and bool(forces.bonds)
+    return (
+        bool(plan.levels or plan.epochs or plan.losses)
+        or not plan.is_default
+        or not plan.is_exact
+        or plan.stretch > 1.0
+        or plan.keeps_apart
+        or has_bonds
+    )
+
+
+def _suits(job: Job, forces: Forces | None) -> bool:
+    """Whether putting items one after another leaves less room than the levels would.
+
+    So it does where all have one size.
+    """
+    turns = job.plan.rotation
+    is_turning = turns.limit is None and turns.choices is None
+    return (
+        job.plan.sizes == "shared"
+        and not needs_levels(job, forces)
+        and job.use.suits_first_fit(len(job.items), is_turning)
+    )
+
+
+def _kinds(job: Job) -> IntArray | None:
+    """Numbers of words, photos and items where they have shares; None if nothing is to be mixed."""
+    if job.plan.share is None:
+        return None
+    return np.unique(kinds_of(job.items, job.use.words), return_inverse=True)[1].astype(np.int64)
+
+
+def _fields(job: Job) -> Sequence[FieldForce]:
+    """What draws items to places, with little of what draws all alike.
+
+    That would only press them together. Nobody is pushed the other way, as in the levels: those
+    drawn least would fill the far ends first, and leave the near ones to the smallest.
+    """
+    forces = job.forces
+    if forces is None:
+        return ()
+    found = []
+    for force in forces.fields:
+        pull = force.strengths
+        least = pull[np.argmin(np.abs(pull))]
+        found.append(FieldForce(force.field, pull - (1 - PRESSURE) * least))
+    return found
+
+
+def _angles(job: Job, first: FloatArray, limits: Limits | None) -> list[FloatArray]:
+    """For each item the angles to try; the first alone where it must be kept."""
+    rng = np.random.default_rng(job.plan.seed)
+    leans = job_leanings(job)
+    found = []
+    for k, one in enumerate(job.asked):
+        rotation = one.rotation or job.plan.rotation
+        is_given = limits is not None and bool(limits.held[k, 2])
+        if is_given or rotation.is_still or rotation.choices is not None:
+            found.append(first[k : k + 1])
+        else:
+            number = ANY_ANGLES if rotation.limit is None else ANGLES
+            spread = spread_angles(number, rotation.limit, rng)
+            if leans is not None and leans[k] and rotation.limit is not None:
+                spread = np.clip(spread, *turn_sides(rotation.limit, np.full(number, leans[k])))
+            found.append(spread)
+    return found

@@ -1,0 +1,65 @@
+"""What cannot be certified is left out and named, so that the rest is certified."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.metrics.culprits import Culprit, culprits
+from packwork.pipeline.job import Job
+from packwork.pipeline.result import Unplaced
+from packwork.scene.layout import Layout
+
+
+def left_out(layout: Layout, held: Sequence[bool], gap: float) -> dict[int, str]:
+    """Items without which nothing meets or sticks out, and what was wrong with each.
+
+    Of two that meet, the one that more others meet goes; of two alike, the smaller one, but
+    none that is held in place.
+
+    Parameters
+    ----------
+    held
+        Whether each item has a place that was asked for.
+    gap
+        What the rest has to keep, canvas units.
+    """
+    wrong = culprits(layout.outlines, layout.container.outline, gap)
+    reasons: dict[int, str] = {}
+    for one in wrong:
+        if one.other is None:
+            reasons[one.item] = _said(one, layout, None)
+    areas = layout.areas
+    pairs = [one for one in wrong if one.other is not None]
+    while pairs := [one for one in pairs if not {one.item, one.other} & reasons.keys()]:
+        ends = np.array([(one.item, one.other) for one in pairs], dtype=np.int64)
+        met = np.bincount(ends.ravel(), minlength=len(areas))
+        worst = min(np.unique(ends).tolist(), key=lambda k: (held[k], -met[k], areas[k], k))
+        met_by = next(one for one in pairs if worst in (one.item, one.other))
+        other = met_by.other if met_by.item == worst else met_by.item
+        reasons[worst] = _said(met_by, layout, other)
+    return reasons
+
+
+def without_some(job: Job, gone: Sequence[int]) -> tuple[Job, IntArray]:
+    """The job of all other items, and which those are."""
+    kept = np.setdiff1d(np.arange(len(job.items)), np.array(gone, dtype=np.int64))
+    return job.some(kept), kept
+
+
+def named(reasons: dict[int, str], layout: Layout, numbers: IntArray) -> tuple[Unplaced, ...]:
+    """The items that were left out, by the numbers that they were asked for under."""
+    return tuple(
+        Unplaced(layout.items[k].name, int(numbers[k]), reasons[k]) for k in sorted(reasons)
+    )
+
+
+def _said(one: Culprit, layout: Layout, other: int | None) -> str:
+    unit = layout.container.unit
+    whom = "the container's edge" if other is None else layout.items[other].name
+    if one.overlap_cu2 > 0:
+        how = "sticks out of the container" if other is None else f"overlaps {whom}"
+        return f"{how} by {one.overlap_cu2:.3g} {unit}²"
+    return f"is {one.gap_cu:.3g} {unit} from {whom}, nearer than asked"

@@ -1,0 +1,198 @@
+"""What rules ask of single items, in numbers; and whether it can be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import combinations
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray
+from packwork.geometry.overlay import difference, intersection
+from packwork.geometry.polygon import Region
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.asked import Voice
+from packwork.pipeline.plan.cast import kinds
+from packwork.pipeline.plan.resolution import largest_scales
+from packwork.scene.container import Container
+from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
+from packwork.units import parse_length
+
+STICKS_OUT = 1e-3
+"""Share of a pinned item that may lie outside the container: the flattening of two curves
+that are drawn alike, no more. Chosen."""
+
+LEAD = 0.6
+"""Longer side of other items over the hero's, at most, where sizes are free. Larger ones
+rival it, smaller ones make many. Chosen by eye."""
+
+COVERED = 0.5
+"""Share of a pinned item under another pinned one from which they count as pinned onto
+each other. Smaller refuses what items may still turn or shrink away from. Chosen."""
+
+
+def pinned_scales(job: Job) -> FloatArray:
+    """``(n,)`` scales of items that are pinned in size, NaN for the others."""
+    scales = np.full(len(job.items), np.nan)
+    for k, one in enumerate(job.asked):
+        if "size" in one.pin:
+            container = job.container
+            size = parse_length(str(one.pin["size"]), container.unit, container.side)
+            scales[k] = size / job.items[k].outline.extent
+    return scales
+
+
+def item_limits(job: Job, nominal: FloatArray, scales: FloatArray, angles: FloatArray) -> Limits:
+    """Limits of all items: the recipe's for all, those of rules for some.
+
+    Parameters
+    ----------
+    nominal, scales, angles
+        ``(n,)``: typical and first scales, first angles.
+    """
+    container = job.container
+    smallest, largest = _scale_ranges(job, nominal, scales)
+    rotations = [one.rotation or job.plan.rotation for one in job.asked]
+    still = [r.is_still or "angle" in one.pin for r, one in zip(rotations, job.asked, strict=True)]
+    turns = np.array([np.inf if r.limit is None else r.limit for r in rotations])
+    return Limits(
+        x=_places(job, "x", container.width),
+        y=_places(job, "y", container.height),
+        angle=np.where(still, angles, np.nan),
+        turn_limit=np.where(still, np.inf, turns),
+        smallest=smallest,
+        largest=largest,
+        rigid=np.array(["size" in one.pin for one in job.asked]),
+        zones=tuple(region.zone for region in job.regions),
+        kinds=kinds(job.items) if job.plan.keeps_apart else None,
+    )
+
+
+def held_to(limits: Limits, poses: Poses) -> Poses:
+    """Poses changed no more than it takes to keep the limits of their own values."""
+    x, y, angle = (
+        np.where(np.isnan(given), own, given)
+        for given, own in (
+            (limits.x, poses.x), (limits.y, poses.y), (limits.angle, poses.angle)
+        )
+    )  # fmt: skip
+    angle = np.clip(angle, -limits.turn_limit, limits.turn_limit)
+    scale = np.clip(poses.scale, limits.smallest, limits.largest)
+    return Poses(x, y, angle, scale, np.where(limits.rigid, 1.0, poses.stretch))
+
+
+def check_poses(job: Job, container: Container, poses: Poses, limits: Limits) -> None:
+    """Refuse what no solve can keep to.
+
+    Parameters
+    ----------
+    container
+        The region to fill, padding taken off.
+    poses
+        First poses.
+
+    Raises
+    ------
+    RecipeError
+        If an item is pinned outside the container or its region, is too large for it, or
+        is pinned onto another.
+    """
+    homes = {int(k): region for region in job.regions for k in region.zone.items}
+    for k, one in enumerate(job.asked):
+        if not one.pin:
+            continue
+        home, words = container.outline.region, "the container"
+        if k in homes:
+            home = intersection(home, homes[k].zone.outline.region)
+            words = f"its region {homes[k].words}"
+        _check_place(job, k, home, words, limits)
+        if "size" in one.pin:
+            _check_room(job, k, home, words, poses, limits)
+    _check_pairs(job, poses, limits)
+
+
+def _check_place(job: Job, k: int, home: Region, words: str, limits: Limits) -> None:
+    """The point or the line that an item is pinned to, against the room it has."""
+    one, name = job.asked[k], job.items[k].name
+    x, y = float(limits.x[k]), float(limits.y[k])
+    if one.is_placed and not shapely.intersects_xy(home, x, y):
+        raise one.voices["pin.x"].error(f"pins {name} at {x:g}, {y:g}, outside {words}")
+    low, high = -job.container.side, 2 * job.container.side
+    for axis, ends in (("x", [(x, low), (x, high)]), ("y", [(low, y), (high, y)])):
+        if axis in one.pin and not shapely.LineString(ends).intersects(home):
+            at = x if axis == "x" else y
+            raise one.voices[f"pin.{axis}"].error(
+                f"pins {name} at {axis} = {at:g}, outside {words}"
+            )
+
+
+def _check_room(job: Job, k: int, home: Region, words: str, poses: Poses, limits: Limits) -> None:
+    """The size that an item is pinned to, against the room it has."""
+    one, item = job.asked[k], job.items[k]
+    area = item.outline.area * float(poses.scale[k]) ** 2
+    beyond = max(area - home.area, 0.0)
+    if one.is_placed and not np.isnan(limits.angle[k]):
+        placed = item.outline.mapped(poses.matrix(k)).region
+        beyond = difference(placed, home).area
+    if beyond > STICKS_OUT * area:
+        share = f"{100 * beyond / area:.2g} % of it lies outside {words}"
+        raise one.voices["pin.size"].error(
+            f"pins {item.name} so that {share}; make it smaller or move it"
+        )
+
+
+def _check_pairs(job: Job, poses: Poses, limits: Limits) -> None:
+    """Items that are pinned to points, against each other at their smallest."""
+    pinned = [k for k, one in enumerate(job.asked) if one.is_placed]
+    least = replace(poses, scale=np.where(limits.smallest > 0, limits.smallest, poses.scale))
+    regions = {k: job.items[k].outline.mapped(least.matrix(k)).region for k in pinned}
+    for a, b in combinations(pinned, 2):
+        shared = intersection(regions[a], regions[b]).area
+        allowed = STICKS_OUT if limits.held[[a, b], :4].all() else COVERED
+        if shared > allowed * min(regions[a].area, regions[b].area):
+            voice, other = (job.asked[k].voices["pin.x"] for k in (b, a))
+            first = "" if other == voice else f" of {(other.place or other.key).strip(' :')}"
+            raise voice.error(
+                f"pins {job.items[b].name} onto {job.items[a].name}{first}; move one of them"
+            )
+
+
+def _scale_ranges(
+    job: Job, nominal: FloatArray, scales: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    plan = job.plan
+    finest = largest_scales(job)
+    if plan.sizes == "fixed":
+        return scales.copy(), scales.copy()
+    ranges = np.full((len(nominal), 2), (1 / plan.size_ratio, plan.size_ratio))
+    if plan.sizes == "shared":
+        ranges[:] = (0.0, np.inf)
+    for k, one in enumerate(job.asked):
+        ranges[k] = one.values.get("scale", ranges[k])
+        if "size" in one.pin:
+            ranges[k] = 1.0
+    smallest, largest = nominal * ranges[:, 0], nominal * ranges[:, 1]
+    if plan.sizes == "free":
+        most = np.minimum(_below_the_hero(job, nominal), finest)
+        smallest, largest = np.minimum(smallest, most), np.minimum(largest, most)
+    return smallest, largest
+
+
+def _below_the_hero(job: Job, nominal: FloatArray) -> FloatArray:
+    """``(n,)`` scales at which items stay well below the hero, if there is one."""
+    extents = np.array([item.outline.extent for item in job.items])
+    heroes = [one.voices.get("pin.size", Voice("")).key == "hero" for one in job.asked]
+    sizes = (nominal * extents)[heroes]
+    return np.where(heroes, np.inf, np.min(LEAD * sizes, initial=np.inf) / extents)
+
+
+def _places(job: Job, axis: str, whole: float) -> FloatArray:
+    unit = job.container.unit
+    return np.array(
+        [
+            parse_length(str(one.pin[axis]), unit, whole) if axis in one.pin else np.nan
+            for one in job.asked
+        ]
+    )

@@ -1,0 +1,149 @@
+"""From a recipe to a job: what all uses read alike."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from packwork.errors import PackworkError
+from packwork.losses.registry import POSE_LOSSES, find_loss
+from packwork.pipeline.job import Clock, Job
+from packwork.pipeline.plan.cast import Cast
+from packwork.pipeline.plan.plan import Plan
+from packwork.pipeline.plan.regions import read_regions
+from packwork.pipeline.plan.shares import shared_out
+from packwork.pipeline.registration import registered
+from packwork.pipeline.use import Use
+from packwork.readers.container import read_container
+from packwork.readers.items import read_items
+from packwork.readers.photos.read import read_photos
+from packwork.readers.quiet.container import QuietOptions
+from packwork.readers.written.read import is_drawn, read_written
+from packwork.recipe import Recipe
+from packwork.scene.canvas import on_canvas
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+
+AUTO = "auto"
+"""What people write for a number of items that is found."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Material:
+    """What a use read of a recipe.
+
+    Parameters
+    ----------
+    use
+        With what it knows besides.
+    container
+        On its canvas.
+    cast
+        All copies to be placed.
+    fillers
+        Of which voids are filled, unless the recipe names others.
+    skipped
+        Files that were left out, with the reason.
+    """
+
+    use: Use
+    container: Container
+    cast: Cast
+    fillers: tuple[Item, ...]
+    skipped: tuple[PackworkError, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Named:
+    """Items that a recipe names, and files of them that were left out."""
+
+    items: tuple[Item, ...]
+    skipped: tuple[PackworkError, ...]
+
+
+def read_room(recipe: Recipe, given: Container | None) -> Container:
+    """The container of a recipe on its canvas; one that was given is in its place."""
+    if given is not None:
+        return on_canvas(given, recipe.canvas_size)
+    quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
+    return read_container(
+        recipe.container, recipe.canvas_size, recipe.font, quiet, recipe.read_options
+    )
+
+
+def read_named(recipe: Recipe, given: Sequence[Item] | None) -> Named:
+    """Photos and items of a recipe; items that were given are in place of its names."""
+    items: tuple[Item, ...] = ()
+    skipped: tuple[PackworkError, ...] = ()
+    if recipe.photos is not None:
+        threshold = recipe.alpha_threshold
+        photos = read_photos(recipe.photos, strict=recipe.strict, threshold=threshold)
+        items, skipped = photos.items, photos.skipped
+    if given is not None:
+        return Named((*items, *given), skipped)
+    # Items are mixed in with words and photos only if they were named.
+    is_alone = recipe.words is None and recipe.photos is None
+    if is_alone or ("items" in recipe.model_fields_set and recipe.items):
+        found = read_items(
+            recipe.items, holes=recipe.holes, strict=recipe.strict, reading=recipe.read_options
+        )
+        items, skipped = (*items, *found.items), (*skipped, *found.skipped)
+    return Named(items, skipped)
+
+
+def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
+    """Job of what was read, everything in it found usable.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If an option has no meaning for these items.
+    """
+    chosen, container = material.cast, material.container
+    weights = shared_out(chosen.items, chosen.weights, material.use.words, recipe.share)
+    plan = Plan.of(recipe, container)
+    fillers = _fillers(recipe, material.fillers)
+    for loss in recipe.losses:
+        if loss not in POSE_LOSSES:
+            find_loss(loss)
+    job = Job(
+        recipe=recipe,
+        plan=plan,
+        use=material.use,
+        container=container,
+        items=chosen.items,
+        asked=chosen.asked,
+        weights=weights,
+        regions=read_regions(chosen.asked, container),
+        fillers=fillers.items,
+        earlier=_earlier(recipe, chosen.items),
+        is_counted=recipe.count == AUTO,
+        skipped=(*material.skipped, *fillers.skipped),
+        clock=clock,
+    )
+    job.check_forces()
+    return job
+
+
+def _earlier(recipe: Recipe, items: Sequence[Item]) -> Layout | None:
+    """The earlier layout that a run begins from; None if it begins anew."""
+    if recipe.layout_file is None:
+        return None
+    layout = read_written(recipe.layout_file)
+    # GeoJSON holds poses; of drawings they are found from the shapes.
+    return registered(layout, items) if is_drawn(recipe.layout_file) else layout
+
+
+def _fillers(recipe: Recipe, items: tuple[Item, ...]) -> Named:
+    """What voids are filled with, and files that were left out."""
+    if not recipe.fills_gaps:
+        return Named((), ())
+    if not recipe.filler:
+        return Named(items, ())
+    found = read_items(
+        recipe.filler, holes=recipe.holes, strict=recipe.strict, reading=recipe.read_options
+    )
+    return Named(found.items, found.skipped)

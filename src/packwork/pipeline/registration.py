@@ -1,0 +1,135 @@
+"""Poses of items in a layout that holds shapes only, as drawings and cut sheets do.
+
+Shape registration by moments and the radial signature: the centroid gives the place, the area the
+size, and the turn is that at which the distances of the outline from its centroid agree best, by
+direction (a circular cross-correlation), refined by iterative closest points (Besl and McKay 1992;
+to lines, as Chen and Medioni did). So it does not matter what a program that saved the file again
+has made of transforms, groups and copies.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import shapely
+from scipy.spatial import cKDTree
+
+from packwork.arrays import FloatArray
+from packwork.geometry.outline import Outline
+from packwork.pipeline.earlier import matched
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+
+DIRECTIONS = 1_440
+"""Directions of a signature, a quarter of a degree apart. More tell turns finer than a finish
+keeps them, and take longer. Chosen."""
+
+ALONG = 2_000
+"""Points along an outline at least. Fewer leave directions without one, more take longer.
+Chosen."""
+
+AS_GOOD = 1e-3
+"""How much worse than the best, as a share of the squared radius, a smaller turn may agree: a disc
+is not turned for nothing. Larger leaves turns unseen. Chosen."""
+
+
+SLACK = 3e-4
+"""Share of its size by which an item begins smaller: a file's curves are followed anew, and what
+lay a hair apart may meet. Larger gives more to grow back, smaller makes conflicts. Tried."""
+
+STEPS = 6
+"""Steps of the refinement; three are enough for all that was tried. Chosen."""
+
+ROUND = 1e-6
+"""Mean squared lever, of an outline of area 1, below which it has no turn to speak of: a disc.
+Chosen."""
+
+
+def registered(layout: Layout, items: Sequence[Item]) -> Layout:
+    """The layout with the items of a run in place of plain shapes of the same names.
+
+    Shapes whose names no item has are kept as they are.
+
+    Parameters
+    ----------
+    layout
+        As ``readers.written`` finds it.
+    items
+        Of the run; copies of one name are taken in turn.
+    """
+    found = matched([item.name for item in layout.items], [item.name for item in items])
+    own, angles, scales = list(layout.items), layout.poses.angle.copy(), layout.poses.scale.copy()
+    for k in np.flatnonzero(found >= 0).tolist():
+        own[k] = items[int(found[k])]
+        shape = layout.items[k].outline
+        scales[k] *= (1 - SLACK) * np.sqrt(shape.area / own[k].outline.area)
+        angles[k] = turn_of(own[k].outline, shape)
+    poses = replace(layout.poses, angle=angles, scale=scales)
+    return replace(layout, items=tuple(own), poses=poses)
+
+
+def turn_of(before: Outline, after: Outline) -> float:
+    """Turn, in radians, that brings an outline nearest to another one of its form.
+
+    Examples
+    --------
+    >>> flag = Outline.from_rings([[[0, 0], [4, 0], [4, 1], [1, 1], [1, 3], [0, 3]]])
+    >>> turned = flag.mapped(np.array([[0.0, -2.0, 5.0], [2.0, 0.0, 7.0]]))
+    >>> round(float(np.degrees(turn_of(flag, turned))), 2)
+    90.0
+    """
+    first, second = _along(before), _along(after)
+    turn = _coarse_turn(_signature(first), _signature(second))
+    return _refined(first, second, turn)
+
+
+def _along(outline: Outline) -> FloatArray:
+    """``(n, 2)`` points all along an outline, about its centroid, its area taken for 1."""
+    dense = shapely.segmentize(outline.region, outline.region.length / ALONG)
+    centred = shapely.get_coordinates(dense) - outline.centroid
+    return np.asarray(centred / np.sqrt(outline.area))
+
+
+def _coarse_turn(before: FloatArray, after: FloatArray) -> float:
+    """Turn between two signatures, to a direction; of turns as good the smallest."""
+    spectrum = np.fft.rfft(after) * np.conj(np.fft.rfft(before))
+    agreement = np.fft.irfft(spectrum, DIRECTIONS)
+    allowance = AS_GOOD * float(np.dot(before, before))
+    is_peak = (agreement >= np.roll(agreement, 1)) & (agreement >= np.roll(agreement, -1))
+    good = np.flatnonzero(is_peak & (agreement >= agreement.max() - allowance))
+    turns = np.where(good > DIRECTIONS // 2, good - DIRECTIONS, good)
+    return 2 * np.pi * float(turns[np.argmin(np.abs(turns))]) / DIRECTIONS
+
+
+def _refined(before: FloatArray, after: FloatArray, turn: float) -> float:
+    """The turn after a few steps of iterative closest points, along the normals."""
+    tree = cKDTree(after)
+    way = np.roll(after, -1, axis=0) - np.roll(after, 1, axis=0)
+    normals = np.column_stack([way[:, 1], -way[:, 0]])
+    normals /= np.maximum(np.hypot(*normals.T), 1e-12)[:, None]
+    for _ in range(STEPS):
+        spun = before @ np.array([[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]])
+        _, nearest = tree.query(spun)
+        normal = normals[nearest]
+        lever = normal[:, 1] * spun[:, 0] - normal[:, 0] * spun[:, 1]
+        missing = ((after[nearest] - spun) * normal).sum(axis=1)
+        stiffness = float(lever @ lever)
+        if stiffness < ROUND * len(before):
+            break
+        turn += float(lever @ missing) / stiffness
+    return turn
+
+
+def _signature(points: FloatArray) -> FloatArray:
+    """Distance of the outline from its centroid, by direction."""
+    across, down = points.T
+    sector = np.rint(np.arctan2(down, across) / (2 * np.pi) * DIRECTIONS).astype(np.int64)
+    farthest = np.zeros(DIRECTIONS)
+    np.maximum.at(farthest, sector % DIRECTIONS, np.hypot(across, down))
+    empty = farthest == 0
+    if empty.any():
+        every = np.arange(DIRECTIONS)
+        farthest = np.interp(every, every[~empty], farthest[~empty], period=DIRECTIONS)
+    return np.asarray(farthest)

@@ -1,0 +1,223 @@
+"""What a run gave: the layout, what it is worth, and what was asked but not met."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from importlib import metadata
+from typing import Any
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.errors import PackworkError, RowsLostError
+from packwork.metrics.measure import LayoutMetrics
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.resolution import photo_pixels
+from packwork.scene.layout import Layout
+from packwork.scene.limits import Limits
+from packwork.solve.herd import wronged_shares
+from packwork.solve.level import Level
+from packwork.solve.shaped import seen_posed
+from packwork.solve.solver import Ending, Outcome
+
+CHECK_RESOLUTION = 600
+"""Pixels on the longer side of the image on which unplaced items are found. Chosen."""
+
+ROUGH_SHARE = 0.03
+"""Share of the container that may be overlapped or outside before a run counts as rough.
+A run that went well stays a hundred times below. Chosen."""
+
+UNPLACED_SHARE = 0.5
+"""Share of an item that is overlapped or outside from which it counts as not placed."""
+
+
+@dataclass(frozen=True)
+class Unplaced:
+    """An item that found no place of its own, and why."""
+
+    item: str
+    index: int
+    reason: str
+
+
+@dataclass(frozen=True)
+class Filling:
+    """How the voids between items were filled.
+
+    Parameters
+    ----------
+    added
+        Items that were put into voids.
+    ending
+        Why no more were.
+    covered, target
+        Shares of the container that are covered, and that were to be; None if as much as
+        goes.
+    """
+
+    added: int
+    ending: str
+    covered: float
+    target: float | None
+
+    @property
+    def is_short(self) -> bool:
+        """Whether less is covered than was asked for."""
+        return self.target is not None and self.covered < self.target
+
+
+@dataclass(frozen=True)
+class WordsFound:
+    """How many different words a source holds, and how many of them were to be set."""
+
+    found: int
+    asked: int
+
+
+@dataclass(frozen=True, eq=False)
+class Run:
+    """What a run gave.
+
+    Parameters
+    ----------
+    layout
+        The result, its manifest filled in.
+    metrics
+        What it is worth.
+    seconds
+        Time per part.
+    ending
+        Whether all epochs were run.
+    unplaced
+        Items without a place of their own.
+    skipped
+        Files that were left out, with the reason.
+    beside
+        Pairs of one kind that lie side by side; None if they may.
+    certified
+        Whether exact measures find that nothing of the layout overlaps, nothing sticks out
+        and all gaps and shares are as asked.
+    broken
+        What of that does not hold although it was promised, and what else was asked and not
+        met, a sentence each.
+    filling
+        How the voids were filled, if that was asked for.
+    words
+        How many different words the source holds, and how many of them were to be set; None
+        if there are none.
+    left_out
+        Unplaced items that are not in the layout.
+    pile
+        How the items lie, if they were heaped.
+    remarks
+        What the run chose by itself, a sentence each.
+    advice
+        What is poor although all that was asked holds, and what would do, a sentence each.
+    kept
+        Which of the items that were placed are in the layout; None if all.
+    """
+
+    layout: Layout
+    metrics: LayoutMetrics
+    seconds: Mapping[str, float]
+    ending: Ending
+    unplaced: tuple[Unplaced, ...]
+    skipped: tuple[PackworkError, ...]
+    beside: int | None = None
+    certified: bool = False
+    broken: tuple[str, ...] = ()
+    filling: Filling | None = None
+    words: WordsFound | None = None
+    left_out: int = 0
+    pile: Mapping[str, Any] | None = None
+    remarks: tuple[str, ...] = ()
+    advice: tuple[str, ...] = ()
+    kept: IntArray | None = None
+
+    @property
+    def is_as_asked(self) -> bool:
+        """Whether all that was asked is met."""
+        has_lost = any(isinstance(error, RowsLostError) for error in self.skipped)
+        is_short = self.filling is not None and self.filling.is_short
+        is_missed = bool(self.unplaced or self.broken)
+        return self.certified and not (is_missed or has_lost or is_short)
+
+    @property
+    def is_rough(self) -> bool:
+        """Whether far more is overlapped or outside than a run that went well leaves."""
+        exact = self.metrics.exact
+        return exact.overlap + exact.exceeding > ROUGH_SHARE
+
+    @property
+    def asked_for(self) -> int:
+        """Items that were to be placed; words that no font could draw are among them."""
+        placed = len(self.layout.items) + self.left_out
+        return max([placed, *(one.index + 1 for one in self.unplaced)])
+
+    def report(self, write_seconds: float = 0.0) -> dict[str, Any]:
+        """Plain values for ``--report``."""
+        seconds = {"finish": 0.0, **self.seconds, "write": write_seconds}
+        seconds["total"] = sum(seconds.values())
+        return {
+            "canvas": self.layout.container.canvas,
+            "metrics": self.metrics.as_dict(),
+            "seconds": seconds,
+            "items": self.asked_for,
+            "placed": self.asked_for - len(self.unplaced),
+            "unplaced": [asdict(u) for u in self.unplaced],
+            "beside": self.beside,
+            "skipped": [str(error) for error in self.skipped],
+            "certified": self.certified,
+            "promised": self.layout.manifest["promised"] is not None,
+            "broken": list(self.broken),
+            "filling": None if self.filling is None else asdict(self.filling),
+            "words": None if self.words is None else asdict(self.words),
+            "pile": None if self.pile is None else dict(self.pile),
+            "photos": [asdict(photo) for photo in photo_pixels(self.layout)],
+            "remarks": list(self.remarks),
+            "advice": list(self.advice),
+            "ending": self.ending.value,
+            "seed": self.layout.manifest["seed"],
+        }
+
+
+def find_unplaced(layout: Layout, limits: Limits | None = None) -> tuple[Unplaced, ...]:
+    """Items of which most is overlapped or outside the container or their zone."""
+    outlines = [item.outline for item in layout.items]
+    px_per_cu = CHECK_RESOLUTION / layout.container.side
+    seen = seen_posed(outlines, layout.poses, px_per_cu)
+    level = Level(layout.container, seen, CHECK_RESOLUTION, limits=limits)
+    shares = wronged_shares(level, layout.poses, level.density(layout.poses))
+    return tuple(
+        Unplaced(
+            layout.items[k].name,
+            int(k),
+            f"{100 * shares[k]:.0f} % of it is overlapped or outside the container",
+        )
+        for k in np.flatnonzero(shares > UNPLACED_SHARE)
+    )
+
+
+def manifest(
+    job: Job,
+    method: str,
+    outcome: Outcome,
+    metrics: LayoutMetrics,
+    unplaced: Sequence[Unplaced],
+    beside: int | None,
+) -> dict[str, Any]:
+    """What a run did, for whoever wants to repeat or to judge it."""
+    return {
+        "packwork": metadata.version("packwork"),
+        "recipe": job.recipe.plain(),
+        "seed": job.recipe.seed,
+        "start": method,
+        "ending": outcome.ending.value,
+        "levels": [asdict(level) for level in outcome.levels],
+        "metrics": metrics.as_dict(),
+        "seconds": dict(job.clock.seconds),
+        "unplaced": [asdict(u) for u in unplaced],
+        "beside": beside,
+        "skipped": [str(error) for error in job.skipped],
+    }

@@ -1,0 +1,67 @@
+"""Items that came out smaller than they were asked to be, each in a sentence."""
+
+from __future__ import annotations
+
+import shapely
+
+from packwork.arrays import FloatArray
+from packwork.finish.finish import Finished
+from packwork.finish.sizing import SIZE_TOLERANCE
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.limits import pinned_scales
+
+WIDEST_TOLERANCE = 0.01
+"""How exactly a container's widest place is found, as a share of its extent. Smaller takes
+longer and is not seen. Chosen."""
+
+
+def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...]:
+    """What came of each size that was asked for and not met.
+
+    Parameters
+    ----------
+    nominal
+        ``(n,)`` typical scale of each item.
+    exact
+        Of the finish.
+    """
+    side, scales = job.container.side, exact.poses.scale
+    pinned = pinned_scales(job)
+    said: list[str] = []
+    widest = ""
+    for k, one in enumerate(job.asked):
+        item = job.items[k]
+        if scales[k] < pinned[k] * (1 - SIZE_TOLERANCE):
+            widest = widest or _widest(job)
+            sizes = scales[k] * item.outline.extent / side, pinned[k] * item.outline.extent / side
+            said.append(
+                f"{item.name} (item {k + 1}) came out at {_percent(sizes[0])}, "
+                f"{_percent(sizes[1])} asked; {widest}"
+            )
+        elif "scale" in one.values and "size" not in one.pin:
+            least, ratio = one.values["scale"][0], float(scales[k] / nominal[k])
+            if ratio < least * (1 - SIZE_TOLERANCE):
+                said.append(
+                    f"{item.name} (item {k + 1}) came out at {ratio:.2g} times the typical size, "
+                    f"{least:g} asked at least"
+                )
+        elif k in exact.undersized:
+            short = float(nominal[k] / scales[k])
+            said.append(
+                f"{item.name} (item {k + 1}) came out {short:.2g} times smaller than the typical "
+                f"item, --size-ratio {job.plan.size_ratio:g} allows that much"
+            )
+    return tuple(said)
+
+
+def _percent(share: float) -> str:
+    return f"{100 * share:.2g} % of the canvas" if share < 0.1 else f"{100 * share:.0f} %"
+
+
+def _widest(job: Job) -> str:
+    """How wide the widest place of the container is, in words."""
+    region = job.container.outline.region
+    line = shapely.maximum_inscribed_circle(region, WIDEST_TOLERANCE * job.container.outline.extent)
+    return (
+        f"the container's widest place is {_percent(2 * line.length / job.container.side)} across"
+    )

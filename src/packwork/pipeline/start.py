@@ -1,0 +1,263 @@
+"""From what was read to the first poses: sizes, angles, limits, places."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
+from packwork.forces.exchanges import exchanged
+from packwork.forces.forces import Forces
+from packwork.geometry.outline import Outline
+from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.earlier import new_items, who_is_who
+from packwork.pipeline.first_places import first_places, needs_levels
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.leaning import job_leanings
+from packwork.pipeline.plan.limits import check_poses, held_to, item_limits, pinned_scales
+from packwork.pipeline.plan.sizes import given_scales
+from packwork.progress import Stop, never
+from packwork.rules import Rotation
+from packwork.scene.canvas import brought_over
+from packwork.scene.container import Container
+from packwork.scene.layout import Layout
+from packwork.scene.limits import Limits
+from packwork.scene.mixing import mixed
+from packwork.scene.neighbours import neighbour_pairs
+from packwork.scene.pose import Poses
+from packwork.solve.herd import wronged_shares
+from packwork.solve.level import Level
+from packwork.solve.shaped import seen_posed
+from packwork.solve.solver import scale_bounds
+from packwork.start.angles import nearest_allowed, start_angles
+from packwork.start.first_poses import disc_radii
+from packwork.start.relocate import relocated
+from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
+
+NOMINAL_COVERAGE = 0.82
+"""With free sizes: area of all items' hulls at their nominal sizes over the container's.
+Smaller lets the largest stand out more. Tried."""
+
+BURIED_RESOLUTION = 200
+"""Pixels on the longer side of the image on which buried items are found. Chosen."""
+
+BURIED_SHARE = 0.5
+"""Share of an item under others or outside from which it is moved before a run that did
+not choose its own start. Smaller undoes more of that start. Chosen."""
+
+ALIKE = 1.3
+"""Factor in radius between two items that may change places to come apart from others of
+their kind. Larger finds more partners and upsets the start more. Chosen."""
+
+FORCED_ALIKE = 2.0
+"""The same between two that may change places for a force's sake, before all others: what is too
+large or too small there the levels still mend. Larger leaves them more to mend. Tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class Beginning:
+    """All that a solve begins from.
+
+    Parameters
+    ----------
+    poses
+        First poses, which keep the limits.
+    nominal
+        ``(n,)`` scales that weights ask for.
+    method
+        How places were found.
+    limits
+        What rules ask of single items; None if nothing.
+    is_tight
+        Whether nothing overlaps, and the levels have nothing to add.
+    """
+
+    poses: Poses
+    nominal: FloatArray
+    method: str
+    limits: Limits | None
+    is_tight: bool = False
+
+
+def begin(
+    job: Job,
+    container: Container,
+    outlines: Sequence[Outline],
+    forces: Forces | None = None,
+    stop: Stop = never,
+) -> Beginning:
+    """First poses in the padded container, of the outlines that the solver will see.
+
+    Raises
+    ------
+    RecipeError
+        If what is asked of single items cannot be.
+    """
+    plan = job.plan
+    rng = np.random.default_rng(plan.seed)
+    nominal, scales = _scales(job, container, outlines)
+    earlier = None if job.earlier is None else _earlier_poses(job, job.earlier, nominal)
+    angles = first_angles(job, rng, earlier)
+    limits = item_limits(job, nominal, scales, angles) if job.is_limited else None
+    if limits is not None:
+        scales = np.clip(scales, limits.smallest, limits.largest)
+    is_tight = False
+    if earlier is not None:
+        poses, method = replace(earlier, angle=angles), "layout"
+        poses = poses if limits is None else held_to(limits, poses)
+    else:
+        first = first_places(job, container, outlines, scales, angles, limits, rng, forces, stop)
+        poses, method = first.poses, str(first.method)
+        is_tight = method == "first-fit" and not needs_levels(job, forces)
+        if forces is not None and not is_tight:
+            poses = _by_forces(outlines, poses, limits, forces)
+    if limits is not None:
+        check_poses(job, container, poses, limits)
+    if plan.stays:
+        poses = relocated(container, outlines, poses, new_items(job), rng, limits)
+    elif method in {"layout", "scatter"}:
+        poses = _unburied(container, outlines, poses, rng, limits)
+    if limits is not None and limits.kinds is not None:
+        poses = _kinds_apart(outlines, poses, limits, limits.kinds)
+    return Beginning(poses, nominal, method, limits, is_tight)
+
+
+def _scales(
+    job: Job, container: Container, outlines: Sequence[Outline]
+) -> tuple[FloatArray, FloatArray]:
+    """Nominal and first scales; the items that are free share what pinned ones leave."""
+    plan = job.plan
+    pinned = pinned_scales(job)
+    scales, nominal = pinned.copy(), pinned.copy()
+    free = [k for k, scale in enumerate(pinned) if np.isnan(scale)]
+    true = np.array([item.outline.area for item in job.items])
+    room = container.outline.area - float(np.nansum(true * pinned**2))
+    if room <= 0:
+        largest = int(np.nanargmax(true * pinned**2))
+        raise (
+            job.asked[largest]
+            .voices["pin.size"]
+            .error(f"pins {job.items[largest].name} so large that no room is left in the container")
+        )
+    if len(free) == 0:
+        return nominal, scales
+    total = plan.start_options().coverage * room
+    seen = [outlines[k] for k in free]
+    areas = np.array([outline.area for outline in seen])
+    if plan.sizes == "fixed":
+        given = given_scales(job.items, job.weights, container.unit, container.side)
+        nominal[free] = scales[free] = given[free]
+    elif plan.sizes == "shared":
+        nominal[free] = scales[free] = shared_scales(true[free], areas, job.weights[free], total)
+    else:
+        hulls = hull_areas(seen)
+        nominal[free] = nominal_scales(hulls, job.weights[free], NOMINAL_COVERAGE * room)
+        scales[free] = yielding_scales(areas, hulls, nominal[free], plan.size_ratio, total)
+    return nominal, scales
+
+
+def first_angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> FloatArray:
+    """First angles, or those of an earlier layout: as the recipe, rules and pins allow."""
+
+    def allowed(rotation: Rotation, items: IntArray) -> FloatArray:
+        bounds = rotation.limit, rotation.choices
+        if earlier is None:
+            return start_angles(len(items), *bounds, rng)
+        return nearest_allowed(earlier.angle[items], *bounds)
+
+    angles = allowed(job.plan.rotation, np.arange(len(job.items))).copy()
+    leans = job_leanings(job)
+    if leans is not None and job.plan.rotation.limit is not None:
+        # As far beyond its least tilt as any other turn from upright, but to its own side.
+        rest = np.abs(angles) * (1 - np.abs(leans) / job.plan.rotation.limit)
+        angles = np.where(leans == 0, angles, leans + np.sign(leans) * rest)
+    for k, one in enumerate(job.asked):
+        if one.rotation is not None:
+            angles[k] = allowed(one.rotation, np.array([k]))[0]
+        if "angle" in one.pin:
+            angles[k] = np.radians(one.pin["angle"])
+    return angles
+
+
+def _of_now(job: Job, earlier: Layout, poses: Poses, nominal: FloatArray) -> Poses:
+    """Poses of the items of now; those that are new lie in the middle, upright."""
+    found = who_is_who(job, earlier)
+    known = found >= 0
+    if not known.any():
+        raise RecipeError("start", f"{job.recipe.start} has none of these items; leave --stay out")
+    middle = np.reshape(job.container.outline.bounds, (2, 2)).mean(axis=0)
+    ratio = float(np.median(poses.scale[found[known]] / nominal[known]))
+    x, y, angle = (np.full(len(found), value) for value in (*middle, 0.0))
+    of_now = Poses(x, y, angle, nominal * ratio)
+    return of_now.with_some(np.flatnonzero(known), poses.some(found[known]))
+
+
+def _unburied(
+    container: Container,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    rng: np.random.Generator,
+    limits: Limits | None,
+) -> Poses:
+    """Poses in which items that lie mostly under others or outside have been moved."""
+    seen = seen_posed(outlines, poses, BURIED_RESOLUTION / container.side)
+    level = Level(container, seen, BURIED_RESOLUTION, limits=limits)
+    buried = np.flatnonzero(wronged_shares(level, poses, level.density(poses)) > BURIED_SHARE)
+    return relocated(container, outlines, poses, buried, rng, limits) if len(buried) else poses
+
+
+def _kinds_apart(
+    outlines: Sequence[Outline], poses: Poses, limits: Limits, kinds: IntArray
+) -> Poses:
+    """Poses in which items of about one size have changed places, away from their kind."""
+    sizes = np.log(disc_radii(outlines, poses.scale)) / np.log(ALIKE)
+    return _exchanged(poses, mixed(kinds, neighbour_pairs(poses.x, poses.y), limits.groups, sizes))
+
+
+def _by_forces(
+    outlines: Sequence[Outline], poses: Poses, limits: Limits | None, forces: Forces
+) -> Poses:
+    """Poses in which items have changed places to where forces would have them."""
+    radii = disc_radii(outlines, poses.scale)
+    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
+    places = np.column_stack([poses.x, poses.y])
+    areas = np.array([outline.area for outline in outlines]) * poses.scale**2
+    sizes = np.log(radii) / np.log(FORCED_ALIKE)
+    return _exchanged(poses, exchanged(forces, places, areas, sizes, groups))
+
+
+def _exchanged(poses: Poses, order: IntArray) -> Poses:
+    """Poses in which items have come to the places of others."""
+    x, y = poses.x.copy(), poses.y.copy()
+    x[order], y[order] = poses.x, poses.y
+    return replace(poses, x=x, y=y)
+
+
+def _earlier_poses(job: Job, earlier: Layout, nominal: FloatArray) -> Poses:
+    """Poses of an earlier layout, sizes and stretches within the recipe's bounds.
+
+    On a canvas of another size or unit their container's box is brought onto this one's.
+    """
+    plan = job.plan
+    poses = brought_over(earlier.poses, earlier.container, job.container)
+    if plan.stays:
+        poses = _of_now(job, earlier, poses, nominal)
+    if len(poses) != len(nominal):
+        raise RecipeError(
+            "start",
+            f"{job.recipe.start} has {len(poses)} items, this run {len(nominal)}; give as many",
+        )
+    if plan.sizes == "shared" and plan.stays:
+        # What most have; one that is to be larger now makes not all others so.
+        scale = nominal * np.median(poses.scale / nominal)
+    elif plan.sizes == "shared":
+        scale = nominal * np.sqrt(np.mean((poses.scale / nominal) ** 2))
+    elif plan.sizes == "fixed":
+        scale = nominal
+    else:
+        scale = np.clip(poses.scale, *scale_bounds(nominal, nominal, plan.solve_options()))
+    stretch = np.clip(poses.stretch, 1 / plan.stretch, plan.stretch)
+    return replace(poses, scale=np.asarray(scale), stretch=stretch)

@@ -1,0 +1,104 @@
+"""Five uses of one road: icons, words, photographs, charts and piles; here runs begin.
+
+Each use reads what it places, and answers the questions of ``pipeline.use.Use`` in which it
+differs from the others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from packwork.pipeline.job import Clock, Job
+from packwork.pipeline.read import Material, job_of, read_room
+from packwork.pipeline.result import Run
+from packwork.pipeline.run import run
+from packwork.progress import Observer, Stop, never
+from packwork.recipe import Recipe
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.uses.charts.recipe import chart_recipe
+from packwork.uses.charts.use import read_marks
+from packwork.uses.icons import read_icons
+from packwork.uses.photos.recipe import photos_recipe
+from packwork.uses.photos.use import read_collage
+from packwork.uses.piles.pile import Heap
+from packwork.uses.piles.recipe import pile_recipe
+from packwork.uses.piles.room import PileRoom
+from packwork.uses.piles.use import Pile
+from packwork.uses.room import NO_CONTAINER, Room
+from packwork.uses.words.recipe import words_recipe
+from packwork.uses.words.use import read_cloud
+
+__all__ = [
+    "chart_recipe",
+    "fill",
+    "photos_recipe",
+    "pile_recipe",
+    "read",
+    "words_recipe",
+]
+
+
+def fill(
+    recipe: Recipe,
+    items: Sequence[Item] | None = None,
+    container: Container | None = None,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    record: bool = False,
+) -> Run:
+    """Fill a container with items.
+
+    Parameters
+    ----------
+    recipe
+        What to do.
+    items, container
+        Already read, in place of the recipe's names of files.
+    observer
+        Told of progress.
+    stop
+        Asked before every epoch; True ends the run with what it has.
+    record
+        Keep the way of the items, in the layout's ``track``.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If an option has no meaning for these files.
+    """
+    return run(read(recipe, items, container), observer, stop, record)
+
+
+def read(
+    recipe: Recipe, items: Sequence[Item] | None = None, container: Container | None = None
+) -> Job:
+    """Read what a recipe names; the first half of :func:`fill`."""
+    clock = Clock()
+    with clock.time("read"):
+        return job_of(recipe, _material(recipe, items, container), clock)
+
+
+def _material(
+    recipe: Recipe, items: Sequence[Item] | None, container: Container | None
+) -> Material:
+    if recipe.pile is not None:
+        room = PileRoom.of_recipe(recipe, recipe.pile, container)
+        material = _content(recipe, room, items)
+        heap = Heap(recipe.pile, room.mouths)
+        return replace(material, use=Pile(heap, material.use))
+    is_open = container is None and recipe.container == NO_CONTAINER and recipe.chart is not None
+    return _content(recipe, Room(None if is_open else read_room(recipe, container)), items)
+
+
+def _content(recipe: Recipe, room: Room, items: Sequence[Item] | None) -> Material:
+    if recipe.chart is not None:
+        return read_marks(recipe, recipe.chart, room.container)
+    if recipe.words is not None:
+        return read_cloud(recipe, recipe.words, room, items)
+    if recipe.photos is not None:
+        return read_collage(recipe, room, items)
+    return read_icons(recipe, room, items)

@@ -1,0 +1,253 @@
+"""Bars of sediment: each group's marks have fallen into a bar, all at one scale."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.errors import RecipeError
+from packwork.finish.options import HAIR, FinishOptions
+from packwork.finish.settling.pile import pile
+from packwork.forces.direction import Direction
+from packwork.forces.forces import FieldForce, Forces
+from packwork.geometry.outline import Outline
+from packwork.pipeline.exact import gap_with_bulge, solid_outlines
+from packwork.pipeline.job import Job
+from packwork.pipeline.result import Unplaced
+from packwork.pipeline.start import first_angles
+from packwork.progress import Observer, Stop
+from packwork.readers.charts.chart import ChartRead
+from packwork.readers.charts.columns import as_number
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.uses.charts.cells import SNUG_SHARE, Cell, box_outline, joined_rooms
+from packwork.uses.charts.chart import Chart
+from packwork.uses.charts.colours import chart_colours
+from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
+from packwork.uses.charts.heights import COVER, is_alike_and_round, rows_in_hollows
+
+NEAR_FULL = 0.95
+"""Share of the height at hand that the highest bar has at least, unless its widest mark bounds the
+scale. Larger takes more trials. Chosen."""
+
+TRIALS = 6
+"""Scales that are tried for the largest group, and for all. More come nearer to the full height.
+Chosen."""
+
+BACK = 0.997
+"""Factor on a scale that would just do: heaps of another scale lie otherwise. Chosen."""
+
+ABOVE = 3.0
+"""Room over a bar in which marks have their first places, in bars' heights. Chosen."""
+
+SLACK = 1e-3
+"""What a bar is wider than just that. Smaller lets no mark in, larger lets rows shift. Tried."""
+
+GRID = 0.35
+"""Room that the search for first places loses at the walls, in the mean radius of a heap's marks:
+it looks on a grid of 16 to their diameter. Derived, and tried."""
+
+DOWN = np.pi / 2
+
+
+def fill_bars(job: Job, chart: Chart, observer: Observer | None, stop: Stop) -> Grouped:
+    """Heaps side by side, at the largest scale at which the highest has room.
+
+    Marks of one colour lie together, the most frequent one at the bottom; colours that are
+    numbers ascend.
+    """
+    heaps = _Heaps(job, chart, stop)
+    scale = heaps.scale_of_the_largest()
+    for _ in range(TRIALS):
+        poses, kept = heaps.all_at(scale, observer)
+        over = heaps.highest(poses, kept)
+        if over <= 1 or stop():
+            break
+        scale *= BACK / np.sqrt(over)
+    heaped = [own[np.isin(own, kept)] for own in heaps.members]
+    gap = heaps.gap(scale)
+    rooms = [
+        _cut(cell, [job.items[k].outline.mapped(poses.matrix(int(k))) for k in own], gap)
+        for cell, own in zip(heaps.cells, heaped, strict=True)
+    ]
+    container = replace(
+        job.container, outline=joined_rooms([room for room in rooms if room is not None])
+    )
+    left = np.setdiff1d(np.arange(len(job.items)), kept)
+    unplaced = tuple(
+        Unplaced(job.items[k].name, int(k), "there was no room left for it") for k in left
+    )
+    return Grouped(poses, kept, container, "lowest", unplaced)
+
+
+class _Heaps:
+    """Heaps of all groups at any scale.
+
+    Parameters
+    ----------
+    job, chart
+        Of a chart in bars.
+    stop
+        Asked by the settling.
+    """
+
+    def __init__(self, job: Job, chart: Chart, stop: Stop) -> None:
+        self._job, self._stop = job, stop
+        self.cells, self.members = chart.cells, chart.members
+        self._units = unit_scales(job)
+        self._outlines = solid_outlines(job.plan.outline, job.items)
+        self._angles = first_angles(job, np.random.default_rng(job.plan.seed), None)
+        self._ranks = _ranks(job, chart)
+        self._measured()
+        self.cells, self._snug = _snug(job, chart.read, self.cells, self.members)
+        self._width, self._height, self._free = self._measured()
+
+    def gap(self, scale: float) -> float:
+        """Distance that marks keep."""
+        everyone = np.arange(len(self._units))
+        return gap_with_bulge(self._job, everyone, self._units * scale)
+
+    def _measured(self) -> tuple[float, float, float]:
+        """Width and height of bars, and the width between their walls that marks may take."""
+        left, top, right, bottom = self.cells[0].room.bounds
+        free = right - left - 2 * (self.gap(0.0) + 2 * HAIR * self._job.container.side)
+        if free <= 0:
+            raise RecipeError(
+                "padding", "leaves no room between the walls of a bar; use a smaller one"
+            )
+        return right - left, bottom - top, free
+
+    def scale_of_the_largest(self) -> float:
+        """Scale at which the group of the largest sum fills its bar."""
+        sums = [float(self._job.weights[own].sum()) for own in self.members]
+        largest = int(np.argmax(sums))
+        if self._snug is not None:
+            return self._snug
+        widest = self._widest_scale()
+        scale = min(np.sqrt(COVER * self._width * self._height / sums[largest]), widest)
+        best = 0.0
+        for _ in range(TRIALS):
+            poses, kept = self._heap(largest, scale, None)
+            over = self._over(self.members[largest][kept], poses.some(kept))
+            if over <= 1:
+                best = max(best, scale)
+            if NEAR_FULL <= over <= 1 or self._stop() or (over < 1 and scale == widest):
+                break
+            scale = min(scale * BACK / np.sqrt(over), widest)
+        return best or scale
+
+    def all_at(self, scale: float, observer: Observer | None) -> tuple[Poses, IntArray]:
+        """Poses of all marks, and which of them have a place."""
+        zero = np.zeros(len(self._units))
+        poses, kept = Poses(zero, zero, self._angles, self._units * scale), np.arange(0)
+        for k, own in enumerate(self.members):
+            if len(own) == 0:
+                continue
+            steps = None
+            if observer is not None:
+                steps = GroupSteps(observer, poses, kept, own, np.zeros(2))
+            heap, placed = self._heap(k, scale, steps)
+            poses = poses.with_some(own, self._centred(k, heap, placed))
+            kept = np.concatenate([kept, own[placed]])
+        return poses, np.sort(kept)
+
+    def highest(self, poses: Poses, kept: IntArray) -> float:
+        """Height of the highest heap, over that of the bars."""
+        return self._over(kept, poses.some(kept))
+
+    def _over(self, items: IntArray, poses: Poses) -> float:
+        tops = [
+            self._job.items[k].outline.mapped(poses.matrix(row)).bounds[1]
+            for row, k in enumerate(items)
+        ]
+        foot = self.cells[0].room.bounds[3]
+        return (foot - min(tops, default=foot)) / self._height
+
+    def _heap(self, group: int, scale: float, steps: Observer | None) -> tuple[Poses, IntArray]:
+        """One group at rest in its bar, and which of its marks have a place."""
+        own = self.members[group]
+        left, top, right, foot = self.cells[group].room.bounds
+        job = self._job
+        room = box_outline(left, foot - ABOVE * (foot - top), right, foot)
+        container = Container("bar", "none", room, job.container.width, job.container.height)
+        middle = np.full(len(own), (left + right) / 2)
+        begin = Poses(middle, np.full(len(own), foot), self._angles[own], self._units[own] * scale)
+        down = FieldForce(Direction(DOWN), np.ones(len(own)))
+        forces = Forces([down], [], np.zeros(len(own), dtype=np.int64), job.container.side)
+        rotation = job.plan.rotation
+        options = FinishOptions(
+            gap_cu=self.gap(scale),
+            sizes="fixed",
+            turning=not rotation.is_still,
+            turn_limit=rotation.limit,
+            seed=job.plan.seed,
+        )
+        heap = pile(
+            container, [self._outlines[k] for k in own], begin, forces, options,
+            observer=steps, stop=self._stop, ranks=self._ranks[own],
+        )  # fmt: skip
+        return heap.poses, heap.placed
+
+    def _centred(self, group: int, heap: Poses, placed: IntArray) -> Poses:
+        """A heap in the middle of its bar, as far as it is narrower: one mark under its number."""
+        outlines = [
+            self._outlines[self.members[group][k]].mapped(heap.matrix(int(k))) for k in placed
+        ]
+        left = min((outline.bounds[0] for outline in outlines), default=0.0)
+        right = max((outline.bounds[2] for outline in outlines), default=0.0)
+        return moved(heap, np.array([self.cells[group].middle - (left + right) / 2, 0.0]))
+
+    def _widest_scale(self) -> float:
+        """Largest scale at which each mark fits between the walls, however it is turned."""
+        radii = np.array([outline.radius for outline in self._outlines]) * self._units
+        needs = [
+            2 * radii[own].max() + GRID * radii[own].mean() for own in self.members if len(own)
+        ]
+        return self._free / float(max(needs))
+
+
+def _snug(
+    job: Job, read: ChartRead, cells: Sequence[Cell], groups: Sequence[IntArray]
+) -> tuple[tuple[Cell, ...], float | None]:
+    """Bars as wide as some and a half of marks that are all alike and round, and their scale.
+
+    Rows of them then lie in the hollows of the rows below, in all bars alike, so that heights tell
+    numbers. Bars as they are, and no scale, for all other marks.
+    """
+    if not is_alike_and_round(read):
+        return tuple(cells), None
+    _, top, _, foot = cells[0].room.bounds
+    gap = gap_with_bulge(job, np.arange(1), np.zeros(1)) + 2 * HAIR * job.container.side
+    most = max(len(own) for own in groups)
+    across, distance = rows_in_hollows(most, SNUG_SHARE * cells[0].width, foot - top, gap)
+    half = (distance * (across + 0.5) + gap) * (1 + SLACK) / 2
+    fitted = tuple(
+        replace(cell, room=box_outline(cell.middle - half, top, cell.middle + half, foot))
+        for cell in cells
+    )
+    unit = float(unit_scales(job)[0]) * job.items[0].outline.radius
+    return fitted, (distance - gap) / (2 * unit)
+
+
+def _ranks(job: Job, chart: Chart) -> IntArray:
+    """``(n,)`` which marks come first, and so lie lowest."""
+    read, column = chart.read, chart.options.color_by
+    if read.is_ramp and column is not None:
+        numbers = np.array([as_number(row.get(column)) for row in read.rows])
+        return np.asarray(np.argsort(np.argsort(numbers, kind="stable"), kind="stable"))
+    if read.colour_of is None:
+        return np.zeros(len(read.items), dtype=np.int64)
+    order = {name: k for k, (name, _) in enumerate(chart_colours(job.recipe, read).keys)}
+    return np.array([order[name] for name in read.colour_of], dtype=np.int64)
+
+
+def _cut(cell: Cell, outlines: list[Outline], gap: float) -> Cell | None:
+    """A bar as high as its heap; None if there is none."""
+    if not outlines:
+        return None
+    left, _, right, foot = cell.room.bounds
+    top = min(outline.bounds[1] for outline in outlines) - 1.5 * gap
+    return replace(cell, room=box_outline(left, top, right, foot))

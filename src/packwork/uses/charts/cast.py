@@ -1,0 +1,31 @@
+"""Marks of a chart, as copies to be placed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from packwork.errors import RecipeError
+from packwork.pipeline.plan.cast import Cast, cast
+from packwork.readers.charts.chart import ChartRead
+from packwork.recipe import Recipe
+
+
+def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:
+    """Marks of a chart, each once, as large as its data say.
+
+    Raises
+    ------
+    RecipeError
+        As for :func:`cast`, and if a rule would make sizes or numbers of marks untrue.
+    """
+    chosen = cast(recipe, chart.items)
+    for one in chosen.asked:
+        untrue = [key for key in ("weight", "scale") if key in one.values]
+        untrue += ["size"] if "size" in one.pin else []
+        if untrue:
+            key = untrue[0]
+            voice = one.voices.get(key) or one.voices["pin.size"]
+            raise voice.error(f"sets a {key}, but the data say how large marks are")
+    if [id(item) for item in chosen.items] != [id(item) for item in chart.items]:
+        raise RecipeError("rules", "count marks, but the data say how many there are")
+    return replace(chosen, weights=chart.areas)

@@ -1,0 +1,172 @@
+"""A copy of the container for each group, filled one by one, then all at one scale."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.finish.offenders import find_offenders
+from packwork.finish.options import HAIR
+from packwork.geometry import affine
+from packwork.pipeline.exact import finished, solid_outlines, unfinished
+from packwork.pipeline.job import Job
+from packwork.pipeline.placed import Placed
+from packwork.pipeline.placing import placed_as_asked
+from packwork.pipeline.plan.padding import check_padding
+from packwork.pipeline.result import Unplaced
+from packwork.progress import Observer, Step, Stop
+from packwork.recipe import Effort
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.uses.charts.chart import Chart
+from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
+
+ALMOST = 0.999
+"""Share of the least scale so far from which a group is not tried any harder. Larger tries groups
+of one mark twice for nothing. Chosen."""
+
+SHARE_DIGITS = 12
+"""Digits of shares that tell marks apart. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Filled:
+    """One group in its copy, in the units of the canvas, the copy's corner at the origin."""
+
+    own: IntArray
+    offset: FloatArray
+    placed: Placed
+    scale: float
+
+
+def fill_copies(
+    job: Job, chart: Chart, pattern: Container, observer: Observer | None, stop: Stop
+) -> Grouped:
+    """Marks of each group in its copy, at the largest scale at which all groups fit.
+
+    Each group is packed as tightly as it goes; the tightest gives the scale, and marks of all
+    others shrink in place.
+    """
+    single = _single(job, chart, pattern)
+    most = max(len(own) for own in chart.members)
+    check_padding(single, job.plan.gap, most, " of a group")
+    zero = np.zeros(len(job.items))
+    poses, before = Poses(zero, zero, zero, zero), np.arange(0)
+    groups: list[_Filled] = []
+    known: dict[tuple[tuple[int, float], ...], Placed] = {}
+    found = zip(chart.cells, chart.members, strict=True)
+    corner = np.array(single.outline.bounds[:2])
+    pairs = [(np.array(cell.room.bounds[:2]) - corner, own) for cell, own in found if len(own)]
+    # The fullest first: its scale tells when others need no more effort.
+    fullest = int(np.argmax([job.weights[own].sum() for _, own in pairs]))
+    for offset, own in [pairs[fullest], *pairs[:fullest], *pairs[fullest + 1 :]]:
+        steps = None if observer is None else GroupSteps(observer, poses, before, own, offset)
+        part = _part(job, single, own, len(job.items) - len(before))
+        found_before = known.get(_alike(part))
+        if found_before is None:
+            group = _filled(part, own, offset, groups, steps, stop)
+        else:
+            group = _as_before(part, own, offset, found_before, steps)
+        groups.append(group)
+        known[_alike(part)] = group.placed
+        poses = poses.with_some(own, moved(group.placed.poses, offset))
+        before = np.concatenate([before, own])
+    common = min(group.scale for group in groups)
+    unplaced: list[Unplaced] = []
+    for group in groups:
+        at_scale, faults = _at_scale(group, common, stop)
+        poses = poses.with_some(group.own, moved(at_scale, group.offset))
+        unplaced += faults
+    is_exact = job.plan.is_exact
+    method = groups[0].placed.start.method
+    everyone = np.arange(len(job.items))
+    return Grouped(poses, everyone, job.container, method, tuple(unplaced) if is_exact else None)
+
+
+def _filled(
+    part: Job,
+    own: IntArray,
+    offset: FloatArray,
+    before: Sequence[_Filled],
+    steps: GroupSteps | None,
+    stop: Stop,
+) -> _Filled:
+    """One group, filled as hard as it takes to be no tighter than those before."""
+    efforts: list[Effort] = [part.plan.effort]
+    if before and part.plan.epochs is None and part.plan.effort != "draft":
+        efforts = ["draft", part.plan.effort]
+    for effort in efforts:
+        tried = replace(part, plan=replace(part.plan, effort=effort))
+        placed = placed_as_asked(tried, steps, stop, record=False)
+        scale = float(np.median(placed.poses.scale / unit_scales(part)))
+        is_clean = placed.exact is None or placed.exact.clean
+        least = ALMOST * min((one.scale for one in before), default=np.inf)
+        if stop() or (is_clean and scale >= least):
+            break
+    return _Filled(own, offset, placed, scale)
+
+
+def _alike(part: Job) -> tuple[tuple[int, float], ...]:
+    """The same for groups of the same marks, all as large for each other."""
+    shares = (part.weights / part.weights.max()).round(SHARE_DIGITS).tolist()
+    return tuple((id(i.outline), share) for i, share in zip(part.items, shares, strict=True))
+
+
+def _as_before(
+    part: Job, own: IntArray, offset: FloatArray, before: Placed, steps: GroupSteps | None
+) -> _Filled:
+    """A group whose marks lie as those of another, which are alike."""
+    placed = replace(before, job=part)
+    if steps is not None:
+        nothing = (0.0, 0.0, 0.0)
+        steps.on_step(Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True))
+    scale = float(np.median(placed.poses.scale / unit_scales(part)))
+    return _Filled(own, offset, placed, scale)
+
+
+def _single(job: Job, chart: Chart, pattern: Container) -> Container:
+    """The container as large as its copies are, on a canvas of its own."""
+    scale = chart.cells[0].room.extent / pattern.outline.extent
+    return replace(
+        pattern,
+        outline=pattern.outline.mapped(affine.similarity(0.0, 0.0, 0.0, scale)),
+        width=pattern.width * scale,
+        height=pattern.height * scale,
+        unit=job.container.unit,
+    )
+
+
+def _part(job: Job, single: Container, own: Sequence[int] | IntArray, left: int) -> Job:
+    """One group as a job of its own; its padding is in units, as shares are of other canvases.
+
+    Parameters
+    ----------
+    left
+        Marks of this group and those after it: they share the time.
+    """
+    plan = replace(job.plan, gap=job.plan.gap + HAIR * job.container.side)
+    if plan.seconds is not None:
+        used = sum(job.clock.seconds.values())
+        plan = replace(plan, seconds=used + max(plan.seconds - used, 0.0) * len(own) / left)
+    return replace(job.some(own), plan=plan, container=single)
+
+
+def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Unplaced]]:
+    """Poses at the common scale, and marks that are in conflict there."""
+    placed, job = group.placed, group.placed.job
+    poses = replace(placed.poses, scale=unit_scales(job) * common)
+    exact = placed.exact
+    # What was in conflict at its own size is told, and not tried again.
+    if exact is not None and exact.clean:
+        # Smaller ones stay clear of each other, but for those that lay in others' bays.
+        outlines = solid_outlines(job.plan.outline, job.items)
+        gap = job.plan.gap
+        if find_offenders(job.container, outlines, poses, gap):
+            fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
+            exact = finished(fixed, placed.start, poses, None, stop)
+            poses = exact.poses
+    faults = [] if exact is None else unfinished(job, exact)
+    return poses, [replace(fault, index=int(group.own[fault.index])) for fault in faults]

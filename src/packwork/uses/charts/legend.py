@@ -1,0 +1,184 @@
+"""Title and keys of a chart: what sizes, colours and forms of marks mean."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from packwork.geometry.outline import Outline
+from packwork.readers.charts.options import ChartOptions
+from packwork.recipe import Recipe
+from packwork.scene.contrast import between, readable
+from packwork.scene.layout import Layout
+from packwork.scene.note import Note
+from packwork.uses.charts.chart import Chart
+from packwork.uses.charts.colours import UNKNOWN, ChartColours, chart_colours
+from packwork.uses.charts.framing import (
+    EM_SHARE,
+    KEY_ROOM_EM,
+    LEAD_EM,
+    LINE_EM,
+    RAMP_EM,
+    TITLE_EM,
+    TRAIL_EM,
+    UNIT_EM,
+    Frame,
+    has_sizes,
+    in_lines,
+    key_names,
+    key_text,
+)
+from packwork.uses.charts.group_notes import write_groups
+from packwork.uses.charts.numbers import spoken
+from packwork.uses.charts.pen import Pen
+
+INK = "#2d3748"
+LEAST_CONTRAST = 7.0
+"""Of letters and what is behind them: WCAG 2.2, 1.4.6, level AAA."""
+
+STRIPES = 48
+"""Rectangles that a ramp is drawn with. Fewer show. Chosen by eye."""
+
+KEYS = 3
+"""Sizes that the size key shows."""
+
+SMALLEST_KEY_EM = 0.2
+"""Height of the smallest of them. Chosen by eye."""
+
+LARGEST_UNIT_EM = 1.3
+"""Height of the mark that is the key to a unit, at most. Chosen by eye."""
+
+
+def legend_notes(recipe: Recipe, chart: Chart, layout: Layout) -> tuple[Note, ...]:
+    """Title, names of groups and legend of a chart."""
+    options, read, frame = chart.options, chart.read, chart.frame
+    pen = Pen(readable(INK, options.paper, LEAST_CONTRAST))
+    if options.title:
+        em = min(1.5 * frame.em, frame.width / max(pen.width(options.title, 1.0), 1.0))
+        pen.write(options.title, frame.left, frame.top + 0.75 * TITLE_EM * frame.em, em)
+    if chart.cells:
+        write_groups(pen, chart, layout)
+    if not options.legend:
+        return tuple(pen.notes)
+    colours = chart_colours(recipe, read)
+    y = frame.below
+    if has_sizes(options):
+        y += (_sizes if options.unit is None else _unit)(pen, chart, layout, y)
+    if colours.ramp and options.color_by:
+        _ramp(pen, colours, options.color_by, frame, y, read.decimal)
+        y += RAMP_EM * frame.em
+    _categories(pen, recipe, chart, colours, y)
+    return tuple(pen.notes)
+
+
+def _unit(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
+    """A mark and what it stands for; the height of that."""
+    read, options, frame, em = chart.read, chart.options, chart.frame, chart.frame.em
+    mark = next(iter(read.marks.values())).outline
+    left, top, right, bottom = mark.bounds
+    scale = min(
+        _scale(options, layout, mark, options.unit or 1.0), LARGEST_UNIT_EM * em / mark.extent
+    )
+    line = y + 1.2 * em
+    middle = line - 0.35 * em - (top + bottom) / 2 * scale
+    pen.shape(mark, frame.left - left * scale, middle, scale, UNKNOWN)
+    stands_for = f"= {spoken(options.unit or 1.0, read.decimal)} {options.size_by or 'rows'}"
+    pen.write(stands_for, frame.left + (right - left) * scale + 0.5 * em, line, em)
+    return UNIT_EM * em
+
+
+def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
+    """Marks of round numbers, at the chart's own scale; the height of all."""
+    read, options, frame, em = chart.read, chart.options, chart.frame, chart.frame.em
+    mark = next(iter(read.marks.values())).outline
+    numbers = _round_numbers(float(read.values.max()))
+    height = mark.bounds[3] - mark.bounds[1]
+    scales = {number: _scale(options, layout, mark, number) for number in numbers}
+    fitting = [
+        number
+        for number, scale in scales.items()
+        if SMALLEST_KEY_EM * em <= height * scale <= KEY_ROOM_EM * em
+    ]
+    # Every second of 1, 2, 5, 10 ...: sizes that are told apart at a glance.
+    chosen = fitting[::2][:KEYS]
+    tallest = max([height * scales[number] for number in chosen], default=0.0)
+    low = y + 1.9 * em + max(tallest, em)
+    pen.write(options.size_by or "rows", frame.left, y + 1.2 * em, em)
+    x = frame.left
+    for number in chosen:
+        left, _, right, bottom = (v * scales[number] for v in mark.bounds)
+        pen.shape(mark, x - left, low - bottom, scales[number], UNKNOWN)
+        x = (
+            pen.write(spoken(number, read.decimal), x + right - left + 0.4 * em, low, 0.85 * em)
+            + 1.6 * em
+        )
+    return low - y + em
+
+
+def _scale(options: ChartOptions, layout: Layout, mark: Outline, number: float) -> float:
+    """Canvas units per unit of a mark that stands for a number."""
+    values = np.array([0.0 if item.datum is None else item.datum.value for item in layout.items])
+    k = int(np.argmax(values))
+    share = number / float(values[k])
+    own = layout.items[k].outline
+    if options.size_is == "area" or options.unit is not None:
+        return float(np.sqrt(share * layout.areas[k] / mark.area))
+    side = 1 if options.size_is == "height" else 0
+    lengths = [o.bounds[2 + side] - o.bounds[side] for o in (own, mark)]
+    return share * float(layout.poses.scale[k]) * lengths[0] / lengths[1]
+
+
+def _round_numbers(largest: float) -> list[float]:
+    """1, 2 or 5 times a power of ten, from the largest down.
+
+    Examples
+    --------
+    >>> _round_numbers(30.0)[:4]
+    [20.0, 10.0, 5.0, 2.0]
+    """
+    power = math.floor(math.log10(largest))
+    steps = [s * 10.0**p for p in range(power, power - 8, -1) for s in (5.0, 2.0, 1.0)]
+    return [step for step in steps if step <= largest]
+
+
+def _end(value: float, decimal: str) -> str:
+    """An end of a ramp: numbers of four digits may be years, which have no groups."""
+    if 1e-3 <= abs(value) < 1e4 or value == 0:
+        return f"{value:.12g}".replace(".", decimal)
+    return spoken(value, decimal)
+
+
+def _ramp(
+    pen: Pen, colours: ChartColours, column: str, frame: Frame, y: float, decimal: str
+) -> None:
+    em, low, high = frame.em, *colours.ends
+    pen.write(column, frame.left, y + 1.2 * em, em)
+    step = min(frame.width, 16 * em) / STRIPES
+    corners = [[0.0, 0.0], [step, 0.0], [step, 0.8 * em], [0.0, 0.8 * em]]
+    tile = Outline.from_rings([np.array(corners)])
+    for k in range(STRIPES):
+        fill = between(colours.ramp, k / (STRIPES - 1))
+        pen.shape(tile, frame.left + k * step, y + 1.8 * em, 1.0, fill)
+    texts = [_end(value, decimal) for value in (low, high)]
+    pen.write(texts[0], frame.left, y + 3.6 * em, 0.85 * em)
+    right = frame.left + STRIPES * step - pen.width(texts[1], 0.85 * em)
+    pen.write(texts[1], right, y + 3.6 * em, 0.85 * em)
+
+
+def _categories(pen: Pen, recipe: Recipe, chart: Chart, colours: ChartColours, y: float) -> None:
+    """Names beside marks in their colours, line by line."""
+    frame, em = chart.frame, chart.frame.em
+    marks, fills = chart.read.marks, dict(colours.keys)
+    first = next(iter(marks.values()))
+    line = y + 1.2 * em
+    for names in in_lines(key_names(recipe, chart.read), 1 / EM_SHARE):
+        x = frame.left
+        for name in names:
+            ink = marks.get(name, first).ink
+            scale = 1.1 * em / ink.extent
+            left, top, _, bottom = ink.bounds
+            middle = line - 0.35 * em - (top + bottom) / 2 * scale
+            pen.shape(ink, x - left * scale, middle, scale, fills.get(name, UNKNOWN))
+            x = pen.write(key_text(name), x + LEAD_EM * em, line, em) + TRAIL_EM * em
+        line += LINE_EM * em

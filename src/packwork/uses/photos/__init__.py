@@ -1,0 +1,1 @@
+"""Photographs: balanced about upright, cut at the edge where that is asked."""

@@ -1,0 +1,281 @@
+"""Items that cover the container's edge and are cut at its line."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import buffered
+from packwork.metrics.certificate import HAIR
+from packwork.pipeline.job import Job
+from packwork.pipeline.left_out import without_some
+from packwork.pipeline.measure import measured
+from packwork.pipeline.plan.asked import Asked
+from packwork.pipeline.plan.padding import check_padding
+from packwork.pipeline.plan.plan import void_plan
+from packwork.pipeline.result import Filling, Run, Unplaced
+from packwork.pipeline.run import placed_and_filled, unmeasured
+from packwork.progress import Observer, Step, Stop
+from packwork.recipe import Recipe
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.scene.track import SCALE, Track, numbers_of, poses_of
+from packwork.units import parse_length
+from packwork.uses.photos.rim import spread_to
+from packwork.uses.photos.windows import Cut, cut
+
+DEPTHS = (0.45, 0.35, 0.25)
+"""Widths by which the container is grown before items are placed, over the side of a typical
+item, one after another until no item is lost. Larger leaves less of the edge bare and cuts more
+off the items there, smaller the other way round. Tried by eye."""
+
+EVEN_RATIO = 1.5
+"""Largest ``size_ratio`` at which items are placed before they are spread over the edge. Larger
+puts small ones there, which are lost, smaller covers less. Tried."""
+
+LEAST_SEEN = 1 / 3
+"""Share of an item that has to be seen once it is cut: an item of less is left out. Larger loses
+items, smaller leaves slivers of them. Chosen."""
+
+CLEARANCE = 3 * HAIR
+"""Least gap between what is cut and the container's line, as a share of the canvas: what is
+certified, and room for the rounding of files. Derived."""
+
+
+_HELD = {"region", "scale"}
+"""What rules ask of items that are not moved towards the edge."""
+
+
+@dataclass(frozen=True, eq=False)
+class Cropped:
+    """Items cut at the container's line.
+
+    Parameters
+    ----------
+    job
+        Its items are those of which enough is seen, cut.
+    poses
+        Where those are.
+    kept
+        Which of the items that were placed they are.
+    centres
+        ``(n, 2)`` their centroids in the units of the whole items.
+    whole
+        Poses of all whole items, on the grown canvas.
+    """
+
+    job: Job
+    poses: Poses
+    kept: IntArray
+    centres: FloatArray
+    whole: Poses
+
+
+def crops(recipe: Recipe) -> bool:
+    """Whether items are cut at the container's line.
+
+    Raises
+    ------
+    RecipeError
+        If that has no meaning with what else is asked.
+    """
+    if recipe.photos is None or recipe.photos.edge != "crop":
+        return False
+    others = {
+        "words are read whole; use --edge inside": recipe.words is not None,
+        "needs --finish exact: the cut is certified": recipe.finish != "exact",
+        "enlarges photos at the edge; use --sizes free": recipe.sizes != "free",
+        "cannot go on from an earlier layout; leave out --start FILE": (
+            recipe.layout_file is not None
+        ),
+    }
+    for why, is_so in others.items():
+        if is_so:
+            raise RecipeError("edge", f"crop {why}")
+    return True
+
+
+def with_room(job: Job, share: float) -> tuple[Job, float]:
+    """The job in a container grown all round by a share of a typical item, and by how much.
+
+    The canvas grows as much, so all lies that much further right and down.
+    """
+    container = job.container
+    check_padding(container, job.plan.gap, len(job.items))
+    outline = container.outline
+    depth = share * float(np.sqrt(outline.area / max(len(job.items), 1)))
+    grown = Outline.from_region(buffered(outline.region, depth, join_style="mitre", mitre_limit=2))
+    into = affine.similarity(depth, depth, 0.0, 1.0)
+    room = replace(
+        container,
+        outline=grown.mapped(into),
+        width=container.width + 2 * depth,
+        height=container.height + 2 * depth,
+        backdrop=None,
+        walls=None,
+    )
+    regions = tuple(
+        replace(one, zone=replace(one.zone, outline=one.zone.outline.mapped(into)))
+        for one in job.regions
+    )
+    asked = tuple(_moved(one, container, depth) for one in job.asked)
+    plan = replace(
+        job.plan,
+        size_ratio=min(job.plan.size_ratio, EVEN_RATIO),
+        # Shares of a canvas are lengths of this one.
+        gap=job.recipe.padding_cu(room),
+        voids=void_plan(job.recipe, room),
+    )
+    return replace(job, plan=plan, container=room, regions=regions, asked=asked), depth
+
+
+def _moved(one: Asked, container: Container, depth: float) -> Asked:
+    """What is asked of an item, in lengths of the grown canvas."""
+    wholes = {"x": container.width, "y": container.height, "size": container.side}
+    pin = dict(one.pin)
+    for key in wholes.keys() & pin.keys():
+        length = parse_length(str(pin[key]), container.unit, wholes[key])
+        pin[key] = length if key == "size" else length + depth
+    return replace(one, pin=pin)
+
+
+class Back:
+    """Passes steps on as they lie on the canvas that was asked for."""
+
+    def __init__(self, observer: Observer, depth: float) -> None:
+        self.every = observer.every
+        self._observer, self._depth = observer, depth
+
+    def on_step(self, step: Step) -> None:
+        """Tell of a step."""
+        self._observer.on_step(replace(step, poses=_back(step.poses, self._depth)))
+
+
+def _back(poses: Poses, depth: float) -> Poses:
+    return replace(poses, x=poses.x - depth, y=poses.y - depth)
+
+
+def cropped(asked: Job, placed: Job, poses: Poses, largest: FloatArray, depth: float) -> Cropped:
+    """Items of a grown container, cut at the line of the one that was asked for.
+
+    Parameters
+    ----------
+    asked
+        In its own container.
+    placed
+        In the grown one, fillers among its items.
+    largest
+        ``(n,)`` scales that none is to exceed.
+    """
+    container = asked.container
+    gap = asked.plan.gap + CLEARANCE * container.side
+    window = buffered(container.outline.region, -gap, join_style="mitre")
+    poses = spread_to(
+        window,
+        [item.outline for item in placed.items],
+        _back(poses, depth),
+        largest,
+        np.array([not (one.pin or one.values.keys() & _HELD) for one in placed.asked]),
+        gap,
+        LEAST_SEEN,
+        placed.plan.size_ratio / asked.plan.size_ratio,
+    )
+    cuts: dict[int, Cut] = {}
+    for k, item in enumerate(placed.items):
+        whole = item.outline.mapped(poses.matrix(k))
+        if window.covers(whole.region):
+            cuts[k] = Cut(item, (0.0, 0.0), 1.0)
+            continue
+        found = cut(item, poses.matrix(k), window, f"edge-{k + 1}")
+        if found is not None and found.share >= LEAST_SEEN:
+            cuts[k] = found
+    gone = sorted(set(range(len(placed.items))) - cuts.keys())
+    job, kept = without_some(placed, gone)
+    centres = np.reshape([cuts[int(k)].centre for k in kept], (-1, 2))
+    job = replace(
+        job,
+        plan=asked.plan,
+        container=container,
+        regions=asked.regions,
+        items=tuple(cuts[int(k)].item for k in kept),
+    )
+    rows = numbers_of(poses.some(kept))[None]
+    return Cropped(job, poses_of(_recentred(rows, centres)[0]), kept, centres, _back(poses, -depth))
+
+
+def followed(track: Track, found: Cropped, which: IntArray, depth: float) -> Track:
+    """The way of whole items as that of what is seen of them; ``which`` of those kept."""
+    numbers = track.numbers.copy()
+    numbers[:, :, :2] -= depth
+    return Track(track.times, _recentred(numbers, found.centres[which]))
+
+
+def _recentred(numbers: FloatArray, centres: FloatArray) -> FloatArray:
+    """Numbers of poses of items whose origin has moved to ``centres``, which stay in place."""
+    x, y, angle, scale, stretch = np.moveaxis(numbers, -1, 0)
+    along, across = scale * np.sqrt(stretch), scale / np.sqrt(stretch)
+    right, down = along * centres[:, 0], across * centres[:, 1]
+    moved = numbers.copy()
+    moved[:, :, 0] = x + np.cos(angle) * right - np.sin(angle) * down
+    moved[:, :, 1] = y + np.sin(angle) * right + np.cos(angle) * down
+    moved[:, :, SCALE] = scale
+    return moved
+
+
+def run_cropped(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    """Items that cover the container's edge, cut at its line; none is lost if that can be."""
+    tries = []
+    for share in DEPTHS:
+        room, depth = with_room(job, share)
+        solved = placed_and_filled(room, observer and Back(observer, depth), stop, record)
+        placed, given = solved.job, len(solved.asked_for.items)
+        # Photos were placed at more even sizes than they may have: the rest is for the edge.
+        may_grow = solved.start.limits is None
+        spare = job.plan.size_ratio / room.plan.size_ratio if may_grow else 1.0
+        ids = np.arange(len(placed.items)) if solved.numbers is None else solved.numbers
+        found = cropped(job, placed, solved.poses, solved.largest * spare, depth)
+        tries.append((lost(found, placed, ids, given), solved, found, ids, depth))
+        if not tries[-1][0] or stop() or job.plan.seconds is not None:
+            break
+    gone, solved, found, ids, depth = min(tries, key=lambda one: len(one[0]))
+    limits, kept = solved.start.limits, found.kept
+    if limits is not None and limits.kinds is not None:
+        limits = replace(limits, kinds=limits.kinds[kept])
+    filling = refilled(solved.filling, found, len(solved.asked_for.items), ids)
+    done = measured(
+        found.job,
+        replace(
+            unmeasured(solved), poses=found.poses, limits=limits, unplaced=gone, filling=filling,
+            left_out=len(gone), numbers=ids[kept],
+        ),
+    )  # fmt: skip
+    if solved.recorder is None:
+        return done
+    which = np.arange(len(kept)) if done.kept is None else done.kept
+    whole = found.whole.some(kept[which])
+    track = solved.recorder.track(whole, ids[kept[which]], done.layout.items)
+    return replace(done, layout=replace(done.layout, track=followed(track, found, which, depth)))
+
+
+def lost(found: Cropped, placed: Job, ids: IntArray, given: int) -> tuple[Unplaced, ...]:
+    """Items that were given and of which too little would be seen; fillers are nobody's."""
+    gone = np.setdiff1d(np.arange(len(placed.items)), found.kept)
+    reason = "less than a third of it would lie in the container"
+    return tuple(
+        Unplaced(placed.items[k].name, int(ids[k]), reason) for k in gone if ids[k] < given
+    )
+
+
+def refilled(filling: Filling | None, found: Cropped, given: int, ids: IntArray) -> Filling | None:
+    """How voids were filled, in the container that was asked for."""
+    if filling is None:
+        return None
+    areas = np.array([item.outline.area for item in found.job.items]) * found.poses.scale**2
+    covered = float(areas.sum()) / found.job.container.outline.area
+    added = int((ids[found.kept] >= given).sum())
+    return replace(filling, added=added, covered=covered)

@@ -1,0 +1,1 @@
+"""Piles: items of given sizes, heaped by forces."""

@@ -1,0 +1,215 @@
+"""A run that heaps items of given sizes, under forces, in a container that may be open."""
+
+from __future__ import annotations
+
+import logging
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
+from packwork.finish.options import FinishOptions
+from packwork.finish.settling.pile import Piled, pile
+from packwork.metrics.compactness import compactness
+from packwork.piles import PileOptions
+from packwork.pipeline.dress.line_weights import evened
+from packwork.pipeline.earlier import matched
+from packwork.pipeline.exact import gap_with_bulge, solid_outlines
+from packwork.pipeline.film.recorder import Recorder
+from packwork.pipeline.job import Job
+from packwork.pipeline.measure import Unmeasured, measured
+from packwork.pipeline.plan.forces import forces_of
+from packwork.pipeline.plan.sizes import given_scales
+from packwork.pipeline.result import Run, Unplaced
+from packwork.pipeline.run import with_track
+from packwork.pipeline.start import first_angles
+from packwork.progress import Observer, Stop, together
+from packwork.scene.canvas import brought_over
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+from packwork.solve.solver import Ending, Outcome
+from packwork.start.angles import nearest_allowed
+from packwork.uses.piles.emitters import source_of
+from packwork.uses.piles.opening import opened
+from packwork.uses.piles.sizes import SMALLER, TRIES, fitting_factor, is_size_open
+from packwork.uses.room import NO_CONTAINER
+
+_LOG = logging.getLogger(__name__)
+
+SHUFFLE, SHUFFLE_ALONE = 0.6, 0.15
+"""Logarithm of size within which items come in random order, in a container and without one.
+Larger leaves more gaps, and below 0.82 of the circle in a round pack; smaller puts copies of
+one thing side by side. Tried, the first by eye."""
+
+AT_EDGE = 1e-3
+"""Distance from the canvas' edge, as a share of its longer side, below which an item counts
+as held by it. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Heap:
+    """What is asked of a pile.
+
+    Parameters
+    ----------
+    options
+        As asked.
+    mouths
+        ``(m, 2, 2)`` ends of the openings that a container of open paths has; None if none.
+    """
+
+    options: PileOptions
+    mouths: FloatArray | None = None
+
+
+def run_pile(job: Job, heap: Heap, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    """Heap and measure what was read, and keep the way of those that found room."""
+    _check(job)
+    recorder = Recorder() if record else None
+    observer = together(observer, recorder)
+    done = _heaped_to_fit(job, heap, observer, stop)
+    left = [one.index for one in done.unplaced]
+    ids = np.setdiff1d(np.arange(len(job.items)), left)
+    return with_track(replace(done, kept=None), recorder, ids, job)
+
+
+def _heaped_to_fit(job: Job, heap: Heap, observer: Observer | None, stop: Stop) -> Run:
+    """The heap, of sizes at which all find room where nobody chose them."""
+    if not is_size_open(job, heap.options):
+        return _measured(heap.options, *_heaped(job, heap, 1.0, observer, stop))
+    factor = fitting_factor(job)
+    for _ in range(TRIES):
+        done, piled = _heaped(job, heap, factor, observer, stop)
+        if len(piled.placed) == len(job.items) or stop():
+            break
+        factor *= SMALLER
+    return _measured(heap.options, done, piled)
+
+
+def _heaped(
+    job: Job, heap: Heap, factor: float, observer: Observer | None, stop: Stop
+) -> tuple[Job, Piled]:
+    """The heap of items whose sizes are multiplied by a factor, and the job in its container."""
+    clock, asked = job.clock, heap.options
+    with clock.time("start"):
+        poses, known = _first_poses(job, asked, factor)
+        # Sizes are known: what lies closer with thinner lines may do so.
+        job = evened(job, poses, tells=False)
+        outlines = solid_outlines(job.plan.outline, job.items)
+        discs = np.pi * (np.array([o.radius for o in outlines]) * poses.scale) ** 2
+        room = opened(job.container, asked.open, heap.mouths, float(discs.sum()))
+        job = replace(job, container=room.container)
+        largest = float((np.array([o.radius for o in outlines]) * poses.scale).max())
+        basin = room.basin or room.container.outline
+        source = source_of(asked, room.container, basin, largest)
+        forces = forces_of(job.plan.forces, job.items, job.weights, room.container)
+    with clock.time("finish"):
+        options = _options(job, poses)
+        is_alone = room.container.name == NO_CONTAINER
+        piled = pile(
+            room.container, outlines, poses, forces, options, room.basin, observer, stop,
+            known=known if len(known) else None,
+            source=source,
+            shuffle=SHUFFLE_ALONE if is_alone else SHUFFLE,
+            is_round=is_alone,
+        )  # fmt: skip
+    return job, piled
+
+
+def _check(job: Job) -> None:
+    """Refuse what a heap cannot do."""
+    plan = job.plan
+    if plan.sizes != "fixed":
+        raise RecipeError("sizes", f"items of a pile keep their sizes; use fixed, not {plan.sizes}")
+    for one in job.asked:
+        one.refuse(("pin", "region", "scale"), "a pile")
+    if plan.voids is not None or not plan.is_exact:
+        raise RecipeError("pile", "is settled in exact geometry, and its voids stay as they are")
+
+
+def _first_poses(job: Job, asked: PileOptions, factor: float) -> tuple[Poses, IntArray]:
+    """Poses to begin with, and which items an earlier layout has places for.
+
+    Parameters
+    ----------
+    factor
+        On the sizes that items are given.
+    """
+    rng = np.random.default_rng(job.plan.seed)
+    container = job.container
+    own = given_scales(job.items, job.weights, container.unit, container.side, asked.size)
+    scales = factor * own
+    middle = np.array(container.outline.bounds).reshape(2, 2).mean(axis=0)
+    x, y = np.tile(middle, (len(scales), 1)).T
+    poses = Poses(x, y, first_angles(job, rng, None), scales)
+    if job.earlier is None:
+        return poses, np.arange(0)
+    then = brought_over(job.earlier.poses, job.earlier.container, container)
+    found = matched([i.name for i in job.items], [i.name for i in job.earlier.items])
+    known = np.flatnonzero(found >= 0)
+    before = then.some(found[known])
+    limits = job.plan.rotation.limit, job.plan.rotation.choices
+    angles = nearest_allowed(before.angle, *limits)
+    return poses.with_some(known, replace(before, angle=angles, scale=scales[known])), known
+
+
+def _options(job: Job, poses: Poses) -> FinishOptions:
+    rotations = [one.rotation or job.plan.rotation for one in job.asked]
+    limits = [rotation.limit for rotation in rotations if rotation.limit is not None]
+    turning = not any(rotation.is_still for rotation in rotations)
+    return FinishOptions(
+        gap_cu=gap_with_bulge(job, np.arange(len(job.items)), poses.scale),
+        sizes="fixed",
+        turning=turning,
+        turn_limit=min(limits) if limits and turning else None,
+        seed=job.plan.seed,
+    )
+
+
+def _measured(asked: PileOptions, job: Job, heap: Piled) -> Run:
+    """The result with those items that found room."""
+    kept = heap.placed
+    total = len(job.items)
+    left = np.setdiff1d(np.arange(total), kept)
+    if len(kept) == 0:
+        raise RecipeError(
+            "size", f"none of the {total} items fits into the container; use smaller ones"
+        )
+    unplaced = tuple(
+        Unplaced(job.items[k].name, int(k), "there was no room left at its size") for k in left
+    )
+    faults: tuple[str, ...] = ()
+    if len(left):
+        faults = (f"{len(kept)} of {total} items fit into the container at their sizes",)
+    smaller = job.some(kept)
+    poses = heap.poses.some(kept)
+    layout = Layout(smaller.container, smaller.items, poses, smaller.weights)
+    lies: dict[str, Any] = {"rounds": heap.rounds, "mean_height": heap.mean_height}
+    if asked.compact:
+        lies["compact"] = compactness(layout.outlines)
+    _tell_who_is_held_by_the_edge(layout)
+    return measured(
+        smaller,
+        Unmeasured(
+            poses, "lowest" if job.earlier is None else "layout", None,
+            Outcome(poses, Ending.DONE), unplaced, None, len(left), lies, faults, kept,
+        ),
+    )  # fmt: skip
+
+
+def _tell_who_is_held_by_the_edge(layout: Layout) -> None:
+    """A notice where there is no container and the forces press items off the canvas."""
+    container = layout.container
+    if container.name != NO_CONTAINER:
+        return
+    near = AT_EDGE * container.side
+    sheet = shapely.box(near, near, container.width - near, container.height - near)
+    held = sum(not shapely.contains_properly(sheet, o.region) for o in layout.outlines)
+    if held:
+        _LOG.warning(
+            "the forces press items off the canvas; its edge holds %d of %d",
+            held, len(layout.items),
+        )  # fmt: skip

@@ -1,0 +1,86 @@
+"""What a pile lies in: a container, one that is drawn open, or none at all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.piles import PileOptions
+from packwork.pipeline.plan.cast import Cast
+from packwork.pipeline.plan.sizes import given_scales
+from packwork.pipeline.read import read_room
+from packwork.readers.svg.walls import walled_container
+from packwork.recipe import Recipe
+from packwork.scene.canvas import on_canvas
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.units import DEFAULT_SIDE, CanvasSize, Unit
+from packwork.uses.piles.opening import nowhere
+from packwork.uses.piles.sizes import heap_needed
+from packwork.uses.room import NO_CONTAINER, Room
+
+
+@dataclass(frozen=True, eq=False)
+class PileRoom(Room):
+    """What a pile lies in.
+
+    Parameters
+    ----------
+    size
+        Of the canvas; None leaves it to the items where there is no container.
+    options
+        What is asked of the pile.
+    mouths
+        ``(m, 2, 2)`` ends of its openings where it is drawn open; None if not.
+    """
+
+    size: CanvasSize | None
+    options: PileOptions
+    mouths: FloatArray | None = None
+
+    @classmethod
+    def of_recipe(cls, recipe: Recipe, options: PileOptions, given: Container | None) -> PileRoom:
+        """The container of a recipe, or the one that was given in its place."""
+        size = recipe.canvas_size
+        if given is None and recipe.container == NO_CONTAINER:
+            return cls(None, size, options)
+        if given is None and Path(recipe.container).suffix.lower() in {".svg", ".svgz"}:
+            walled = walled_container(
+                recipe.container, None if size is None else size.side, recipe.read_options
+            )
+            if walled is not None:
+                placed = on_canvas(walled[0], size)
+                mouths = _brought_along(walled[1], walled[0], placed)
+                return cls(placed, size, options, mouths)
+        return cls(read_room(recipe, given), size, options)
+
+    def of(self, cast: Cast) -> Container:
+        """The container, or the sheet that stands for none at all."""
+        return self.container or self._sheet(cast)
+
+    def needed(self, recipe: Recipe, items: Sequence[Item]) -> int:
+        """How many items heap up about two thirds high."""
+        del recipe
+        return heap_needed(self.known, self.options, items)
+
+    def _sheet(self, cast: Cast) -> Container:
+        size = self.size
+        is_share = str(self.options.size).strip().endswith("%")
+        if size is None and is_share:
+            size = CanvasSize(DEFAULT_SIDE, None, "px")
+        unit: Unit = "px" if size is None else size.unit
+        side = DEFAULT_SIDE if size is None else size.side
+        scales = given_scales(cast.items, cast.weights, unit, side, self.options.size)
+        radii = np.array([item.outline.radius for item in cast.items])
+        return nowhere(size, radii * scales)
+
+
+def _brought_along(points: FloatArray, before: Container, after: Container) -> FloatArray:
+    """Points of a container that has been put on another canvas."""
+    scale = after.outline.extent / before.outline.extent
+    old, new = (np.array(c.outline.bounds[:2]) for c in (before, after))
+    return np.asarray(new + (points - old) * scale)

@@ -1,0 +1,1 @@
+"""Words: set in fonts, coloured by data, none smaller than it may be."""

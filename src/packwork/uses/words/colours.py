@@ -1,0 +1,188 @@
+"""Colours of words by their weight, by a column of their table, or from a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.errors import RecipeError
+from packwork.raster.coverage import coverage
+from packwork.readers.files import exists, read_bytes
+from packwork.readers.pictures.decode import (
+    MAX_PICTURE_BYTES,
+    PICTURE_ENDINGS,
+    decode_picture,
+)
+from packwork.readers.unfit import naming
+from packwork.readers.words.items import WordsRead
+from packwork.readers.words.options import ColourOf, WordOptions
+from packwork.readers.words.word import Word
+from packwork.recipe import Recipe
+from packwork.scene.contrast import between, readable
+from packwork.scene.layout import Layout
+from packwork.scene.palette import palette_colours
+from packwork.writers.recolour import has_one_colour
+
+PICTURE_PX = 400
+"""Longer side of the image in which a word's colour is looked up. Larger is slower and no
+truer: it is one colour a word. Chosen."""
+
+PAPER = "white"
+"""What words are read on where no background is given."""
+
+WEIGHT = "weight"
+
+
+def word_colours(recipe: Recipe, read: WordsRead, layout: Layout) -> list[str | None] | None:
+    """Colour of each item, None for one that keeps its own; None if neighbours decide.
+
+    Parameters
+    ----------
+    recipe
+        Says by what words are coloured.
+    read
+        The words and their items.
+    layout
+        Of some of those items.
+
+    Raises
+    ------
+    ReadError
+        If there is no such picture.
+    """
+    if recipe.words is None or recipe.words.color_by is None:
+        return None
+    # Not by name: an icon may be called as a word is.
+    said = dict(zip(read.items, read.words, strict=True))
+    # Emoji in colours of their own keep them.
+    words = [said.get(item) if has_one_colour(item.art) else None for item in layout.items]
+    by = recipe.words.color_by
+    if callable(by):
+        return _by_function(words, by, recipe)
+    if by == WEIGHT:
+        return _by_weight(words, _palette(recipe))
+    if _is_picture(by):
+        return _by_picture(words, layout, by, recipe.words)
+    return _by_column(words, by, _palette(recipe))
+
+
+def check_colours(recipe: Recipe, words: Sequence[Word]) -> None:
+    """Refuse pictures that cannot be read and columns that are not there, before a run.
+
+    Raises
+    ------
+    ReadError
+        If there is no such picture.
+    RecipeError
+        If the table has no such column.
+    """
+    by = None if recipe.words is None else recipe.words.color_by
+    if by is None or by == WEIGHT or callable(by):
+        return
+    if _is_picture(by):
+        _covering(by, (1, 1))
+        return
+    columns = dict.fromkeys(key for word in words for key in word.columns)
+    if by not in columns:
+        there = ", ".join(columns) or "none but word and weight"
+        raise RecipeError(
+            "color_by", f"there is no column {by[:40]!r} and no such picture; there are {there}"
+        )
+
+
+def _is_picture(by: str) -> bool:
+    return Path(by[-20:]).suffix.lower() in PICTURE_ENDINGS or exists(by)
+
+
+def _palette(recipe: Recipe) -> tuple[str, ...]:
+    return palette_colours(recipe.palette or "viridis")
+
+
+def _by_weight(words: list[Word | None], palette: tuple[str, ...]) -> list[str | None]:
+    """From the first colour for the largest to the last for the smallest, by ratio."""
+    logs = np.log([word.weight for word in words if word is not None])
+    span = float(np.ptp(logs)) or 1.0
+    return [
+        None
+        if word is None
+        else between(palette, (float(logs.max()) - float(np.log(word.weight))) / span)
+        for word in words
+    ]
+
+
+def _by_function(words: list[Word | None], colour_of: ColourOf, recipe: Recipe) -> list[str | None]:
+    """What a function says of each word, kept readable.
+
+    Raises
+    ------
+    RecipeError
+        If that is no colour.
+    """
+    assert recipe.words is not None  # noqa: S101 - who asks has words
+    paper, first = recipe.words.paper or PAPER, _palette(recipe)[0]
+    found: list[str | None] = []
+    for word in words:
+        said = None if word is None else colour_of(word)
+        colour = first if said is None else said
+        try:
+            legible = readable(colour, paper, recipe.words.contrast)
+        except (ValueError, TypeError, AttributeError):
+            text = "" if word is None else word.text
+            raise RecipeError(
+                "color_by", f"gave {text[:40]!r} the colour {str(said)[:40]!r}, which is none"
+            ) from None
+        found.append(None if word is None else legible)
+    return found
+
+
+def _by_column(words: list[Word | None], column: str, palette: tuple[str, ...]) -> list[str | None]:
+    """One colour for each value of a column, in the order of the palette."""
+    values = [word.columns.get(column, "") if word else None for word in words]
+    numbers: Mapping[str | None, int] = {
+        value: k for k, value in enumerate(sorted({v for v in values if v is not None}))
+    }
+    most = max(len(numbers) - 1, 1)
+    return [None if value is None else _nth(palette, numbers[value], most) for value in values]
+
+
+def _nth(palette: tuple[str, ...], number: int, most: int) -> str:
+    """A colour of the palette; in between, where there are more values than colours."""
+    return palette[number] if most < len(palette) else between(palette, number / most)
+
+
+def _by_picture(
+    words: list[Word | None], layout: Layout, file: str, options: WordOptions
+) -> list[str | None]:
+    """Mean colour of the picture under each word, kept readable."""
+    container = layout.container
+    scale = PICTURE_PX / container.side
+    shape = (
+        max(1, round(container.height * scale)), max(1, round(container.width * scale))
+    )  # fmt: skip
+    pixels = _covering(file, shape)
+    paper = options.paper or PAPER
+    found: list[str | None] = []
+    for word, ink in zip(words, layout.inks, strict=True):
+        if word is None:
+            found.append(None)
+            continue
+        weights = coverage(ink.points * scale, ink.starts, shape, np.float32).astype(np.float64)
+        weights = weights * pixels[..., 3]
+        total = float(weights.sum())
+        mean = np.tensordot(weights, pixels[..., :3], 2) / total if total > 0 else np.zeros(3)
+        colour = "#{:02x}{:02x}{:02x}".format(*(round(float(c)) for c in mean))
+        found.append(readable(colour, paper, options.contrast))
+    return found
+
+
+def _covering(file: str, shape: tuple[int, int]) -> FloatArray:
+    """``(rows, columns, 4)`` of a picture that covers the canvas, its middle kept."""
+    from PIL import Image, ImageOps
+
+    with naming(file):
+        picture = decode_picture(read_bytes(file, MAX_PICTURE_BYTES), 2 * PICTURE_PX)
+    fitted = ImageOps.fit(Image.fromarray(picture.pixels), (shape[1], shape[0]))
+    return np.asarray(fitted, dtype=np.float64)

@@ -1,0 +1,213 @@
+"""Words of a text or a table as items, some icons and photographs among them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import final
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.errors import PackworkError
+from packwork.finish.finish import Finished
+from packwork.forces.forces import Forces
+from packwork.pipeline.advice import smaller_copies
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.regions import read_regions
+from packwork.pipeline.plan.shares import shared_out
+from packwork.pipeline.read import AUTO, Material, read_named
+from packwork.pipeline.result import Run, Unplaced, WordsFound
+from packwork.pipeline.run import run_along
+from packwork.pipeline.start import Beginning
+from packwork.pipeline.use import MOST_FIRST_FIT, Use
+from packwork.progress import Observer, Stop
+from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
+from packwork.readers.words.options import WordOptions
+from packwork.recipe import Recipe
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+from packwork.uses.room import Room
+from packwork.uses.words.cast import cast_words
+from packwork.uses.words.colours import check_colours, word_colours
+from packwork.uses.words.counts import words_counted, words_needed
+from packwork.uses.words.letters import (
+    Letters,
+    heaviest,
+    held_down,
+    hopeful_sizes,
+    letters_of,
+    readable_count,
+)
+
+REPEATED = 0.75
+"""Height of a repeated word over that of the word itself, at most: so no weight is told
+wrong. Larger fills more. Chosen."""
+
+WORDS_REACH = 0.6
+"""Share of a container that smaller copies of words come to cover. Larger is not always reached,
+and then counts as not met. Tried."""
+
+
+@final
+@dataclass(frozen=True, eq=False)
+class Words(Use):
+    """Words that are read, and what else is asked of them.
+
+    Parameters
+    ----------
+    read
+        The words among the items; they come first.
+    options
+        As asked.
+    letters
+        How large they may be.
+    """
+
+    read: WordsRead
+    options: WordOptions
+    letters: Letters
+
+    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+        """The common road."""
+        return run_along(job, observer, stop, record)
+
+    @property
+    def words(self) -> Sequence[Item]:
+        """The words among the items."""
+        return self.read.items
+
+    def suits_first_fit(self, count: int, is_turning: bool) -> bool:
+        """Whether there are few enough: letters leave more room to each other than levels find."""
+        del is_turning
+        return count <= MOST_FIRST_FIT
+
+    def before(self, job: Job) -> Job:
+        """Job without words that could not even be large enough in the fullest cloud."""
+        smallest = self.letters.smallest
+        if smallest is None:
+            return job
+        sizes = hopeful_sizes(self.read, self.letters, job.container.outline.area)
+        count = int(np.count_nonzero(sizes >= smallest))
+        return self._with_heaviest(job, count, sizes, smallest)
+
+    def fewer(self, job: Job, poses: Poses, attempt: int) -> Job:
+        """The job itself if all letters are large enough; else one of fewer words."""
+        smallest = self.letters.smallest
+        if smallest is None:
+            return job
+        sizes = letters_of(poses, len(self.read.items))
+        count = readable_count(self.read, smallest, sizes, attempt)
+        return self._with_heaviest(job, count, sizes, smallest)
+
+    def bounded(
+        self,
+        job: Job,
+        start: Beginning,
+        exact: Finished,
+        observer: Observer | None,
+        stop: Stop,
+        forces: Forces | None,
+    ) -> Finished:
+        """Exact poses whose letters are no larger than asked."""
+        count, largest = len(self.read.items), self.letters.largest
+        return held_down(job, start, exact, count, largest, observer, stop, forces)
+
+    def filler_scales(
+        self, job: Job, exact: Finished, smallest: FloatArray, largest: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Copies of words are to be read, and smaller than the words themselves."""
+        if job.plan.voids is not None and job.plan.voids.has_own:
+            return smallest, largest
+        if self.letters.smallest:
+            smallest = np.full(len(smallest), self.letters.smallest / EM_PX)
+        known = dict(zip(job.items, exact.poses.scale, strict=True))
+        own = np.array([known[item] for item in job.fillers])
+        return smallest, np.minimum(largest, REPEATED * own)
+
+    def missing(self, start: int) -> tuple[Unplaced, ...]:
+        """Words that could not be drawn, numbered from ``start``: after the items."""
+        return tuple(
+            Unplaced(word[:MOST_SHOWN], index, reason)
+            for index, (word, reason) in enumerate(self.read.undrawn.items(), start=start)
+        )
+
+    def words_found(self) -> WordsFound:
+        """How many words the source holds, and how many were to be set."""
+        return WordsFound(self.read.found, len(self.read.items) + len(self.read.undrawn))
+
+    def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
+        """Colours by weight, column, picture or function, if asked for."""
+        return word_colours(job.recipe, self.read, layout)
+
+    @property
+    def palette_tints(self) -> bool:
+        """Not among words, whose palette is theirs: emoji and icons keep their colours there."""
+        return False
+
+    @property
+    def has_nearest(self) -> bool:
+        """Not among words either."""
+        return False
+
+    def redrawn(self, job: Job, gone: Sequence[Item]) -> tuple[Item, ...]:
+        """Words that left, set as the run's own: a layout file has outlines only."""
+        source = {item.source: 1.0 for item in gone}
+        try:
+            asked = self.options.model_copy(update={"source": source, "count": len(source)})
+            return read_word_items(asked, job.plan.holes).items
+        except PackworkError:
+            # Pictures among words, or words that this run's fonts lack: their outlines serve.
+            return ()
+
+    def remarks(self, job: Job) -> tuple[str, ...]:
+        """How many words the run chose."""
+        if self.options.count == AUTO:
+            return (f"auto chose {len(job.items)} words",)
+        return super().remarks(job)
+
+    def remedy(self, job: Job) -> str:
+        """More words, if there are more; else smaller copies of them."""
+        count = len(self.read.items)
+        if self.read.found > count:
+            needed = max(words_needed(job.container), 2 * count)
+            return f"-n {min(needed, self.read.found)} would show more of it"
+        return smaller_copies(job.plan.voids, WORDS_REACH)
+
+    def _with_heaviest(self, job: Job, count: int, sizes: FloatArray, smallest: float) -> Job:
+        """Job of fewer words, what rules ask of them, and what is mixed in."""
+        if count == len(self.read.items):
+            return job
+        words = heaviest(self.read, count, sizes, smallest, job.container.unit)
+        before = {id(item) for item in self.read.items}
+        others = {id(item): item for item in job.items if id(item) not in before}
+        chosen = cast_words(job.recipe, words, list(others.values()))
+        gone = before - {id(item) for item in words.items}
+        return replace(
+            job,
+            use=replace(self, read=words),
+            items=chosen.items,
+            asked=chosen.asked,
+            weights=shared_out(chosen.items, chosen.weights, words.items, job.plan.share),
+            regions=read_regions(chosen.asked, job.container),
+            fillers=tuple(item for item in job.fillers if id(item) not in gone),
+        )
+
+
+def read_cloud(
+    recipe: Recipe, asked: WordOptions, room: Room, given: Sequence[Item] | None
+) -> Material:
+    """Words of a recipe, and the items and photographs among them."""
+    words = read_word_items(words_counted(asked, room), recipe.holes, recipe)
+    check_colours(recipe, words.words)
+    named = read_named(recipe, given)
+    chosen = cast_words(recipe, words, named.items)
+    container = room.of(chosen)
+    return Material(
+        use=Words(words, asked, Letters.of(asked, container, recipe.sizes)),
+        container=container,
+        cast=chosen,
+        fillers=words.items,
+        skipped=(*named.skipped, *words.told),
+    )

@@ -1,0 +1,162 @@
+"""How many items a container takes, and what is said of a result that does not show it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+import shapely
+
+from packwork import uses
+from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
+from packwork.metrics.shape import ShapeMetrics
+from packwork.pipeline.advice import advice
+from packwork.pipeline.plan.counts import LEAST, MOST, items_needed
+from packwork.recipe import Recipe, make_recipe
+from packwork.scene.container import Container
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+from packwork.uses.charts.recipe import chart_recipe
+from packwork.uses.piles.recipe import pile_recipe
+from packwork.uses.room import Room
+from packwork.uses.words.recipe import words_recipe
+from scenes import round_container, square_container
+
+TAILLESS = ShapeMetrics(bare=0.1, shape=0.7, parts=1, bare_parts=0)
+QUICK: dict[str, Any] = {"epochs": 3, "levels": "16,32"}
+
+
+def with_tail(width: float, factor: float = 1.0) -> Container:
+    """A square body with a tail to its right, as large as itself if it were wider."""
+    body = shapely.box(0, 0, 60, 60)
+    region = shapely.union(body, shapely.box(60, 30 - width / 2, 120, 30 + width / 2))
+    region = shapely.affinity.scale(region, factor, factor, origin=(0, 0))
+    outline = Outline.from_region(region)
+    return Container("tail", "tail", outline, 120 * factor, 60 * factor)
+
+
+def recipe(**options: Any) -> Recipe:
+    return make_recipe(container="tail", **options)
+
+
+def advised(recipe: Recipe, container: Container, seen: ShapeMetrics = TAILLESS) -> str:
+    """The one sentence that is said of a layout in which everything lies at one place."""
+    job = uses.read(recipe, container=container)
+    one = np.ones(len(job.items))
+    layout = Layout(container, job.items, Poses(one, one, one * 0, one), one)
+    return " ".join(advice(job, layout, seen))
+
+
+def test_thin_parts_take_more_items() -> None:
+    counts = [items_needed(with_tail(width)).count for width in (40, 12, 6)]
+    assert LEAST <= counts[0] < counts[1] < counts[2] <= MOST
+    widths = [items_needed(with_tail(width)).width_cu for width in (12, 6)]
+    assert widths == pytest.approx([12, 6], rel=0.25)
+
+
+def test_tips_that_nobody_misses_take_no_more() -> None:
+    assert items_needed(with_tail(1)).count == items_needed(with_tail(0.5)).count
+
+
+def test_items_of_one_size_are_more() -> None:
+    free, shared, wide = (
+        items_needed(with_tail(12), *options).count for options in ((), ("shared",), ("free", 4.0))
+    )
+    assert wide < free < shared
+
+
+@pytest.mark.parametrize("factor", [0.01, 40.0])
+def test_the_canvas_changes_nothing(factor: float) -> None:
+    needed = items_needed(with_tail(9, factor))
+    assert needed.count == pytest.approx(items_needed(with_tail(9)).count, abs=1)
+
+
+def test_a_number_that_is_given_stays() -> None:
+    assert Room(round_container()).counted(recipe(count=7), ()) is None
+    assert len(uses.read(recipe(count=7), container=round_container()).items) == 7
+
+
+def test_all_different_items_are_there() -> None:
+    items = uses.read(recipe(), container=round_container()).items
+    found = Room(round_container()).counted(recipe(count="auto"), items)
+    assert found == max(len(items), items_needed(round_container()).count)
+
+
+def test_without_a_container_there_is_nothing_to_count_by() -> None:
+    with pytest.raises(RecipeError, match="count: auto needs a container"):
+        Room(None).counted(make_recipe(container="none", count="auto"), ())
+
+
+def test_a_heap_leaves_room_above_it() -> None:
+    job = uses.read(
+        pile_recipe("square", ["circle"], count="auto", size="10%"), container=square_container()
+    )
+    area = len(job.items) * np.pi * 5**2
+    assert 0.3 < area / square_container().outline.area < 0.5
+
+
+def test_auto_runs_and_says_what_it_chose() -> None:
+    runs = [
+        uses.fill(make_recipe(container="circle", items=["star"], count="auto", **QUICK))
+        for _ in range(2)
+    ]
+    assert [len(run.layout.items) for run in runs] == [LEAST, LEAST]
+    assert runs[0].remarks[0].startswith(f"auto chose {LEAST} items, to reach into parts ")
+    assert runs[0].report()["remarks"] == list(runs[0].remarks)
+    assert runs[0].layout.manifest["recipe"]["count"] == "auto"
+
+
+def test_auto_words_are_those_that_there_are() -> None:
+    asked = words_recipe("heart", {"ox": 2, "bee": 1}, count="auto")
+    job = uses.read(asked)
+    assert [item.name for item in job.items] == ["ox", "bee"]
+    assert job.use.remarks(job) == ("auto chose 2 words",)
+
+
+def test_a_good_result_gets_no_advice() -> None:
+    good = ShapeMetrics(bare=0.01, shape=0.9, parts=9, bare_parts=2)
+    assert advised(recipe(), with_tail(8), good) == ""
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"count": 3}, "10 % of the container lies far from any item; -n "),
+        ({"count": 3, "sizes": "shared"}, "--sizes free -n "),
+        ({"count": 3, "sizes": "fixed"}, "--sizes free would show it"),
+        ({"count": 900}, "--target-coverage 0.85, "),
+        ({"count": 900, "target_coverage": 0.85}, "--smallest 0.3%, "),
+        ({"count": 900, "target_coverage": 0.85, "max_items": 950}, "--max-items 1900 "),
+    ],
+)
+def test_advice_is_an_option_that_is_not_yet_used(options: dict[str, Any], words: str) -> None:
+    assert words in advised(recipe(items=["star"], **options), with_tail(8))
+
+
+def test_advice_names_what_is_poor() -> None:
+    parts = ShapeMetrics(bare=0.3, shape=0.5, parts=33, bare_parts=27)
+    ragged = ShapeMetrics(bare=0.01, shape=0.7, parts=1, bare_parts=0)
+    asked = recipe(items=["star"], count=3)
+    assert advised(asked, with_tail(8), parts).startswith(
+        "27 of the container's 33 parts are empty;"
+    )
+    assert advised(asked, with_tail(8), ragged).startswith(
+        "the container's shape shows to 70 % only;"
+    )
+
+
+def test_more_words_are_the_advice_as_long_as_there_are_some() -> None:
+    weights = {f"word{k}": float(90 - k) for k in range(70)}
+    few = words_recipe("tail", weights, count=9)
+    assert "; -n 70 would show more of it" in advised(few, with_tail(4))
+    every = words_recipe("tail", weights)
+    assert "; --target-coverage 0.6," in advised(every, with_tail(4))
+
+
+def test_data_and_heaps_are_as_many_as_they_are() -> None:
+    assert "a container without thin parts" in advised(
+        chart_recipe("tail", {"n": [3, 2, 1]}), with_tail(8)
+    )
+    assert advised(pile_recipe("square", ["circle"], size="9%"), square_container()) == ""

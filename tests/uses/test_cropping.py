@@ -1,0 +1,92 @@
+"""Photos that cover the container's edge and are cut at its line."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import shapely
+from PIL import Image
+
+from packwork import uses
+from packwork.errors import RecipeError
+from packwork.pipeline.result import Run
+from packwork.readers.written.read import read_written
+from packwork.scene.item import PhotoArt
+from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.svg import Sheet, SvgOptions, svg_document
+
+QUICK = {"effort": "draft", "levels": "50", "edge": "crop"}
+
+
+@pytest.fixture(scope="module")
+def album(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("album")
+    for k in range(8):
+        Image.new("RGB", (90, 60) if k % 2 else (60, 80), "teal").save(folder / f"photo-{k}.jpg")
+    return folder
+
+
+@pytest.fixture(scope="module")
+def run(album: Path) -> Run:
+    return uses.fill(uses.photos_recipe("circle", [str(album)], **QUICK), record=True)
+
+
+def rim_covered(run: Run) -> float:
+    """Share of the container's line that has an item within a thousandth of the canvas."""
+    container = run.layout.container
+    near = shapely.union_all([o.region.buffer(1e-3 * container.side) for o in run.layout.outlines])
+    line = container.outline.region.boundary
+    return float(line.intersection(near).length / line.length)
+
+
+def test_photos_cover_the_edge_and_stay_inside(run: Run, album: Path) -> None:
+    assert run.certified
+    assert not run.unplaced
+    assert run.metrics.exact.exceeding == 0
+    inside = uses.photos_recipe("circle", [str(album)], **{**QUICK, "edge": "inside"})
+    assert rim_covered(run) > 0.75 > 0.4 > rim_covered(uses.fill(inside))
+
+
+def test_files_hold_what_is_seen(run: Run, tmp_path: Path) -> None:
+    path = tmp_path / "a.svg"
+    size = (run.layout.container.width, run.layout.container.height)
+    sheet = Sheet(size=size, unit="px", view=size)
+    path.write_text(svg_document(run.layout, SvgOptions(), sheet), encoding="utf-8")
+    read = read_written(str(path))
+    assert np.allclose(np.sort(read.areas), np.sort(run.layout.areas), rtol=1e-4)
+    picture = tmp_path / "a.png"
+    picture.write_bytes(png_bytes(run.layout, 200, PngOptions()))
+    with Image.open(picture) as drawn:
+        teal = np.asarray(drawn.convert("RGB"))[:, :, 0] < 128
+    share = run.layout.areas.sum() / run.layout.container.width / run.layout.container.height
+    assert teal.mean() == pytest.approx(share, abs=0.02)
+
+
+def test_what_is_printed_is_cut_like_the_small_copy(run: Run) -> None:
+    arts = [item.art for item in run.layout.items if isinstance(item.art, PhotoArt)]
+    cut = [art for art in arts if 'id="edge-' in art.preview.markup]
+    assert cut
+    for art in cut:
+        printed = art.original.printed(1.0)
+        assert printed.markup.split("</clipPath>")[0] == art.preview.markup.split("</clipPath>")[0]
+
+
+def test_a_film_ends_where_the_photos_lie(run: Run) -> None:
+    assert run.layout.track is not None
+    end = run.layout.track.at(1.0)
+    assert np.allclose(end.x, run.layout.poses.x)
+    assert np.allclose(end.y, run.layout.poses.y)
+
+
+@pytest.mark.parametrize(
+    ("options", "match"),
+    [
+        ({"finish": "none"}, "edge: crop needs --finish exact"),
+        ({"sizes": "shared"}, "edge: crop enlarges photos at the edge"),
+    ],
+)
+def test_what_cannot_be_cut_is_refused(album: Path, options: dict[str, str], match: str) -> None:
+    with pytest.raises(RecipeError, match=match):
+        uses.fill(uses.photos_recipe("circle", [str(album)], **QUICK, **options))
