@@ -31,11 +31,15 @@ MAX_FILES = 5_000
 MAX_NAMES = 100_000
 """Bytes of a font's table of names: those of many languages have 20,000. Chosen."""
 
+MOST_FACES = 64
+"""Faces of one collection that are looked at. Chosen."""
+
+FONT_ENDINGS = frozenset({".ttf", ".otf", ".ttc", ".otc"})
+"""Of files that hold fonts."""
+
 BUNDLED_FAMILY = "Inter Display"
 """Family of the bundled font, for machines that have no other."""
 
-_ENDINGS = frozenset({".ttf", ".otf", ".ttc", ".otc"})
-_MOST_FACES = 64
 _FAMILY, _WHOLE_FAMILY = 1, 16
 _TAG = re.compile(r"<[^>]*>")
 _WISH = re.compile(r"""\bfont-family=("[^"]*"|'[^']*')""")
@@ -218,7 +222,7 @@ def _font_files(folders: Iterable[Path]) -> list[str]:
     files: list[str] = []
     for folder in folders:
         for place, _, names in os.walk(folder):
-            fonts = [name for name in sorted(names) if Path(name).suffix.lower() in _ENDINGS]
+            fonts = [name for name in sorted(names) if Path(name).suffix.lower() in FONT_ENDINGS]
             files += [str(Path(place, name)) for name in fonts]
             if len(files) >= MAX_FILES:
                 return files[:MAX_FILES]
@@ -250,7 +254,7 @@ def _face_starts(font: BinaryIO) -> list[int]:
     tag, _, count = struct.unpack(">4s4sI", font.read(12))
     if tag != b"ttcf":
         return [0]
-    faces = min(count, _MOST_FACES)
+    faces = min(count, MOST_FACES)
     return list(struct.unpack(f">{faces}I", font.read(4 * faces)))
 
 
@@ -265,7 +269,10 @@ def _families(font: BinaryIO, start: int) -> set[str]:
 
 
 def _names(font: BinaryIO, start: int) -> Iterator[tuple[int, str]]:
-    """Kinds and texts of a face's table of names."""
+    """Kinds and texts of a face's table of names: a few hundred bytes of each file are read.
+
+    HarfBuzz would have to be given whole files, gigabytes of them on a well-equipped machine.
+    """
     font.seek(start)
     (tables,) = struct.unpack(">4xH6x", font.read(12))
     for _ in range(tables):

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from packwork.errors import ReadError
-from packwork.fonts import installed_families
+from packwork.fonts import FONT_ENDINGS, MOST_FACES, installed_families
 from packwork.readers.files import exists, read_bytes
 from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Typeface, bundled_typeface
 from packwork.readers.fonts.guard import MAX_FONT_BYTES
@@ -17,13 +17,9 @@ from packwork.readers.fonts.itemise import Piece, clusters, itemised
 from packwork.readers.fonts.lettering import Lettering, Setting, lettering_of
 from packwork.readers.unfit import UnfitError, naming
 
-MOST_FACES = 64
-"""Faces of one collection that are looked at. Chosen."""
-
 MOST_NAMED = 6
 """Characters that a message about missing ones names. Chosen."""
 
-_ENDINGS = frozenset({".ttf", ".otf", ".ttc", ".otc"})
 _PREFERRED = ("noto sans", "noto", "dejavu sans")
 """Families that are asked first among those installed: drawn for many scripts alike."""
 
@@ -173,7 +169,7 @@ def is_font_file(name: str) -> bool:
     >>> is_font_file("no such.ttf"), is_font_file("Inter Display")
     (True, False)
     """
-    return exists(name) or Path(name[-20:]).suffix.lower() in _ENDINGS
+    return exists(name) or Path(name[-20:]).suffix.lower() in FONT_ENDINGS
 
 
 def typeface_of_file(name: str, weight: int | None = None) -> Typeface:
