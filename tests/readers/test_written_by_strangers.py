@@ -89,6 +89,10 @@ def test_work_and_memory_are_bounded_before_they_are_done(
     with pytest.raises(ReadError, match="numbers and lists, more than 20"):
         read_written(file)
     monkeypatch.setattr(saved, "MAX_PARTS", 1_000)
+    monkeypatch.setattr(saved, "MAX_ITEMS", 0)
+    with pytest.raises(ReadError, match="holds 2, more than 0 items"):
+        read_written(file)
+    monkeypatch.setattr(saved, "MAX_ITEMS", 9)
     monkeypatch.setattr(saved, "MAX_POINTS", 3)
     with pytest.raises(ReadError, match="4 points, more than 3"):
         read_written(file)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import shapely
-
 from packwork.arrays import FloatArray
 from packwork.finish.finish import Finished
 from packwork.finish.sizing import SIZE_TOLERANCE
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import pinned_scales
+from packwork.pipeline.widest import widest_cu
 
 WIDEST_TOLERANCE = 0.01
 """How exactly a container's widest place is found, as a share of its extent. Smaller takes
@@ -60,8 +59,6 @@ def _percent(share: float) -> str:
 
 def _widest(job: Job) -> str:
     """How wide the widest place of the container is, in words."""
-    region = job.container.outline.region
-    line = shapely.maximum_inscribed_circle(region, WIDEST_TOLERANCE * job.container.outline.extent)
-    return (
-        f"the container's widest place is {_percent(2 * line.length / job.container.side)} across"
-    )
+    outline = job.container.outline
+    widest = widest_cu(outline, WIDEST_TOLERANCE * outline.extent)
+    return f"the container's widest place is {_percent(widest / job.container.side)} across"

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-import shapely
 
 from packwork.geometry.simplify import hull_areas
 from packwork.piles import PileOptions
@@ -14,6 +13,7 @@ from packwork.pipeline.exact import solid_outlines
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import MOST
 from packwork.pipeline.plan.sizes import given_scales
+from packwork.pipeline.widest import widest_cu
 from packwork.scene.canvas import brought_over
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -69,6 +69,6 @@ def fitting_factor(job: Job) -> float:
     outlines = solid_outlines(job.plan.outline, job.items)
     covered = float((hull_areas(outlines) * scales**2).sum())
     factor = float(np.sqrt(FULL * container.outline.area / covered))
-    across = 2 * shapely.maximum_inscribed_circle(container.outline.region).length
+    across = widest_cu(container.outline)
     longest = float((2 * np.array([o.radius for o in outlines]) * scales).max())
     return float(min(factor, WIDEST * across / longest))
