@@ -170,9 +170,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     """keep: the holes of items stay free, so that small items may sit in them."""
 
     outline: Annotated[OutlineChoice, Offer(verbs=Verbs.FILL | Verbs.WORDS)] = "exact"
-    """What an item is taken for while it is placed: exact (its true outline), fitted (20
-    smooth curves) or hull (no item in another's bays). What is measured and written is the
-    true outline."""
+    """What an item is taken for while it is placed: exact (its true outline) or hull
+    (no item in another's bays). What is measured and written is the true outline."""
 
     strict: Annotated[bool, Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE)] = False
     """Refuse a folder with an unusable file instead of leaving that file out."""

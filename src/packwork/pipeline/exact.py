@@ -23,12 +23,9 @@ from packwork.pipeline.start import Beginning
 from packwork.pipeline.staying import needs_no_levels
 from packwork.progress import Observer, Step, Stop, until_over
 from packwork.readers.svg.follow import FLATTENING
-from packwork.scene.item import Item
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
-from packwork.solve.options import OutlineChoice
 from packwork.solve.solver import scale_bounds
-from packwork.solve.stand_ins import stand_ins
 
 _LOG = logging.getLogger(__name__)
 
@@ -93,7 +90,7 @@ def finished(
     grows
         Whether the poses are clean, and are to be larger: none gets much smaller then.
     """
-    outlines = solid_outlines(job.plan.outline, job.items)
+    outlines = job.solid_outlines
     until = until_over(stop, job.seconds_left(1.0))
     is_enough = until_over(stop, job.seconds_left(TRIALS_SHARE))
     allowed, largest = scale_ranges(job, start, poses)
@@ -151,13 +148,6 @@ def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished
             job.items[k].name, k + 1, share,
         )  # fmt: skip
     return replace(result, undersized=tuple(real))
-
-
-def solid_outlines(asked: OutlineChoice, items: Sequence[Item]) -> list[Outline]:
-    """What items are taken for in exact geometry."""
-    # A hull holds its item, so what is clean for hulls is clean; a fitted outline may not.
-    choice: OutlineChoice = "hull" if asked == "hull" else "exact"
-    return stand_ins([item.outline for item in items], choice)
 
 
 def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from enum import Enum
 
 import numpy as np
 import shapely
@@ -17,7 +18,6 @@ from packwork.pipeline.exact import (
     Closing,
     gap_with_bulge,
     scale_ranges,
-    solid_outlines,
     without,
 )
 from packwork.pipeline.placed import Placed
@@ -28,6 +28,7 @@ from packwork.pipeline.progress import stretch
 from packwork.pipeline.result import Filling
 from packwork.progress import Observer, Stop, until_over
 from packwork.scene.pose import Poses
+from packwork.solve.stand_ins import stand_ins
 from packwork.start.angles import nearest_allowed
 from packwork.start.fitting import SECTORS
 from packwork.start.voids import copies_for_voids
@@ -60,6 +61,17 @@ STYLE = frozenset({"color", "link", "title"})
 """What of the rules about an item holds for the smaller copies of it too."""
 
 
+class GapEnding(Enum):
+    """Why no more was put into voids."""
+
+    NOT_CLEAN = "the layout was not clean"
+    COVERED = "{target:g} % are covered"
+    MOST = "{count} items are the most that were asked for"
+    STOPPED = "the run was stopped"
+    TOO_LONG = "more than {count} of such items take too long; {remedy} would do"
+    NO_VOID = "no void holds an item of {smallest:.3g} {unit}"
+
+
 def fill_gaps(placed: Placed, exact: Finished, observer: Observer | None, stop: Stop) -> Placed:
     """Put smaller copies into voids until the coverage asked for is reached or nothing fits.
 
@@ -73,7 +85,7 @@ def fill_gaps(placed: Placed, exact: Finished, observer: Observer | None, stop: 
     filling = _Filling(
         placed, job.plan.voids, exact, observer, until_over(stop, job.seconds_left(1.0))
     )
-    ending = None if exact.clean else "the layout was not clean"
+    ending = None if exact.clean else GapEnding.NOT_CLEAN
     while ending is None:
         ending = filling.round()
     return filling.result(ending)
@@ -95,12 +107,12 @@ class _Filling:
         self._job, self._start, self._exact = job, start, exact
         self._observer, self._stop, self._rounds = observer, stop, 0
         self._sorts = job.fillers
-        self._shapes = solid_outlines(job.plan.outline, self._sorts)
+        self._shapes = stand_ins([item.outline for item in self._sorts], job.plan.outline)
         self._rng = np.random.default_rng(job.plan.seed)
         self._first = len(job.items)
         self.poses, self.added = exact.poses, list[int]()
         self._ids, self._tried = np.arange(self._first), self._first
-        self._originals = solid_outlines(job.plan.outline, job.items)
+        self._originals = job.solid_outlines
         self._yields = job.plan.sizes == "free" and start.limits is None
         self._ranges = scale_ranges(job, start, exact.poses)
         own = np.array([outline.area for outline in self._shapes])
@@ -113,23 +125,22 @@ class _Filling:
         self._gap = gap_with_bulge(job, np.arange(self._first), self._ranges[1])
         self._work = 0.0
 
-    def round(self) -> str | None:
+    def round(self) -> GapEnding | None:
         """One round of fillers; why the last one was the last, or None."""
         voids, effort, before = self._voids, self._job.plan.effort, self.coverage()
         if voids.target is not None and before >= voids.target:
-            return f"{100 * voids.target:g} % are covered"
+            return GapEnding.COVERED
         room = (voids.most or MOST_ITEMS) - len(self.poses)
         if room <= 0:
-            return f"{len(self.poses)} items are the most that were asked for"
+            return GapEnding.MOST
         if self._stop():
-            return "the run was stopped"
+            return GapEnding.STOPPED
         if self._work > MOST_WORK[effort]:
-            more = "fewer corners" if effort == "best" else "a higher --effort"
-            return f"more than {len(self.poses)} of such items take too long; {more} would do"
+            return GapEnding.TOO_LONG
         self._work += IMAGE_WORK
         count = min(max(AT_LEAST, round(MORE * len(self.poses))), room)
         if self._let_in(count) == 0 or self._grow() - before < WORTHWHILE:
-            return f"no void holds an item of {voids.smallest:.3g} {self._job.container.unit}"
+            return GapEnding.NO_VOID
         return None
 
     def coverage(self) -> float:
@@ -137,7 +148,7 @@ class _Filling:
         own = np.array([outline.area for outline in self._all_outlines()])
         return float((own * self.poses.scale**2).sum()) / self._job.container.outline.area
 
-    def result(self, ending: str) -> Placed:
+    def result(self, ending: GapEnding) -> Placed:
         """What was placed, with all that was put into voids."""
         job, start = self._job, self._start
         asked = dict(zip((item.name for item in job.items), job.asked, strict=True))
@@ -160,8 +171,18 @@ class _Filling:
             before=job,
             start=replace(start, nominal=nominal, limits=limits),
             exact=replace(self._exact, poses=self.poses),
-            filling=Filling(len(new), ending, self.coverage(), self._voids.target),
+            filling=Filling(len(new), self._said(ending), self.coverage(), self._voids.target),
             numbers=self._ids,
+        )
+
+    def _said(self, ending: GapEnding) -> str:
+        """The sentence of an ending, with the numbers of this run."""
+        return ending.value.format(
+            target=100 * (self._voids.target or 0.0),
+            count=len(self.poses),
+            remedy="fewer corners" if self._job.plan.effort == "best" else "a higher --effort",
+            smallest=self._voids.smallest,
+            unit=self._job.container.unit,
         )
 
     def _let_in(self, count: int) -> int:

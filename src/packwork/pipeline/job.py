@@ -12,6 +12,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import PackworkError
 from packwork.forces.forces import Forces
+from packwork.geometry.outline import Outline
 from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.plan import Plan
@@ -21,6 +22,7 @@ from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.solve.stand_ins import stand_ins
 
 
 @dataclass
@@ -114,6 +116,11 @@ class Job:
         if not self.plan.forces:
             return None
         return forces_of(self.plan.forces, self.items, self.weights, self.container)
+
+    @property
+    def solid_outlines(self) -> list[Outline]:
+        """What items are taken for until they are measured."""
+        return stand_ins([item.outline for item in self.items], self.plan.outline)
 
     def check_forces(self) -> None:
         """Refuse forces that name no item or have no meaning, before anything is run."""

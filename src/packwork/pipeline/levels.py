@@ -20,7 +20,6 @@ from packwork.progress import Observer, Stop, together
 from packwork.scene.container import Container
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import Ending, Outcome, solve
-from packwork.solve.stand_ins import stand_ins
 
 LEVELS_SHARE = 0.6
 """Share of the time left after the start that the levels may take; the finish, measuring
@@ -32,7 +31,7 @@ def begun_and_solved(job: Job, observer: Observer | None, stop: Stop, record: bo
     recorder = Recorder() if record else None
     observer = together(observer, recorder)
     with job.clock.time("start"):
-        outlines = stand_ins([item.outline for item in job.items], job.plan.outline)
+        outlines = job.solid_outlines
         check_padding(job.container, job.plan.gap, len(job.items))
         region = padded(job.container, job.plan.gap)
         forces = buoyant_forces(job)

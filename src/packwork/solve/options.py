@@ -11,7 +11,7 @@ from packwork.options import Options
 
 SizeMode: TypeAlias = Literal["free", "shared", "fixed"]
 
-OutlineChoice: TypeAlias = Literal["exact", "fitted", "hull"]
+OutlineChoice: TypeAlias = Literal["exact", "hull"]
 
 MIN_RESOLUTION = 8
 """Coarsest level, px: coarser ones show no item. Chosen."""

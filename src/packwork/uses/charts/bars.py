@@ -14,7 +14,7 @@ from packwork.finish.settling.pile import pile
 from packwork.forces.direction import Direction
 from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
-from packwork.pipeline.exact import gap_with_bulge, solid_outlines
+from packwork.pipeline.exact import gap_with_bulge
 from packwork.pipeline.job import Job
 from packwork.pipeline.result import Unplaced
 from packwork.pipeline.start import first_angles
@@ -98,7 +98,7 @@ class _Heaps:
         self._job, self._stop = job, stop
         self.cells, self.members = chart.cells, chart.members
         self._units = unit_scales(job)
-        self._outlines = solid_outlines(job.plan.outline, job.items)
+        self._outlines = job.solid_outlines
         self._angles = first_angles(job, np.random.default_rng(job.plan.seed), None)
         self._ranks = _ranks(job, chart)
         self._measured()

@@ -11,7 +11,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.finish.offenders import find_offenders
 from packwork.finish.options import HAIR
 from packwork.geometry import affine
-from packwork.pipeline.exact import finished, solid_outlines, unfinished
+from packwork.pipeline.exact import finished, unfinished
 from packwork.pipeline.job import Job
 from packwork.pipeline.placed import Placed
 from packwork.pipeline.placing import placed_as_asked
@@ -162,7 +162,7 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
     # What was in conflict at its own size is told, and not tried again.
     if exact is not None and exact.clean:
         # Smaller ones stay clear of each other, but for those that lay in others' bays.
-        outlines = solid_outlines(job.plan.outline, job.items)
+        outlines = job.solid_outlines
         gap = job.plan.gap
         if find_offenders(job.container, outlines, poses, gap):
             fixed = replace(job, plan=replace(job.plan, sizes="fixed"))

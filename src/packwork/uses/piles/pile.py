@@ -17,7 +17,7 @@ from packwork.metrics.compactness import compactness
 from packwork.piles import PileOptions
 from packwork.pipeline.dress.line_weights import evened
 from packwork.pipeline.earlier import matched
-from packwork.pipeline.exact import gap_with_bulge, solid_outlines
+from packwork.pipeline.exact import gap_with_bulge
 from packwork.pipeline.film.recorder import Recorder
 from packwork.pipeline.job import Job
 from packwork.pipeline.measure import Unmeasured, measured
@@ -98,7 +98,7 @@ def _heaped(
         poses, known = _first_poses(job, asked, factor)
         # Sizes are known: what lies closer with thinner lines may do so.
         job = evened(job, poses, tells=False)
-        outlines = solid_outlines(job.plan.outline, job.items)
+        outlines = job.solid_outlines
         discs = np.pi * (np.array([o.radius for o in outlines]) * poses.scale) ** 2
         room = opened(job.container, asked.open, heap.mouths, float(discs.sum()))
         job = replace(job, container=room.container)

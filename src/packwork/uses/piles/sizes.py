@@ -9,7 +9,6 @@ import numpy as np
 from packwork.geometry.simplify import hull_areas
 from packwork.piles import PileOptions
 from packwork.pipeline.earlier import matched
-from packwork.pipeline.exact import solid_outlines
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import MOST
 from packwork.pipeline.plan.sizes import given_scales
@@ -66,7 +65,7 @@ def fitting_factor(job: Job) -> float:
             before = [job.earlier.items[k].outline.extent for k in found[known]]
             sizes = then.scale[found[known]] * np.array(before) / np.array(own)
             return float(np.median(sizes / scales[known]))
-    outlines = solid_outlines(job.plan.outline, job.items)
+    outlines = job.solid_outlines
     covered = float((hull_areas(outlines) * scales**2).sum())
     factor = float(np.sqrt(FULL * container.outline.area / covered))
     across = widest_cu(container.outline)
