@@ -279,12 +279,27 @@ def test_places_of_glyphs_that_run_backwards():
         letters(changed(TRUETYPE, reverse), "a")
 
 
-def test_a_font_without_an_em():
-    at = TRUETYPE.index(b"head") + 8
-    (offset,) = struct.unpack_from(">L", TRUETYPE, at)
-    data = TRUETYPE[: offset + 18] + b"\0\0" + TRUETYPE[offset + 20 :]
-    with pytest.raises(ReadError, match="an em of 0 units"):
+@pytest.mark.parametrize(
+    ("table", "place", "number", "problem"),
+    [
+        (b"head", 18, 0, "an em of 0 units"),
+        (b"head", 18, 60_000, "an em of 60000 units"),
+        (b"maxp", 4, 0, "it has no glyphs"),
+    ],
+)
+def test_numbers_that_make_no_font(table, place, number, problem):
+    (offset,) = struct.unpack_from(">L", TRUETYPE, TRUETYPE.index(table) + 8)
+    at = offset + place
+    data = TRUETYPE[:at] + struct.pack(">H", number) + TRUETYPE[at + 2 :]
+    with pytest.raises(ReadError, match=problem):
         letters(data, "a")
+
+
+def test_a_letter_moves_the_next_by_no_more_than_some_ems():
+    def widen(font: TTFont) -> None:
+        font["hmtx"].metrics["a"] = (60_000, 0)
+
+    assert [letter.advance for letter in letters(changed(TRUETYPE, widen), "ab")] == [8.0, 0.6]
 
 
 @pytest.mark.parametrize(

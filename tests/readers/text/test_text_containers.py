@@ -19,7 +19,7 @@ from fontTools.ttLib.tables._c_m_a_p import CmapSubtable
 from PIL import Image
 from shapely import Polygon
 
-from made_fonts import EMOJI, STRIKE_PX, emoji_font
+from made_fonts import EMOJI, STRIKE_PX, emoji_font, variable_font
 from packwork.errors import ReadError
 from packwork.fonts import FOLDERS, bundled_file
 from packwork.geometry.polygon import polygon_parts
@@ -73,12 +73,14 @@ def draw_drop(pen):
     pen.closePath()
 
 
-def built(glyphs, cmap, metrics=None, is_ttf=True) -> bytes:
+def built(glyphs, cmap, metrics=None, is_ttf=True, is_cff2=False) -> bytes:
     builder = FontBuilder(EM, isTTF=is_ttf)
     builder.setupGlyphOrder(list(glyphs))
     builder.setupCharacterMap(cmap)
     if is_ttf:
         builder.setupGlyf(glyphs)
+    elif is_cff2:
+        builder.setupCFF2(glyphs)
     else:
         builder.setupCFF("Test", {}, glyphs, {})
     default = {name: (600, getattr(glyph, "xMin", 0)) for name, glyph in glyphs.items()}
@@ -192,6 +194,20 @@ def test_postscript_outlines(postscript):
     (found,) = letters(postscript, "B")
     assert found.region.area == pytest.approx(0.18)
     assert len(polygon_parts(found.region)[0].interiors) == 1
+
+
+def test_outlines_as_variable_postscript_fonts_have_them():
+    pens = {name: T2CharStringPen(None, {}, CFF2=True) for name in (".notdef", "block")}
+    draw_block(pens["block"])
+    glyphs = {name: pen.getCharString() for name, pen in pens.items()}
+    (found,) = letters(built(glyphs, {66: "block"}, is_ttf=False, is_cff2=True), "B")
+    assert found.region.area == pytest.approx(0.18)
+
+
+def test_a_variable_font_stands_at_its_default(tmp_path):
+    (tmp_path / "own.ttf").write_bytes(variable_font())
+    left, top, right, bottom = read_container("text:a", 500, tmp_path / "own.ttf").outline.bounds
+    assert (right - left) / (bottom - top) == pytest.approx(100 / 500)
 
 
 def test_first_font_of_a_collection(truetype, postscript):
@@ -360,6 +376,14 @@ def test_a_font_that_draws_nothing(truetype, tmp_path):
         read_container("text:B", 100, tmp_path / "own.ttf")
     with pytest.raises(ReadError, match="there is no such file"):
         read_container("text:B", 100, tmp_path / "missing.ttf")
+
+
+def test_signs_that_are_meant_to_be_blank(truetype, tmp_path):
+    (tmp_path / "own.ttf").write_bytes(built(truetype_glyphs(), {66: "block", 0x2800: "empty"}))
+    spaced = read_container("text:B\u2800B", 100, tmp_path / "own.ttf")
+    assert len(spaced.outline.rings) == 4
+    with pytest.raises(ReadError, match="holds a line that draws nothing"):
+        read_container("text:B|\u2800", 100, tmp_path / "own.ttf")
 
 
 def test_all_characters_that_a_font_lacks_are_named(truetype, tmp_path):
