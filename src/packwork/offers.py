@@ -100,6 +100,21 @@ class Offered:
         return Verbs.EVERY if self.offer.verbs is None else self.offer.verbs
 
     @property
+    def flag(self) -> str:
+        """Its long name on a command line.
+
+        Examples
+        --------
+        >>> from packwork.options import offered
+        >>> from packwork.recipe import Recipe
+        >>> asked = {option.name: option for option in offered(Recipe)}
+        >>> asked["count"].flag, asked["losses"].flag, asked["keep_page"].flag
+        ('--count', '--loss', '--keep-page')
+        """
+        plain = f"--{self.name.replace('_', '-')}"
+        return plain if self.offer.flags is None else self.offer.flags.split()[-1].split("/")[0]
+
+    @property
     def help(self) -> str:
         """What it does."""
         return self.offer.help or self.field.description or ""

@@ -38,7 +38,7 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
         if isinstance(error, RecipeError) and recipe is not None:
             line = f"{recipe}: {line}"
         elif isinstance(error, RecipeError) and error.key not in {"container", "items", "rules"}:
-            line = "--" + error.key.replace("_", "-") + line.removeprefix(error.key)
+            line = _flag(error.key) + line.removeprefix(error.key)
         say(line)
         raise typer.Exit(BAD_INPUT) from None
     except MemoryError:
@@ -51,6 +51,14 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
         said = str(stop) or "stopped before there was anything to write"
         say(said)
         raise typer.Exit(INTERRUPTED) from None
+
+
+def _flag(key: str) -> str:
+    """What an option is called on the command line."""
+    from packwork.verbs import VERBS, options_of
+
+    known = {option.name: option for verb in VERBS for option in options_of(verb)}
+    return known[key].flag if key in known else f"--{key.replace('_', '-')}"
 
 
 class Interrupt:

@@ -76,9 +76,8 @@ def _parser(option: Offered) -> Any:
 
 def _names(option: Offered, kind: Any, default: Any) -> list[str]:
     """Names on the command line; of what is not off by itself, one that says no too."""
-    plain = option.name.replace("_", "-")
     if option.offer.flags is not None:
         return option.offer.flags.split()
     if kind is bool and default is not False:
-        return [f"--{plain}/--no-{plain}"]
-    return [f"--{plain}"]
+        return [f"{option.flag}/--no-{option.flag.removeprefix('--')}"]
+    return [option.flag]

@@ -90,20 +90,6 @@ class ChartOptions(Options):
         except RecipeError as error:
             raise ValueError(error.problem) from None
 
-    @field_validator("paper")
-    @classmethod
-    def _paper_is_a_colour(cls, text: str) -> str:
-        # Loads the picture library, which the command line's help can do without.
-        from packwork.scene.colour import css_colour
-
-        try:
-            css_colour(text)
-        except ValueError:
-            raise RecipeError(
-                "background", f"{text[:40]!r} is no colour; use one such as ivory or #102030"
-            ) from None
-        return text
-
     @field_validator("mark", mode="before")
     @classmethod
     def _one_mark_is_enough(cls, mark: Any) -> Any:

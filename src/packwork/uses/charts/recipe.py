@@ -9,6 +9,7 @@ from pydantic import ValidationError
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.readers.charts.options import ChartOptions
+from packwork.readers.colours import check_colour
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe_paths import check_names
 from packwork.refusals import refusal
@@ -44,7 +45,7 @@ def chart_recipe(container: str, data: object, **options: Any) -> Recipe:
     # What no run knows is meant for the chart, which says what it may have meant.
     own = {key: options.pop(key) for key in list(options) if key not in Recipe.model_fields}
     if background not in (None, "none", "transparent"):
-        own["paper"] = background
+        own["paper"] = check_colour("background", background)
     given = {key: value for key, value in own.items() if value is not None}
     try:
         check_names({"chart": {"data": data, **given}})
