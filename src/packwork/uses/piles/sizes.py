@@ -24,7 +24,7 @@ HEAP = 0.4
 FULL = 0.42
 """Share of the container that the items' convex hulls come to: heaped, they leave about a third of
 what they reach into free, so the pile is two thirds high. Larger leaves some without room, smaller
-piles look lost. Tried on square, heart, bear and bottle of 20 to 200 icons."""
+piles look lost. Measured on square, heart, bear and cat of 20 and 60 icons: 0.55 to 0.70 high."""
 
 WIDEST = 0.6
 """Longest item over the container's widest place, at most. Larger may wedge. Chosen."""
