@@ -61,7 +61,7 @@ CONTAINERS = [round_container(), square_container(), with_holes(100.0)]
 
 
 @given(generators(), st.sampled_from(CONTAINERS), st.sampled_from(["free", "shared"]))
-@settings(deadline=None, max_examples=40, suppress_health_check=list(HealthCheck))
+@settings(deadline=None, max_examples=20, suppress_health_check=list(HealthCheck))
 def test_whatever_comes_in_nothing_meets_afterwards(
     rng: np.random.Generator, container: Container, sizes: str
 ) -> None:
@@ -180,18 +180,18 @@ def test_trials_only_gain() -> None:
     areas = np.array([o.area for o in outlines])
     covered = [
         (areas * finish(square_container(), outlines, start, options).poses.scale ** 2).sum()
-        for options in (FinishOptions(trials=0), FinishOptions(trials=1_000))
+        for options in (FinishOptions(trials=0), FinishOptions(trials=200))
     ]
     assert covered[1] > covered[0]
 
 
 def test_trials_let_a_common_size_grow() -> None:
     gains = []
-    for seed in (7, 8, 9):
+    for seed in (7, 8):
         outlines, start = crowd(np.random.default_rng(seed), 9, 100.0)
         without, including = (
             finish(square_container(), outlines, start, FinishOptions(sizes="shared", trials=n))
-            for n in (0, 200)
+            for n in (0, 80)
         )
         gains.append(including.poses.scale[0] / without.poses.scale[0])
         assert np.ptp(including.poses.scale / start.scale) < 1e-12

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 
 from packwork import pipeline, uses
 from packwork.errors import PackworkError
@@ -96,6 +96,7 @@ def check_file(run: pipeline.Run, path: Path) -> None:
     assert met(again) == []
 
 
+@settings(max_examples=20)
 @given(scenario=any_scenario())
 def test_runs_keep_their_word(tmp_path_factory: pytest.TempPathFactory, scenario: Scenario) -> None:
     check(scenario, tmp_path_factory.mktemp("runs"))
