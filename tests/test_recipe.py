@@ -355,3 +355,12 @@ def test_a_recipe_that_reads_files_elsewhere_names_them(tmp_path, caplog):
         recipe.write_text(table.format(name))
         read_recipe(recipe)
         assert "private.txt, outside of its own folder" in caplog.text
+
+
+@pytest.mark.parametrize("key", ["target_coverage", "quiet_share"])
+def test_a_share_in_percent_without_its_sign_is_understood(key: str) -> None:
+    with pytest.raises(RecipeError, match=rf"{key}: must be .*not 60.0; did you mean 60%\?"):
+        make_recipe(container="circle", items=["star"], **{key: 60.0})
+    with pytest.raises(RecipeError) as met:
+        make_recipe(container="circle", items=["star"], **{key: 160.0})
+    assert "did you mean" not in str(met.value)

@@ -8,7 +8,7 @@ MOST_NAMED = 3
 """Names in a line that stands for more, unless said otherwise. Chosen."""
 
 
-def counted(count: int, one: str, several: str | None = None) -> str:
+def number_of(count: int, one: str, several: str | None = None) -> str:
     """A number with its noun in the singular or the plural, and with what follows the noun.
 
     Parameters
@@ -20,18 +20,18 @@ def counted(count: int, one: str, several: str | None = None) -> str:
 
     Examples
     --------
-    >>> counted(1, "row"), counted(2, "row"), counted(1200, "item is", "items are")
+    >>> number_of(1, "row"), number_of(2, "row"), number_of(1200, "item is", "items are")
     ('1 row', '2 rows', '1,200 items are')
     """
     return f"{count:,} {one if count == 1 else several or f'{one}s'}"
 
 
-def listed(names: Sequence[str], most: int = MOST_NAMED) -> str:
+def enumerated(names: Sequence[str], most: int = MOST_NAMED) -> str:
     """Names with commas between them, and how many there are beyond the first few.
 
     Examples
     --------
-    >>> listed(["a", "b"]), listed(list("abcdef"))
+    >>> enumerated(["a", "b"]), enumerated(list("abcdef"))
     ('a, b', 'a, b, c and 3 more')
     """
     more = f" and {len(names) - most} more" if len(names) > most else ""

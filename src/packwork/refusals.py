@@ -6,11 +6,11 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
-from pydantic import AfterValidator, BaseModel, ValidationError
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ValidationError
 
 from packwork.errors import RecipeError
 from packwork.synonyms import key_meant
-from packwork.units import parse_length
+from packwork.units import parse_length, parse_share
 
 _PLAIN_WORDS = {
     "should be": "must be",
@@ -65,7 +65,20 @@ def refusal(
     met = "" if first["type"] == "value_error" else f", not {str(first['input'])[:60]!r}"
     if not isinstance(first["input"], str):
         met = met and f", not {str(first['input'])[:60]}"
-    return RecipeError(key, f"{where}{message[0].lower()}{message[1:]}{met}")
+    hint = _percent_meant(model, first)
+    return RecipeError(key, f"{where}{message[0].lower()}{message[1:]}{met}{hint}")
+
+
+def _percent_meant(model: type[BaseModel], error: Mapping[str, Any]) -> str:
+    """Question behind a share that is too large and would be one in percent."""
+    met, (name, *within) = error["input"], error["loc"] or ("",)
+    field = None if within else model.model_fields.get(str(name))
+    if field is None or error["type"] not in ("less_than", "less_than_equal"):
+        return ""
+    kinds = get_args(field.annotation)
+    rules = [*field.metadata, *(m for kind in kinds for m in getattr(kind, "__metadata__", ()))]
+    is_share = any(isinstance(one, BeforeValidator) and one.func is parse_share for one in rules)
+    return f"; did you mean {met:g}%?" if is_share and 1 < met < 100 else ""
 
 
 def _unknown(within: Sequence[int | str], key: str, known: list[str]) -> str:

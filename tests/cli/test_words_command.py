@@ -53,6 +53,20 @@ def test_how_many_words_there_were_is_said(packwork: Command, text: Path) -> Non
     assert "different words" not in packwork(f"words circle bears.txt {line} -o c.svg").stdout
 
 
+def test_function_words_that_are_left_out_are_told_and_can_be_kept(
+    packwork: Command, folder: Path
+) -> None:
+    (folder / "t.txt").write_text("To be or not to be: that is the question.", encoding="utf-8")
+    line = QUICK.replace("-q", "")
+    told = "7 function words are left out (to, be, or and 4 more); --language none keeps them"
+    assert told in packwork(f"words circle t.txt {line} -o c.svg --report r.json").stdout
+    assert told in json.loads(Path("r.json").read_text(encoding="utf-8"))["remarks"]
+    kept = packwork(f"words circle t.txt {line} -o c.svg --language none").stdout
+    assert "function word" not in kept
+    assert "8 of 8 items placed" in kept
+    assert "function word" not in packwork(f"words circle t.txt {QUICK} -o c.svg").output
+
+
 def test_words_are_written_as_text(packwork: Command, text: Path) -> None:
     result = packwork(f"words circle bears.txt -n 3 {QUICK} --text live -o c.svg -o c.png")
     assert result.exit_code == 0, result.output

@@ -9,6 +9,7 @@ from contextlib import contextmanager
 
 from packwork.cli.terminal import say
 from packwork.errors import ReadError
+from packwork.phrasing import enumerated
 
 FEW = 2
 """Notices of one kind up to which each has its own line. Chosen."""
@@ -70,11 +71,9 @@ def joined(notices: Sequence[tuple[str, str]], things: str = "files") -> list[st
         if len(names) <= FEW:
             lines += dict.fromkeys(_line(*one) for one in several)
             continue
-        more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-        shown = ", ".join(names[:MOST_NAMED])
         text = several[0][1]
         colon = " " if text.startswith(LEFT_OUT) else ": "
-        lines.append(f"{len(names)} {things}{colon}{text} ({shown}{more})")
+        lines.append(f"{len(names)} {things}{colon}{text} ({enumerated(names, MOST_NAMED)})")
     return lines
 
 

@@ -24,6 +24,7 @@ from packwork.cli.notices import NOTICES, joined
 from packwork.cli.saliency import write_saliency
 from packwork.cli.show import (
     Paper,
+    beside_line,
     certificate_line,
     filling_line,
     metrics_table,
@@ -37,6 +38,7 @@ from packwork.cli.watch import WATCH
 from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
+from packwork.phrasing import number_of
 from packwork.pipeline.filming import film_options
 from packwork.recipe import Recipe
 from packwork.uses.room import NO_CONTAINER
@@ -351,7 +353,7 @@ def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
 def _show(results: Mapping[str, Any], written: Sequence[str], console: Console, unit: str) -> None:
     console.print(metrics_table(results["metrics"], unit))
     console.print(
-        f"{results['placed']} of {results['items']} items placed; "
+        f"{results['placed']} of {number_of(results['items'], 'item')} placed; "
         f"{seconds_line(results['seconds'])}",
         style="dim",
         soft_wrap=True,
@@ -361,7 +363,7 @@ def _show(results: Mapping[str, Any], written: Sequence[str], console: Console, 
     for remark in results["remarks"]:
         console.print(remark, style="dim", soft_wrap=True)
     if results["beside"] is not None:
-        console.print(f"{results['beside']} pairs of one kind lie side by side", style="dim")
+        console.print(beside_line(results["beside"]), style="dim")
     if results["filling"] is not None:
         console.print(filling_line(results["filling"]), style="dim")
     if results["pile"] is not None:

@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from packwork.errors import WriteError
+from packwork.phrasing import number_of
 
 
 class Paper(Console):
@@ -127,6 +128,17 @@ def words_line(words: Mapping[str, int]) -> str:
     return f"the {words['asked']:,} largest of {words['found']:,} different words; -n takes more"
 
 
+def beside_line(pairs: int) -> str:
+    """How often two of one kind lie side by side.
+
+    Examples
+    --------
+    >>> beside_line(1), beside_line(2)
+    ('1 pair of one kind lies side by side', '2 pairs of one kind lie side by side')
+    """
+    return f"{number_of(pairs, 'pair of one kind lies', 'pairs of one kind lie')} side by side"
+
+
 def pile_line(pile: Mapping[str, Any]) -> str:
     """How a heap came to rest, and how tight it is if that was asked.
 
@@ -135,7 +147,7 @@ def pile_line(pile: Mapping[str, Any]) -> str:
     >>> pile_line({"rounds": 90, "compact": {"hull": 0.61, "circle": 0.4, "box": 0.5}})
     'at rest after 90 rounds; covers 61.00 % of its hull, 40.00 % of its circle, 50.00 % of its box'
     """
-    line = f"at rest after {pile['rounds']} rounds"
+    line = f"at rest after {number_of(pile['rounds'], 'round')}"
     if "compact" not in pile:
         return line
     shares = [f"{_percent(share)} of its {name}" for name, share in pile["compact"].items()]

@@ -10,6 +10,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext, supp
 from html import escape
 from typing import TYPE_CHECKING, Any, Protocol
 
+from packwork.phrasing import number_of
 from packwork.progress import Audience, Observer, Step
 
 if TYPE_CHECKING:
@@ -25,7 +26,7 @@ SECONDS_BETWEEN_LINES = 5.0
 """Time between two lines where there is no terminal to draw a bar on, and before the first.
 Smaller fills logs, larger looks dead. Chosen."""
 
-BEFORE = "starting (on the first run kernels are compiled: 10 to 40 s)"
+BEFORE = "starting"
 
 
 class Bar(Observer, Protocol):
@@ -203,7 +204,7 @@ def shown(bar: Bar | None) -> AbstractContextManager[None]:
 
 def _level(step: Step) -> str:
     if step.is_finish:
-        return f"exact finish of {len(step.poses)} items"
+        return f"exact finish of {number_of(len(step.poses), 'item')}"
     return f"level {step.level + 1}/{step.levels} ({step.resolution} px)"
 
 

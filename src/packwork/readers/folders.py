@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.phrasing import enumerated
 
 LOOK_LIKE_PICTURES = frozenset(
     f".{ending}"
@@ -94,11 +95,10 @@ class Listing:
         """Notice, in one line, what is left out."""
         if not self.unread:
             return
-        names = [f"{Path(one.file).name} ({one.problem})" for one in self.unread[:MOST_NAMED]]
-        more = len(self.unread) - len(names)
+        names = [f"{Path(one.file).name} ({one.problem})" for one in self.unread]
         _LOG.warning(
-            "%s: left out %s%s; save such files as SVG, PNG or JPEG",
-            source, ", ".join(names), f" and {more} more" if more else "",
+            "%s: left out %s; save such files as SVG, PNG or JPEG",
+            source, enumerated(names, MOST_NAMED),
         )  # fmt: skip
 
 

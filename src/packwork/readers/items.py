@@ -166,4 +166,6 @@ def _why_none(skipped: list[ReadError]) -> str:
     if not skipped:
         return f"holds no file that could be an item; those end in {', '.join(_READERS)}"
     first = skipped[0]
+    if len(skipped) == 1:
+        return f"its one file cannot be used, {first}"
     return f"none of {len(skipped)} files can be used; the first, {first}"

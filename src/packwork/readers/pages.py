@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
+from packwork.phrasing import enumerated
 from packwork.scene.item import Item
 
 MOST_NAMED = 3
@@ -109,5 +110,4 @@ def _tell(folder: Path, reads: Sequence[Read]) -> None:
 
 def _named(reads: Iterable[Read]) -> str:
     names = [Path(one.file or "").name for one in reads]
-    more = f" and {len(names) - MOST_NAMED} more" if len(names) > MOST_NAMED else ""
-    return ", ".join(names[:MOST_NAMED]) + more
+    return enumerated(names, MOST_NAMED)

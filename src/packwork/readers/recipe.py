@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from packwork.errors import ReadError, RecipeError
+from packwork.phrasing import enumerated
 from packwork.readers.files import exists, read_text
 from packwork.recipe_paths import found_from, named_files, with_paths
 
@@ -91,9 +92,8 @@ def _name_files_elsewhere(recipe: str | Path, options: Mapping[str, Any]) -> Non
         if exists(name) and not Path(name).resolve().is_relative_to(home)
     ]
     if elsewhere:
-        more = f" and {len(elsewhere) - MOST_NAMED} more" if len(elsewhere) > MOST_NAMED else ""
-        names = ", ".join(elsewhere[:MOST_NAMED])
-        _LOG.warning("%s reads %s%s, outside of its own folder", recipe, names, more)
+        names = enumerated(elsewhere, MOST_NAMED)
+        _LOG.warning("%s reads %s, outside of its own folder", recipe, names)
 
 
 def check_no_code(options: Mapping[str, Any]) -> None:

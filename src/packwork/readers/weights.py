@@ -6,6 +6,7 @@ import logging
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.phrasing import enumerated
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import Pair, read_pairs
 
@@ -59,7 +60,7 @@ def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str
             )
     if not weights:
         raise ReadError(path, "holds no weights; give lines such as bear,2")
-    repeated = f"says the same again of {', '.join(twice[:MOST_NAMED])}; that counts once"
+    repeated = f"says the same again of {enumerated(twice, MOST_NAMED)}; that counts once"
     for notice in (*table.notices, *([repeated] if twice else [])):
         _LOG.warning("%s: %s", path, notice)
     return weights

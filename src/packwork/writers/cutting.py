@@ -18,6 +18,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, silhouette
+from packwork.phrasing import number_of
 from packwork.scene.layout import Layout
 from packwork.units import convert, parse_length
 from packwork.writers.notation import attributes, path_data
@@ -162,7 +163,8 @@ def _joined(shapes: Sequence[Region]) -> list[Region]:
         others = shapely.STRtree([one for n, one in enumerate(joined) if n != k])
         left += not _join(joined, k, others)
     if left:
-        _LOG.warning("%d items in several parts have a cut line round each part", left)
+        many = number_of(left, "item in several parts has", "items in several parts have")
+        _LOG.warning("%s a cut line round each part", many)
     return joined
 
 

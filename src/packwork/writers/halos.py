@@ -11,6 +11,7 @@ from PIL import Image
 from scipy import ndimage
 
 from packwork.arrays import BoolArray, FloatArray
+from packwork.phrasing import number_of
 from packwork.scene.contrast import oklabs
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout
@@ -96,7 +97,7 @@ def faint_told(layout: Layout, background: str | None) -> str:
     ground = "white" if background is None else background
     better = _better_ground(layout, background)
     instead = "" if better is None else f"--background '{better}' or "
-    many = "1 item is" if count == 1 else f"{count} items are"
+    many = number_of(count, "item is", "items are")
     return f"{many} hardly to be seen on {ground} ({shown}); {instead}--halo faint would show them"
 
 

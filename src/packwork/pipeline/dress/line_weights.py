@@ -8,7 +8,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from packwork.phrasing import listed
+from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
 from packwork.readers.svg.thinner import LineDrawing, has_traced_lines, line_drawing
 from packwork.scene.item import Item
@@ -76,5 +76,5 @@ def _tell_of_traced(items: Sequence[Item]) -> None:
     if names:
         _LOG.warning(
             "stroke_width: drawings that are traced from their pictures keep their lines as wide "
-            "as they are: %s", listed(list(names)),
+            "as they are: %s", enumerated(list(names)),
         )  # fmt: skip

@@ -10,6 +10,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
+from packwork.phrasing import number_of
 from packwork.pipeline.plan.asked import Asked, Voice, named, voices
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.weights import read_weights
@@ -107,7 +108,9 @@ def turns(counts: Sequence[int | None], total: int | None) -> IntArray:
     others = [k for k, count in enumerate(counts) if count is None]
     left = (given + len(others) if total is None else total) - given
     if left < 0 or (left > 0 and not others):
-        raise RecipeError("count", f"rules count {given} items in all, this {total}; make them one")
+        raise RecipeError(
+            "count", f"rules count {number_of(given, 'item')} in all, this {total}; make them one"
+        )
     if not 0 < given + left <= MAX_COUNT:
         raise RecipeError("rules", f"count {given + left} items; use 1 to {MAX_COUNT}")
     copies = [count or 0 for count in counts]

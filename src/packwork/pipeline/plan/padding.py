@@ -9,6 +9,7 @@ import numpy as np
 from packwork.errors import RecipeError
 from packwork.finish.finish import Finished
 from packwork.geometry.simplify import grown
+from packwork.phrasing import number_of
 from packwork.scene.container import Container
 
 BEARABLE = 0.2
@@ -78,7 +79,7 @@ def check_found(container: Container, padding: float, exact: Finished) -> None:
     """
     stuck, count = len({found.item for found in exact.offenders}), len(exact.poses)
     if padding > 0 and stuck > MOST_STUCK * count:
-        why = f"{stuck} of them found no room, however small they were made"
+        why = f"{stuck} of {count} found no room, however small"
         raise _too_much(container, padding, count, why)
 
 
@@ -86,6 +87,6 @@ def _too_much(container: Container, padding: float, count: int, why: str) -> Rec
     unit, better = container.unit, BEARABLE * np.sqrt(container.outline.area / count)
     return RecipeError(
         "padding",
-        f"{padding:g} {unit} is too much for {count} items: {why}; "
+        f"{padding:g} {unit} is too much for {number_of(count, 'item')}: {why}; "
         f"use {better:.2g} {unit} or less, or fewer items",
     )

@@ -9,6 +9,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
+from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.job import Job
 from packwork.scene.item import PhotoArt
 from packwork.scene.layout import Layout
@@ -71,11 +72,11 @@ def coarse_photos(layout: Layout, dpi: float | None) -> list[str]:
     short = coarser(photos, asked)
     if not short:
         return []
-    named = ", ".join(f"{one.photo} ({one.ppi:.0f})" for one in short[:MOST_NAMED])
-    more = f" and {len(short) - MOST_NAMED} more" if len(short) > MOST_NAMED else ""
+    named = enumerated([f"{one.photo} ({one.ppi:.0f})" for one in short], MOST_NAMED)
+    many = number_of(len(photos), "photo has", "photos have")
     return [
-        f"{len(short)} of {len(photos)} photos have fewer than {asked:g} pixels to the inch: "
-        f"{named}{more}; --least-dpi N keeps such photos smaller"
+        f"{len(short)} of {many} fewer than {asked:g} pixels to the inch: {named}; "
+        "--least-dpi N keeps such photos smaller"
     ]
 
 
@@ -111,7 +112,8 @@ def resolution_faults(job: Job, layout: Layout) -> tuple[str, ...]:
     short = [] if least is None else coarser(photo_pixels(layout), least)
     if not short:
         return ()
+    many = number_of(len(short), "photo has", "photos have")
     return (
-        f"{len(short)} photos have fewer than the {least:g} pixels to the inch asked for, "
+        f"{many} fewer than the {least:g} pixels to the inch asked for, "
         f"{short[0].photo} the fewest: {short[0].ppi:.0f}",
     )

@@ -10,6 +10,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ReadError, RecipeError, RowsLostError
+from packwork.phrasing import number_of
 from packwork.readers.charts.amounts import marks_of, read_amounts
 from packwork.readers.charts.columns import categories, is_numeric, shown
 from packwork.readers.charts.groups import Groups, read_groups
@@ -230,7 +231,8 @@ def _drawings(
     names = sorted(dict.fromkeys(kinds), key=lambda name: -list(kinds).count(name))
     if options.mark and len(names) > len(given):
         raise RecipeError(
-            "mark_by", f"has {len(names)} values for {len(given)} marks; give a --mark for each"
+            "mark_by",
+            f"has {len(names)} values for {number_of(len(given), 'mark')}; give one for each",
         )
     if len(names) > len(given):
         raise RecipeError(

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from packwork.errors import RecipeError
+from packwork.phrasing import enumerated, number_of
 from packwork.readers.tables.table import Row, Table
 from packwork.readers.tables.written import Written, is_date
 
@@ -111,7 +112,7 @@ def categories(rows: Sequence[Row], column: str) -> tuple[list[str], list[str]]:
     for text, count in written.most_common():
         first = common.setdefault(text.casefold(), text)
         if first != text:
-            rows_said = "1 row" if count == 1 else f"{count} rows"
+            rows_said = number_of(count, "row")
             told.append(f"{column}: {text[:40]!r} ({rows_said}) counts as {first[:40]!r}")
     return [common[shown(row.get(column)).casefold()] for row in rows], told
 
@@ -183,7 +184,7 @@ def left_out(
     >>> left_out(Table("data", ("land",), rows), "land", "is missing", [1], None)
     'left out 1 row of 2 whose land is missing: row 2'
     """
-    count = f"{_rows(len(which))} of {len(table.rows)}"
+    count = f"{number_of(len(which), 'row')} of {len(table.rows)}"
     return f"left out {count} whose {column} {why}: " + _names(table, which, label_by)
 
 
@@ -220,17 +221,12 @@ def _why_none(table: Table, column: str, odd: Mapping[str, Sequence[int]]) -> st
         hint = f"those of numbers are {', '.join(numeric[:12])}" if numeric else "none has numbers"
         return f"column {column!r} holds text such as {met!r}, no numbers; {hint}"
     return f"no row can be shown: {column!r} " + ", ".join(
-        f"{why} in {_rows(len(which))}" for why, which in odd.items()
+        f"{why} in {number_of(len(which), 'row')}" for why, which in odd.items()
     )
-
-
-def _rows(count: int) -> str:
-    return "1 row" if count == 1 else f"{count} rows"
 
 
 def _names(table: Table, which: Sequence[int], label_by: str | None) -> str:
     def name(k: int) -> str:
         return f"row {k + 1}" if label_by is None else shown(table.rows[k].get(label_by))[:40]
 
-    more = f" and {len(which) - MOST_NAMED} more" if len(which) > MOST_NAMED else ""
-    return ", ".join(map(name, which[:MOST_NAMED])) + more
+    return enumerated([name(k) for k in which], MOST_NAMED)

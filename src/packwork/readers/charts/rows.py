@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
+from packwork.phrasing import enumerated, number_of
 from packwork.readers.charts.columns import MOST_NAMED, as_number, shown
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
@@ -66,11 +67,10 @@ def oddities(table: Table, options: ChartOptions) -> list[str]:
     told = []
     twice = _repeated(table.rows, label)
     if twice:
-        rows = "1 row says" if len(twice) == 1 else f"{len(twice)} rows say"
+        rows = number_of(len(twice), "row says", "rows say")
         others = "another" if len(twice) == 1 else "others"
         shows = "is shown too" if len(twice) == 1 else "are shown too"
-        more = f" and {len(twice) - MOST_NAMED} more" if len(twice) > MOST_NAMED else ""
-        named = ", ".join(twice[:MOST_NAMED]) + more
+        named = enumerated(twice, MOST_NAMED)
         told.append(f"{rows} the same as {others} in all columns, and {shows}: {named}")
     names = [shown(row.get(label)) for row in table.rows]
     total = total_row(names, [as_number(row.get(size)) for row in table.rows])

@@ -63,6 +63,8 @@ class WordsRead:
         How many different words there were; the largest are kept.
     told
         What has to be told of how the source was read, and of rows that are left out.
+    stopped
+        Words of a text that are left out since they say little, the most frequent first.
     """
 
     items: tuple[Item, ...]
@@ -71,6 +73,7 @@ class WordsRead:
     undrawn: Mapping[str, str]
     found: int
     told: tuple[ReadError, ...] = ()
+    stopped: tuple[str, ...] = ()
 
 
 def read_word_items(
@@ -120,6 +123,7 @@ def read_word_items(
         undrawn,
         len(ranked.words),
         ranked.told,
+        ranked.stopped,
     )
 
 

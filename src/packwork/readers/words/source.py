@@ -11,6 +11,7 @@ from pathlib import Path
 
 from packwork.errors import ReadError, RowsLostError
 from packwork.inputs import note_input
+from packwork.phrasing import enumerated, number_of
 from packwork.readers.files import exists, read_bytes
 from packwork.readers.tables.decoding import Decoded, decoded
 from packwork.readers.tables.delimited import ENDINGS
@@ -52,10 +53,14 @@ class Ranked:
         Each once.
     told
         What has to be told of how the source was read, and of rows that are left out.
+    stopped
+        Words of a text that are left out as those of its language that say little, the most
+        frequent first; none where the language was asked for.
     """
 
     words: tuple[Word, ...]
     told: tuple[ReadError, ...] = ()
+    stopped: tuple[str, ...] = ()
 
 
 def read_words(options: WordOptions, asked: TableFormat | None = None) -> list[Word]:
@@ -106,7 +111,8 @@ def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Rank
         raise ReadError(_name(options), "holds no words that could be set")
     told = read.told
     if unseen := len(cased) - len(seen):
-        told += (ReadError(_name(options), f"{unseen} words are empty, and left out"),)
+        many = number_of(unseen, "word is", "words are")
+        told += (ReadError(_name(options), f"{many} empty, and left out"),)
     return replace(read, words=tuple(ranked), told=told)
 
 
@@ -119,15 +125,14 @@ def _words(options: WordOptions, asked: TableFormat) -> Ranked:
         read = _rows(source, asked)
     else:
         text = _text(source, asked)
-        words = _counted(text.text, options, stops)
-        return Ranked(
-            tuple(words), (ReadError(_name(options), text.notice),) if text.notice else ()
-        )
+        read = _counted(text.text, options, stops)
+        told = (ReadError(_name(options), text.notice),) if text.notice else ()
+        return replace(read, told=told)
     kept = tuple(word for word in read.words if word.text.casefold() not in stops)
     return replace(read, words=kept)
 
 
-def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]:
+def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
     """Words of a text, weighed by how often they stand there."""
     found = list(
         sentences(text, include_numbers=options.include_numbers)
@@ -140,7 +145,10 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]
     language = options.language
     if language == "auto":
         language = guess_language(counts) or "none"
-    stops = own | (stop_words(language) if language != "none" else frozenset())
+    usual = stop_words(language) if language != "none" else frozenset()
+    stops = own | usual
+    is_said = options.language != "auto"
+    stopped = () if is_said else tuple(w for w, _ in counts.most_common() if w in usual - own)
     if options.phrases > 1:
         several, forms = folded(phrases(found, options.phrases, stops))
         counts, written = without_parts(counts, several), written | forms
@@ -152,21 +160,24 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> list[Word]
     words = [Word(written[word], float(n)) for word, n in kept.items() if n >= options.min_count]
     if not words:
         raise ReadError(_name(options), _why_none(counts, kept, options))
-    return words
+    return Ranked(tuple(words), stopped=tuple(written[word] for word in stopped))
 
 
 def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) -> str:
     """What became of all words of a text."""
     if not kept:
-        named = ", ".join(word for word, _ in counts.most_common(3))
+        named = enumerated([word for word, _ in counts.most_common()])
+        many = number_of(
+            len(counts), "word, a stop word", "different words, and all are stop words"
+        )
         return (
-            f"holds {len(counts)} different words, and all are stop words or too short "
-            f"({named} ...); use --language none, a smaller --min-word-length, or another text"
+            f"holds {many} or too short ({named}); use --language none, a smaller "
+            "--min-word-length, or another text"
         )
     word, most = kept.most_common(1)[0]
     return (
         f"has no word {options.min_count} times; the most frequent, {word[:40]!r}, is there "
-        f"{most} times; use a smaller --min-count"
+        f"{number_of(most, 'time')}; use a smaller --min-count"
     )
 
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from packwork.errors import ReadError
+from packwork.phrasing import enumerated, number_of
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import Pair, read_pairs
 from packwork.readers.tables.totals import total_row
@@ -104,10 +105,6 @@ def _wanted(pair: Pair) -> str:
 
 def _left_out(why: str, which: Sequence[Pair], count: int) -> str:
     """Sentence about rows that are not set."""
-    named = ", ".join(
-        f"{pair.name[:40]} ({pair.where})" if pair.name else pair.where
-        for pair in which[:MOST_NAMED]
-    )
-    more = f" and {len(which) - MOST_NAMED} more" if len(which) > MOST_NAMED else ""
-    rows = "1 row" if len(which) == 1 else f"{len(which)} rows"
-    return f"left out {rows} of {count} {why}: {named}{more}"
+    named = [f"{pair.name[:40]} ({pair.where})" if pair.name else pair.where for pair in which]
+    rows = number_of(len(which), "row")
+    return f"left out {rows} of {count} {why}: {enumerated(named, MOST_NAMED)}"

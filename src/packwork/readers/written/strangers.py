@@ -10,6 +10,7 @@ import xml.etree.ElementTree as ET
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.phrasing import number_of
 from packwork.readers.svg.transforms import parse_transform
 
 PAINTED = frozenset(
@@ -56,8 +57,10 @@ def unmeasured(root: ET.Element) -> tuple[str, ...]:
         met.add(name)
     if count == 0:
         return ()
-    drawings = "1 drawing" if count == 1 else f"{count} drawings"
-    return (f"{drawings} outside the group items {'is' if count == 1 else 'are'} not measured",)
+    many = number_of(
+        count, "drawing outside the group items is", "drawings outside the group items are"
+    )
+    return (f"{many} not measured",)
 
 
 def loose_items(root: ET.Element) -> tuple[list[ET.Element], FloatArray]:

@@ -21,6 +21,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region, silhouette
+from packwork.phrasing import number_of
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
@@ -154,7 +155,8 @@ class _Drawings:
         if self._stated == 0:
             return ()
         return (
-            f"outlines of {self._stated} drawings are those that the file states (data-outline)",
+            f"outlines of {number_of(self._stated, 'drawing')} are those that the file states "
+            "(data-outline)",
         )
 
     def item(self, drawn: ET.Element) -> Region:

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.errors import RecipeError
+from packwork.phrasing import number_of
 from packwork.readers.charts.chart import ChartRead
 from packwork.readers.charts.columns import MISSING, as_number, is_missing
 from packwork.recipe import Recipe
@@ -77,7 +78,7 @@ def _by_category(recipe: Recipe, names: Sequence[str], paper: str) -> ChartColou
     if len(order) > len(palette):
         raise RecipeError(
             "color_by",
-            f"has {len(order)} values, the palette {len(palette)} colours that can be told apart; "
+            f"has {len(order)} values, the palette {number_of(len(palette), 'colour')}; "
             "colour by a column of fewer, or give a --palette of as many",
         )
     keys = dict(zip(order, palette, strict=False))

@@ -12,6 +12,7 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
+from packwork.phrasing import number_of
 from packwork.readers.charts.columns import MISSING
 from packwork.scene.contrast import contrast
 from packwork.scene.item import Item
@@ -90,8 +91,9 @@ def mark_labels(chart: Chart, layout: Layout) -> tuple[Note, ...]:
     fitting = sum(rows.values())
     if fitting < len(rows):
         _LOG.warning(
-            "%d of %d labels fit on their marks; %s shown where a pointer rests",
-            fitting, len(rows), "the others are" if fitting else "all are",
+            "%d of %s on their marks; %s shown where a pointer rests",
+            fitting, number_of(len(rows), "label fits", "labels fit"),
+            "the others are" if fitting else "all are",
         )  # fmt: skip
     return tuple(notes)
 

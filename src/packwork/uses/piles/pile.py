@@ -175,9 +175,8 @@ def _measured(asked: PileOptions, job: Job, heap: Piled) -> Run:
     total = len(job.items)
     left = np.setdiff1d(np.arange(total), kept)
     if len(kept) == 0:
-        raise RecipeError(
-            "size", f"none of the {total} items fits into the container; use smaller ones"
-        )
+        none = "the item does not fit" if total == 1 else f"none of the {total} items fits"
+        raise RecipeError("size", f"{none} into the container; use smaller ones")
     unplaced = tuple(
         Unplaced(job.items[k].name, int(k), "there was no room left at its size") for k in left
     )

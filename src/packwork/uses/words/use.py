@@ -12,6 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
 from packwork.finish.finish import Finished
 from packwork.forces.forces import Forces
+from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.advice import smaller_copies
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.regions import read_regions
@@ -162,10 +163,15 @@ class Words(Use):
             return ()
 
     def remarks(self, job: Job) -> tuple[str, ...]:
-        """How many words the run chose."""
+        """How many words the run chose, and how many it left out since they say little."""
+        stopped: tuple[str, ...] = ()
+        if words := self.read.stopped:
+            many = number_of(len(words), "function word is", "function words are")
+            names = enumerated(words)
+            stopped = (f"{many} left out ({names}); --language none keeps them",)
         if self.options.count == AUTO:
-            return (f"auto chose {len(job.items)} words",)
-        return super().remarks(job)
+            return (f"auto chose {number_of(len(job.items), 'word')}", *stopped)
+        return (*super().remarks(job), *stopped)
 
     def remedy(self, job: Job) -> str:
         """More words, if there are more; else smaller copies of them."""
