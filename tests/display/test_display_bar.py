@@ -78,7 +78,7 @@ def test_a_notebook_sees_the_run_and_then_nothing_of_it(
     with bar.showing():
         bar.on_step(HALF_WAY)
     first, half, last = page.seen
-    assert "first run" in first
+    assert "starting" in first
     assert 'value="0.500"' in half
     assert "level 2/3 (200 px), covered 25.0 %, overlap 12.50 %" in half
     assert last == ""

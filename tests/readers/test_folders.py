@@ -90,7 +90,7 @@ def test_photos_name_what_they_leave_out_too(odd, caplog):
 
 def test_a_folder_of_such_files_alone_says_so(tmp_path):
     (tmp_path / "beach.heic").write_bytes(b"\0")
-    with pytest.raises(ReadError, match=r"none of 1 files can be used.*\.heic is not read"):
+    with pytest.raises(ReadError, match=r"its one file cannot be used.*\.heic is not read"):
         read_items(str(tmp_path))
 
 

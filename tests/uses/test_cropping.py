@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -11,11 +12,15 @@ from PIL import Image
 
 from packwork import uses
 from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
 from packwork.pipeline.result import Run
 from packwork.readers.written.read import read_written
 from packwork.scene.item import PhotoArt
+from packwork.scene.pose import Poses
+from packwork.uses.photos import rim
 from packwork.writers.png import PngOptions, png_bytes
 from packwork.writers.svg import Sheet, SvgOptions, svg_document
+from scenes import square
 
 QUICK = {"effort": "draft", "levels": "50", "edge": "crop"}
 
@@ -90,3 +95,24 @@ def test_a_film_ends_where_the_photos_lie(run: Run) -> None:
 def test_what_cannot_be_cut_is_refused(album: Path, options: dict[str, str], match: str) -> None:
     with pytest.raises(RecipeError, match=match):
         uses.fill(uses.photos_recipe("circle", [str(album)], **QUICK, **options))
+
+
+def test_items_round_which_nothing_changes_are_looked_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    tries: list[int] = []
+    usual = rim._tried
+
+    def counted(outline: Outline, poses: Poses, k: int, largest: float) -> Iterator[Poses]:
+        tries.append(k)
+        return usual(outline, poses, k, largest)
+
+    monkeypatch.setattr(rim, "_tried", counted)
+    count = 40
+    x, y = 12.0 * (np.arange(count) % 8) + 6, 12.0 * (np.arange(count) // 8) + 6
+    tiles = [square(2.5)] * count
+    start = Poses(x, y, np.zeros(count), np.ones(count))
+    most, free = np.full(count, 1.5), np.ones(count, dtype=bool)
+    rim.spread_to(shapely.box(0, 0, 96, 60), tiles, start, most, free, 0.01, 0.3)
+    # Each grows once or twice; six rounds would be six tries for each.
+    assert len(tries) < 4 * count

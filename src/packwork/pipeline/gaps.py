@@ -152,12 +152,16 @@ class _Filling:
     def result(self, ending: GapEnding) -> Placed:
         """What was placed, with all that was put into voids."""
         job, start = self._job, self._start
-        asked = dict(zip((item.name for item in job.items), job.asked, strict=True))
+        own = {id(item): one for item, one in zip(job.items, job.asked, strict=True)}
+        by_name = dict(zip((item.name for item in job.items), job.asked, strict=True))
         new = [self._sorts[k] for k in self.added]
         grown = replace(
             job,
             items=(*job.items, *new),
-            asked=(*job.asked, *(_styled(asked.get(item.name)) for item in new)),
+            asked=(
+                *job.asked,
+                *(_styled(own.get(id(i)) or by_name.get(i.name)) for i in new),
+            ),
             weights=np.append(job.weights, np.zeros(len(new))),
         )
         limits = None

@@ -230,14 +230,13 @@ def _solved(
         container=asked.container.source,
         items=["-"],
         sizes="shared",
-        weights={item.name: float(area) for item, area in zip(items, areas, strict=True)},
         rotate=",".join(turns),
         padding=asked.margin,
         effort="draft",
         seed=seed,
     )
     job = uses.read(recipe, items, asked.container)
-    return pipeline.run(replace(job, use=_LetterBound(asked.largest))).layout
+    return pipeline.run(replace(job, weights=areas, use=_LetterBound(asked.largest))).layout
 
 
 def _is_white(mask: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:

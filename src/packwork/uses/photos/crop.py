@@ -18,6 +18,7 @@ from packwork.pipeline.measure import measured
 from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.plan.padding import check_padding
 from packwork.pipeline.plan.plan import void_plan
+from packwork.pipeline.progress import stretch
 from packwork.pipeline.result import Filling, Run, Unplaced
 from packwork.pipeline.run import placed_and_filled, unmeasured
 from packwork.progress import Observer, Step, Stop
@@ -33,6 +34,10 @@ DEPTHS = (0.45, 0.35, 0.25)
 """Widths by which the container is grown before items are placed, over the side of a typical
 item, one after another until no item is lost. Larger leaves less of the edge bare and cuts more
 off the items there, smaller the other way round. Tried by eye."""
+
+ANOTHER_TRY = 0.3
+"""Share of the bar that is kept for another such try. Larger leaps at the end of a run that needs
+none, smaller crawls through one that does. Chosen."""
 
 EVEN_RATIO = 1.5
 """Largest ``size_ratio`` at which items are placed before they are spread over the edge. Larger
@@ -230,9 +235,11 @@ def _recentred(numbers: FloatArray, centres: FloatArray) -> FloatArray:
 def run_cropped(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
     """Items that cover the container's edge, cut at its line; none is lost if that can be."""
     tries = []
-    for share in DEPTHS:
+    for number, share in enumerate(DEPTHS):
         room, depth = with_room(job, share)
-        solved = placed_and_filled(room, observer and Back(observer, depth), stop, record)
+        # Nobody knows how many tries there will be.
+        turn = stretch(observer, 1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
+        solved = placed_and_filled(room, turn and Back(turn, depth), stop, record)
         placed, given = solved.job, len(solved.asked_for.items)
         # Photos were placed at more even sizes than they may have: the rest is for the edge.
         may_grow = solved.start.limits is None

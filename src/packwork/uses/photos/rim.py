@@ -5,11 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import product
+from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 import shapely
 
-from packwork.arrays import BoolArray, FloatArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, intersection, union
@@ -29,6 +31,8 @@ ROUNDS = 6
 
 GAIN = 1e-3
 """Share of an item by which more of it has to be seen for a change to be made. Chosen."""
+
+ShapeArray: TypeAlias = npt.NDArray[np.object_]
 
 _SLACK = 1e-9
 _NOTHING = shapely.Polygon()
@@ -69,33 +73,56 @@ def spread_to(
     >>> bool(found.scale[0] > 1.2)
     True
     """
-    seen = [intersection(o.mapped(poses.matrix(k)).region, window) for k, o in enumerate(outlines)]
+    shapely.prepare(window)
+    areas = np.array([outline.area for outline in outlines])
+    pieces = [_seen(o.mapped(poses.matrix(k)).region, window) for k, o in enumerate(outlines)]
+    seen = np.array(pieces, dtype=object)
     # What is hardly seen is left out later, and others may cover its place.
-    seen = [
-        piece if piece.area >= least * float(poses.scale[k]) ** 2 * outlines[k].area else _NOTHING
-        for k, piece in enumerate(seen)
-    ]
-    loose = np.array([may_move[k] and not piece.is_empty for k, piece in enumerate(seen)])
+    seen[shapely.area(seen) < least * poses.scale**2 * areas] = _NOTHING
+    loose = np.flatnonzero(may_move & ~shapely.is_empty(seen))
+    changes, tried = np.zeros(len(seen), dtype=np.int64), dict[int, bytes]()
     for _ in range(ROUNDS):
-        has_changed = False
-        for k in np.flatnonzero(loose).tolist():
-            reach = (FACTORS[-1] - 1 + SHIFTS[-1]) * outlines[k].extent * float(poses.scale[k])
-            near = buffered(seen[k], 2 * reach + gap)
-            others = [one for j, one in enumerate(seen) if j != k and one.intersects(near)]
-            rest = union(others) if others else None
+        before = changes.sum()
+        for k in loose.tolist():
+            others = _within_reach(seen, k, outlines[k].extent * float(poses.scale[k]), gap)
+            # Where nothing has changed round an item, no change of it does any better than then.
+            known = np.concatenate([others, changes[others], changes[k : k + 1]]).tobytes()
+            if tried.get(k) == known:
+                continue
+            rest = union(seen[others].tolist()) if len(others) else _NOTHING
+            shapely.prepare(rest)
             most = seen[k].area * (1 + GAIN)
             for row in _tried(outlines[k], poses, k, float(largest[k])):
-                whole = outlines[k].mapped(row.matrix(0)).region
-                piece = intersection(whole, window)
-                if piece.area <= most or piece.area < least * whole.area:
+                area = float(areas[k] * row.scale[0] ** 2)
+                if area <= most:
                     continue
-                if rest is not None and piece.distance(rest) < gap:
+                piece = _seen(outlines[k].mapped(row.matrix(0)).region, window)
+                if piece.area <= most or piece.area < least * area:
                     continue
-                most, seen[k], has_changed = piece.area, piece, True
+                if shapely.dwithin(rest, piece, gap):
+                    continue
+                most, seen[k] = piece.area, piece
+                changes[k] += 1
                 poses = poses.with_some(np.array([k]), row)
-        if not has_changed:
+            if not changes[k] or known[-8:] == changes[k : k + 1].tobytes():
+                tried[k] = known
+        if changes.sum() == before:
             break
     return poses
+
+
+def _seen(whole: Region, window: Region) -> Region:
+    """What of an item shows in a window."""
+    return whole if window.covers(whole) else intersection(whole, window)
+
+
+def _within_reach(seen: ShapeArray, k: int, extent: float, gap: float) -> IntArray:
+    """Items that item ``k`` may meet by any change that is tried."""
+    reach = (FACTORS[-1] - 1 + SHIFTS[-1]) * extent
+    near = buffered(seen[k], 2 * reach + gap)
+    shapely.prepare(near)
+    met = np.flatnonzero(shapely.intersects(near, seen))
+    return np.asarray(met[met != k])
 
 
 def _rescued(

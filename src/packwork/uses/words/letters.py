@@ -172,9 +172,9 @@ def heaviest(
             "use a smaller length, a larger canvas or another container",
         )
     reasons = {
-        item.name: f"its letters would be {size:.3g} {unit} high, less than the "
+        word.text: f"its letters would be {size:.3g} {unit} high, less than the "
         f"{smallest:.3g} {unit} of --smallest"
-        for item, size in zip(words.items[count:], sizes[count:].tolist(), strict=True)
+        for word, size in zip(words.words[count:], sizes[count:].tolist(), strict=True)
     }
     return _first(words, count, reasons)
 
