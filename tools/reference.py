@@ -52,8 +52,17 @@ def _command(name: str, command: Any) -> str:
     if arguments:
         rows = [(f"`{said}`", p.help) for said, p in zip(names, arguments, strict=True)]
         parts.append(_table(("argument", "meaning"), rows))
-    rows = [(", ".join(f"`{flag}`" for flag in p.opts), _shown(p.default), p.help) for p in options]
-    parts.append(_table(("option", "default", "meaning"), rows))
+    for group in dict.fromkeys(p.rich_help_panel for p in options):
+        rows = [
+            (
+                ", ".join(f"`{flag}`" for flag in [*p.opts, *p.secondary_opts]),
+                _shown(p.default),
+                p.help,
+            )
+            for p in options
+            if p.rich_help_panel == group
+        ]
+        parts += [f"**{group or 'In general'}**", _table(("option", "default", "meaning"), rows)]
     return "\n\n".join(parts)
 
 

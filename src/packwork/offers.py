@@ -1,4 +1,4 @@
-"""Where options are offered: under which heading, by which verbs, and how faces see them."""
+"""Where an option is offered: heading, verbs, flags; and its type, bounds and default for faces."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Group(StrEnum):
 
 
 class Verbs(Flag):
-    """What may be asked for, and sets of that."""
+    """Commands that run something, as they are called in Python too, and sets of them."""
 
     FILL = auto()
     WORDS = auto()
@@ -34,33 +34,34 @@ class Verbs(Flag):
     CHART = auto()
     PILE = auto()
     COLLAGES = FILL | WORDS | PHOTOS
-    """All in which sizes and voids are left to the run."""
+    """Those that size items freely and fill voids."""
     LEVELLED = COLLAGES | CHART
-    """All that are solved by levels."""
+    """Those that are solved by levels."""
     EVERY = LEVELLED | PILE
 
 
 @dataclass(frozen=True, kw_only=True)
 class Offer:
-    """Where and how an option is offered, beyond what its field says anyway.
+    """Where and how an option is offered; type, default and bounds stand in its field.
 
     Parameters
     ----------
     group
-        Heading that it stands under; None for that of its class, or none.
+        Heading that it stands under; None for that of its model, if it has one.
     verbs
-        Which offer it; None for those of its class. Of none: it is an argument, part of another
-        option or for files and Python only.
+        Commands that have it; None for those of its model. An empty set: it is an argument, a
+        table of options, or for recipe files and Python only.
     flags
         Names on a command line, as ``-n --count`` or ``--trim/--no-trim``; None for its own name.
     metavar
         What stands for its value in help; None for the name of its type.
     typed
-        Type of what is typed, where the field's own one does not tell: a text or several.
+        Type on a command line, ``str`` or ``list[str]``; None derives it from the field's type.
     help
-        What it does, where that is other than in a file; None for the field's docstring.
+        Description on a command line; None for the field's docstring.
     after
-        Name of the option that it is listed after, where the model has that; None: as fields stand.
+        Name of the option that it is listed after, if the model has that; None keeps the order
+        of the fields.
     """
 
     group: Group | None = None
@@ -73,21 +74,21 @@ class Offer:
 
 
 NOT_OFFERED = Offer(verbs=Verbs(0))
-"""Of a field that is no option of commands and forms."""
+"""Marks a field that is no option of commands and forms."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Offered:
-    """An option as faces see it.
+    """An option as command lines, Python's signatures and forms use it.
 
     Parameters
     ----------
     name
-        Of the field.
+        Name of the field, and key of recipe files.
     offer
-        Where and how it is offered; what its class says is filled in.
+        Where and how it is offered; group and verbs of its model are filled in.
     field
-        Type, default and docstring.
+        Type, bounds, default and docstring.
     """
 
     name: str
@@ -96,12 +97,12 @@ class Offered:
 
     @property
     def verbs(self) -> Verbs:
-        """Which verbs offer it."""
+        """Commands that have it."""
         return Verbs.EVERY if self.offer.verbs is None else self.offer.verbs
 
     @property
     def flag(self) -> str:
-        """Its long name on a command line.
+        """Long name on a command line.
 
         Examples
         --------
@@ -116,39 +117,39 @@ class Offered:
 
     @property
     def help(self) -> str:
-        """What it does."""
+        """Description, of one or more sentences."""
         return self.offer.help or self.field.description or ""
 
     @property
     def default(self) -> Any:
-        """What counts where nobody says anything."""
+        """Value if none is given."""
         return self.field.get_default(call_default_factory=True)
 
     @property
     def type(self) -> Any:
-        """Type of its value, without what checks it."""
+        """Type of the value, without annotations."""
         return _plain(self.field.annotation)
 
     @property
     def forms(self) -> tuple[Any, ...]:
-        """The types that its value may have, but for None."""
+        """Alternatives of the type, without None."""
         forms = get_args(self.type) if _is_union(self.type) else (self.type,)
         return tuple(form for form in forms if form is not NoneType)
 
     @property
     def choices(self) -> tuple[Any, ...]:
-        """The values that are known by name; none if there are no such."""
+        """Values of its ``Literal`` types; empty if it has none."""
         named = (form for form in self.forms if get_origin(form) is Literal)
         return tuple(choice for form in named for choice in get_args(form))
 
     @property
     def checks(self) -> tuple[Any, ...]:
-        """What reads and checks its value, as the field is annotated."""
+        """Annotations of the field and of the alternatives of its type."""
         return (*self.field.metadata, *_annotations(self.field.annotation))
 
     @property
     def bounds(self) -> dict[str, float]:
-        """Of a number: at least ``ge``, more than ``gt``, at most ``le``, less than ``lt``.
+        """Range of a number, by pydantic's names: ``ge`` or ``gt`` below, ``le`` or ``lt`` above.
 
         Examples
         --------
@@ -167,7 +168,7 @@ def _is_union(annotation: Any) -> bool:
 
 
 def _plain(annotation: Any) -> Any:
-    """A type without what it is annotated with, in unions too."""
+    """The type without ``Annotated``, in unions too."""
     if get_origin(annotation) is Annotated:
         return _plain(get_args(annotation)[0])
     if _is_union(annotation):
@@ -176,7 +177,7 @@ def _plain(annotation: Any) -> Any:
 
 
 def _annotations(annotation: Any) -> Iterator[Any]:
-    """What a type and the parts of a union are annotated with."""
+    """Annotations of a type and of the alternatives of a union."""
     if get_origin(annotation) is Annotated:
         plain, *said = get_args(annotation)
         for one in said:

@@ -1,8 +1,8 @@
 """What all options are: frozen values that refuse unknown keys and say what they mean.
 
-A field is all that there is of an option: its name, type, bounds, default and docstring, and a
-:class:`packwork.offers.Offer` where it is offered otherwise than the other fields of its class.
-Command lines, signatures in Python, the reference and forms are made of :func:`offered`.
+A field is the only place of an option: name, type, bounds, default, docstring and, where it is
+offered otherwise than its neighbours, a :class:`packwork.offers.Offer`. Command lines, signatures
+in Python, the reference and forms are made of :func:`offered`.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Options(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid", defer_build=True)
 
     offers: ClassVar[Offer] = NOT_OFFERED
-    """How fields of the class are offered that do not say otherwise."""
+    """Group and verbs of fields that have no offer of their own."""
 
     @classmethod
     def __pydantic_init_subclass__(cls, **settings: Any) -> None:
@@ -53,7 +53,7 @@ class Options(BaseModel):
 
 @cache
 def offered(model: type[Options]) -> tuple[Offered, ...]:
-    """Options of a model as faces list them: its own fields, then those of the parts it is made of.
+    """Options of a model in the order of help: its own fields, then those of its base classes.
 
     Examples
     --------

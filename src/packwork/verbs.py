@@ -1,7 +1,7 @@
-"""What each verb may be asked: the options of the recipe, of its own part and of what is written.
+"""Options of each verb: those of the recipe, of its own part, of drawings and of films.
 
-Everything follows from the fields of the models and their :class:`packwork.options.Offer`. What
-stands here is which model is a verb's own, and where its choices are others than the recipe's.
+All follow from the models' fields and their :class:`packwork.offers.Offer`. What stands here is
+which model belongs to one verb alone, and which defaults of a verb differ from the recipe's.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ class Verb:
     Parameters
     ----------
     part
-        Options that it alone has; None for none.
+        Options that only this verb has; None if it has none.
     defaults
-        Its choices where nobody says anything and the recipe's would be others.
+        Defaults that differ from the recipe's.
     typed_defaults
-        The same on a command line only: in Python the run chooses.
+        Further ones of the command line; in Python the recipe's hold.
     """
 
     part: type[Options] | None = None
@@ -62,18 +62,18 @@ VERBS: Mapping[Verbs, Verb] = MappingProxyType(
         Verbs.PILE: Verb(part=PileOptions, typed_defaults={"start": "distance-field"}),
     }
 )
-"""By the name that each has among :class:`packwork.options.Verbs`."""
+"""All verbs, in the order of :class:`packwork.offers.Verbs`."""
 
 WRITTEN: tuple[type[Options], ...] = (DrawingOptions, FilmOptions)
-"""Options of what is written, whatever was asked to be run."""
+"""Models of how results are drawn and filmed; all verbs share them."""
 
 
 @cache
 def options_of(verb: Verbs) -> tuple[Offered, ...]:
-    """All options of a verb in the order in which faces list them, group by group.
+    """All options of a verb, by group, as help and forms list them.
 
-    Its own come first in a group. Where its part has one of the recipe's name, as words have a
-    count of their own, the recipe's is what is offered.
+    Within a group those of its own part come first. An option that the part and the recipe both
+    have, such as the count of words, has the recipe's help and default.
 
     Examples
     --------
@@ -88,7 +88,7 @@ def options_of(verb: Verbs) -> tuple[Offered, ...]:
 
 @cache
 def run_options(verb: Verbs) -> tuple[Offered, ...]:
-    """Those of :func:`options_of` that are about the run: a recipe holds them."""
+    """Options of :func:`options_of` that a recipe holds: all but drawings and films."""
     part = VERBS[verb].part
     own = {option.name: option for option in (offered(part) if part else ())}
     common = {option.name: option for option in offered(Recipe) if verb in option.verbs}
@@ -96,13 +96,13 @@ def run_options(verb: Verbs) -> tuple[Offered, ...]:
 
 
 def in_groups(options: Iterable[Offered]) -> tuple[Offered, ...]:
-    """The same options, group by group; those of no group come first."""
+    """The options sorted by group, otherwise in the order given; those without a group first."""
     groups = [None, *Group]
     return tuple(sorted(options, key=lambda option: groups.index(option.offer.group)))
 
 
 def with_defaults(verb: Verbs, options: Mapping[str, Any]) -> dict[str, Any]:
-    """Options that are given, which None is not, and the verb's own choices for the rest.
+    """The options that are not None, over the verb's own defaults.
 
     Examples
     --------
@@ -114,7 +114,7 @@ def with_defaults(verb: Verbs, options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def default_of(verb: Verbs, option: Offered) -> Any:
-    """What counts for a verb where nobody says anything.
+    """Default of an option for a verb, in Python and, but for ``typed_defaults``, when typed.
 
     Examples
     --------

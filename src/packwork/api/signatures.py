@@ -1,4 +1,4 @@
-"""Signatures in Python whose options are those of the fields: ``help`` and notebooks show them."""
+"""Signatures that list the options of the fields, for ``help``, notebooks and the reference."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ R = TypeVar("R")
 RULES = inspect.Parameter(
     "rules", inspect.Parameter.KEYWORD_ONLY, default=Recipe.model_fields["rules"].default
 )
-"""What Python and recipe files have and no command line."""
+"""Parameter for rules, which command lines do not have."""
 
 
 def of_verb(verb: Verbs, *more: Offered) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Show, in place of ``**options``, those of a verb, further ones and ``rules``."""
+    """Show the options of a verb, further ones and ``rules`` in place of ``**options``."""
     listed = (*(option for option in run_options(verb) if option.name != "items"), *more)
     return _showing([*(_parameter(o, default_of(verb, o)) for o in listed), RULES])
 
 
 def of_model(model: type[Options]) -> Callable[[Callable[P, R]], Callable[P, R]]:
-    """Show, in place of ``**options``, those of a model."""
+    """Show the options of a model in place of ``**options``."""
     return _showing([_parameter(option, option.default) for option in offered(model)])
 
 

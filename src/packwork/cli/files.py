@@ -1,4 +1,4 @@
-"""Which files a command line asks for, and how the terminal is talked to."""
+"""Options that only command lines have: names of files, and what is printed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from packwork.options import Options
 
 
 class LayoutFiles(Options):
-    """The layouts and films of a run."""
+    """Layouts and films to write."""
 
     offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
 
@@ -24,7 +24,7 @@ class LayoutFiles(Options):
 
 
 class SideFiles(Options):
-    """What is written beside them, and what is said."""
+    """Further files to write, and whether files may be replaced."""
 
     offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
 
@@ -47,7 +47,7 @@ class SideFiles(Options):
 
 
 class Terminal(Options):
-    """What is said."""
+    """What is printed."""
 
     offers = Offer(verbs=Verbs.EVERY)
 

@@ -1,4 +1,4 @@
-"""A field of options as a parameter that Typer makes a flag of."""
+"""Typer parameters made of fields: type, names, help and default of a flag."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from packwork.offers import Offered
 
 
 def flag(option: Offered, default: Any, *, shown: str | None = None) -> inspect.Parameter:
-    """Parameter of a function that is a command, for one option.
+    """Parameter of a command's signature for one option.
 
     Parameters
     ----------
     option
-        What is offered.
+        The option.
     default
-        What counts where nothing is typed; None leaves it open, so that a flag can say no too.
-        What may be given several times is always open.
+        Value if the flag is not given; None leaves the option unset, and gives a switch a form
+        that says no. Options that may be given several times are unset in any case.
     shown
-        What help shows as that; None for the default itself.
+        Default as help shows it; None shows ``default``.
     """
     kind = typed(option)
     if get_origin(kind) is list:
@@ -49,7 +49,7 @@ def flag(option: Offered, default: Any, *, shown: str | None = None) -> inspect.
 
 
 def typed(option: Offered) -> Any:
-    """Type of what is typed for an option: where there are several forms, a text tells them apart.
+    """Type of a flag's value: text for options of several types, a list for tuples.
 
     Examples
     --------
@@ -70,12 +70,12 @@ def typed(option: Offered) -> Any:
 
 
 def _parser(option: Offered) -> Any:
-    """What reads a number that may be written in other ways, as shares are; None for no such."""
+    """Function that reads a number written as a share or the like; None if the field has none."""
     return next((one.func for one in option.checks if isinstance(one, BeforeValidator)), None)
 
 
 def _names(option: Offered, kind: Any, default: Any) -> list[str]:
-    """Names on the command line; of what is not off by itself, one that says no too."""
+    """Names of a flag; a switch that is on or unset by default has a name that says no too."""
     if option.offer.flags is not None:
         return option.offer.flags.split()
     if kind is bool and default is not False:

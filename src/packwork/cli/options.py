@@ -1,4 +1,4 @@
-"""A command's options, made of fields: what may be asked stands in the models alone."""
+"""Decorators that give a command its options, made of the fields of the models."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from packwork.writers.film.options import FilmOptions
 Command = Callable[..., None]
 
 FILES: tuple[type[Options], ...] = (LayoutFiles, SideFiles, Terminal)
-"""What only command lines ask for: files by name, and silence."""
+"""Models of options that only command lines have."""
 
 
 def of_verb(verb: Verbs) -> Callable[[Command], Command]:
-    """Give a command, as its ``**asked``, every option of a verb, with the verb's defaults."""
+    """Replace a command's ``**asked`` by all options of a verb, with the verb's defaults."""
     chosen = {**VERBS[verb].defaults, **VERBS[verb].typed_defaults}
     before, after = offered(LayoutFiles), (*offered(SideFiles), *offered(Terminal))
     listed = (*before, *options_of(verb), *after)
@@ -34,12 +34,12 @@ def of_verb(verb: Verbs) -> Callable[[Command], Command]:
 
 
 def of_any_recipe(without: Collection[str]) -> Callable[[Command], Command]:
-    """Give a command the options of ``fill``, left open, and all of drawings, films and files.
+    """Replace a command's ``**asked`` by the options of ``fill``, unset, and all of files.
 
     Parameters
     ----------
     without
-        Names of those that it does not have.
+        Names of options to leave out.
     """
     changes = [option for option in offered(Recipe) if Verbs.FILL in option.verbs]
     drawn = [option for model in WRITTEN for option in offered(model)]
@@ -52,7 +52,7 @@ def of_any_recipe(without: Collection[str]) -> Callable[[Command], Command]:
 
 
 def by_name(command: Command) -> Command:
-    """Make flags of a command's keyword-only parameters: of the fields of their names."""
+    """Make flags of a command's keyword-only parameters, from the fields of the same names."""
     known = {option.name: option for model in (*WRITTEN, *FILES) for option in offered(model)}
     own = inspect.signature(command, eval_str=True)
     parameters = [
@@ -63,7 +63,7 @@ def by_name(command: Command) -> Command:
 
 
 def of_run(verb: Verbs, asked: Mapping[str, Any]) -> dict[str, Any]:
-    """What is asked of the run itself, for its recipe, among all that was typed."""
+    """The options of a command that its recipe holds, losses as weights by name."""
     names = {option.name for option in run_options(verb)}
     said = {name: value for name, value in asked.items() if name in names}
     if "losses" in said:
@@ -72,7 +72,7 @@ def of_run(verb: Verbs, asked: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _with(parameters: Iterable[inspect.Parameter]) -> Callable[[Command], Command]:
-    """Put parameters into a function's signature in place of its last one, ``**asked``."""
+    """Replace the last parameter of a signature, ``**asked``, by others."""
 
     def signed(command: Command) -> Command:
         own = inspect.signature(command, eval_str=True)
@@ -83,16 +83,16 @@ def _with(parameters: Iterable[inspect.Parameter]) -> Callable[[Command], Comman
 
 
 def _signed(command: Command, signature: inspect.Signature) -> Command:
-    """The same function, which Typer reads another signature of."""
+    """The function with another signature for Typer to read."""
     changed: Any = command
     changed.__signature__ = signature
     return command
 
 
 def _as_it_is(option: Offered) -> inspect.Parameter:
-    """Flag of an option with the default of its field.
+    """Flag with the default of the field.
 
-    One of films is left open, and its default shown: a recipe may say another one.
+    Options of films are unset, their defaults only shown, since a recipe may have other ones.
     """
     if option in offered(FilmOptions):
         return flag(option, None, shown=_shown(option))
@@ -100,7 +100,7 @@ def _as_it_is(option: Offered) -> inspect.Parameter:
 
 
 def _shown(option: Offered) -> str:
-    """A default as it would be typed."""
+    """Default of an option as text."""
     if isinstance(option.default, bool):
         yes, _, no = (option.offer.flags or "").replace("--", "").partition("/")
         return yes if option.default else no
