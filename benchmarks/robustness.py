@@ -19,9 +19,11 @@ from collections import Counter
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from hostile import meaning
+from hostile import meaning, running
 from hostile.inputs import KINDS, Input, inputs
+from hostile.kept import Kept, run_all
 from hostile.parts import Part, Tally
+from hostile.running import Line
 from hostile.stops import stop_at_random, whole_length
 from hostile.surroundings import all_surroundings
 from hostile.trying import CLEAR_ERROR, CRASH, HANG, SECONDS_AT_MOST, SUCCESS
@@ -32,7 +34,8 @@ from measuring import markdown_table
 ENOUGH = 10_000
 ENOUGH_LINES = 2_000
 OUT = Path("out") / "robustness"
-HEADER = ["what", "tried", "clear errors", "successes", "crashes", "hangs", "lost files"]
+HEADER = ["what", "tried", "clear errors", "successes", "crashes", "hangs", "lost files",
+          "false certificates"]  # fmt: skip
 
 PAGE = """# What breaks it
 
@@ -111,19 +114,32 @@ def _kept(one: Input) -> Path:
 
 def meant(count: int, seed: int) -> Part:
     """Run ``count`` lines of odd meaning."""
-    meaning.warm_up()
-    part = Part("meaning", facts={"count": count, "peak": 0.0, "slowest": 0.0})
-    for line in meaning.lines(count, seed):
-        ran = meaning.run_line(line)
+    return ran("meaning", meaning.lines(count, seed), count)
+
+
+def ran(name: str, lines: Iterable[Line], count: int) -> Part:
+    """Run lines that were not run before; count what came of all."""
+    running.warm_up()
+    part = Part(name, facts={"count": count, "peak": 0.0, "slowest": 0.0})
+    kept = Kept(OUT / f"{name}.jsonl")
+    done: list[Line] = []
+    for line, one in run_all(lines, kept):
+        done.append(line)
         tally = part.rows.setdefault(line.kind, Tally())
-        tally.counts.update(["tried", ran.came])
-        tally.counts["lost files"] += ran.lost
-        if ran.came in {CRASH, HANG} or ran.lost:
-            tally.faults.append(f"{ran.came}: {line.number}: {meaning.typed(line)}: {ran.said}")
-        part.facts["peak"] = max(part.facts["peak"], ran.bytes / 1e6)
-        part.facts["slowest"] = max(part.facts["slowest"], ran.seconds)
-        if (line.number + 1) % 100 == 0:
-            print(f"{line.number + 1:,} lines", flush=True)
+        tally.counts.update(["tried", one.came])
+        tally.counts["lost files"] += one.lost
+        tally.counts["false certificates"] += one.untrue
+        if one.is_fault:
+            tally.faults.append(f"{one.came}: {line.number}: {running.typed(line)}: {one.said}")
+        part.facts["peak"] = max(part.facts["peak"], one.bytes / 1e6)
+        part.facts["slowest"] = max(part.facts["slowest"], one.seconds)
+        if len(done) % 100 == 0:
+            print(f"{len(done):,} lines of {name}", flush=True)
+    keys = {line.key for line in done}
+    part.facts["commits"] = Counter(kept.ran[key][1] for key in keys)
+    part.facts["mended"] = sum(
+        kept.faults[line.key] > 0 and not kept.ran[line.key][0].is_fault for line in done
+    )
     return part
 
 
@@ -217,8 +233,8 @@ def _write(parts: dict[str, Part]) -> None:
         peak=f"{parts['inputs'].facts['peak']:.0f}",
         slowest=f"{parts['inputs'].facts['slowest']:.1f}",
         meaning=MEANING.format(
-            seconds=meaning.SECONDS_AT_MOST,
-            memory=f"{meaning.BYTES_AT_MOST / 2**30:g}",
+            seconds=running.SECONDS_AT_MOST,
+            memory=f"{running.BYTES_AT_MOST / 2**30:g}",
             peak=f"{parts['meaning'].facts['peak']:.0f}",
             slowest=f"{parts['meaning'].facts['slowest']:.1f}",
         ),

@@ -1,35 +1,15 @@
 """Command lines and recipes that are right in form and odd in what they mean.
 
 Tiny and huge canvases, one to three items, paddings that leave no room, wishes that cannot be
-met together, outputs of every format, terminals of every encoding. Each runs in a copy of this
-process, which has all loaded.
+met together, outputs of every format, terminals of every encoding.
 """
 
 from __future__ import annotations
 
-import contextlib
-import os
 import random
-import resource
-import signal
-import sys
-import tempfile
-import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import Any, TextIO
 
-from hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS
-
-SECONDS_AT_MOST = 60
-"""Of the processor, for one run."""
-
-CLOCK_SECONDS = 10 * SECONDS_AT_MOST
-"""By the clock, on however busy a machine."""
-
-BYTES_AT_MOST = 1 << 30
-"""Memory that one run may hold at a time."""
+from hostile.running import Line
 
 ENCODINGS = ("utf-8", "ascii", "cp932", "cp936", "cp1251", "latin-1")
 
@@ -50,6 +30,14 @@ TABLES: Mapping[str, str] = {
     "t.csv": "name,n,kind\na,1,x\nb,1000000,y\nc,0.001,x\n",
     "one.csv": "name,n,kind\nonly,1,x\n",
     "words.csv": "word,weight\nbear,1\nB²,1000\nو,3\n",
+}
+
+FILES: Mapping[str, bytes] = {
+    **{
+        name: f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 30 30">{inside}</svg>'.encode()
+        for name, inside in DRAWINGS.items()
+    },
+    **{name: text.encode() for name, text in TABLES.items()},
 }
 
 _CANVASES = ("0.5mm", "0.01mm", "1x1000", "600", "20000in", "A6", "3px", "7x5cm")
@@ -122,31 +110,12 @@ _OWN: Mapping[str, Mapping[str, Sequence[str]]] = {
         "--force": ("down", "up", "towards centre", "inward"),
     },
 }
+_SMALL = {"--levels": "16,32", "--epochs": "15"}
+"""What is asked for where nothing else is: runs are many, and odd, not long."""
+
 _OUTPUTS = ("a.svg", "a.png", "a.geojson", "a.dxf", "a.pdf", "ä².svg")
 _KEYS = ("container", "items", "count", "padding", "rules", "words", "chart", "pile", "photos",
          "film", "losses", "levels", "share", "force", "font", "keep_clear", "nothing")  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Line:
-    """One run: what is typed, the recipe that it names, if any, and the terminal's encoding."""
-
-    number: int
-    kind: str
-    words: tuple[str, ...]
-    recipe: str = ""
-    encoding: str = "utf-8"
-
-
-@dataclass(frozen=True)
-class Ran:
-    """What came of a run: in how many seconds of the processor and bytes, and what was said."""
-
-    came: str
-    seconds: float
-    bytes: int
-    said: str = ""
-    lost: int = 0
 
 
 def lines(count: int, seed: int) -> Iterator[Line]:
@@ -156,10 +125,11 @@ def lines(count: int, seed: int) -> Iterator[Line]:
         encoding = dice.choice(ENCODINGS)
         if number % 4 == 3:
             recipe = "\n".join(_recipe(dice))
-            words: tuple[str, ...] = ("run", "r.toml", "--effort", "draft", "-o", "a.svg")
-            yield Line(number, "recipes", words, recipe, encoding)
+            words: tuple[str, ...] = ("run", "r.toml", "--effort", "draft", "-o", "a.svg",
+                                      "--report", "report.out")  # fmt: skip
+            yield Line(number, "recipes", words, {**FILES, "r.toml": recipe.encode()}, encoding)
         else:
-            yield Line(number, "command lines", tuple(_words(dice)), "", encoding)
+            yield Line(number, "command lines", tuple(_words(dice)), FILES, encoding)
 
 
 def _words(dice: random.Random) -> Iterator[str]:
@@ -174,18 +144,24 @@ def _words(dice: random.Random) -> Iterator[str]:
     if verb != "chart":
         yield from ("-n", dice.choice(("1", "2", "3", "12")))
     choices = {**_COMMON, **_OWN[verb]}
-    for option in dice.sample(sorted(choices), dice.randint(0, 7)):
+    chosen = dice.sample(sorted(choices), dice.randint(0, 7))
+    for option in chosen:
         value = dice.choice(choices[option])
         yield option
         if value:
             yield value
     if verb != "pile" and dice.random() < 0.9:
         yield from ("--effort", "draft")
+    for option, value in _SMALL.items():
+        if option in choices and option not in chosen:
+            yield from (option, value)
+    if {"--filler", "--target-coverage"} & {*chosen} and "--max-items" not in chosen:
+        yield from ("--max-items", "30")
     for output in dice.sample(_OUTPUTS, dice.randint(1, 2)):
         yield from ("-o", output)
-    for side in ("--report", "--save-recipe"):
-        if dice.random() < 0.3:
-            yield from (side, f"{side[2:]}.out")
+    yield from ("--report", "report.out")
+    if dice.random() < 0.3:
+        yield from ("--save-recipe", "save-recipe.out")
 
 
 def _recipe(dice: random.Random) -> Iterator[str]:
@@ -209,98 +185,3 @@ def _toml(dice: random.Random, depth: int) -> str:
     return (
         "{" + ", ".join(f"{key} = {value}" for key, value in zip(keys, inside, strict=True)) + "}"
     )
-
-
-def run_line(line: Line) -> Ran:
-    """Run the program in a copy of this process, in a folder of its own, and judge it."""
-    with tempfile.TemporaryDirectory() as name:
-        folder, said = Path(name, "work"), Path(name, "said")
-        folder.mkdir()
-        for file, inside in DRAWINGS.items():
-            text = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 30 30">{inside}</svg>'
-            (folder / file).write_text(text, encoding="utf-8")
-        for file, text in TABLES.items():
-            (folder / file).write_text(text, encoding="utf-8")
-        if line.recipe:
-            (folder / "r.toml").write_text(line.recipe, encoding="utf-8")
-        before = {path.name: path.read_bytes() for path in folder.iterdir()}
-        child = os.fork()
-        if child == 0:
-            _be_the_program(line, folder, said)
-        code, seconds, held = _waited(child)
-        after = {path.name: path.read_bytes() for path in folder.iterdir()}
-        text = said.read_text(encoding="utf-8", errors="replace") if said.exists() else ""
-    lost = sum(after.get(file) != data for file, data in before.items())
-    lost += len(set(after) - set(before)) if code == 2 else 0
-    return _judged(code, seconds, held, text, lost)
-
-
-def _be_the_program(line: Line, folder: Path, said: Path) -> None:
-    """Never come back."""
-    from packwork.cli import app
-
-    code = 99
-    try:
-        os.chdir(folder)
-        resource.setrlimit(resource.RLIMIT_CPU, (SECONDS_AT_MOST, SECONDS_AT_MOST + 5))
-        sys.stdout = _stream(Path(os.devnull), line.encoding, "strict")
-        sys.stderr = _stream(said, line.encoding, "backslashreplace")
-        try:
-            app(list(line.words))
-        except SystemExit as end:
-            code = int(end.code or 0)
-        sys.stdout.flush()
-    except BaseException:  # noqa: BLE001 - whatever it is, it is what is looked for
-        import traceback
-
-        sys.stderr.write(traceback.format_exc(limit=-8))
-    finally:
-        with contextlib.suppress(Exception):
-            sys.stderr.flush()
-        os._exit(code)
-
-
-def _stream(path: Path, encoding: str, errors: str) -> TextIO:
-    return path.open("w", encoding=encoding, errors=errors)
-
-
-def _waited(child: int) -> tuple[int, float, int]:
-    """Exit code (of a signal: minus its number), seconds of the processor, most bytes."""
-    deadline = time.monotonic() + CLOCK_SECONDS
-    while True:
-        ended, status, used = os.wait4(child, os.WNOHANG)
-        if ended:
-            seconds = used.ru_utime + used.ru_stime
-            return os.waitstatus_to_exitcode(status), seconds, used.ru_maxrss * 1024
-        if time.monotonic() > deadline:
-            os.kill(child, signal.SIGKILL)
-            deadline = float("inf")
-        time.sleep(0.02)
-
-
-def _judged(code: int, seconds: float, held: int, text: str, lost: int) -> Ran:
-    last = text.strip().splitlines()[-8:]
-    if code in {-signal.SIGXCPU, -signal.SIGKILL}:
-        return Ran(HANG, seconds, held, f"ended by signal {-code}", lost)
-    is_sound = code in {0, 1} or (code == 2 and bool(last) and last[-1].startswith("packwork: "))
-    if "Traceback" in text or not is_sound:
-        return Ran(CRASH, seconds, held, f"exit code {code}: " + " / ".join(last), lost)
-    if held > BYTES_AT_MOST:
-        return Ran(CRASH, seconds, held, f"held {held / 1e6:.0f} MB", lost)
-    return Ran(CLEAR_ERROR if code == 2 else SUCCESS, seconds, held, " / ".join(last), lost)
-
-
-def warm_up() -> None:
-    """Load what every run needs, so that copies of this process have it."""
-    import packwork.cli.running  # noqa: F401
-    from packwork import pipeline
-    from packwork.cli.commands import Commands
-
-    for command in Commands().values():
-        assert command.name
-    pipeline.warm_up()
-
-
-def typed(line: Line) -> dict[str, Any]:
-    """A run as it can be repeated."""
-    return {"words": line.words, "recipe": line.recipe, "encoding": line.encoding}
