@@ -1,13 +1,17 @@
 """What breaks it: ``packwork bench robustness [inputs=10000] [lines=2000] [stops=40] [seed=0]``.
 
-Gives the program spoilt and made-up files and command lines of odd meaning, stops it at random
-moments with Ctrl-C and with kill -9, lets it write to full and read-only disks, and runs it eight
-times at once. Prints counts; crashes, hangs and lost files must be 0, else it says which inputs
-they were, puts those into ``out/robustness`` and ends with code 1. ``only=inputs``,
-``only=meaning``, ``only=stops`` or ``only=surroundings`` is one part of it; once there are all four
-of one and the same code, with 10,000 inputs and 2,000 lines or more,
-``docs/benchmarks-robustness.md`` is written. ``kinds=fonts,tables`` tries those kinds of input
-only; ``processes=2`` shares them out. Needs Linux and ``packwork[dev]``.
+Gives the program spoilt and made-up files, command lines of odd meaning, fonts, Parquet files and
+recipes that ask for much, and names and terminals of every encoding; stops it at random moments
+with Ctrl-C and with kill -9, lets it write to full and read-only disks, and runs it eight times at
+once. Prints counts; crashes, hangs, lost files and false certificates must be 0, else it says which
+they were and ends with code 1. ``only=inputs``, ``only=meaning``, ``only=fonts``, ``only=parquet``,
+``only=nested``, ``only=encodings``, ``only=stops`` or ``only=surroundings`` is one part of it (or
+some of them, with commas); ``fonts=60 parquet=60 nested=80 encodings=80`` are the numbers of these.
+Runs are kept in ``out/robustness`` as they are made: what is interrupted goes on, and what was a
+fault is run again. ``only=page`` writes ``docs/benchmarks-robustness.md`` of what is there; once
+there is every part, with 10,000 inputs and 2,000 lines or more, that happens by itself.
+``kinds=fonts,tables`` tries those kinds of input only; ``processes=2`` shares them out. Needs
+Linux and ``packwork[dev]``.
 """
 
 from __future__ import annotations
@@ -17,73 +21,35 @@ import sys
 import time
 from collections import Counter
 from collections.abc import Iterable, Sequence
+from functools import partial
 from pathlib import Path
 
-from hostile import meaning, running
+from hostile import encodings, fonts, meaning, nested, parquet, running
 from hostile.inputs import KINDS, Input, inputs
 from hostile.kept import Kept, run_all
-from hostile.parts import Part, Tally
+from hostile.page import PAGE as PAGE
+from hostile.page import write
+from hostile.parts import Part, Tally, state
 from hostile.running import Line
 from hostile.stops import stop_at_random, whole_length
 from hostile.surroundings import all_surroundings
-from hostile.trying import CLEAR_ERROR, CRASH, HANG, SECONDS_AT_MOST, SUCCESS
-from hostile.workers import CLOCK_SECONDS, MEMORY_BYTES, try_all
-from manifests import write_page
+from hostile.tables import FAULTS, HEADER, table_of
+from hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS
+from hostile.workers import try_all
 from measuring import markdown_table
 
 ENOUGH = 10_000
 ENOUGH_LINES = 2_000
 OUT = Path("out") / "robustness"
-HEADER = ["what", "tried", "clear errors", "successes", "crashes", "hangs", "lost files",
-          "false certificates"]  # fmt: skip
 
-PAGE = """# What breaks it
-
-Made by {settings} on {date}.
-{machine}
-
-{rows}
-
-The last three must be 0. A **clear error** is one of Packwork's own: one line that says what is
-wrong. Any other exception, a warning of a library, a signal or a traceback is a **crash**. A
-**hang** is an input that takes more than {seconds} s of the processor or {clock} s by the
-clock, or a run that goes on for a minute after Ctrl-C. A file is **lost** if it is
-half-written, if an older one is gone or changed, or if the program says that it wrote one and
-did not.
-
-## Inputs
-
-Seven in ten are real files, spoilt by the byte, by the word or by the value: the bundled
-drawings, made-up drawings that use every feature, the examples' pictures (shrunk), photos,
-fonts (whole, and with a few letters only), tables and texts, recipes, and layouts as they are
-saved. Check sums of PNGs are put right afterwards, so that they are let in. The others are
-made up by hypothesis: right in form, odd in what they say. Each is read as what it is given
-for (an item, a container, a photo, a quiet picture, letters, words, a chart, weights, a
-recipe that is begun and stopped, a layout that is measured and written again) in a process
-that may take {memory} GiB of address space; the most that one held was {peak} MB.
-The slowest input took {slowest} s.
-
-{meaning}
-
-## Stops
-
-`packwork fill heart -n 60` with two outputs, stopped at a random moment of the {length} s
-that it takes; in every second run there were older files of those names. {stops} After Ctrl-C
-the slowest run took {longest} s to end. {left}
-
-## Surroundings
-
-{surroundings}
-"""
-
-
-MEANING = """## Meaning
-
-Command lines and recipes that are right in form: any options together, tiny and huge canvases,
-one to three items, paddings that leave no room, tables in tables, terminals that lack letters.
-A run that takes more than {seconds} s of the processor is a hang, one that holds more than
-{memory} GiB, or that refuses and writes something all the same, a crash or a lost file. The
-slowest took {slowest} s, the most that one held was {peak} MB."""
+LINES = {
+    "meaning": (meaning.lines, ENOUGH_LINES),
+    "fonts": (fonts.lines, 60),
+    "parquet": (parquet.lines, 60),
+    "nested": (nested.lines, 80),
+    "encodings": (encodings.lines, 80),
+}
+"""Parts that are runs of lines, and how many there are of them."""
 
 
 def fuzzed(count: int, seed: int, processes: int, kinds: Sequence[str]) -> Part:
@@ -112,11 +78,6 @@ def _kept(one: Input) -> Path:
     return path
 
 
-def meant(count: int, seed: int) -> Part:
-    """Run ``count`` lines of odd meaning."""
-    return ran("meaning", meaning.lines(count, seed), count)
-
-
 def ran(name: str, lines: Iterable[Line], count: int) -> Part:
     """Run lines that were not run before; count what came of all."""
     running.warm_up()
@@ -136,7 +97,7 @@ def ran(name: str, lines: Iterable[Line], count: int) -> Part:
         if len(done) % 100 == 0:
             print(f"{len(done):,} lines of {name}", flush=True)
     keys = {line.key for line in done}
-    part.facts["commits"] = Counter(kept.ran[key][1] for key in keys)
+    part.commits = dict(Counter(kept.ran[key][1] for key in keys))
     part.facts["mended"] = sum(
         kept.faults[line.key] > 0 and not kept.ran[line.key][0].is_fault for line in done
     )
@@ -176,76 +137,34 @@ def main(arguments: list[str]) -> int:
     asked = dict(argument.split("=", 1) for argument in arguments)
     seed, kinds = int(asked.get("seed", 0)), asked.get("kinds", ",".join(KINDS)).split(",")
     count, processes = int(asked.get("inputs", ENOUGH)), int(asked.get("processes", 2))
-    makers = {
-        "inputs": lambda: fuzzed(count, seed, processes, kinds),
-        "meaning": lambda: meant(int(asked.get("lines", ENOUGH_LINES)), seed),
-        "stops": lambda: stopped(int(asked.get("stops", 40)), seed),
-        "surroundings": surrounded,
-    }
+    makers = {"inputs": lambda: fuzzed(count, seed, processes, kinds)}
+    for name, (lines, most) in LINES.items():
+        number = int(asked.get("lines" if name == "meaning" else name, most))
+        makers[name] = partial(ran, name, lines(number, seed), number)
+    makers["stops"] = lambda: stopped(int(asked.get("stops", 40)), seed)
+    makers["surroundings"] = surrounded
     chosen = asked["only"].split(",") if "only" in asked else list(makers)
     done = []
-    for name in chosen:
+    for name in [name for name in chosen if name != "page"]:
         part = makers[name]()
         part.settings = " ".join(arguments)
+        part.commits = part.commits or {state(): sum(t.counts["tried"] for t in part.rows.values())}
         part.save(OUT)
         done.append(part)
-    table, whole = _table(done)
+    table, whole = table_of(done)
     print(markdown_table(HEADER, table))
     for fault in whole.faults:
         print(fault)
-    parts = {name: Part.load(OUT, name) for name in makers}
-    if (
-        all(parts.values())
+    parts = {name: part for name in makers if (part := Part.load(OUT, name))}
+    is_whole = (
+        len(parts) == len(makers)
         and parts["inputs"].facts["count"] >= ENOUGH
         and parts["meaning"].facts["count"] >= ENOUGH_LINES
         and len(kinds) == len(KINDS)
-    ):
-        _write(parts)
-    return int(any(whole.counts[column] for column in HEADER[4:]))
-
-
-def _table(parts: Iterable[Part]) -> tuple[list[list[str]], Tally]:
-    rows = [(name, tally) for part in parts for name, tally in part.rows.items()]
-    whole = Tally()
-    for _, tally in rows:
-        whole.add(tally)
-    named = [*rows, ("all", whole)]
-    return [[name, *(f"{tally.counts[c]:,}" for c in HEADER[1:])] for name, tally in named], whole
-
-
-def _write(parts: dict[str, Part]) -> None:
-    stops = parts["stops"].facts
-    came = [
-        f"{name}: " + ", ".join(f"{number} {how}" for how, number in stops[name].items()) + "."
-        for name in ("Ctrl-C", "kill -9")
-    ]
-    left = stops["left, Ctrl-C"] + stops["left, kill -9"]
-    command = "packwork bench robustness "
-    settings = sorted({f"`{(command + part.settings).strip()}`" for part in parts.values()})
-    write_page(
-        "benchmarks-robustness.md",
-        PAGE,
-        settings=" and ".join(settings),
-        rows=markdown_table(HEADER, _table(parts.values())[0]),
-        seconds=f"{SECONDS_AT_MOST:g}",
-        clock=f"{CLOCK_SECONDS:g}",
-        memory=f"{MEMORY_BYTES / 2**30:g}",
-        peak=f"{parts['inputs'].facts['peak']:.0f}",
-        slowest=f"{parts['inputs'].facts['slowest']:.1f}",
-        meaning=MEANING.format(
-            seconds=running.SECONDS_AT_MOST,
-            memory=f"{running.BYTES_AT_MOST / 2**30:g}",
-            peak=f"{parts['meaning'].facts['peak']:.0f}",
-            slowest=f"{parts['meaning'].facts['slowest']:.1f}",
-        ),
-        length=f"{stops['length']:.1f}",
-        stops=" ".join(came),
-        longest=f"{stops['longest, Ctrl-C']:.1f}",
-        left="No file of another name was left behind."
-        if not left
-        else f"Files of other names that were left behind: {left}.",
-        surroundings="\n".join(f"- {k}: {said}" for k, said in parts["surroundings"].facts.items()),
     )
+    if is_whole or "page" in chosen:
+        write(parts)
+    return int(any(whole.counts[column] for column in FAULTS))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import os
+from collections.abc import Sequence
 from itertools import pairwise
 from pathlib import Path
 
@@ -110,7 +111,10 @@ def doubled_font(levels: int) -> bytes:
     return _font_of_a(glyphs, are_boxed=False)
 
 
-def nested_font(levels: int, calls: int = 10) -> bytes:
+LINES = (700, 300, -650, 310, 620, -640, -660, 50, "rlineto")
+
+
+def nested_font(levels: int, calls: int = 10, lines: Sequence[int | str] = LINES) -> bytes:
     """A PostScript font whose letter a calls a program that calls ten that call ten ..."""
     builder = FontBuilder(1_000, isTTF=False)
     builder.font.recalcBBoxes = False
@@ -125,10 +129,9 @@ def nested_font(levels: int, calls: int = 10) -> bytes:
     empty = {name: T2CharString(program=["endchar"]) for name in names}
     builder.setupCFF("Nested", {}, empty, {})
     top = builder.font["CFF "].cff[0]
-    lines = [700, 300, -650, 310, 620, -640, -660, 50, "rlineto"]
     for k in range(levels):
         # A call pushes the number of the program less the bias of 107.
-        program = [k - 1 - 107, "callgsubr"] * calls if k else lines
+        program = [k - 1 - 107, "callgsubr"] * calls if k else [*lines]
         top.GlobalSubrs.append(T2CharString(program=[*program, "return"]))
     program = [0, 0, "rmoveto", levels - 1 - 107, "callgsubr", "endchar"]
     top.CharStrings["a"] = T2CharString(

@@ -7,12 +7,11 @@ then, and both stay in the file.
 from __future__ import annotations
 
 import json
-import subprocess
 from collections.abc import Iterable, Iterator
 from dataclasses import asdict
 from pathlib import Path
 
-from hostile.parts import ROOT
+from hostile.parts import state
 from hostile.running import Line, Ran, run_line, typed
 
 
@@ -64,19 +63,3 @@ def run_all(lines: Iterable[Line], kept: Kept) -> Iterator[tuple[Line, Ran]]:
             ran = run_line(line)
             kept.add(line, ran, commit)
         yield line, ran
-
-
-def state() -> str:
-    """The commit of this checkout; with a plus sign where files differ from it."""
-    try:
-        name = _git("rev-parse", "--short=10", "HEAD")
-        return name + ("+" if _git("status", "--porcelain", "src", "benchmarks/hostile") else "")
-    except (OSError, subprocess.CalledProcessError):
-        return "unknown"
-
-
-def _git(*words: str) -> str:
-    done = subprocess.run(
-        ["git", *words], cwd=ROOT, capture_output=True, text=True, check=True
-    )  # fmt: skip
-    return done.stdout.strip()

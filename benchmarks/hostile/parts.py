@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
+import subprocess
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
@@ -36,34 +36,40 @@ class Tally:
 
 @dataclass
 class Part:
-    """One part of the run: its rows, and facts for the page."""
+    """One part of the run: its rows, facts for the page, and which code it tells of.
+
+    Parameters
+    ----------
+    settings
+        What was typed.
+    commits
+        Commits of the checkout, each with how many runs it made; a plus sign where files differed.
+    """
 
     name: str
     rows: dict[str, Tally] = field(default_factory=dict)
     facts: dict[str, Any] = field(default_factory=dict)
     settings: str = ""
+    commits: dict[str, int] = field(default_factory=dict)
 
     def save(self, folder: Path) -> None:
-        """Keep it, with what says of which code it tells."""
+        """Keep it."""
         folder.mkdir(parents=True, exist_ok=True)
         # asdict would make a counter of a counter's pairs.
         rows = {
             name: {"counts": dict(tally.counts), "faults": tally.faults}
             for name, tally in self.rows.items()
         }
-        kept = {"code": code(), **vars(self), "rows": rows}
-        text = json.dumps(kept, indent=1)
+        text = json.dumps({**vars(self), "rows": rows}, indent=1)
         (folder / f"{self.name}.json").write_text(text, encoding="utf-8")
 
     @classmethod
     def load(cls, folder: Path, name: str) -> Part | None:
-        """A part that was kept; None if there is none of this very code."""
+        """A part that was kept; None if there is none."""
         path = folder / f"{name}.json"
         if not path.exists():
             return None
         kept = json.loads(path.read_text(encoding="utf-8"))
-        if kept.pop("code") != code():
-            return None
         rows = {
             title: Tally(Counter(row["counts"]), row["faults"])
             for title, row in kept.pop("rows").items()
@@ -71,11 +77,15 @@ class Part:
         return cls(rows=rows, **kept)
 
 
-def code() -> str:
-    """One word for the state of the package and of this benchmark."""
-    files = [*(ROOT / "src").rglob("*.py"), *(ROOT / "benchmarks" / "hostile").glob("*.py")]
-    whole = hashlib.sha256()
-    for path in sorted(files):
-        whole.update(path.relative_to(ROOT).as_posix().encode())
-        whole.update(path.read_bytes())
-    return whole.hexdigest()
+def state() -> str:
+    """The commit of this checkout; with a plus sign where files differ from it."""
+    try:
+        name = _git("rev-parse", "--short=10", "HEAD")
+        return name + ("+" if _git("status", "--porcelain", "src", "benchmarks/hostile") else "")
+    except (OSError, subprocess.CalledProcessError):
+        return "unknown"
+
+
+def _git(*words: str) -> str:
+    done = subprocess.run(["git", *words], cwd=ROOT, capture_output=True, text=True, check=True)
+    return done.stdout.strip()

@@ -13,6 +13,7 @@ import tempfile
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import Any, TextIO, TypeAlias
 
@@ -51,7 +52,7 @@ class Line:
     def key(self) -> str:
         """A word for all of it; of files that are written by a function, its name."""
         files = [
-            (name, hashlib.sha256(data).hexdigest() if isinstance(data, bytes) else data.__name__)
+            (name, hashlib.sha256(data).hexdigest() if isinstance(data, bytes) else _name(data))
             for name, data in sorted(self.files.items())
         ]
         whole = repr((self.number, self.words, self.encoding, files))
@@ -93,7 +94,7 @@ def run_line(line: Line) -> Ran:
             if isinstance(content, bytes):
                 (folder / file).write_bytes(content)
             else:
-                content(folder / file)
+                _in_a_copy(content, folder / file)
         before = _contents(folder)
         code, seconds, held = _forked(line.words, line.encoding, folder, said)
         after = _contents(folder)
@@ -103,6 +104,25 @@ def run_line(line: Line) -> Ran:
     lost += len(set(after) - set(before)) if code == 2 else 0
     ran = _judged(code, seconds, held, text, lost)
     return replace(ran, said=" / ".join([ran.said, *untrue]), untrue=len(untrue))
+
+
+def _name(write: Callable[[Path], None]) -> str:
+    """Of a function that may be a partial one, without the place where it lies in memory."""
+    if isinstance(write, partial):
+        return repr((_name(write.func), write.args))
+    return write.__qualname__
+
+
+def _in_a_copy(write: Callable[[Path], None], path: Path) -> None:
+    child = os.fork()
+    if child == 0:
+        code = 1
+        with contextlib.suppress(Exception):
+            write(path)
+            code = 0
+        os._exit(code)
+    if os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]):
+        raise RuntimeError(f"{_name(write)} fails")
 
 
 def _untrue(line: Line, folder: Path, said: Path) -> list[str]:

@@ -19,7 +19,6 @@ from hostile.originals import PICTURE_PX, TABLE, originals
 from packwork import pipeline, uses, writers
 from packwork.errors import PackworkError
 from packwork.metrics.measure import measure
-from packwork.pipeline import charting, wording
 from packwork.readers.charts.chart import read_chart
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
@@ -31,6 +30,8 @@ from packwork.readers.weights import read_weights
 from packwork.readers.words.items import read_word_items
 from packwork.readers.written.read import read_written
 from packwork.recipe import make_recipe
+from packwork.uses.charts.recipe import chart_recipe
+from packwork.uses.words.recipe import words_recipe
 
 SECONDS_AT_MOST = 20.0
 """Of the processor, for one input: more is a hang, as a person would have given up."""
@@ -138,15 +139,15 @@ def _words(path: Path) -> None:
     source: Any = str(path)
     if path.suffix in {".ttf", ".otf"}:
         source, options = {"ab": 2, "नमस्ते": 1, "ونك": 1}, {"font": str(path)}
-        recipe = wording.words_recipe("circle", source, fonts=[str(path)])
+        recipe = words_recipe("circle", source, fonts=[str(path)])
     else:
-        recipe = wording.words_recipe("circle", source, **options)
+        recipe = words_recipe("circle", source, **options)
     assert recipe.words is not None
     read_word_items(recipe.words)
 
 
 def _chart(path: Path) -> None:
-    recipe = charting.chart_recipe("circle", str(path), size_by="weight", color_by="group")
+    recipe = chart_recipe("circle", str(path), size_by="weight", color_by="group")
     assert recipe.chart is not None
     read_chart(recipe.chart)
 

@@ -62,9 +62,7 @@ def refusal(
     message = re.sub(r"^(Value error, |Input )", "", first["msg"])
     for said, meant in _PLAIN_WORDS.items():
         message = message.replace(said, meant)
-    met = "" if first["type"] == "value_error" else f", not {str(first['input'])[:60]!r}"
-    if not isinstance(first["input"], str):
-        met = met and f", not {str(first['input'])[:60]}"
+    met = "" if first["type"] == "value_error" else f", not {_said(first['input'])}"
     hint = _percent_meant(model, first)
     return RecipeError(key, f"{where}{message[0].lower()}{message[1:]}{met}{hint}")
 
@@ -79,6 +77,20 @@ def _percent_meant(model: type[BaseModel], error: Mapping[str, Any]) -> str:
     rules = [*field.metadata, *(m for kind in kinds for m in getattr(kind, "__metadata__", ()))]
     is_share = any(isinstance(one, BeforeValidator) and one.func is parse_share for one in rules)
     return f"; did you mean {met:g}%?" if is_share and 1 < met < 100 else ""
+
+
+def _said(value: object) -> str:
+    """The beginning of a value, as it is written.
+
+    Examples
+    --------
+    >>> _said("bear"), _said(12), _said([16**5_000])
+    ("'bear'", '12', 'a number of too many digits')
+    """
+    try:
+        return repr(value[:60]) if isinstance(value, str) else str(value)[:60]
+    except ValueError:
+        return "a number of too many digits"
 
 
 def _unknown(within: Sequence[int | str], key: str, known: list[str]) -> str:

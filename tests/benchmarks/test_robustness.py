@@ -11,9 +11,10 @@ from typing import Any
 
 import pytest
 
-from hostile import meaning, trying, workers
+import robustness
+from hostile import kept, meaning, page, running, trying, workers
 from hostile.inputs import KINDS, Input, inputs
-from hostile.parts import Part, Tally
+from hostile.parts import Part, Tally, state
 from hostile.stops import stop_at_random
 from hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS, attempt
 from packwork.errors import ReadError
@@ -33,10 +34,72 @@ def test_spoilt_and_made_up_files_are_read_or_refused(kind: str, tmp_path: Path)
     assert {came.came for _, came in tried} == {CLEAR_ERROR, SUCCESS}
 
 
+@pytest.mark.parametrize("part", [n for n in robustness.LINES if n != "meaning"])
+def test_what_asks_for_much_is_done_or_refused(part: str) -> None:
+    if part == "parquet":
+        pytest.importorskip("pyarrow")
+    running.warm_up()
+    lines, _ = robustness.LINES[part]
+    ran = [(line, running.run_line(line)) for line in lines(4, 3)]
+    broken = [(line, one) for line, one in ran if one.is_fault]
+    assert not broken, broken[0]
+
+
+def test_runs_that_are_kept_are_not_made_again(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made = []
+
+    def run(line: running.Line) -> running.Ran:
+        made.append(line.number)
+        is_bad = line.number == 1 and len(made) < 4
+        return running.Ran(CRASH if is_bad else SUCCESS, 1.0, 5, untrue=int(line.number == 2))
+
+    monkeypatch.setattr(kept, "run_line", run)
+    lot = list(meaning.lines(3, 0))
+    for _ in range(2):
+        came = [one.came for _, one in kept.run_all(lot, kept.Kept(tmp_path / "runs.jsonl"))]
+    assert came == [SUCCESS, SUCCESS, SUCCESS]
+    # The crash, and the false certificate, are tried again; what was well is not.
+    assert made == [0, 1, 2, 1, 2]
+    again = kept.Kept(tmp_path / "runs.jsonl")
+    assert [again.faults[line.key] for line in lot] == [0, 1, 2]
+
+
+def test_a_false_certificate_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    def lie(words: list[str]) -> None:
+        if words[0] == "measure":
+            raise SystemExit(1)
+        Path("a.svg").write_text("<svg/>", encoding="utf-8")
+        Path("report.out").write_text('{"certified": true}', encoding="utf-8")
+        raise SystemExit(0)
+
+    line = running.Line(0, "lies", ("fill", "-o", "a.svg"))
+    monkeypatch.setattr("packwork.cli.app", lie)
+    ran = running.run_line(line)
+    assert (ran.untrue, ran.is_fault) == (1, True)
+
+
+def test_the_page_tells_every_part_and_its_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("manifests.FOLDER", tmp_path)
+    monkeypatch.setattr("manifests.DOCS", tmp_path)
+    tally = Tally(Counter({"tried": 7, SUCCESS: 7}))
+    facts = {"count": 7, "peak": 99.0, "slowest": 1.5, "mended": 2}
+    page.write(
+        {"nested": Part("nested", {"nested recipes": tally}, facts, "only=nested", {"a": 7})}
+    )
+    text = (tmp_path / "benchmarks-robustness.md").read_text(encoding="utf-8")
+    assert "- nested: `packwork bench robustness only=nested` (7 at a)" in text
+    assert "Of these runs 2 were faults at first" in text
+    assert "Not yet measured: `packwork bench robustness only=meaning`." in text
+
+
 def test_lines_of_odd_meaning_end_in_a_result_or_a_clear_error() -> None:
-    meaning.warm_up()
-    ran = [(line, meaning.run_line(line)) for line in meaning.lines(LINES, 3)]
-    broken = [(line, one) for line, one in ran if one.came in {CRASH, HANG} or one.lost]
+    running.warm_up()
+    ran = [(line, running.run_line(line)) for line in meaning.lines(LINES, 3)]
+    broken = [(line, one) for line, one in ran if one.is_fault]
     assert not broken, broken[0]
     assert {line.kind for line, _ in ran} == {"command lines", "recipes"}
 
@@ -52,24 +115,21 @@ def test_a_line_that_breaks_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
 
     line = next(iter(meaning.lines(1, 0)))
     monkeypatch.setattr("packwork.cli.app", crash)
-    assert meaning.run_line(line).came == CRASH
+    assert running.run_line(line).came == CRASH
     monkeypatch.setattr("packwork.cli.app", write_and_refuse)
-    ran = meaning.run_line(line)
+    ran = running.run_line(line)
     assert (ran.came, ran.lost) == (CRASH, 2)
 
 
-def test_parts_are_kept_and_told_apart_by_the_code(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_parts_are_kept(tmp_path: Path) -> None:
     tally = Tally(Counter({"tried": 3, CRASH: 1}))
     tally.blame(["hang: one", "lost: two"])
-    part = Part("stops", {"Ctrl-C": tally}, {"length": 2.5}, "stops=3")
+    part = Part("stops", {"Ctrl-C": tally}, {"length": 2.5}, "stops=3", {"0123abcdef": 3})
     part.save(tmp_path)
     assert Part.load(tmp_path, "stops") == part
     assert tally.counts == {"tried": 3, CRASH: 1, HANG: 1, "lost files": 1}
     assert Part.load(tmp_path, "inputs") is None
-    monkeypatch.setattr("hostile.parts.code", lambda: "another")
-    assert Part.load(tmp_path, "stops") is None
+    assert state().rstrip("+").isalnum()
 
 
 def test_the_same_lot_is_the_same() -> None:

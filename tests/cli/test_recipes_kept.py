@@ -186,6 +186,8 @@ def test_modules_of_the_working_folder_are_left_alone(folder) -> None:
         "a = " + 200 * "{b = " + "1" + 200 * "}",
         f"count = {'9' * 5_000}",
         f"count = {'9' * 4_000}",
+        f"count = 0x{'f' * 5_000}",
+        f"film = {{seconds = [0x{'f' * 5_000}]}}",
         'title = """' + '\\"""' * 50_000,
         'items = ["'  + "[" * 90_000,
         "[chart]\ndata = [{kg = 1}]\npaper = \"x\"",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 
 from packwork.errors import ReadError
 from packwork.readers.tables import parquet as reader
+from packwork.readers.tables import parquet_pages
 from packwork.readers.tables.json_rows import MAX_JSON_BYTES
 from packwork.readers.tables.table import read_table
 
@@ -47,6 +49,94 @@ def test_large_columns_are_refused_before_they_are_read(
     monkeypatch.setattr(reader, "MOST_DECODED_BYTES", 100_000)
     file = written({"n": ["x" * 200_000, "y"], "m": [1, 2]}, compression="zstd")
     with pytest.raises(ReadError, match="MB in the columns that are read"):
+        read_table(file)
+
+
+def lying(data: bytes, known: int, claim: int) -> bytes:
+    """The file with one number of its footer changed."""
+    length = int.from_bytes(data[-8:-4], "little")
+    said = data[-8 - length : -8]
+    assert said.count(varint(2 * known)) >= 1
+    footer = said.replace(varint(2 * known), varint(2 * claim))
+    return data[: -8 - length] + footer + len(footer).to_bytes(4, "little") + data[-4:]
+
+
+def varint(value: int) -> bytes:
+    found = b""
+    while value > 0x7F:
+        found += bytes([value & 0x7F | 0x80])
+        value >>= 7
+    return found + bytes([value])
+
+
+@pytest.mark.parametrize("version", ["1.0", "2.0"])
+def test_what_a_file_says_of_its_sizes_is_not_believed(
+    version: str, written: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = written(
+        {"n": [b"x" * 200_000, b"y"], "m": [1, 2]}, compression="zstd", use_dictionary=False,
+        data_page_version=version, write_statistics=False,
+    )  # fmt: skip
+    size = parquet.read_metadata(file).row_group(0).column(0).total_uncompressed_size
+    path = Path(file)
+    path.write_bytes(lying(path.read_bytes(), size, 5))
+    assert parquet.read_metadata(file).row_group(0).column(0).total_uncompressed_size == 5
+    assert len(read_table(file).rows) == 2
+    monkeypatch.setattr(reader, "MOST_DECODED_BYTES", 100_000)
+    with pytest.raises(ReadError, match="MB in the columns that are read"):
+        read_table(file)
+
+
+def test_an_account_that_ends_arrow_is_not_asked(written: Any) -> None:
+    # Where these disagree, asking pyarrow for a column's account ends the process.
+    file = written({"n": list(range(1_234)), "name": [b"\0" * 40] * 1_234}, use_dictionary=False)
+    path = Path(file)
+    whole = path.read_bytes()
+    for claim in (0, 1, 5, 10**8, 2**40):
+        path.write_bytes(lying(whole, 1_234, claim))
+        with contextlib.suppress(ReadError):
+            read_table(file)
+
+
+@pytest.mark.parametrize(
+    "spoil", [lambda d: d[:-8] + b"\xff\xff\xff\x7fPAR1", lambda d: b"PAR1" + b"\xff" * 99 + d[-8:]]
+)
+def test_a_spoilt_end_is_refused(spoil: Any, written: Any) -> None:
+    path = Path(written({"n": [1]}))
+    path.write_bytes(spoil(path.read_bytes()))
+    with pytest.raises(ReadError, match="is not Parquet that can be read"):
+        read_table(str(path))
+    with pytest.raises(ValueError, match="account of itself"):
+        parquet_pages.pieces_of(path.read_bytes())
+
+
+def test_texts_told_by_the_one_before_are_counted_as_they_are_unpacked(
+    written: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    long = "peru" * 2_000
+    coding = {"land": "DELTA_BYTE_ARRAY", "n": "PLAIN"}
+    columns = {"land": [long] * 500, "n": list(range(500))}
+    file = written(columns, use_dictionary=False, column_encoding=coding, write_statistics=False)
+    assert read_table(file).rows[499] == {"land": long, "n": 499}
+    # The pages are small, what they unpack to is not.
+    monkeypatch.setattr(reader, "MOST_DECODED_BYTES", 1_000_000)
+    with pytest.raises(ReadError, match="MB in the columns that are read"):
+        read_table(file)
+
+
+def test_a_text_as_long_as_a_book_is_no_name(written: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reader, "MOST_BYTES_OF_CELL", 50)
+    for long in ("x" * 51, b"\xff" * 51):
+        with pytest.raises(ReadError, match="a text of 51 bytes, 50 are the most"):
+            read_table(written({"n": [1, 2], "name": [long, None]}))
+    assert len(read_table(written({"n": [1], "name": ["x" * 50]})).rows) == 1
+
+
+def test_pages_are_counted(written: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = written({"n": list(range(5_000))}, use_dictionary=False, data_page_size=64)
+    assert len(read_table(file).rows) == 5_000
+    monkeypatch.setattr(parquet_pages, "MOST_PAGES", 3)
+    with pytest.raises(ReadError, match="more than 3 pages"):
         read_table(file)
 
 

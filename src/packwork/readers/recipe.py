@@ -21,6 +21,9 @@ MOST_NESTED = 32
 """Arrays and tables in each other, or parts of a key. Larger lets the parser recurse; a recipe has
 four. Chosen."""
 
+MOST_BITS = 1_024
+"""Of a whole number: what is larger is no number of reals either. Derived."""
+
 MOST_NAMED = 8
 """Files that one notice names. Chosen."""
 
@@ -73,11 +76,21 @@ def read_recipe(path: str | Path, *, allow_code: bool = False) -> dict[str, Any]
         # Beside TOML's own errors: numbers of more digits than Python takes.
         said = " ".join(str(error).split())[:200]
         raise ReadError(path, f"is not TOML ({said}); give lines such as count = 100") from None
+    _check_numbers(path, options)
     if not allow_code:
         check_no_code(options)
     found = with_paths(options, found_from(Path(path).parent))
     _name_files_elsewhere(path, found)
     return found
+
+
+def _check_numbers(path: str | Path, value: Any) -> None:
+    """Refuse whole numbers that neither reals nor Python's own texts can hold."""
+    if isinstance(value, dict | list):
+        for one in value.values() if isinstance(value, dict) else value:
+            _check_numbers(path, one)
+    elif isinstance(value, int) and value.bit_length() > MOST_BITS:
+        raise ReadError(path, "holds a number of more than 300 digits; give a smaller one")
 
 
 def _name_files_elsewhere(recipe: str | Path, options: Mapping[str, Any]) -> None:

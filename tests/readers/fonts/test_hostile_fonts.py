@@ -176,7 +176,14 @@ def font_of(side: int) -> bytes:
     return changed(TRUETYPE, enlarge)
 
 
+def far_font() -> bytes:
+    """Lines that end sixty ems off, by steps that a font may take."""
+    lines = [1_000, 0, "rlineto"] * 60 + [0, 1_000, "rlineto"] + [-1_000, 0, "rlineto"] * 60
+    return nested_font(1, 1, lines)
+
+
 RICH = {
+    "far off": far_font,
     "scribble": lambda: scribbled_font(15_000),
     "small scribble": lambda: scribbled_font(1_000),
     "doubled": lambda: doubled_font(24),

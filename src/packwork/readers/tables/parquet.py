@@ -9,14 +9,21 @@ from typing import Any
 
 from packwork.errors import ReadError
 from packwork.readers.tables.delimited import check_cells, check_rows
+from packwork.readers.tables.parquet_pages import Piece, pieces_of
 
 MOST_DECODED_BYTES = 100_000_000
-"""Bytes of the columns that are read, once unpacked, by the file's own account; Python's values
+"""Bytes of the columns that are read, once unpacked, by their pages' own headers; Python's values
 take up to six times that. Derived from a gigabyte in all."""
 
 ALL_COLUMNS_CELLS = 200_000
 """Cells up to which all columns are read, for the tooltips of a few thousand marks; of larger
 files only those that are asked for. Larger takes memory for nothing that is shown. Chosen."""
+
+MOST_BYTES_OF_CELL = 1_000_000
+"""Of one text. Larger is no name, and where it is no text its bytes are spelt out. Chosen."""
+
+MOST_ROWS_AT_ONCE = 10_000
+"""Of texts that share beginnings. Larger saves little time. Chosen."""
 
 _MOST_REASON = 120
 _INDEX = "__index_level_"
@@ -51,10 +58,9 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
         metadata = opened.metadata
         check_rows(metadata.num_rows, file)
         names = _columns(metadata, opened.schema_arrow.names, set(needed))
-        _check_size(file, metadata, names)
-        table = parquet.ParquetFile(io.BytesIO(data), read_dictionary=_texts(opened, arrow)).read(
-            columns=names, use_threads=False, use_pandas_metadata=False
-        )
+        pieces = [piece for piece in pieces_of(data) if piece.name in names]
+        _check_size(file, pieces)
+        table = _read(file, data, names, pieces, _texts(opened, arrow))
         columns = {name: _values(table.column(name), arrow) for name in names}
     except MemoryError:
         raise ReadError(file, "needs more memory than there is; give fewer rows") from None
@@ -72,24 +78,20 @@ def _columns(metadata: Any, names: Sequence[str], needed: set[str]) -> list[str]
     return [name for name in own if name in needed] or own
 
 
-def _check_size(file: str, metadata: Any, names: Sequence[str]) -> None:
-    """Refuse what would not fit into memory, by what the file says of itself.
+def _check_size(file: str, pieces: Sequence[Piece]) -> None:
+    """Refuse what would not fit into memory, by the headers of its pages.
 
     Raises
     ------
     ReadError
         Saying how much there may be.
     """
-    cells, size = 0, 0
-    for group in range(metadata.num_row_groups):
-        rows = metadata.row_group(group)
-        for k in range(rows.num_columns):
-            chunk = rows.column(k)
-            if chunk.path_in_schema.partition(".")[0] in names:
-                # Lists have more values than rows.
-                cells += max(chunk.num_values, rows.num_rows)
-                size += chunk.total_uncompressed_size
-    check_cells(cells, file)
+    # Lists have more values than rows.
+    check_cells(sum(max(one.values, one.rows, one.found) for one in pieces), file)
+    _check_bytes(file, sum(max(one.size, one.stated) for one in pieces))
+
+
+def _check_bytes(file: str, size: int) -> None:
     if size > MOST_DECODED_BYTES:
         raise ReadError(
             file,
@@ -98,14 +100,39 @@ def _check_size(file: str, metadata: Any, names: Sequence[str]) -> None:
         )
 
 
+def _read(
+    file: str, data: bytes, names: Sequence[str], pieces: Sequence[Piece], texts: Sequence[str]
+) -> Any:
+    """The columns, those of texts with each different one once.
+
+    Texts that are told by what they share with the one before (``DELTA_BYTE_ARRAY``) may be as long
+    as all of their pages, in each row; they are unpacked a few rows at a time, and counted.
+    """
+    arrow = importlib.import_module("pyarrow")
+    parquet = importlib.import_module("pyarrow.parquet")
+    shared = {piece.name for piece in pieces if piece.is_shared}
+    opened = parquet.ParquetFile(
+        io.BytesIO(data), read_dictionary=[name for name in texts if name not in shared]
+    )
+    if not shared:
+        return opened.read(columns=names, use_threads=False, use_pandas_metadata=False)
+    longest = max(piece.size for piece in pieces if piece.is_shared)
+    rows = min(max(MOST_DECODED_BYTES // max(longest, 1), 1), MOST_ROWS_AT_ONCE)
+    batches, size = [], 0
+    for batch in opened.iter_batches(rows, columns=names, use_threads=False):
+        size += batch.nbytes
+        _check_bytes(file, size)
+        batches.append(batch)
+    return arrow.Table.from_batches(batches, opened.schema_arrow if not batches else None)
+
+
 def _texts(opened: Any, arrow: Any) -> list[str]:
     """Columns of texts: each different one is decoded once, however often it stands there."""
-    types = arrow.types
-    return [
-        field.name
-        for field in opened.schema_arrow
-        if types.is_string(field.type) or types.is_binary(field.type)
-    ]
+    return [field.name for field in opened.schema_arrow if _is_text(field.type, arrow)]
+
+
+def _is_text(kind: Any, arrow: Any) -> bool:
+    return bool(arrow.types.is_string(kind) or arrow.types.is_binary(kind))
 
 
 def _values(column: Any, arrow: Any) -> list[Any]:
@@ -121,6 +148,11 @@ def _values(column: Any, arrow: Any) -> list[Any]:
 
 
 def _plain_values(values: Any, arrow: Any) -> list[Any]:
+    if _is_text(values.type, arrow):
+        compute = importlib.import_module("pyarrow.compute")
+        longest = compute.max(compute.binary_length(values)).as_py() or 0
+        if longest > MOST_BYTES_OF_CELL:
+            raise ValueError(f"a text of {longest:,} bytes, {MOST_BYTES_OF_CELL:,} are the most")
     if arrow.types.is_timestamp(values.type):
         # Python's own times know no billionths of a second; nor do charts.
         values = values.cast(arrow.timestamp("us"), safe=False)

@@ -17,6 +17,10 @@ from packwork.writers.notation import path_data
 
 _LOG = logging.getLogger("packwork")
 
+MOST_LETTERS = 400
+"""Of one note; an ellipsis stands for the rest. Larger sets what nobody reads, slowly, and at last
+more glyphs than one word may have; smaller cuts long titles. Chosen."""
+
 WEIGHT = 500
 DIGITS = 6
 ROUNDING = 1e-9
@@ -96,13 +100,15 @@ def _ends(text: str) -> tuple[float, float]:
 
 @lru_cache(maxsize=4096)
 def lettering(text: str) -> Lettering:
-    """Text as it is drawn; what no font has is a question mark, and told.
+    """Text as it is drawn; what no font has is a question mark, and told; very long ones are cut.
 
     Examples
     --------
     >>> lettering("kg").path == lettering("kg").path
     True
     """
+    if len(text) > MOST_LETTERS:
+        return lettering(brief(text))
     try:
         return letters().lettering([text])
     except UnfitError:
@@ -122,6 +128,17 @@ def _is_drawn(character: str) -> bool:
     return True
 
 
+def brief(text: str) -> str:
+    """No more than ``MOST_LETTERS``, the last an ellipsis if there were more.
+
+    Examples
+    --------
+    >>> len(brief("a" * 9_000)), brief("Peru")
+    (400, 'Peru')
+    """
+    return text if len(text) <= MOST_LETTERS else f"{text[: MOST_LETTERS - 1]}…"
+
+
 def shortened(text: str, em: float, room: float) -> str:
     """As many letters as there is room for, the rest as an ellipsis.
 
@@ -130,6 +147,7 @@ def shortened(text: str, em: float, room: float) -> str:
     >>> shortened("Nicaragua", 10.0, 40.0), shortened("Peru", 10.0, 40.0)
     ('Nicara…', 'Peru')
     """
+    text = brief(text)
     # An em may have been chosen by this very width.
     if Pen.width(text, em) <= room * (1 + ROUNDING):
         return text
