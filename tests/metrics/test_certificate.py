@@ -49,6 +49,13 @@ def test_shares_are_checked_to_a_thousandth() -> None:
     assert "areas are off the shares" in faults(two_squares(2.0, 20.0, (1, 3.98)), promise)[0]
 
 
+def test_of_specks_areas_are_checked_to_the_precision_of_files() -> None:
+    promise = Promise(areas_in_shares=True)
+    # Of a square of half side 1e-3, a grid of 1e-5 may take and give a fiftieth.
+    assert faults(two_squares(2.0, 1e-3, (1e8, 1.01)), promise) == ()
+    assert "areas are off the shares" in faults(two_squares(2.0, 1e-3, (1e8, 1.2)), promise)[0]
+
+
 @pytest.mark.parametrize(
     ("manifest", "promise"),
     [

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from packwork.arrays import FloatArray
 from packwork.metrics.exact import ExactMetrics
 from packwork.scene.layout import Layout
 
@@ -15,6 +16,10 @@ HAIR = 1e-6
 """Least gap of a certified layout, as a share of the canvas: ten times the precision of
 the files that are written, and more than curves bulge past the polygons that were
 checked. Smaller would certify touching curves. Derived."""
+
+FILE_PRECISION = HAIR / 10
+"""How far lines of a file may lie from those that were placed, as a share of the canvas: the area
+of a speck may be off by that much along its whole outline. Derived, from the coarsest format."""
 
 SHARE_TOLERANCE = 1e-3
 """How far areas may be off the shares asked for. Chosen."""
@@ -92,7 +97,18 @@ def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, 
     weighed = layout.weights > 0
     if promise.areas_in_shares and weighed.any():
         per_weight = layout.areas[weighed] / layout.weights[weighed]
-        off = float(np.ptp(per_weight) / per_weight.mean())
+        slack = FILE_PRECISION * side * _perimeters(layout)[weighed] / layout.areas[weighed]
+        least_most, most_least = per_weight * (1 + slack), per_weight * (1 - slack)
+        off = float((most_least.max() - least_most.min()) / per_weight.mean())
         if off > SHARE_TOLERANCE:
             found.append(f"areas are off the shares asked for by {100 * off:.2g} %")
     return tuple(found)
+
+
+def _perimeters(layout: Layout) -> FloatArray:
+    """Length of all lines of each item's outline, canvas units."""
+    rings = [outline.rings for outline in layout.outlines]
+    return np.array([
+        sum(float(np.hypot(*(np.roll(ring, -1, axis=0) - ring).T).sum()) for ring in one)
+        for one in rings
+    ])  # fmt: skip
