@@ -26,6 +26,7 @@ from packwork.geometry.polygon import polygon_parts
 from packwork.readers.container import read_container
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.text import lines
 from packwork.readers.text.container import container_of_words
 from packwork.readers.text.letters import Letter, letters_of
 from packwork.readers.text.lines import LETTER_GAP, LINE_GAP, MOST_CHARACTERS, set_lines
@@ -255,6 +256,13 @@ def test_letters_are_moved_apart_and_lines_are_centred():
     left, top, right, bottom = set_lines([[letter] * 3, [letter]]).bounds
     assert (left, right) == pytest.approx((-1.5 - LETTER_GAP, 1.5 + LETTER_GAP), rel=1e-4)
     assert (top, bottom) == pytest.approx((0, 2 + LINE_GAP))
+
+
+def test_letters_of_many_points_are_set_as_others_are(monkeypatch):
+    whole = container_of_words("text:LTAVfj/|AV", 600)
+    monkeypatch.setattr(lines, "FEW_POINTS", 0)
+    facing = container_of_words("text:LTAVfj/|AV", 600)
+    assert np.allclose(facing.outline.points, whole.outline.points, atol=1e-9)
 
 
 def parts_of(text: str, font: str) -> list[Polygon]:

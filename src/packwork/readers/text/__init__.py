@@ -1,4 +1,4 @@
-"""Words to regions: fonts, their letters, and how those are set in lines."""
+"""Words to containers: letters that stand apart, set in lines."""
 
 PREFIX = "text:"
 """What a container made of words begins with."""

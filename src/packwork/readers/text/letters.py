@@ -109,12 +109,15 @@ def _joined(drawn: Sequence[_Drawn]) -> list[Region]:
     """What glyphs cover, one after the other, those that join in one; marks join their letter."""
     groups: list[list[_Drawn]] = []
     for one in drawn:
-        is_mark = bool(groups) and one.cluster == groups[-1][-1].cluster
-        if is_mark or (groups and shapely.distance(_covered(groups[-1]), one.region) <= JOINED):
+        if groups and (one.cluster == groups[-1][-1].cluster or _is_near(one, groups[-1])):
             groups[-1].append(one)
         else:
             groups.append([one])
     return [_covered(group) for group in groups]
+
+
+def _is_near(one: _Drawn, others: Sequence[_Drawn]) -> bool:
+    return bool(shapely.dwithin(one.region, [each.region for each in others], JOINED).any())
 
 
 def _covered(drawn: Sequence[_Drawn]) -> Region:

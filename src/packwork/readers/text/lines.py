@@ -23,6 +23,10 @@ lets items of one letter crowd those of the next. Chosen."""
 LINE_GAP = 0.12
 """Distance between the boxes of two lines, in ems. Chosen."""
 
+FEW_POINTS = 20_000
+"""Points of two neighbours up to which distances are taken from the whole of them: a phrase of
+letters that all join has 100,000, and costs a minute. Single letters have hundreds. Chosen."""
+
 _JOINERS = "\u200c\u200d"
 """Where letters are to join, and where not."""
 
@@ -100,12 +104,25 @@ def _set_line(line: Sequence[Letter]) -> Region:
 def _push(before: Region, after: Region) -> float:
     """How far right ``after`` must go to keep its distance from ``before``."""
     push, widest = 0.0, before.bounds[2] - after.bounds[0] + LETTER_GAP
+    shapely.prepare(before)
+    if not shapely.dwithin(before, after, LETTER_GAP):
+        return push
+    if len(shapely.get_coordinates([before, after])) > FEW_POINTS:
+        before, after = _facing(before, after)
     lack = LETTER_GAP - float(shapely.distance(before, after))
     # A step right widens the gap by no more than itself, so no step goes too far.
     while lack > 1e-3 * LETTER_GAP and push < widest:
         push += lack
         lack = LETTER_GAP - float(shapely.distance(before, affinity.translate(after, push)))
     return push
+
+
+def _facing(before: Region, after: Region) -> tuple[Region, Region]:
+    """Parts of two regions beside each other that can be nearer than ``LETTER_GAP``."""
+    left, right = after.bounds[0] - LETTER_GAP, before.bounds[2] + LETTER_GAP
+    low, high = min(before.bounds[1], after.bounds[1]), max(before.bounds[3], after.bounds[3])
+    parts = shapely.clip_by_rect([before, after], left, low - 1, right, high + 1)
+    return parts[0], parts[1]
 
 
 def _is_unseen(character: str) -> bool:
