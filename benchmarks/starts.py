@@ -30,8 +30,8 @@ from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.detail import seen_at
-from packwork.solve.herd import wronged_shares
 from packwork.solve.level import Level
+from packwork.solve.relocate import violation_shares
 from packwork.solve.solver import solve
 from packwork.start.angles import start_angles
 from packwork.start.first_poses import first_poses
@@ -151,7 +151,7 @@ def unburied(case: Setting, start: Poses) -> Poses:
     """The start with its buried items relocated."""
     seen = seen_at(case.outlines, start.scale, BURIED_RESOLUTION / case.container.side)
     level = Level(case.container, seen, BURIED_RESOLUTION)
-    shares = wronged_shares(level, start, level.density(start))
+    shares = violation_shares(level, start, level.density(start))
     buried = np.flatnonzero(shares > BURIED_SHARE)
     return relocated(case.container, case.outlines, start, buried, case.rng)
 

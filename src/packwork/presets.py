@@ -54,7 +54,7 @@ PAPER = Preset(
         cooling=1.0,  # steps do not shrink
         hardening=1.0,  # weights do not grow
         settling=0.0,
-        herd=False,
+        relocating=False,
     ),
     coverage=0.55,
 )

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from packwork.compaction.conflicts import find_conflicts
+from packwork.compaction.options import HAIR
 from packwork.finish.admission import admitted
-from packwork.finish.offenders import find_offenders
-from packwork.finish.options import HAIR
 from packwork.scene.pose import Poses
 from scenes import disc, poses, square, square_container, star
 
@@ -26,7 +26,7 @@ def test_who_stays_is_free_and_the_old_stay_as_they_are(
     np.testing.assert_array_equal(stay.scale[:2], old.scale)
     assert np.all(stay.scale[2:] <= new.scale[who[2:] - 2])
     kept = [outlines[k] for k in who]
-    assert find_offenders(square_container(), kept, stay, gap + HAIR * 100) == ()
+    assert find_conflicts(square_container(), kept, stay, gap + HAIR * 100) == ()
 
 
 def test_nobody_comes_nobody_goes() -> None:

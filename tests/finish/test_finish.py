@@ -11,8 +11,9 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
+from packwork.compaction.options import HAIR
 from packwork.finish.finish import Finished, finish
-from packwork.finish.options import HAIR, FinishOptions
+from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.metrics.exact import ExactMetrics, exact_metrics
 from packwork.progress import Step
@@ -35,7 +36,7 @@ def assert_clean(
 ) -> None:
     found = exact(container, outlines, done)
     assert done.clean
-    assert done.offenders == ()
+    assert done.conflicts == ()
     assert found.overlap_area == 0
     assert found.outside_area == 0
     assert found.min_gap >= gap + HAIR * container.side * (1 - 1e-6)
@@ -80,11 +81,11 @@ def test_fixed_sizes_stay_and_what_does_not_fit_is_named(
     done = finish(container, outlines, start, FAST.model_copy(update={"sizes": "fixed"}))
     assert (done.poses.scale == start.scale).all()
     found = exact(container, outlines, done)
-    assert done.clean == (not done.offenders)
+    assert done.clean == (not done.conflicts)
     if done.clean:
         assert_clean(container, outlines, done)
     else:
-        named = sum(o.overlap_cu2 for o in done.offenders)
+        named = sum(o.overlap_cu2 for o in done.conflicts)
         assert named >= (found.overlap_area + found.outside_area) * (1 - 1e-9)
 
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from packwork.compaction.objective import FreeSizes, SharedSize
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.finish.pulling import YIELDING, pulling_of
-from packwork.finish.sizing import FreeSizes, SharedSize
 from packwork.forces.bonds import Alignment
 from packwork.forces.forces import BondForce, Forces
 from scenes import disc, poses, square, square_container, star
@@ -44,9 +44,9 @@ def test_where_sizes_are_common_no_push_outweighs_growing() -> None:
     pulling = pulling_of(strong, sizing)
     assert pulling is not None
     arrangement = _two()
-    wishes = sizing.wishes(arrangement.places[:, 3], 0.1)
-    push = pulling.pushed(wishes, arrangement).push
-    growth = wishes.weights / arrangement.radii
+    objective = sizing.objective(arrangement.places[:, 3], 0.1)
+    push = pulling.pushed(objective, arrangement).push
+    growth = objective.weights / arrangement.radii
     np.testing.assert_allclose(np.hypot(*push.T), YIELDING * growth)
     assert push[0, 1] > 0 > push[1, 1]
 
@@ -56,7 +56,7 @@ def test_where_sizes_are_free_pushes_are_as_strong_as_they_are() -> None:
     pulling = pulling_of(ROW.some(np.array([1, 3])), sizing)
     assert pulling is not None
     arrangement = _two()
-    push = pulling.pushed(sizing.wishes(np.zeros(2), 0.1), arrangement).push
+    push = pulling.pushed(sizing.objective(np.zeros(2), 0.1), arrangement).push
     slopes = pulling.forces.cost(arrangement.places[:, :2], sizing.areas).slopes
     np.testing.assert_allclose(push, -slopes)
     assert pulling.gains(arrangement.places, 0, np.array([1])).tolist() == [0.0]
@@ -64,7 +64,7 @@ def test_where_sizes_are_free_pushes_are_as_strong_as_they_are() -> None:
 
 
 def _two():
-    from packwork.finish.arrangement import Arrangement
+    from packwork.compaction.arrangement import Arrangement
 
     places = np.array([[30.0, 20.0, 0.0, 0.0], [60.0, 80.0, 0.0, 0.0]])
     return Arrangement([square()] * 2, square_container().outline, places)

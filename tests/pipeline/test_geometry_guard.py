@@ -9,9 +9,9 @@ import pytest
 from shapely.errors import GEOSException
 
 import packwork as pw
+from packwork.compaction.conflicts import find_conflicts
+from packwork.compaction.outer_simplify.outer_simplify import inner_simplified
 from packwork.errors import ReadError
-from packwork.finish.covers.cover import lining
-from packwork.finish.offenders import find_offenders
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import region
 from packwork.readers.builtin import builtin_container
@@ -30,7 +30,7 @@ def _country(rng: np.random.Generator) -> Outline:
 @pytest.mark.parametrize("tolerance", [0.05, 0.5, 2.0, 6.0])
 def test_simplified_containers_of_many_fjords_lie_inside(tolerance: float) -> None:
     whole = _country(np.random.default_rng(3)).region
-    inside = lining(whole, tolerance)
+    inside = inner_simplified(whole, tolerance)
     assert inside.is_valid
     assert whole.buffer(1e-6).covers(inside)
 
@@ -49,4 +49,4 @@ def test_an_error_of_geos_is_one_line_that_names_the_container(
 def test_nothing_is_in_conflict_where_nothing_is() -> None:
     none = np.zeros(0)
     container = builtin_container("square", 9.0)
-    assert find_offenders(container, [], Poses(none, none, none, none), 0.1) == ()
+    assert find_conflicts(container, [], Poses(none, none, none, none), 0.1) == ()

@@ -12,8 +12,8 @@ import shapely
 
 import packwork as pw
 from packwork import pipeline, uses
+from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.errors import ReadError, RecipeError
-from packwork.finish.sizing import SIZE_TOLERANCE
 from packwork.pipeline.dress.neighbours import beside, same_kind_beside
 from packwork.pipeline.plan.cast import kinds
 from packwork.pipeline.plan.limits import LEAD

@@ -9,8 +9,8 @@ import pytest
 from PIL import Image
 
 import packwork as pw
+from packwork.compaction.objective import turn_ranges
 from packwork.finish.options import FinishOptions
-from packwork.finish.sizing import turn_ranges
 from packwork.scene.leaning import LEAST, MOST, leanings, turn_sides
 from packwork.scene.pose import Poses
 from packwork.solve.motion import Motion

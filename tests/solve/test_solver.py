@@ -1,4 +1,4 @@
-"""Whole solves on small images: determinism, modes, progress, stopping, rescue."""
+"""Whole solves on small images: determinism, modes, progress, stopping, relocation."""
 
 from __future__ import annotations
 
@@ -228,7 +228,7 @@ def test_an_item_outside_comes_home(x: float, y: float, sizes: str, quick: Optio
     container = round_container()
     outlines = [disc(), star()]
     start = poses([50.0, x], [50.0, y], 0.0, [14.0, 4.0])
-    options = quick(sizes=sizes, epochs=200, position_rate=0.02, herd=False)
+    options = quick(sizes=sizes, epochs=200, position_rate=0.02, relocating=False)
     end = solve(container, outlines, start, start.scale, options).poses
     assert share_inside(placed(outlines, end)[1], container) > 0.95
 
@@ -254,17 +254,17 @@ def test_a_trapped_item_is_herded_into_the_void_and_logged(sizes: str, quick: Op
     outlines, start = trapped()
     options = quick(sizes=sizes, epochs=80, position_rate=0.002, size_rate=0.001)
     outcome = solve(square_container(), outlines, start, start.scale, options)
-    (rescue,) = outcome.levels[0].rescues
-    assert rescue.item == 1
-    assert rescue.share > 0.5
-    assert (rescue.from_x, rescue.from_y) == pytest.approx((28.0, 53.0), abs=5)
-    assert rescue.to_x > 55
+    (relocation,) = outcome.levels[0].rescues
+    assert relocation.item == 1
+    assert relocation.share > 0.5
+    assert (relocation.from_x, relocation.from_y) == pytest.approx((28.0, 53.0), abs=5)
+    assert relocation.to_x > 55
     assert overlap_area(placed(outlines, outcome.poses)) < 1.0
 
 
 def test_without_the_herder_a_trapped_item_stays(quick: Options) -> None:
     outlines, start = trapped()
-    options = quick(sizes="fixed", herd=False, position_rate=0.002)
+    options = quick(sizes="fixed", relocating=False, position_rate=0.002)
     outcome = solve(square_container(), outlines, start, start.scale, options)
     assert not outcome.levels[0].rescues
     assert overlap_area(placed(outlines, outcome.poses)) > 70
@@ -273,7 +273,7 @@ def test_without_the_herder_a_trapped_item_stays(quick: Options) -> None:
 def test_a_trapped_item_feels_no_force_and_does_not_dance(quick: Options) -> None:
     outlines = [square(), disc(), star()]
     start = poses([30.0, 28.0, 95.0], [50.0, 53.0, 50.0], 0.0, [22.0, 5.0, 10.0])
-    options = quick(levels=(128,), epochs=20, sizes="fixed", herd=False, turn_rate=0.1)
+    options = quick(levels=(128,), epochs=20, sizes="fixed", relocating=False, turn_rate=0.1)
     end = solve(square_container(), outlines, start, start.scale, options).poses
     assert abs(end.x[2] - start.x[2]) > 1
     assert np.hypot(end.x[1] - start.x[1], end.y[1] - start.y[1]) < 0.1

@@ -12,9 +12,9 @@ import shapely
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.scene.limits import Limits, Zone
-from packwork.solve.herd import herd, wronged_shares
 from packwork.solve.level import Level
 from packwork.solve.options import SolveOptions
+from packwork.solve.relocate import relocate_trapped, violation_shares
 from packwork.solve.solver import solve
 from packwork.solve.zones import ZonePull
 from scenes import (
@@ -86,11 +86,13 @@ def test_what_lies_outside_its_zone_is_wronged_and_herded_into_it() -> None:
     container, outlines = square_container(), [disc(), disc()]
     where = poses([80.0, 85.0], [50.0, 20.0], 0.0, 6.0)
     level = Level(container, outlines, 200, limits=limits_of([0], 2))
-    shares = wronged_shares(level, where, level.density(where))
+    shares = violation_shares(level, where, level.density(where))
     np.testing.assert_allclose(shares, [1, 0], atol=1e-3)
     areas = np.array([outline.area for outline in outlines])
-    after, (rescue,) = herd(level, where, areas, where.scale, where.scale, limits_of([0], 2))
-    assert rescue.item == 0
+    after, (relocation,) = relocate_trapped(
+        level, where, areas, where.scale, where.scale, limits_of([0], 2)
+    )
+    assert relocation.item == 0
     assert shapely.contains_xy(ZONE.region, after.x[0], after.y[0])
 
 
@@ -100,8 +102,8 @@ def test_the_herder_leaves_held_items_where_they_are() -> None:
     level = Level(square_container(), outlines, 200)
     areas = np.array([outline.area for outline in outlines])
     held = replace(Limits.free(2), x=np.array([np.nan, 38.0]))
-    _, rescues = herd(level, where, areas, where.scale, where.scale, held)
-    assert [rescue.item for rescue in rescues] == [0]
+    _, relocations = relocate_trapped(level, where, areas, where.scale, where.scale, held)
+    assert [relocation.item for relocation in relocations] == [0]
 
 
 def test_after_a_solve_all_are_in_their_zone(quick: Options) -> None:

@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.finish import _kernels
-from packwork.finish.contact import _kernels as contact
-from packwork.finish.detail import Detail
-from packwork.finish.finish import FINE
-from packwork.finish.options import HAIR
+from packwork.compaction import _kernels
+from packwork.compaction.detail import FINE, Detail
+from packwork.compaction.distances import _kernels as distances
+from packwork.compaction.options import HAIR
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -63,7 +62,7 @@ def admitted(
     zero = np.zeros(len(poses))
     arrangement = covers.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))
     last = np.arange(len(poses) - fillers, len(poses))
-    pairs = contact.pairs_of(arrangement.board.boxes, last, gap)
+    pairs = distances.pairs_of(arrangement.board.boxes, last, gap)
     _kernels.clear_by_shrinking(arrangement.board, last, pairs, gap, CUT, CHECKS)
     stuck = np.unique(arrangement.conflicts(arrangement.pairs(gap), gap))
     stay = np.setdiff1d(np.arange(len(poses)), np.intersect1d(stuck, last))

@@ -10,36 +10,25 @@ from functools import partial
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.finish._kernels import MOST_GROWTH, Wishes
-from packwork.finish.blocks import blocks
-from packwork.finish.compaction import compact
-from packwork.finish.detail import COARSE_OF_GAP, FINE_OF_GAP, Detail
-from packwork.finish.offenders import Offender, find_offenders
-from packwork.finish.options import HAIR, FinishOptions
-from packwork.finish.part import cleared, part, part_evenly
+from packwork.compaction._kernels import MOST_GROWTH, Objective
+from packwork.compaction.blocks import blocks
+from packwork.compaction.compact import compact
+from packwork.compaction.conflicts import Conflict, find_conflicts
+from packwork.compaction.detail import COARSE, COARSE_OF_GAP, FINE, FINE_OF_GAP, Detail
+from packwork.compaction.objective import SharedSize, turn_ranges
+from packwork.compaction.options import HAIR
+from packwork.compaction.relocate import relocate
+from packwork.compaction.separate import relocate_stuck, separate, separate_evenly
+from packwork.finish import bottlenecks
+from packwork.finish.anneal import Lengths, anneal
+from packwork.finish.options import FinishOptions
 from packwork.finish.pulling import pulling_of
-from packwork.finish.relief import (
-    NEARLY,
-    PROBE,
-    PROMISING,
-    RELIEF,
-    TRIES,
-    VOID_SPREAD,
-    rehouse,
-    suspects,
-)
-from packwork.finish.relocate import relocate
-from packwork.finish.search import Room, search
-from packwork.finish.sizing import SharedSize, sizing_of, turn_ranges
+from packwork.finish.sizing import sizing_of
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-
-COARSE, FINE = 4e-3, 3e-4
-"""Tolerance of the outlines that rounds work on, shares of an item's extent: first and
-last. Larger is faster and wastes room (the fine one 0.1 % of the coverage). Tried."""
 
 FIRST_TRUST, LAST_TRUST = 0.08, 0.003
 """Trust region of the first and the last round, shares of the side of an item's share of
@@ -57,7 +46,7 @@ coarse one takes. Tried: 0.3 % of the coverage in a fifth more time."""
 COARSE_SHARE = 0.6
 """Share of the rounds that work on coarse outlines. Tried."""
 
-SEARCH_SPREAD = 0.03
+ANNEAL_SPREAD = 0.03
 """Logarithm of size within which trials weigh the smaller items more, where sizes are
 common. Tried."""
 
@@ -102,7 +91,7 @@ class Finished:
         Where the items are now.
     clean
         Whether no two items, and no item and the edge, are nearer than was asked.
-    offenders
+    conflicts
         What is still in conflict; empty if clean.
     undersized
         Items that found no room at the size that they should have at least.
@@ -114,7 +103,7 @@ class Finished:
 
     poses: Poses
     clean: bool
-    offenders: tuple[Offender, ...]
+    conflicts: tuple[Conflict, ...]
     undersized: tuple[int, ...]
     rounds: int
     seconds: float
@@ -172,13 +161,13 @@ def finish(
             run.level()
     elif run.begin():
         run.coarse()
-        run.search()
+        run.anneal()
         run.fine()
         run.level()
     found = run.result()
-    offenders = find_offenders(container, outlines, found, run.gap)
+    conflicts = find_conflicts(container, outlines, found, run.gap)
     return Finished(
-        found, not offenders, offenders, run.undersized, run.rounds, time.perf_counter() - began
+        found, not conflicts, conflicts, run.undersized, run.rounds, time.perf_counter() - began
     )
 
 
@@ -221,9 +210,9 @@ class _Run:
 
     def begin(self) -> bool:
         """Take conflicts apart; False if many stay in one however small they are made."""
-        loose = partial(part, hopeless_at=self._options.hopeless)
-        (part_evenly if self._is_shared else loose)(self.arrangement, self.gap)
-        return self._options.sizes == "fixed" or cleared(self.arrangement, self.gap)
+        loose = partial(separate, hopeless_at=self._options.hopeless)
+        (separate_evenly if self._is_shared else loose)(self.arrangement, self.gap)
+        return self._options.sizes == "fixed" or relocate_stuck(self.arrangement, self.gap)
 
     def coarse(self) -> None:
         """Grow, on coarse outlines; move those that stay behind."""
@@ -235,7 +224,7 @@ class _Run:
                 break
             before = self.arrangement.places.copy()
             relocate(self.arrangement, laggards, self.gap)
-            part(self.arrangement, self.gap)
+            separate(self.arrangement, self.gap)
             self._compact(range(count // 2, count))
             if self._is_shared and self.arrangement.places[:, 3].min() < before[:, 3].min():
                 self.arrangement.put(np.arange(len(before)), before)
@@ -245,9 +234,9 @@ class _Run:
 
     def _relieve(self, rounds: range) -> None:
         """Move who holds all others back to a void, as long as that lets all grow."""
-        left = TRIES // self.arrangement.count
+        left = bottlenecks.TRIES // self.arrangement.count
         while left > 0 and not self._stop():
-            found = suspects(self.arrangement, self._spacing)[:left]
+            found = bottlenecks.bottlenecks(self.arrangement, self._spacing)[:left]
             left -= len(found)
             if not any(self._helps(int(k), rounds) for k in found):
                 return
@@ -258,37 +247,37 @@ class _Run:
         return self._sizing.undersized(self.arrangement.places[:, 3])
 
     @property
-    def _room(self) -> Room:
-        return Room(self._spacing, self.gap, self.hair)
+    def _room(self) -> Lengths:
+        return Lengths(self._spacing, self.gap, self.hair)
 
     def _helps(self, item: int, rounds: range) -> bool:
         """Whether all can grow once an item has moved to a void; else undone."""
         arrangement, everyone = self.arrangement, np.arange(self.arrangement.count)
         before = arrangement.places.copy()
         least = before[:, 3].min()
-        wishes = self._wishes(before, VOID_SPREAD)
+        objective = self._objective(before, bottlenecks.VOID_SPREAD)
         rng = np.random.default_rng(item)
-        fits = rehouse(arrangement, item, wishes, self._room, rng)
-        if fits and arrangement.places[item, 3] > least - NEARLY:
+        fits = bottlenecks.relocate_bottleneck(arrangement, item, objective, self._room, rng)
+        if fits and arrangement.places[item, 3] > least - bottlenecks.NEARLY:
             self._is_trying = True
-            self._compact(rounds[:PROBE])
-            if arrangement.places[:, 3].min() >= least + PROMISING:
-                self._compact(rounds[PROBE:])
+            self._compact(rounds[: bottlenecks.PROBE])
+            if arrangement.places[:, 3].min() >= least + bottlenecks.PROMISING:
+                self._compact(rounds[bottlenecks.PROBE :])
             self._is_trying = False
-            if arrangement.places[:, 3].min() >= least + RELIEF:
+            if arrangement.places[:, 3].min() >= least + bottlenecks.RELIEF:
                 return True
         arrangement.put(everyone, before)
         return False
 
     def refine(self) -> None:
         """Grow from a clean layout, on fine outlines and in small steps."""
-        part(self.arrangement, self.gap, self._options.hopeless)
+        separate(self.arrangement, self.gap, self._options.hopeless)
         self._compact(range(self._planned))
 
-    def search(self) -> None:
+    def anneal(self) -> None:
         """Turn and exchange items where that gains."""
         rng = np.random.default_rng(self._options.seed)
-        wish = partial(self._wishes, spread=SEARCH_SPREAD)
+        objective_at = partial(self._objective, spread=ANNEAL_SPREAD)
         trials = round(self._options.trials * min(1.0, EASY_POINTS / self._points_each()))
         every = max(self.arrangement.count // TOLD, 1)
 
@@ -296,8 +285,15 @@ class _Run:
             if trial % every == 0:
                 self._tell(COARSE_SHARE)
 
-        search(
-            self.arrangement, wish, trials, self._room, rng, self._is_enough, tell, self._pulling
+        anneal(
+            self.arrangement,
+            objective_at,
+            trials,
+            self._room,
+            rng,
+            self._is_enough,
+            tell,
+            self._pulling,
         )
 
     def _points_each(self) -> float:
@@ -306,7 +302,7 @@ class _Run:
     def fine(self) -> None:
         """Grow into what the coarse outlines left."""
         self.arrangement = self._fine.arrangement(self.arrangement.places)
-        part(self.arrangement, self.gap)
+        separate(self.arrangement, self.gap)
         self._compact(range(round(COARSE_SHARE * self._planned), self._planned))
 
     def _compact(self, rounds: range) -> None:
@@ -322,15 +318,19 @@ class _Run:
     def _round(self, trust: float) -> None:
         arrangement = self.arrangement
         spread = min(trust / float(np.median(arrangement.radii)), MOST_GROWTH)
-        self._blocks(self._wishes(arrangement.places, spread), trust)
+        self._blocks(self._objective(arrangement.places, spread), trust)
 
-    def _wishes(self, places: FloatArray, spread: float) -> Wishes:
-        wishes = self._sizing.wishes(places[:, 3], spread)
-        return wishes if self._pulling is None else self._pulling.pushed(wishes, self.arrangement)
+    def _objective(self, places: FloatArray, spread: float) -> Objective:
+        objective = self._sizing.objective(places[:, 3], spread)
+        return (
+            objective
+            if self._pulling is None
+            else self._pulling.pushed(objective, self.arrangement)
+        )
 
-    def _blocks(self, wishes: Wishes, trust: float) -> None:
+    def _blocks(self, objective: Objective, trust: float) -> None:
         for block in blocks(self.arrangement.places[:, :2], self.rounds):
-            compact(self.arrangement, wishes, block, trust, self.gap, self.hair)
+            compact(self.arrangement, objective, block, trust, self.gap, self.hair)
 
     def result(self) -> Poses:
         """Poses as they are now; one common factor where that was asked."""
@@ -366,11 +366,11 @@ class _Run:
     def _level_round(self, sizing: SharedSize, back: float) -> None:
         """All come down towards the smallest."""
         growth = self.arrangement.places[:, 3]
-        wishes = sizing.levelling(growth, back)
+        objective = sizing.levelling(growth, back)
         # As small a trust region as lets the largest item come down at once.
-        farthest = float((np.abs(growth - wishes.largest) * self.arrangement.radii).max())
+        farthest = float((np.abs(growth - objective.largest) * self.arrangement.radii).max())
         trust = np.clip(LEVELLING_ROOM * farthest / self._spacing, *LEVELLING_TRUST)
-        self._blocks(wishes, float(trust) * self._spacing)
+        self._blocks(objective, float(trust) * self._spacing)
 
     def _put_at_one_size(self) -> bool:
         """Make all as small as the smallest; False, and undone, if that makes a conflict."""

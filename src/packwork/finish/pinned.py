@@ -9,7 +9,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.finish.offenders import Offender, find_offenders
+from packwork.compaction.conflicts import Conflict, find_conflicts
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
 from packwork.scene.container import Container
@@ -68,7 +68,7 @@ def settled(
     some = poses.some(items)
     held, smallest = limits.held[items], limits.smallest[items]
     for _ in range(MOST_ROUNDS):
-        found = find_offenders(container, own, some, gap)
+        found = find_conflicts(container, own, some, gap)
         bad = np.unique([k for one in found for k in (one.item, one.other) if k is not None])
         bad = bad.astype(np.int64)
         shrinking = bad[some.scale[bad] > smallest[bad]]
@@ -83,7 +83,7 @@ def settled(
 
 
 def _away(
-    container: Container, outlines: Sequence[Outline], poses: Poses, found: Sequence[Offender]
+    container: Container, outlines: Sequence[Outline], poses: Poses, found: Sequence[Conflict]
 ) -> FloatArray:
     """``(n, 2)`` which way along x and y leads out of conflicts: -1, 0 or 1 each."""
     push = np.zeros((len(poses), 2))

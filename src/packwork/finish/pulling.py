@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.finish._kernels import Wishes
-from packwork.finish.arrangement import Arrangement
-from packwork.finish.sizing import FreeSizes, Sizing
+from packwork.compaction._kernels import Objective
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.objective import FreeSizes, Sizing
 from packwork.forces.forces import Forces
 
 YIELDING = 0.2
@@ -44,15 +44,15 @@ class Pulling:
         """What it costs that items lie at places ``(n, 4)``."""
         return self.unit * self.forces.cost(places[:, :2], self.areas).value
 
-    def pushed(self, wishes: Wishes, arrangement: Arrangement) -> Wishes:
-        """The wishes, and where the forces push each item."""
+    def pushed(self, objective: Objective, arrangement: Arrangement) -> Objective:
+        """The objective, and where the forces push each item."""
         places = arrangement.places
         push = -self.unit * self.forces.cost(places[:, :2], self.areas).slopes
         if self.gives_way:
-            growth = wishes.weights * np.exp(wishes.power * places[:, 3]) / arrangement.radii
+            growth = objective.weights * np.exp(objective.power * places[:, 3]) / arrangement.radii
             steep = np.hypot(push[:, 0], push[:, 1])
             push *= np.minimum(1.0, YIELDING * growth / np.maximum(steep, 1e-300))[:, None]
-        return wishes._replace(push=np.ascontiguousarray(push))
+        return objective._replace(push=np.ascontiguousarray(push))
 
     def gains(self, places: FloatArray, item: int, others: IntArray) -> FloatArray:
         """``(m,)`` what it would gain, about, that an item changes places with each of others.

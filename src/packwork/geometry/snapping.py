@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import shapely
 
-from packwork.geometry.nearness import is_clear
+from packwork.geometry.distance import is_clear
 from packwork.geometry.overlay import Region, buffered, polygon_parts, union, valid
 
 STEP = 1e-7

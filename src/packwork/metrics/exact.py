@@ -13,7 +13,7 @@ import shapely
 
 from packwork.arrays import IntArray
 from packwork.errors import ShapeError
-from packwork.geometry.nearness import distance
+from packwork.geometry.distance import distance
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import (
     Region,

@@ -9,9 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.options import HAIR
 from packwork.errors import ShapeError
 from packwork.finish.finish import Finished, finish
-from packwork.finish.options import HAIR, FinishOptions
+from packwork.finish.options import FinishOptions
 from packwork.finish.pinned import settled
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
@@ -234,7 +235,7 @@ def _together(poses: Poses, results: Sequence[tuple[IntArray, Finished]]) -> Fin
             other=None if found.other is None else int(items[found.other]),
         )
         for items, result in results
-        for found in result.offenders
+        for found in result.conflicts
     )
     undersized = tuple(int(items[k]) for items, result in results for k in result.undersized)
     return Finished(
@@ -268,7 +269,7 @@ def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
     """Items that are still in conflict, or smaller than they may be, and why."""
     unit = job.container.unit
     found: dict[int, str] = {}
-    for offender in result.offenders:
+    for offender in result.conflicts:
         partner = None if offender.other is None else job.items[offender.other].name
         whom = "the container's edge" if partner is None else f"{partner}"
         if offender.overlap_cu2 > 0:

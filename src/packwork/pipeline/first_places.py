@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
 from packwork.finish.finish import COMMON_COARSE
-from packwork.finish.options import HAIR
 from packwork.forces.forces import PRESSURE, FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job

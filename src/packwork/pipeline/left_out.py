@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.metrics.culprits import Culprit, culprits
+from packwork.metrics.violations import Violation, violations
 from packwork.pipeline.job import Job
 from packwork.pipeline.result import Unplaced
 from packwork.scene.layout import Layout
@@ -26,7 +26,7 @@ def left_out(layout: Layout, held: Sequence[bool], gap: float) -> dict[int, str]
     gap
         What the rest has to keep, canvas units.
     """
-    wrong = culprits(layout.outlines, layout.container.outline, gap)
+    wrong = violations(layout.outlines, layout.container.outline, gap)
     reasons: dict[int, str] = {}
     for one in wrong:
         if one.other is None:
@@ -56,7 +56,7 @@ def named(reasons: dict[int, str], layout: Layout, numbers: IntArray) -> tuple[U
     )
 
 
-def _said(one: Culprit, layout: Layout, other: int | None) -> str:
+def _said(one: Violation, layout: Layout, other: int | None) -> str:
     unit = layout.container.unit
     whom = "the container's edge" if other is None else layout.items[other].name
     if one.overlap_cu2 > 0:

@@ -97,4 +97,4 @@ def _worth(solved: Placed, stop: Stop) -> tuple[bool, float]:
     quick = replace(job, plan=replace(job.plan, effort="draft"))
     exact = finished(quick, solved.start, solved.poses, None, stop, buoyant_forces(job))
     own = np.array([item.outline.area for item in job.items])
-    return not exact.offenders, float(own @ exact.poses.scale**2)
+    return not exact.conflicts, float(own @ exact.poses.scale**2)

@@ -16,8 +16,8 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.resolution import photo_pixels
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
-from packwork.solve.herd import wronged_shares
 from packwork.solve.level import Level
+from packwork.solve.relocate import violation_shares
 from packwork.solve.shaped import seen_posed
 from packwork.solve.solver import Ending, Outcome
 
@@ -188,7 +188,7 @@ def find_unplaced(layout: Layout, limits: Limits | None = None) -> tuple[Unplace
     px_per_cu = CHECK_RESOLUTION / layout.container.side
     seen = seen_posed(outlines, layout.poses, px_per_cu)
     level = Level(layout.container, seen, CHECK_RESOLUTION, limits=limits)
-    shares = wronged_shares(level, layout.poses, level.density(layout.poses))
+    shares = violation_shares(level, layout.poses, level.density(layout.poses))
     return tuple(
         Unplaced(
             layout.items[k].name,

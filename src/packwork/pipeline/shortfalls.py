@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from packwork.arrays import FloatArray
+from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.finish.finish import Finished
-from packwork.finish.sizing import SIZE_TOLERANCE
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import pinned_scales
 from packwork.pipeline.widest import widest_cu

@@ -28,8 +28,8 @@ from packwork.scene.limits import Limits
 from packwork.scene.mixing import mixed
 from packwork.scene.neighbours import neighbour_pairs
 from packwork.scene.pose import Poses
-from packwork.solve.herd import wronged_shares
 from packwork.solve.level import Level
+from packwork.solve.relocate import violation_shares
 from packwork.solve.shaped import seen_posed
 from packwork.solve.solver import scale_bounds
 from packwork.start.angles import nearest_allowed, start_angles
@@ -205,7 +205,7 @@ def _unburied(
     """Poses in which items that lie mostly under others or outside have been moved."""
     seen = seen_posed(outlines, poses, BURIED_RESOLUTION / container.side)
     level = Level(container, seen, BURIED_RESOLUTION, limits=limits)
-    buried = np.flatnonzero(wronged_shares(level, poses, level.density(poses)) > BURIED_SHARE)
+    buried = np.flatnonzero(violation_shares(level, poses, level.density(poses)) > BURIED_SHARE)
     return relocated(container, outlines, poses, buried, rng, limits) if len(buried) else poses
 
 

@@ -67,4 +67,4 @@ def as_it_was(job: Job, poses: Poses) -> Poses:
 def calmed(options: SolveOptions) -> SolveOptions:
     """Options of a solve that moves items no farther than it has to: none is lifted into a void."""
     rates = {name: CALM * getattr(options, name) for name in ("position_rate", "turn_rate")}
-    return options.model_copy(update={**rates, "herd": False})
+    return options.model_copy(update={**rates, "relocating": False})

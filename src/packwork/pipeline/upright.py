@@ -38,7 +38,7 @@ def upright_job(job: Job) -> Job | None:
 
 def is_as_good(upright: Finished, turned: Finished) -> bool:
     """Whether the upright item is clean and about as large as the turned one."""
-    if len(upright.offenders) > 0:
+    if len(upright.conflicts) > 0:
         return False
     sizes = float(upright.poses.scale[0] ** 2), float(turned.poses.scale[0] ** 2)
-    return len(turned.offenders) > 0 or sizes[0] >= AS_LARGE * sizes[1]
+    return len(turned.conflicts) > 0 or sizes[0] >= AS_LARGE * sizes[1]

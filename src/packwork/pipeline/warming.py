@@ -23,12 +23,12 @@ from typing import Any
 import numpy as np
 
 from packwork import compiled
-from packwork.finish import _kernels as rounds
-from packwork.finish._kernels import Wishes
-from packwork.finish.arrangement import Arrangement
-from packwork.finish.contact import _kernels as contact
-from packwork.finish.covers import _kernels as covers
-from packwork.finish.programme import _kernels as programme
+from packwork.compaction import _kernels as steps
+from packwork.compaction._kernels import Objective
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.distances import _kernels as distances
+from packwork.compaction.interior_point import _kernels as interior_point
+from packwork.compaction.outer_simplify import _kernels as outer_simplify
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
@@ -200,10 +200,10 @@ def pairs() -> None:
     """Who is near whom, simpler outlines, bounds of a step, the measures."""
     near = _arrangement()
     near.pairs(1.0)
-    contact.pairs_of(near.board.boxes, np.arange(1), 1.0)
-    rounds.freedoms(near.board, _wishes(), np.arange(1), 0.1)
-    rounds.step_of(near.board, np.arange(1), np.zeros(4), 0.1)
-    covers.shed(_square(1.0).rings[0], 0.01)
+    distances.pairs_of(near.board.boxes, np.arange(1), 1.0)
+    steps.gains_and_bounds(near.board, _objective(), np.arange(1), 0.1)
+    steps.step_of(near.board, np.arange(1), np.zeros(4), 0.1)
+    outer_simplify.simplify_outward(_square(1.0).rings[0], 0.01)
     item = Item("warm-up", "", _square(1.0), _square(1.0), FlatArt())
     layout = Layout(_container(), (item,), _poses(), np.ones(1))
     find_unplaced(layout)
@@ -213,15 +213,15 @@ def pairs() -> None:
 def contacts() -> None:
     """What keeps items apart."""
     near = _arrangement()
-    rounds.rows_of(near.board, np.arange(1), near.pairs(1.0), 0.1, 0.0, 0.01)
+    steps.rows_of(near.board, np.arange(1), near.pairs(1.0), 0.1, 0.0, 0.01)
 
 
 def programmes() -> None:
     """The best step."""
-    rows = programme.Rows(
+    rows = interior_point.Rows(
         np.zeros(1, np.int64), np.full(1, -1), np.zeros((1, 8)), np.ones(1)
     )  # fmt: skip
-    programme.maximise(rows, np.ones(4), -np.ones(4), np.ones(4), 0.1)
+    interior_point.maximise(rows, np.ones(4), -np.ones(4), np.ones(4), 0.1)
 
 
 def checks() -> None:
@@ -229,8 +229,8 @@ def checks() -> None:
     near = _arrangement()
     them = near.pairs(1.0)
     near.distances(them, 1.0)
-    rounds.settle(near.board, np.arange(1), np.zeros((1, 4)), them, 0.0, 0.1)
-    rounds.clear_by_shrinking(near.board, np.arange(1), them, 0.0, 0.1, 1)
+    steps.apply_step(near.board, np.arange(1), np.zeros((1, 4)), them, 0.0, 0.1)
+    steps.clear_by_shrinking(near.board, np.arange(1), them, 0.0, 0.1, 1)
 
 
 PARTS: tuple[Part, ...] = (levels, pairs, contacts, programmes, checks)
@@ -241,6 +241,6 @@ def _arrangement() -> Arrangement:
     return Arrangement([_square(1.0)], _container().outline, np.array([[4.0, 4.0, 0.0, 0.0]]))
 
 
-def _wishes() -> Wishes:
+def _objective() -> Objective:
     free = np.full(1, 9.0)
-    return Wishes(-free, free, -free, free, np.ones(1), 2.0, np.zeros((1, 2)))
+    return Objective(-free, free, -free, free, np.ones(1), 2.0, np.zeros((1, 2)))

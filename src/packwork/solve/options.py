@@ -112,6 +112,6 @@ class SolveOptions(Options):
     memory: Annotated[float, Field(ge=0, lt=1)] = 0.96
     """Decay of Adam's second moment (the paper: 0.9). Tried."""
 
-    herd: bool = True
+    relocating: bool = True
     """Between levels and half-way through the last one, move items that are badly
     overlapped into the largest voids."""

@@ -17,11 +17,11 @@ from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.exchange import exchange
-from packwork.solve.herd import Rescue, herd
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
 from packwork.solve.pace import pace_of
+from packwork.solve.relocate import Relocation, relocate_trapped
 from packwork.solve.schedule import force_factor, growth, rate_factor, weights_at
 from packwork.solve.shaped import seen_posed
 
@@ -47,7 +47,7 @@ class Ending(Enum):
 
 @dataclass(frozen=True)
 class LevelReport:
-    """What one level did: its size, time, shares at its end and rescues after it."""
+    """What one level did: its size, time, shares at its end and relocations after it."""
 
     resolution: int
     epochs: int
@@ -55,7 +55,7 @@ class LevelReport:
     coverage: float
     overlap: float
     outside: float
-    rescues: tuple[Rescue, ...] = ()
+    rescues: tuple[Relocation, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,7 +153,7 @@ class _Run:
             self._forces,
         )  # fmt: skip
         is_last = index == len(self._options.levels) - 1
-        rescues: list[Rescue] | None = None if self._options.herd else []
+        relocations: list[Relocation] | None = None if self._options.relocating else []
         while not self.pace.has_reached(index, 1.0):
             if self._stop():
                 self.is_stopped = True
@@ -162,13 +162,13 @@ class _Run:
             if self._exchanges and self.pace.progress() >= self._exchanges[0]:
                 self._exchanges.pop(0)
                 self._exchange()
-            if rescues is None and self.pace.has_reached(index, 0.5 if is_last else 1.0):
-                rescues = self._herd(level)
+            if relocations is None and self.pace.has_reached(index, 0.5 if is_last else 1.0):
+                relocations = self._relocate(level)
             self._tell(level, index)
         shares = level.shares(level.density(self.motion.poses))
         seconds = time.perf_counter() - began
         return LevelReport(
-            resolution, self._done - before, seconds, *shares, rescues=tuple(rescues or ())
+            resolution, self._done - before, seconds, *shares, rescues=tuple(relocations or ())
         )
 
     def _epoch(self, level: Level) -> None:
@@ -180,15 +180,15 @@ class _Run:
         self.pace.advance()
         self._done += 1
 
-    def _herd(self, level: Level) -> list[Rescue]:
+    def _relocate(self, level: Level) -> list[Relocation]:
         poses = self.motion.poses
         bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
-        moved, rescues = herd(level, poses, self._areas, *bounds, self._limits)
-        self.motion.replace(moved, [rescue.item for rescue in rescues])
-        if self._forces is not None and rescues:
+        moved, relocations = relocate_trapped(level, poses, self._areas, *bounds, self._limits)
+        self.motion.replace(moved, [relocation.item for relocation in relocations])
+        if self._forces is not None and relocations:
             # The largest void may be where forces would not have them.
             self._exchange()
-        return rescues
+        return relocations
 
     def _exchange(self) -> None:
         """Let items change places."""

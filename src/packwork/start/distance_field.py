@@ -8,8 +8,8 @@ import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
+from packwork.start.allowed_pixels import AllowedPixels
 from packwork.start.greedy import place_discs
-from packwork.start.homes import Homes
 
 FEW, MANY = 20, 100
 """Counts of items up to which, and from which, elbow room does not change. Tried."""
@@ -37,7 +37,7 @@ def distance_field(
     px_per_cu: float,
     radii_cu: FloatArray,
     rng: np.random.Generator,
-    homes: Homes | None = None,
+    homes: AllowedPixels | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, canvas units, of discs placed largest first.
 

@@ -16,9 +16,9 @@ from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
+from packwork.start.allowed_pixels import AllowedPixels, allowed_pixels, around
 from packwork.start.choice import suitable
 from packwork.start.distance_field import distance_field, elbow_room
-from packwork.start.homes import Homes, around, homes
 from packwork.start.medial_axis import ELBOW_ROOM, medial_axis
 from packwork.start.options import Placing, StartOptions
 from packwork.start.scatter import scatter
@@ -101,7 +101,7 @@ def _round_given(
     left = around(image, px_per_cu, outlines, poses, np.flatnonzero(placed))
     others = [int(k) for k in np.flatnonzero(~placed)]
     radii = disc_radii([outlines[k] for k in others], scales[others])
-    of_all = homes(limits, left, px_per_cu)
+    of_all = allowed_pixels(limits, left, px_per_cu)
     x, y, method = _places(left, px_per_cu, radii, options, rng, [of_all[k] for k in others])
     for given, found in ((poses.x, x), (poses.y, y)):
         given[others] = np.where(np.isnan(given[others]), found, given[others])
@@ -114,7 +114,7 @@ def _places(
     radii: FloatArray,
     options: StartOptions,
     rng: np.random.Generator,
-    own: Homes | None = None,
+    own: AllowedPixels | None = None,
 ) -> tuple[FloatArray, FloatArray, Placing]:
     """Places for discs, and how they were found."""
     method: Placing = "distance-field"

@@ -9,7 +9,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.fields.clearance import Clearance
-from packwork.start.homes import Homes
+from packwork.start.allowed_pixels import AllowedPixels
 
 Spot: TypeAlias = tuple[float, float, float]
 """Pixel coordinates ``(x, y)`` and the radius of the free disc there."""
@@ -24,7 +24,7 @@ def place_discs(
     radii_px: FloatArray,
     spot_for: Callable[[float], Spot],
     rng: np.random.Generator,
-    homes: Homes | None = None,
+    homes: AllowedPixels | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, pixels, in the order of the radii.
 

@@ -7,8 +7,8 @@ import numpy as np
 from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
 from packwork.fields.skeleton import medial_axis as axis_of
+from packwork.start.allowed_pixels import AllowedPixels
 from packwork.start.greedy import Spot, place_discs
-from packwork.start.homes import Homes
 
 ELBOW_ROOM = 1.5
 """As for the distance field; closer, because items on a line have two neighbours only.
@@ -20,7 +20,7 @@ def medial_axis(
     px_per_cu: float,
     radii_cu: FloatArray,
     rng: np.random.Generator,
-    homes: Homes | None = None,
+    homes: AllowedPixels | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, canvas units: along the axis first, beside it when that is full.
 

@@ -13,10 +13,10 @@ from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
+from packwork.start.allowed_pixels import allowed_pixels
 from packwork.start.distance_field import elbow_room
 from packwork.start.first_poses import container_image, disc_radii, start_resolution
 from packwork.start.greedy import place_discs
-from packwork.start.homes import homes
 
 
 def relocated(
@@ -62,7 +62,7 @@ def relocated(
     own = None
     if limits is not None:
         buried = buried[limits.is_movable[buried]]
-        of_all = homes(limits, image, px_per_cu)
+        of_all = allowed_pixels(limits, image, px_per_cu)
         own = [of_all[k] for k in buried]
     radii_px = disc_radii(outlines, poses.scale) * elbow_room(len(outlines)) * px_per_cu
     room = Clearance(image > 0.5)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
-from packwork.start.homes import Homes
+from packwork.start.allowed_pixels import AllowedPixels
 
 
 def scatter(
@@ -13,7 +13,7 @@ def scatter(
     px_per_cu: float,
     count: int,
     rng: np.random.Generator,
-    homes: Homes | None = None,
+    homes: AllowedPixels | None = None,
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, canvas units, uniform over the container's pixels.
 

@@ -77,7 +77,7 @@ def check_found(container: Container, padding: float, exact: Finished) -> None:
     RecipeError
         If that is so.
     """
-    stuck, count = len({found.item for found in exact.offenders}), len(exact.poses)
+    stuck, count = len({found.item for found in exact.conflicts}), len(exact.poses)
     if padding > 0 and stuck > MOST_STUCK * count:
         why = f"{stuck} of {count} found no room, however small"
         raise _too_much(container, padding, count, why)

@@ -22,11 +22,11 @@ from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
+from packwork.start.allowed_pixels import allowed_pixels
 from packwork.start.first_fit.crowd import Crowd
 from packwork.start.first_fit.occupancy import Occupancy
 from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all
 from packwork.start.first_poses import container_image
-from packwork.start.homes import homes
 
 Key: TypeAlias = tuple[int, float, float]
 """Which outline, its scale, its angle."""
@@ -165,7 +165,7 @@ class _Fitting:
         self._noise = NOISE * rng.random(image.shape)
         self._fields = fields
         self._heights = _heights(fields, image.shape, self._px_per_cu)
-        self._homes = homes(limits, image, self._px_per_cu)
+        self._homes = allowed_pixels(limits, image, self._px_per_cu)
 
     def largest(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
         """Poses at the largest factor found, beginning with one."""

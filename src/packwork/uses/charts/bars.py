@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import IntArray
+from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
-from packwork.finish.options import HAIR, FinishOptions
-from packwork.finish.settling.pile import pile
 from packwork.forces.direction import Direction
 from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
@@ -23,6 +22,8 @@ from packwork.readers.charts.chart import ChartRead
 from packwork.readers.charts.columns import as_number
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.settle.options import SettleOptions
+from packwork.settle.pile import pile
 from packwork.uses.charts.cells import SNUG_SHARE, Cell, box_outline, joined_rooms
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.colours import chart_colours
@@ -178,9 +179,8 @@ class _Heaps:
         down = FieldForce(Direction(DOWN), np.ones(len(own)))
         forces = Forces([down], [], np.zeros(len(own), dtype=np.int64), job.container.side)
         rotation = job.plan.rotation
-        options = FinishOptions(
+        options = SettleOptions(
             gap_cu=self.gap(scale),
-            sizes="fixed",
             turning=not rotation.is_still,
             turn_limit=rotation.limit,
             seed=job.plan.seed,

@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.finish.offenders import find_offenders
-from packwork.finish.options import HAIR
+from packwork.compaction.conflicts import find_conflicts
+from packwork.compaction.options import HAIR
 from packwork.geometry import affine
 from packwork.pipeline.exact import finished, unfinished
 from packwork.pipeline.job import Job
@@ -164,7 +164,7 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
         # Smaller ones stay clear of each other, but for those that lay in others' bays.
         outlines = job.solid_outlines
         gap = job.plan.gap
-        if find_offenders(job.container, outlines, poses, gap):
+        if find_conflicts(job.container, outlines, poses, gap):
             fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
             exact = finished(fixed, placed.start, poses, None, stop)
             poses = exact.poses

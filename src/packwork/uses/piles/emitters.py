@@ -7,7 +7,6 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
-from packwork.finish.settling.pour import Source
 from packwork.geometry.outline import Outline
 from packwork.piles import Emitter, PileOptions, parse_emitter
 from packwork.pipeline.plan.forces import point_at
@@ -15,6 +14,7 @@ from packwork.readers.container import read_container
 from packwork.readers.options import AS_DRAWN
 from packwork.readers.svg.curve import read_curve
 from packwork.scene.container import Container
+from packwork.settle.pour import Source
 from packwork.units import CanvasSize
 
 PLACES = 400

@@ -11,8 +11,6 @@ import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
-from packwork.finish.options import FinishOptions
-from packwork.finish.settling.pile import Piled, pile
 from packwork.metrics.compactness import compactness
 from packwork.piles import PileOptions
 from packwork.pipeline.dress.line_weights import evened
@@ -30,6 +28,8 @@ from packwork.progress import Observer, Stop, together
 from packwork.scene.canvas import brought_over
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.settle.options import SettleOptions
+from packwork.settle.pile import Piled, pile
 from packwork.solve.solver import Ending, Outcome
 from packwork.start.angles import nearest_allowed
 from packwork.uses.piles.emitters import source_of
@@ -156,13 +156,12 @@ def _first_poses(job: Job, asked: PileOptions, factor: float) -> tuple[Poses, In
     return poses.with_some(known, replace(before, angle=angles, scale=scales[known])), known
 
 
-def _options(job: Job, poses: Poses) -> FinishOptions:
+def _options(job: Job, poses: Poses) -> SettleOptions:
     rotations = [one.rotation or job.plan.rotation for one in job.asked]
     limits = [rotation.limit for rotation in rotations if rotation.limit is not None]
     turning = not any(rotation.is_still for rotation in rotations)
-    return FinishOptions(
+    return SettleOptions(
         gap_cu=gap_with_bulge(job, np.arange(len(job.items)), poses.scale),
-        sizes="fixed",
         turning=turning,
         turn_limit=min(limits) if limits and turning else None,
         seed=job.plan.seed,

@@ -1,0 +1,1 @@
+"""Compaction and separation of polygons in exact geometry, shared by finish and settle."""

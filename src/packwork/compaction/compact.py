@@ -1,0 +1,70 @@
+"""Rounds of small best steps: items make room for each other and grow into it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.compaction import _kernels
+from packwork.compaction._kernels import ACCURACY, RETURN_WEIGHT, TRAVEL, Objective
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.distances import _kernels as distances
+from packwork.compaction.interior_point import _kernels as interior_point
+
+
+def compact(
+    arrangement: Arrangement,
+    objective: Objective,
+    items: IntArray,
+    trust: float,
+    gap: float,
+    hair: float,
+) -> bool:
+    """Move some items by the best step for them all, as far as it goes; False if nowhere.
+
+    The arrangement has no conflicts and gets none.
+
+    Parameters
+    ----------
+    arrangement
+        Changed in place.
+    objective
+        Bounds and worths of all items.
+    items
+        Those that move, neighbours near each other in the list.
+    trust
+        Bound of each move, and of turns and growths at an item's farthest vertex.
+    gap
+        Least distance that the check asks for.
+    hair
+        The part of it that nobody asked for.
+    """
+    board = arrangement.board
+    pairs = distances.pairs_of(board.boxes, items, gap + TRAVEL * trust)
+    # One after another, not in one kernel: what several steps share is compiled once.
+    rows = _kernels.rows_of(board, items, pairs, trust, gap, hair)
+    z = interior_point.maximise(
+        rows, *_kernels.gains_and_bounds(board, objective, items, trust), ACCURACY
+    )
+    step = _kernels.step_of(board, items, z, trust)
+    return bool(_kernels.apply_step(board, items, step, pairs, gap, trust) >= 0)
+
+
+def worth(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:
+    """What some items are worth together; less for those out of their bounds.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> one = Arrangement([box], box, np.zeros((1, 4)))
+    >>> free = np.full(1, 9.0)
+    >>> areas = Objective(-free, free, -free, free, 2 * np.full(1, box.area), 2.0, np.zeros((1, 2)))
+    >>> worth(one, areas, np.array([0]))
+    4.0
+    """
+    growth = arrangement.places[items, 3]
+    value = objective.weights[items] * np.exp(objective.power * growth)
+    below = np.maximum(objective.smallest[items] - growth, 0.0)
+    above = np.maximum(growth - objective.largest[items], 0.0)
+    return float((value / objective.power - RETURN_WEIGHT * value * (below + above)).sum())

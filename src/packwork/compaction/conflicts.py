@@ -1,0 +1,75 @@
+"""What is still in conflict, by the true outlines."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from packwork.compaction.detail import Detail
+from packwork.geometry.distance import distance
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference, intersection
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+
+ROUNDING = 1e-9
+"""Share of the gap that rounding may take. Derived: coordinates are good to 1e-16 of the
+canvas, the smallest gap is 1e-5 of it."""
+
+
+@dataclass(frozen=True)
+class Conflict:
+    """An item in conflict with another one, or with the container if ``other`` is None.
+
+    Parameters
+    ----------
+    item, other
+        Which.
+    overlap_cu2
+        Area that they share, or that lies outside the container.
+    gap_cu
+        Their distance if they share none.
+    """
+
+    item: int
+    other: int | None
+    overlap_cu2: float
+    gap_cu: float
+
+
+def find_conflicts(
+    container: Container, outlines: Sequence[Outline], poses: Poses, gap: float
+) -> tuple[Conflict, ...]:
+    """Pairs nearer than ``gap``, and items nearer to the container's edge or beyond it.
+
+    Examples
+    --------
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[5.0, 0, 5], [0, 5.0, 5]]))
+    >>> poses = Poses(np.array([4.0, 5.5]), np.full(2, 5.0), np.zeros(2), np.ones(2))
+    >>> found = find_conflicts(Container("", "", wall, 10, 10), [box] * 2, poses, 0.1)
+    >>> [(o.item, o.other, o.overlap_cu2) for o in found]
+    [(0, 1, 1.0)]
+    """
+    if len(outlines) == 0:
+        return ()
+    zero = np.zeros(len(poses))
+    places = np.column_stack([poses.x, poses.y, zero, zero])
+    arrangement = Detail(outlines, container.outline, poses).arrangement(places)
+    bad = arrangement.conflicts(arrangement.pairs(gap), gap * (1 - ROUNDING))
+    return tuple(_conflict(container, outlines, poses, int(i), int(j)) for i, j in bad)
+
+
+def _conflict(
+    container: Container, outlines: Sequence[Outline], poses: Poses, i: int, j: int
+) -> Conflict:
+    first = outlines[i].mapped(poses.matrix(i)).region
+    if j == len(outlines):
+        whole = container.outline.region
+        outside = float(difference(first, whole).area)
+        return Conflict(i, None, outside, distance(whole.boundary, first))
+    second = outlines[j].mapped(poses.matrix(j)).region
+    shared = float(intersection(first, second).area)
+    return Conflict(i, j, shared, distance(first, second))

@@ -1,0 +1,186 @@
+"""What items may do and what their growth is worth, by size mode and turn limit."""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from typing import final
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.compaction._kernels import LEAST_GROWTH, Objective
+from packwork.compaction.options import MoveOptions
+from packwork.scene.leaning import turn_sides
+
+LAGGARD = 0.05
+"""Logarithm of size by which an item must stay behind what was asked to be moved to a
+void. Smaller moves items that would have caught up. Chosen."""
+
+AHEAD = 0.5
+"""How far above the smallest item others may grow where sizes are common, growths of one
+step. Larger lets them take room that the smallest needs. Tried."""
+
+URGENCY = 1.0
+"""How much more a step of growth is worth for an item that is one step smaller, as a
+logarithm. Larger cares for the smallest item only. Tried."""
+
+MOST_URGENT = 4.0
+"""Bound of that logarithm, about the median item. Chosen."""
+
+MOST_EXPONENT = 300.0
+"""Largest exponent that worths may have: float64 ends at 709. Derived."""
+
+OVERSHOOT = 1e-4
+"""Logarithm of size by which items may exceed a fixed size, so that they reach it. Far
+below the tolerance of the outlines. Derived."""
+
+
+AREA_POWER = 2.0
+"""Area goes with the square of the scale."""
+
+SIZE_TOLERANCE = 1e-3
+"""Logarithm of size below which nobody is too small: steps end a little off their bounds,
+and a thousandth is not seen. Chosen."""
+
+
+class Sizing(ABC):
+    """A size mode: what to wish for in the next round, and who stayed behind.
+
+    Parameters
+    ----------
+    areas
+        ``(n,)`` of the items at growth 0, squared canvas units.
+    turns
+        Farthest turns back and on, ``(n,)`` each, rad.
+    """
+
+    def __init__(self, areas: FloatArray, turns: tuple[FloatArray, FloatArray]) -> None:
+        self.areas = areas
+        self.turns = turns
+
+    @abstractmethod
+    def objective(self, growth: FloatArray, spread: float) -> Objective:
+        """Bounds and worths at these growths; ``spread``: the most that one step grows."""
+
+    @abstractmethod
+    def laggards(self, growth: FloatArray) -> IntArray:
+        """Items much smaller than they may be, or than the others are."""
+
+    def undersized(self, growth: FloatArray) -> tuple[int, ...]:
+        """Items smaller than they have to be; none where sizes are common."""
+        return ()
+
+    @abstractmethod
+    def is_done(self, growth: FloatArray) -> bool:
+        """Whether nothing is left to wish for."""
+
+
+@final
+class FreeSizes(Sizing):
+    """Each item within its own bounds, all area worth the same.
+
+    ``smallest``, ``largest``: ``(n,)`` logarithms of growth.
+    """
+
+    def __init__(
+        self,
+        areas: FloatArray,
+        turns: tuple[FloatArray, FloatArray],
+        smallest: FloatArray,
+        largest: FloatArray,
+    ) -> None:
+        super().__init__(areas, turns)
+        self.smallest, self.largest = smallest, largest
+
+    def objective(self, growth: FloatArray, spread: float) -> Objective:
+        """Bounds and worths, the same in all rounds."""
+        worths = AREA_POWER * self.areas
+        still = np.zeros((len(growth), 2))
+        return Objective(self.smallest, self.largest, *self.turns, worths, AREA_POWER, still)
+
+    def laggards(self, growth: FloatArray) -> IntArray:
+        """Items below their smallest size."""
+        return np.flatnonzero(growth < self.smallest - LAGGARD)
+
+    def undersized(self, growth: FloatArray) -> tuple[int, ...]:
+        """Those below their smallest size."""
+        return tuple(int(k) for k in np.flatnonzero(self.smallest - growth > SIZE_TOLERANCE))
+
+    def is_done(self, growth: FloatArray) -> bool:
+        """False: there is always room to grow into, unless all are as large as they may."""
+        return bool((growth >= self.largest).all())
+
+
+class CommonSize(Sizing):
+    """One common factor: the smallest is worth most."""
+
+    def _objective(self, growth: FloatArray, spread: float, largest: FloatArray) -> Objective:
+        """Worths that rise with how far an item is behind the median, in ``spread``."""
+        steepest = MOST_EXPONENT / max(float(np.abs(growth).max()), 1.0)
+        power = -min(URGENCY / spread, steepest)
+        behind = power * (growth - np.median(growth))
+        value = np.exp(np.clip(behind, -MOST_URGENT, MOST_URGENT))
+        smallest = np.full_like(growth, LEAST_GROWTH)
+        worths, still = value * np.exp(-power * growth), np.zeros((len(growth), 2))
+        return Objective(smallest, largest, *self.turns, worths, power, still)
+
+
+@final
+class SharedSize(CommonSize):
+    """As large as goes; none runs far ahead of the smallest."""
+
+    def objective(self, growth: FloatArray, spread: float) -> Objective:
+        """An aim a little above the smallest; the farther behind, the worthier."""
+        largest = np.maximum(growth, growth.min() + AHEAD * spread)
+        return self._objective(growth, spread, largest)
+
+    def levelling(self, growth: FloatArray, back: float) -> Objective:
+        """All smaller than the smallest by ``back``, a logarithm, and no more."""
+        aim = np.full_like(growth, growth.min() - back)
+        return Objective(aim, aim, *self.turns, np.exp(-growth), 1.0, np.zeros((len(growth), 2)))
+
+    def laggards(self, growth: FloatArray) -> IntArray:
+        """Items far smaller than most."""
+        return np.flatnonzero(growth < np.median(growth) - LAGGARD)
+
+    def is_done(self, growth: FloatArray) -> bool:
+        """False: there is always room to grow into."""
+        return False
+
+
+@final
+class FixedSize(CommonSize):
+    """The sizes as they are: all that was shrunk to come free grows back, no farther."""
+
+    def objective(self, growth: FloatArray, spread: float) -> Objective:
+        """Back to growth 0; the farther behind, the worthier."""
+        return self._objective(growth, spread, np.maximum(growth, OVERSHOOT))
+
+    def laggards(self, growth: FloatArray) -> IntArray:
+        """Items far from back."""
+        return np.flatnonzero(growth < -LAGGARD)
+
+    def is_done(self, growth: FloatArray) -> bool:
+        """Whether all are back."""
+        return bool((growth >= 0).all())
+
+
+def turn_ranges(angle: FloatArray, options: MoveOptions) -> tuple[FloatArray, FloatArray]:
+    """How far items at these angles may turn back and on, ``(n,)`` each.
+
+    Examples
+    --------
+    >>> back, on = turn_ranges(np.array([0.1]), MoveOptions(turn_limit=0.5))
+    >>> back.round(6).tolist(), on.round(6).tolist()
+    ([-0.6], [0.4])
+    """
+    if not options.turning:
+        return np.zeros_like(angle), np.zeros_like(angle)
+    if options.turn_limit is None or options.turn_limit >= math.pi:
+        return np.full_like(angle, -np.inf), np.full_like(angle, np.inf)
+    upright = np.remainder(angle + math.pi, 2 * math.pi) - math.pi
+    leans = np.zeros_like(angle) if options.leans is None else np.array(options.leans)
+    low, high = turn_sides(options.turn_limit, leans)
+    back, on = low - upright, high - upright
+    return np.minimum(back, 0.0), np.maximum(on, 0.0)

@@ -1,0 +1,66 @@
+"""Items without a place, moved into the largest voids at the size that fits."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import FloatArray, Image, IntArray
+from packwork.compaction.arrangement import Arrangement
+from packwork.fields.clearance import Clearance
+from packwork.raster.coverage import coverage
+
+PIXELS_PER_ITEM = 24.0
+"""Pixels of the image of voids along the side of an item's share of the container. More
+sees smaller voids and takes longer. Tried."""
+
+LEAST_SIDE, MOST_SIDE = 128, 2_048
+"""Bounds of that image's longer side, px. Chosen."""
+
+SNUG = 0.9
+"""Radius of an item in a void over the void's. Larger may not fit, smaller has farther to
+grow. Chosen."""
+
+FAINT = 1e-3
+"""Coverage of a pixel that counts as none. Chosen."""
+
+SMALLEST_VOID = 0.5
+"""Radius of the smallest void that takes an item, px: below it the image is not to be
+believed. Chosen."""
+
+
+def relocate(arrangement: Arrangement, items: IntArray, gap: float) -> None:
+    """Move items, the largest first, to where most room is left; smaller, never larger.
+
+    An item for which there is no room stays where it is.
+    """
+    others = np.setdiff1d(np.arange(arrangement.count), items)
+    room, px_per_cu, corner = free_room(arrangement, others)
+    for k in items[np.argsort(-arrangement.radii[items], kind="stable")]:
+        x, y, radius = room.largest()
+        if radius < SMALLEST_VOID:
+            break
+        fitting = max(SNUG * radius / px_per_cu - gap, SNUG * SMALLEST_VOID / px_per_cu)
+        _, _, turn, growth = arrangement.places[k]
+        growth = min(growth, float(np.log(fitting / arrangement.board.arms[k])))
+        place = [corner[0] + x / px_per_cu, corner[1] + y / px_per_cu, turn, growth]
+        arrangement.put(np.array([k]), np.array([place]))
+        room.occupy(x, y, fitting * px_per_cu)
+
+
+def free_room(
+    arrangement: Arrangement, items: IntArray
+) -> tuple[Clearance, float, tuple[float, float]]:
+    """Free room when only ``items`` are there; px per canvas unit; the image's corner."""
+    left, top, right, bottom = arrangement.container.bounds
+    side = max(right - left, bottom - top)
+    wanted = PIXELS_PER_ITEM * np.sqrt(arrangement.count)
+    px_per_cu = float(np.clip(wanted, LEAST_SIDE, MOST_SIDE)) / side
+    shape = int((bottom - top) * px_per_cu) + 2, int((right - left) * px_per_cu) + 2
+    corner = np.array([left, top])
+
+    def image(points: FloatArray, starts: IntArray) -> Image:
+        return coverage((points - corner) * px_per_cu, starts, shape, np.float32)
+
+    inside = image(arrangement.container.points, arrangement.container.starts)
+    taken = image(*arrangement.rings(items)) if len(items) else np.zeros(shape)
+    return Clearance((inside > 1 - FAINT) & (taken < FAINT)), px_per_cu, (left, top)

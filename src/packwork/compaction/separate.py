@@ -1,0 +1,140 @@
+"""Layouts with conflicts to layouts without: conflicts shrink, hopeless ones move."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import BoolArray, IntArray
+from packwork.compaction._kernels import LEAST_GROWTH
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.options import HOPELESS
+from packwork.compaction.relocate import relocate
+
+CUT = 0.004
+"""Logarithm of size that an item in conflict loses at a time. Larger gives room away,
+smaller needs more checks. Tried."""
+
+PATIENT, HASTE = 150, 1.03
+"""Checks after which that loss grows with each check, and by how much, so that even hopeless
+layouts come to an end. Chosen."""
+
+MOST_CHECKS = 400
+"""Checks at most; what is in conflict after them is reported."""
+
+RESCUES = 2
+"""Times that items which are still in conflict then are moved to voids. Chosen."""
+
+HOPELESS_SHARE = 0.1
+"""Share of the items that may be in conflict all the same and the finish go on: single ones may
+lie where nothing fits. Larger goes on without hope, smaller gives up too early. Chosen."""
+
+EVENINGS = 6
+"""Times that all come down to the smallest: who is smaller is in no new conflict but where
+its origin lies off its outline. Tried: more gain nothing."""
+
+EVEN = 1e-6
+"""Logarithm of size within which all are alike. Chosen."""
+
+
+def separate(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS) -> IntArray:
+    """Make items in conflict smaller until none is; the items that had to be moved.
+
+    Only items in conflict change. Some conflicts may be left, if the container has no
+    room at all.
+
+    Parameters
+    ----------
+    hopeless_at
+        Logarithm of size that an item loses before one is moved to a void.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
+    >>> two = Arrangement([box] * 2, wall, np.array([[0.0, 0, 0, 0], [1.9, 0, 0, 0]]))
+    >>> moved = separate(two, 0.01)
+    >>> len(moved), len(two.conflicts(two.pairs(1.0), 0.01))
+    (0, 0)
+    """
+    first = arrangement.places[:, 3].copy()
+    moved: list[int] = []
+    near = arrangement.pairs(gap)
+    for check in range(MOST_CHECKS):
+        bad = arrangement.conflicts(near, gap)
+        if len(bad) == 0:
+            break
+        items = _items(bad, arrangement.count)
+        places = arrangement.places[items]
+        places[:, 3] -= CUT * HASTE ** max(check - PATIENT, 0)
+        places[:, 3] = np.maximum(places[:, 3], LEAST_GROWTH)
+        arrangement.put(items, places)
+        worn = arrangement.places[:, 3] < first - hopeless_at
+        hopeless = _smaller_of(bad, worn, arrangement)
+        if len(hopeless):
+            relocate(arrangement, hopeless, gap)
+            first[hopeless] = arrangement.places[hopeless, 3]
+            moved += hopeless.tolist()
+        # All in conflict have changed: nobody else can be in one now.
+        changed = np.isin(np.arange(arrangement.count + 1), items)
+        near = arrangement.pairs(gap)
+        near = near[changed[near].any(axis=1)]
+    return np.unique(np.array(moved, dtype=np.int64))
+
+
+def relocate_stuck(arrangement: Arrangement, gap: float) -> bool:
+    """Whether few items, if any, are still in conflict after being parted, and moved to voids.
+
+    Items that are next to nothing and yet too near each other ask for more room than there
+    is: nothing that a finish could do would change that.
+    """
+    for _ in range(RESCUES):
+        left = _items(arrangement.conflicts(arrangement.pairs(gap), gap), arrangement.count)
+        if len(left) <= HOPELESS_SHARE * arrangement.count:
+            return True
+        relocate(arrangement, left, gap)
+        separate(arrangement, gap)
+    return False
+
+
+def separate_evenly(arrangement: Arrangement, gap: float) -> None:
+    """Make all items smaller until none is in conflict and all have shrunk alike, nearly.
+
+    Where one size is asked for in the end, the few that had to shrink by far would
+    else have to grow back through neighbours that lie tight.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
+    >>> places = np.array([[0.0, 0, 0, 0], [1.9, 0, 0, 0], [6, 6, 0, 0]])
+    >>> three = Arrangement([box] * 3, wall, places)
+    >>> separate_evenly(three, 0.01)
+    >>> bool(np.ptp(three.places[:, 3]) < 0.001)
+    True
+    """
+    separate(arrangement, gap)
+    everyone = np.arange(arrangement.count)
+    for _ in range(EVENINGS):
+        places = arrangement.places.copy()
+        least = places[:, 3].min()
+        if np.ptp(places[:, 3]) < EVEN:
+            return
+        places[:, 3] = least
+        arrangement.put(everyone, places)
+        separate(arrangement, gap)
+
+
+def _items(pairs: IntArray, count: int) -> IntArray:
+    found = np.unique(pairs)
+    return found[found < count]
+
+
+def _smaller_of(bad: IntArray, worn: BoolArray, arrangement: Arrangement) -> IntArray:
+    """The smaller item of each pair in conflict of which one has shrunk too much."""
+    radii = np.append(arrangement.radii, np.inf)
+    worn = np.append(worn, False)
+    bad = bad[worn[bad].any(axis=1)]
+    smaller = np.where(radii[bad[:, 0]] <= radii[bad[:, 1]], bad[:, 0], bad[:, 1])
+    return np.unique(smaller)

@@ -1,0 +1,73 @@
+"""Who keeps a layout from its certificate, by name, so that the rest can have it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+
+from packwork.geometry.distance import distance
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import Region, difference, intersection, valid
+
+
+@dataclass(frozen=True)
+class Violation:
+    """An item that meets another or is too near to it; the container's edge if ``other`` is None.
+
+    Parameters
+    ----------
+    item, other
+        Which.
+    overlap_cu2
+        Area that they share, or that lies outside the container.
+    gap_cu
+        Their distance if they share none.
+    """
+
+    item: int
+    other: int | None
+    overlap_cu2: float
+    gap_cu: float
+
+
+def violations(
+    outlines: Sequence[Outline], container: Outline, gap: float
+) -> tuple[Violation, ...]:
+    """Each pair nearer than ``gap``, and each item nearer than that to the edge or beyond it.
+
+    Examples
+    --------
+    >>> def square(x, side):
+    ...     return Outline.from_rings([x + side * np.array([[0, 0], [1, 0], [1, 1], [0, 1]])])
+    >>> found = violations([square(1, 2), square(2, 2), square(9, 2)], square(0, 10), 0.5)
+    >>> [(one.item, one.other, one.overlap_cu2) for one in found]
+    [(0, 1, 1.0), (2, None, 3.0)]
+    """
+    whole = valid(container.region)
+    regions = np.empty(len(outlines), dtype=object)
+    regions[:] = [valid(outline.region) for outline in outlines]
+    first, second = shapely.STRtree(regions).query(regions, predicate="dwithin", distance=gap)
+    pairs = [(int(i), int(j)) for i, j in zip(first, second, strict=True) if i < j]
+    shapely.prepare(whole)
+    edge = whole.boundary
+    shapely.prepare(edge)
+    near = ~shapely.covers(whole, regions) | shapely.dwithin(edge, regions, gap)
+    found = [_violation(i, j, regions[i], regions[j]) for i, j in pairs]
+    found += [_sticking_out(int(k), regions[k], whole, edge) for k in np.flatnonzero(near)]
+    return tuple(
+        one for one in sorted(found, key=lambda one: one.item)
+        if one.overlap_cu2 > 0 or one.gap_cu < gap
+    )  # fmt: skip
+
+
+def _violation(i: int, j: int, first: Region, second: Region) -> Violation:
+    shared = float(intersection(first, second).area)
+    return Violation(i, j, shared, distance(first, second))
+
+
+def _sticking_out(k: int, one: Region, whole: Region, edge: Region) -> Violation:
+    outside = float(difference(one, whole).area)
+    return Violation(k, None, outside, distance(edge, one))

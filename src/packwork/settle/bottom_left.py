@@ -1,0 +1,231 @@
+"""Items, as discs, one after another to where they lie lowest and touch nobody."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray, Image, IntArray
+from packwork.compaction.arrangement import Arrangement
+from packwork.fields.clearance import distance_inside
+from packwork.raster.coverage import coverage
+
+HeightOf = Callable[[FloatArray, int], FloatArray]
+"""Heights ``(m,)`` of an item at points ``(m, 2)``."""
+
+PIXELS_ACROSS = 16.0
+"""Pixels across the mean disc. More finds places in smaller voids and takes longer. Tried."""
+
+MOST_PIXELS = 2**20
+"""Pixels of the image of free room at most. Chosen."""
+
+FAINT = 1e-3
+"""Coverage of a pixel that counts as none. Chosen."""
+
+STEPS = 3
+"""Parts of a pixel to which a place by a wall is refined. More takes longer, fewer leave
+gaps that the rounds have to close. Chosen."""
+
+AT_ONCE = 16
+"""Places that are looked at together. Chosen."""
+
+ROUNDING = 1e-9
+"""Share of a distance that rounding may take. Derived, as for the check of the finish."""
+
+
+class FreeRoom:
+    """Free room of an arrangement, in which discs find their lowest places.
+
+    Parameters
+    ----------
+    arrangement
+        Whose container is the room.
+    standing
+        Items that are in it already.
+    gap
+        Least distance of two discs, and of a disc and the edge.
+    """
+
+    def __init__(self, arrangement: Arrangement, standing: IntArray, gap: float) -> None:
+        # A little more than the gap, so that what touches passes the check.
+        self._gap = gap * (1 + 1e-3)
+        left, top, right, bottom = arrangement.container.bounds
+        width, height = right - left, bottom - top
+        wanted = PIXELS_ACROSS / (2 * float(np.mean(arrangement.radii)) + gap)
+        self._px_per_cu = min(wanted, np.sqrt(MOST_PIXELS / (width * height)))
+        shape = int(height * self._px_per_cu) + 2, int(width * self._px_per_cu) + 2
+        self._corner = np.array([left, top])
+
+        def image(points: FloatArray, starts: IntArray) -> Image:
+            return coverage((points - self._corner) * self._px_per_cu, starts, shape, np.float32)
+
+        free = image(arrangement.container.points, arrangement.container.starts) > 1 - FAINT
+        if len(standing):
+            free &= image(*arrangement.rings(standing)) < FAINT
+        self._wall = distance_inside(free) / self._px_per_cu
+        rows, columns = np.indices(shape)
+        pixels = np.column_stack([columns.ravel(), rows.ravel()]) + 0.5
+        self._points = self._corner + pixels / self._px_per_cu
+        self._largest = float(arrangement.radii.max())
+        # Lengths beyond that of the largest disc interests nobody.
+        self._most = self._largest + self._gap + 2 / self._px_per_cu
+        self._room = np.minimum(self._wall.ravel(), self._most)
+        self._heights: dict[int, FloatArray] = {}
+        self._discs = np.empty((0, 3))
+        self._pairs = np.empty((0, 2), dtype=np.int64)
+
+    def place(self, radius: float, item: int, kind: int, heights: HeightOf) -> FloatArray | None:
+        """Lowest centre ``(2,)`` for a disc; None if it fits nowhere. It then stands there.
+
+        Parameters
+        ----------
+        item
+            Whose heights count.
+        kind
+            Items of one number have the same ones.
+        """
+        if kind not in self._heights:
+            self._heights[kind] = heights(self._points, item)
+        found = [self._by_pixel(radius, item, kind, heights), self._by_pair(radius, item, heights)]
+        centres = [centre for centre in found if centre is not None]
+        if not centres:
+            return None
+        centre = min(centres, key=lambda point: float(heights(point[None], item)[0]))
+        self._occupy(centre, radius)
+        return centre
+
+    def _by_pixel(
+        self, radius: float, item: int, kind: int, heights: HeightOf
+    ) -> FloatArray | None:
+        """The lowest pixel with room, and the lowest place about it on a finer grid."""
+        fitting = np.flatnonzero(self._room >= radius + self._gap)
+        if len(fitting) == 0:
+            return None
+        best = int(fitting[np.argmin(self._heights[kind][fitting])])
+        here = self._points[best]
+        ticks = np.arange(-STEPS, STEPS + 1) / STEPS / self._px_per_cu
+        grid = np.column_stack([np.repeat(ticks, len(ticks)), np.tile(ticks, len(ticks))])
+        points = np.vstack([here, here + grid])
+        is_free = self._is_free(points, radius)
+        is_free[0] = True
+        free = points[is_free]
+        return np.asarray(free[np.argmin(heights(free, item))])
+
+    def _by_pair(self, radius: float, item: int, heights: HeightOf) -> FloatArray | None:
+        """The lowest place at which two discs are touched."""
+        rings = self._discs + np.array([0.0, 0.0, radius + self._gap])
+        points = _crossings(rings[self._pairs[:, 0]], rings[self._pairs[:, 1]])
+        if len(points) == 0:
+            return None
+        pixels, off = self._pixels(points)
+        # Lengths changes by no more than the way, so a look at the pixel drops most places.
+        points = points[self._room[pixels] + off >= radius + self._gap]
+        order = np.argsort(heights(points, item), kind="stable")
+        for first in range(0, len(order), AT_ONCE):
+            some = points[order[first : first + AT_ONCE]]
+            free = np.flatnonzero(self._is_free(some, radius))
+            if len(free):
+                return np.asarray(some[free[0]])
+        return None
+
+    def _pixels(self, points: FloatArray) -> tuple[IntArray, FloatArray]:
+        """Pixel in which each point lies, and how far from its centre."""
+        columns, rows = np.floor((points - self._corner) * self._px_per_cu).astype(np.int64).T
+        shape = self._wall.shape
+        rows, columns = np.clip(rows, 0, shape[0] - 1), np.clip(columns, 0, shape[1] - 1)
+        pixels = rows * shape[1] + columns
+        return pixels, np.hypot(*(points - self._points[pixels]).T)
+
+    def _is_free(self, points: FloatArray, radius: float) -> BoolArray:
+        """Whether a disc about each point touches neither the edge nor another disc."""
+        pixels, off = self._pixels(points)
+        reach = radius + self._gap
+        is_free = np.asarray(self._wall.ravel()[pixels] - off >= reach)
+        if len(self._discs):
+            between = points[:, None] - self._discs[:, :2]
+            least = (self._discs[:, 2] + reach) * (1 - ROUNDING)
+            is_free &= (np.hypot(between[..., 0], between[..., 1]) >= least).all(axis=1)
+        return is_free
+
+    def _occupy(self, centre: FloatArray, radius: float) -> None:
+        apart = np.hypot(*(self._discs[:, :2] - centre).T) - self._discs[:, 2] - radius
+        near = np.flatnonzero(apart < 2 * (self._largest + self._gap))
+        new = np.column_stack([near, np.full(len(near), len(self._discs))])
+        self._pairs = np.vstack([self._pairs, new])
+        self._discs = np.vstack([self._discs, [*centre, radius]])
+        self._take_room(centre, radius)
+
+    def _take_room(self, centre: FloatArray, radius: float) -> None:
+        """Less room about a disc, as far as it can be felt."""
+        rows, columns = self._wall.shape
+        reach = (radius + self._most) * self._px_per_cu
+        x, y = (centre - self._corner) * self._px_per_cu
+        top, bottom = max(int(y - reach), 0), min(int(y + reach) + 2, rows)
+        left, right = max(int(x - reach), 0), min(int(x + reach) + 2, columns)
+        away = np.hypot(
+            np.arange(left, right)[None] + 0.5 - x, np.arange(top, bottom)[:, None] + 0.5 - y
+        )
+        window = self._room.reshape(rows, columns)[top:bottom, left:right]
+        np.minimum(window, away / self._px_per_cu - radius, out=window)
+
+
+def _crossings(a: FloatArray, b: FloatArray) -> FloatArray:
+    """``(m, 2)`` points in which rings cross, pair by pair, ``(k, 3)`` x, y and radius each."""
+    between = b[:, :2] - a[:, :2]
+    far = np.maximum(np.hypot(between[:, 0], between[:, 1]), 1e-300)
+    along = (a[:, 2] ** 2 - b[:, 2] ** 2 + far**2) / (2 * far)
+    across = a[:, 2] ** 2 - along**2
+    do_cross = across >= 0
+    unit = (between / far[:, None])[do_cross]
+    foot = a[do_cross, :2] + unit * along[do_cross, None]
+    aside = np.column_stack([-unit[:, 1], unit[:, 0]]) * np.sqrt(across[do_cross])[:, None]
+    return np.vstack([foot + aside, foot - aside])
+
+
+def bottom_left(
+    arrangement: Arrangement,
+    items: IntArray,
+    standing: IntArray,
+    heights: HeightOf,
+    kinds: IntArray,
+    gap: float,
+) -> IntArray:
+    """Put items, in this order, to their lowest places; those that fit nowhere.
+
+    Each is taken for the disc about its origin that holds it, so the arrangement gets no
+    conflicts.
+
+    Parameters
+    ----------
+    standing
+        Items that stay where they are; all others count as not there.
+    heights
+        What is low, for each item.
+    kinds
+        ``(n,)`` items of one number have the same heights.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
+    >>> two = Arrangement([box] * 2, wall, np.zeros((2, 4)))
+    >>> everyone, nobody = np.arange(2), np.arange(0)
+    >>> def depth(points, item):
+    ...     return -points[:, 1]
+    >>> left = bottom_left(two, everyone, nobody, depth, np.zeros(2, int), 0.1)
+    >>> len(left), bool((two.places[:, 1] > 7).all()), len(two.conflicts(two.pairs(1.0), 0.1))
+    (0, True, 0)
+    """
+    room = FreeRoom(arrangement, standing, gap)
+    left = []
+    for k in items:
+        centre = room.place(float(arrangement.radii[k]), int(k), int(kinds[k]), heights)
+        if centre is None:
+            left.append(int(k))
+            continue
+        place = arrangement.places[k].copy()
+        place[:2] = centre
+        arrangement.put(np.array([k]), place[None])
+    return np.array(left, dtype=np.int64)

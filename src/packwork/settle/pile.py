@@ -1,0 +1,378 @@
+"""Items of given sizes in a heap: placed, eased apart, settled, exact all the way."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.conflicts import find_conflicts
+from packwork.compaction.detail import FINE, Detail
+from packwork.compaction.objective import turn_ranges
+from packwork.compaction.options import HAIR
+from packwork.forces.distance import Distance
+from packwork.forces.forces import Forces
+from packwork.geometry.outline import Outline
+from packwork.progress import Observer, Step, Stop, never
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.settle.bottom_left import bottom_left
+from packwork.settle.options import SettleOptions
+from packwork.settle.pour import Source, Spout, pour
+from packwork.settle.round_pack import start_round_pack
+from packwork.settle.separate_fixed import separate_fixed
+from packwork.settle.settle import FIRST_TRUST, LAST_TRUST, Settling
+
+COARSE = 0.02
+"""Tolerance of the outlines that are settled first, shares of an item's extent. Larger is faster
+and leaves more way to the fine ones. Tried."""
+
+ROUGH_TRUST = 0.06
+"""Bound of a move, as the settling has it, down to which outlines are coarse. Larger takes
+longer, smaller leaves more way to the fine ones. Tried."""
+
+USUAL_ROUNDS = 60
+"""Rounds at which the progress told is a half. Chosen."""
+
+GRID = 65
+"""Points along each side of the room among which bonds look for their middle. Chosen."""
+
+TRIES = 3
+"""Times that items which found no room are tried again once the others lie closer. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Piled:
+    """Result of a pile.
+
+    Parameters
+    ----------
+    poses
+        Of all items; those without room stay where they were.
+    placed
+        Items that lie in the container, without a conflict.
+    rounds
+        Rounds of linear programmes.
+    mean_height
+        Area-weighted mean height of the placed ones, canvas units.
+    """
+
+    poses: Poses
+    placed: IntArray
+    rounds: int
+    mean_height: float
+
+
+def pile(
+    container: Container,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    forces: Forces,
+    options: SettleOptions,
+    basin: Outline | None = None,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    known: IntArray | None = None,
+    shuffle: float = 0.0,
+    source: Source | None = None,
+    ranks: IntArray | None = None,
+    is_round: bool = False,
+) -> Piled:
+    """Poses in which items of the given sizes are at rest and nothing meets.
+
+    Deterministic for one seed of the options.
+
+    Parameters
+    ----------
+    container
+        What items have to be in at the end.
+    outlines
+        One per item, item units.
+    poses
+        Sizes and angles, and where the ``known`` ones are.
+    forces
+        What they go down.
+    options
+        Gap and turns.
+    basin
+        The container and more, such as the room above an open one, through which items may
+        pass; the container itself if None.
+    observer
+        Told of each round.
+    stop
+        Asked before each round.
+    known
+        Items that begin where their poses have them, not quite clear of each other; None for
+        nobody.
+    shuffle
+        Logarithm of size within which items without a place come in random order and not the
+        largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
+    source
+        Where items come from, one after another or all at once; None for their lowest places.
+    ranks
+        ``(n,)`` items of a lower rank get their places first, and so lie lower; None for one rank.
+    is_round
+        Whether the pack is to lie in a small circle, where forces draw all items to one point
+        alike.
+
+    Examples
+    --------
+    >>> from packwork.forces.direction import Direction
+    >>> from packwork.forces.forces import FieldForce
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[5.0, 0, 5], [0, 5.0, 5]]))
+    >>> two = Poses(np.full(2, 5.0), np.full(2, 5.0), np.zeros(2), np.ones(2))
+    >>> down = Forces([FieldForce(Direction(np.pi / 2), np.ones(2))], [], np.zeros(2, int), 10.0)
+    >>> done = pile(Container("", "", wall, 10, 10), [box] * 2, two, down, SettleOptions())
+    >>> len(done.placed), done.poses.y.round(2).tolist()
+    (2, [9.0, 9.0])
+    """
+    if len(outlines) == 0:
+        return Piled(poses, np.arange(0), 0, 0.0)
+    run = _Pile(container, outlines, poses, forces, options, observer, stop, shuffle)
+    if ranks is not None:
+        run.ranks = ranks
+    if is_round and source is None and known is None:
+        run.centre = forces.common_point()
+    room = container.outline if basin is None else basin
+    if source is not None:
+        run.pour(room, source)
+    else:
+        run.gather(room, np.arange(0) if known is None else known)
+    run.settle(room, run.first_trust)
+    if basin is not None and run.leave_out_what_sticks_out():
+        run.settle(container.outline, ROUGH_TRUST)
+    for _ in range(TRIES):
+        if not run.try_again(container.outline):
+            break
+        run.settle(container.outline, run.first_trust)
+    run.round_off(container.outline)
+    return run.result()
+
+
+class _Pile:
+    """Where all items are, and which of them have a place."""
+
+    def __init__(
+        self,
+        container: Container,
+        outlines: Sequence[Outline],
+        poses: Poses,
+        forces: Forces,
+        options: SettleOptions,
+        observer: Observer | None,
+        stop: Stop,
+        shuffle: float,
+    ) -> None:
+        self._shuffle = shuffle
+        self._container, self._outlines, self._options = container, outlines, options
+        self._forces, self._observer, self._stop = forces, observer, stop
+        self._poses = poses
+        self._items = np.arange(len(poses))
+        self._areas = np.array([outline.area for outline in outlines]) * poses.scale**2
+        self._hair = HAIR * container.side
+        self._gap = options.gap_cu + self._hair
+        self._rounds = self._told = 0
+        self._is_given = False
+        self._keeps_round = True
+        self._details: dict[tuple[Outline, float], Detail] = {}
+        self._height = 0.0
+        self.ranks = np.zeros(len(poses), dtype=np.int64)
+        """Items of a lower one get their places first."""
+        self.centre: FloatArray | None = None
+        """Of the circle that a round pack lies in; None for other piles."""
+        strengths = [f.strengths for f in forces.fields] + [b.strengths for b in forces.bonds]
+        columns = np.column_stack([np.zeros(len(poses)), *strengths])
+        _, self._kinds = np.unique(columns, axis=0, return_inverse=True)
+        self._kinds = self._kinds.ravel()
+
+    def gather(self, room: Outline, known: IntArray) -> None:
+        """Give all items a first place without conflicts."""
+        everyone = self._items
+        standing = known
+        self._is_given = len(known) > 0
+        if self._is_given:
+            near = self._arrangement(room, COARSE, known)
+            lost = separate_fixed(near, self._gap, self._hair)
+            self._take_over(near, known)
+            standing = np.delete(known, lost)
+        arrangement = self._arrangement(room, COARSE, everyone)
+        lifted = np.setdiff1d(everyone, standing)
+        sizes = self._order_sizes(arrangement)
+        lifted = lifted[np.lexsort((-sizes[lifted], self.ranks[lifted]))]
+        if self._gather_round(arrangement):
+            left = np.arange(0)
+        else:
+            left = self._bottom_left(arrangement, lifted, standing)
+        self._take_over(arrangement, everyone)
+        self._items = np.setdiff1d(everyone, left)
+        self._keeps_round = len(left) == 0
+
+    def round_off(self, room: Outline) -> None:
+        """Settle into a small circle those that at first did not all find room."""
+        if self.centre is not None and not self._keeps_round:
+            self._keeps_round = True
+            self.settle(room, self.first_trust)
+
+    def _gather_round(self, arrangement: Arrangement) -> bool:
+        """Put all into a small circle, if it is wanted and there is room for it."""
+        if self.centre is None:
+            return False
+        rng = np.random.default_rng(self._options.seed)
+        settling = self._settling(arrangement, self._items)
+        return start_round_pack(settling, self._gap, (FIRST_TRUST, ROUGH_TRUST), rng, self._stop)
+
+    @property
+    def first_trust(self) -> float:
+        """First bound of a move: a narrow one where items were given places."""
+        return ROUGH_TRUST if self._is_given else FIRST_TRUST
+
+    def pour(self, room: Outline, source: Source) -> None:
+        """Let items in by a source."""
+        everyone = self._items
+        arrangement = self._arrangement(room, COARSE, everyone)
+        rng = np.random.default_rng(self._options.seed)
+        queue = rng.permutation(everyone)
+        if source.every == 0:
+            near = Distance.from_points(source.points)
+            left = bottom_left(
+                arrangement, queue, np.arange(0), lambda points, _: near(points)[0],
+                np.zeros(len(everyone), dtype=np.int64), self._gap,
+            )  # fmt: skip
+        else:
+            spout = Spout(source, room.region, self._gap, rng)
+            settling = self._settling(arrangement, everyone)
+
+            def tell(places: FloatArray) -> None:
+                self._tell(settling.active, places[settling.active])
+
+            left, rounds = pour(settling, spout, queue, source.every, tell, self._stop)
+            self._rounds += rounds
+        self._take_over(arrangement, everyone)
+        self._items = np.setdiff1d(everyone, left)
+
+    def _settling(self, arrangement: Arrangement, items: IntArray) -> Settling:
+        settling = Settling(
+            arrangement,
+            self._forces.some(items),
+            self._areas[items],
+            turn_ranges(self._poses.angle[items], self._options),
+            self._gap,
+            self._hair,
+            self._container.side,
+        )
+        settling.centre = self.centre if self._keeps_round else None
+        return settling
+
+    def settle(self, room: Outline, first_trust: float) -> None:
+        """Let the placed ones go down to rest, on coarse outlines, then on fine ones."""
+        for tolerance, trusts in (
+            (COARSE, (first_trust, ROUGH_TRUST)),
+            (FINE, (ROUGH_TRUST, LAST_TRUST)),
+        ):
+            if trusts[0] < trusts[1] or len(self._items) == 0:
+                continue
+            arrangement = self._arrangement(room, tolerance, self._items)
+            settling = self._settling(arrangement, self._items)
+            # Those that were given a place keep it as well as they can.
+            settling.is_swaying = not self._is_given
+            tell = partial(self._tell, self._items)
+            self._rounds += settling.settle(tell, self._stop, trusts)
+            self._height = settling.mean_height()
+            self._take_over(arrangement, self._items)
+
+    def leave_out_what_sticks_out(self) -> bool:
+        """Take away what is not in the container; whether there was any."""
+        outlines = [self._outlines[int(k)] for k in self._items]
+        poses = self._poses.some(self._items)
+        found = find_conflicts(self._container, outlines, poses, self._gap)
+        out = np.array([o.item for o in found if o.other is None], dtype=np.int64)
+        self._items = np.delete(self._items, out)
+        return len(out) > 0
+
+    def try_again(self, room: Outline) -> bool:
+        """Look for room for those that have none; whether there is some."""
+        left = np.setdiff1d(np.arange(len(self._poses)), self._items)
+        if len(left) == 0 or self._stop():
+            return False
+        arrangement = self._arrangement(room, FINE, np.arange(len(self._poses)))
+        left = left[np.argsort(arrangement.radii[left], kind="stable")]
+        still = self._bottom_left(arrangement, left, self._items)
+        new = np.setdiff1d(left, still)
+        self._take_over(arrangement, np.arange(len(self._poses)))
+        self._items = np.union1d(self._items, new)
+        return len(new) > 0
+
+    def result(self) -> Piled:
+        """What there is now."""
+        return Piled(self._poses, self._items, self._rounds, self._height)
+
+    def _bottom_left(
+        self, arrangement: Arrangement, items: IntArray, standing: IntArray
+    ) -> IntArray:
+        anchors = self._anchors(arrangement)
+
+        def heights(points: FloatArray, item: int) -> FloatArray:
+            return self._forces.heights(points, item, anchors[self._kinds[item]])
+
+        return bottom_left(arrangement, items, standing, heights, self._kinds, self._gap)
+
+    def _anchors(self, arrangement: Arrangement) -> dict[int, FloatArray]:
+        """Where each kind of items would lie lowest, were there no others."""
+        left, top, right, bottom = arrangement.container.bounds
+        middle = np.array([(left + right) / 2, (top + bottom) / 2])
+        if not self._forces.bonds:
+            return dict.fromkeys(range(len(self._kinds)), middle)
+        across, down = np.meshgrid(*np.linspace((left, top), (right, bottom), GRID).T)
+        points = np.column_stack([across.ravel(), down.ravel()])
+        points = points[shapely.contains_xy(arrangement.container.region, *points.T)]
+        found = {}
+        for kind, item in zip(*np.unique(self._kinds, return_index=True), strict=True):
+            heights = self._forces.heights(points, int(item))
+            is_flat = len(points) == 0 or np.ptp(heights) == 0
+            found[int(kind)] = middle if is_flat else points[np.argmin(heights)]
+        return found
+
+    def _order_sizes(self, arrangement: Arrangement) -> FloatArray:
+        rng = np.random.default_rng(self._options.seed)
+        spread = rng.uniform(-self._shuffle, self._shuffle, arrangement.count)
+        return np.asarray(arrangement.radii * np.exp(spread))
+
+    def _arrangement(self, room: Outline, tolerance: float, items: IntArray) -> Arrangement:
+        if (room, tolerance) not in self._details:
+            detail = Detail(self._outlines, room, self._poses).covers(FINE)
+            self._details[room, FINE] = detail
+            if tolerance > FINE:
+                self._details[room, tolerance] = detail.covers(tolerance)
+        x, y, zero = self._poses.x[items], self._poses.y[items], np.zeros(len(items))
+        detail = self._details[room, tolerance].some(items, self._poses)
+        return detail.arrangement(np.column_stack([x, y, zero, zero]))
+
+    def _take_over(self, arrangement: Arrangement, items: IntArray) -> None:
+        self._poses = _moved(self._poses, items, arrangement.places)
+
+    def _tell(self, items: IntArray, places: FloatArray) -> None:
+        """Tell of those items that are there: who waits lies anywhere."""
+        if self._observer is None:
+            return
+        covered = float(self._areas[items].sum() / self._container.outline.area)
+        now = _moved(self._poses, items, places).some(items)
+        self._told += 1
+        # How many rounds it will take nobody knows: the bar comes ever nearer to its end.
+        progress = self._told / (self._told + USUAL_ROUNDS)
+        shares = (covered, 0.0, 0.0)
+        self._observer.on_step(
+            Step(0, 1, 0, self._told, progress, now, lambda: shares, is_finish=True, ids=items)
+        )
+
+
+def _moved(poses: Poses, items: IntArray, places: FloatArray) -> Poses:
+    """Poses of which some have gone to places of x, y and turn."""
+    x, y, turn, _ = places.T
+    some = poses.some(items)
+    return poses.with_some(items, replace(some, x=x, y=y, angle=some.angle + turn))

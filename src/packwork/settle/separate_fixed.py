@@ -1,0 +1,57 @@
+"""Items that nearly lie clear of each other, eased apart at the sizes that they have."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.compaction._kernels import MOST_GROWTH
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.blocks import blocks
+from packwork.compaction.compact import compact
+from packwork.compaction.objective import FixedSize
+from packwork.compaction.separate import separate
+
+ROUNDS = 20
+"""Rounds in which items that were shrunk to come free may grow back. More rescue a few more
+of a bad layout. Chosen."""
+
+TRUST = 0.1
+"""Bound of a move in such a round, in sides of the square of an item's share. Chosen."""
+
+
+def separate_fixed(arrangement: Arrangement, gap: float, hair: float) -> IntArray:
+    """Move items apart until nothing meets, sizes as given; those that found no room.
+
+    Those stand where they were, in conflict or not: they have to be placed anew.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
+    >>> two = Arrangement([box] * 2, wall, np.array([[0.0, 0, 0, 0], [1.9, 0, 0, 0]]))
+    >>> len(separate_fixed(two, 1e-3, 1e-3)), len(two.conflicts(two.pairs(1e-3), 1e-3))
+    (0, 0)
+    """
+    first = arrangement.places.copy()
+    everyone = np.arange(arrangement.count)
+    separate(arrangement, gap)
+    free = np.full(arrangement.count, np.inf)
+    sizing = FixedSize(np.square(arrangement.board.arms), (-free, free))
+    trust = TRUST * float(np.sqrt(np.pi * np.mean(arrangement.board.arms**2)))
+    for turn in range(ROUNDS):
+        growth = arrangement.places[:, 3]
+        if sizing.is_done(growth):
+            break
+        objective = sizing.objective(
+            growth, min(trust / float(np.median(arrangement.radii)), MOST_GROWTH)
+        )
+        for block in blocks(arrangement.places[:, :2], turn):
+            compact(arrangement, objective, block, trust, gap, hair)
+    short = np.flatnonzero(arrangement.places[:, 3] < 0)
+    places = arrangement.places.copy()
+    places[short] = first[short]
+    places[:, 3] = 0.0
+    arrangement.put(everyone, places)
+    return short

@@ -1,0 +1,211 @@
+"""Rounds of small steps down the forces' heights until nothing goes lower: at rest."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.compaction._kernels import TRAVEL
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.blocks import blocks
+from packwork.compaction.distances import _kernels as distances
+from packwork.forces.forces import Forces, Pull
+from packwork.progress import Stop
+from packwork.settle import _kernels
+from packwork.settle.steps import downward, inward
+
+FIRST_TRUST, LAST_TRUST = 0.25, 1e-2
+"""First and last bound of a move, in sides of the square of an item's mean area. A larger
+first one falls faster and fails more checks; a smaller last one gains what nobody sees.
+Tried."""
+
+NARROWING = 0.5
+"""Factor on that bound once a round gains little. Larger takes more rounds, smaller leaves
+way that was to be gained by larger steps. Tried."""
+
+WORTHWHILE = 0.3
+"""Share of the bound by which the tenth of the items that went farthest down have to go in a
+round to be followed by one of the same bound. Larger leaves arches and items in the air, smaller
+takes more rounds. Tried."""
+
+REST = 3e-5
+"""Mean way down of a round, as a share of the canvas, below which all is at rest at the last
+bound. Derived: a thirtieth of what counts as lying lower (a thousandth of the canvas)."""
+
+TILT = 0.5
+"""Turn of the way down, rad, to one side and the other in turn, while bounds are wide: what
+stands on a point slides off. Larger pushes items up each other's sides. Tried."""
+
+SWAY = 6
+"""Rounds to one side before it is the other's turn: what slides needs some. Tried."""
+
+TILTED_TRUST = 0.03
+"""Bound from which rounds are tilted. Smaller leaves less time to rest. Chosen."""
+
+MOST_ROUNDS = 400
+"""Rounds at most. Chosen."""
+
+ROUNDNESS = 30.0
+"""What a smaller circle is worth where a pack is to be round, mean heights. Larger lets items
+inside lie anywhere, smaller lets some stick out. Tried."""
+
+
+class Settling:
+    """Items of fixed sizes on their way down; the arrangement never has a conflict.
+
+    Parameters
+    ----------
+    arrangement
+        Without conflicts; changed in place.
+    forces
+        One strength for each item of the arrangement.
+    areas
+        ``(n,)`` how much each item counts.
+    turns
+        Farthest turns back and on, ``(n,)`` each, rad.
+    gap
+        Least distance that the check asks for.
+    hair
+        The part of it that nobody asked for.
+    side
+        Longer side of the canvas.
+    """
+
+    def __init__(
+        self,
+        arrangement: Arrangement,
+        forces: Forces,
+        areas: FloatArray,
+        turns: tuple[FloatArray, FloatArray],
+        gap: float,
+        hair: float,
+        side: float,
+    ) -> None:
+        self.arrangement, self._forces, self.areas, self._turns = arrangement, forces, areas, turns
+        self._gap, self._hair, self._side = gap, hair, side
+        self.is_swaying = True
+        """Whether wide rounds are tilted."""
+        self.centre: FloatArray | None = None
+        """Of the circle that is to become small; None for none."""
+        self.active = np.arange(len(areas))
+        """Items that move; all others count as not there, and have to be far away."""
+        self._drops, self._narrowed = np.zeros(len(areas)), 0.0
+        self._spacing = float(np.sqrt(np.mean(areas)))
+
+    def pull(self) -> Pull:
+        """Heights and slopes of the active items where they are now."""
+        forces = self._forces if len(self.active) == len(self.areas) else (
+            self._forces.some(self.active)
+        )  # fmt: skip
+        return forces(self.arrangement.places[self.active, :2], self.areas[self.active])
+
+    def mean_height(self) -> float:
+        """Area-weighted mean height of the active items, canvas units."""
+        return self.pull().value / max(float(self.areas[self.active].sum()), 1e-300)
+
+    def _cost(self, items: IntArray) -> float:
+        """Mean height, and the circle that holds some items where that counts."""
+        return self.mean_height() + ROUNDNESS * self.circle(items)
+
+    def circle(self, items: IntArray | None = None) -> float:
+        """Radius of the circle that holds some items, or all; 0 where none is asked for."""
+        if self.centre is None:
+            return 0.0
+        some = self.active if items is None else items
+        return float(_kernels.circle_about(self.arrangement.board, some, self.centre))
+
+    def settle(
+        self,
+        tell: Callable[[FloatArray], None],
+        stop: Stop,
+        trusts: tuple[float, float] = (FIRST_TRUST, LAST_TRUST),
+    ) -> int:
+        """Let all go down until they are at rest; how many rounds it took.
+
+        Parameters
+        ----------
+        tell
+            Called with the places after each round.
+        stop
+            Asked before each round.
+        trusts
+            First and last bound of a move.
+        """
+        trust = trusts[0]
+        for rounds in range(MOST_ROUNDS):
+            if stop():
+                return rounds
+            gained = self.round(trust, rounds)
+            tell(self.arrangement.places)
+            is_last = trust <= trusts[1]
+            reach = self._farthest() / (trust * self._spacing)
+            if is_last and gained < REST * self._side and reach < WORTHWHILE:
+                return rounds + 1
+            if reach < WORTHWHILE:
+                trust = max(trust * NARROWING, trusts[1])
+        return MOST_ROUNDS
+
+    def round(self, trust: float, turn: int) -> float:
+        """One step of each block, the lowest first; the mean way down, and that of the circle.
+
+        Parameters
+        ----------
+        trust
+            Bound of a move, in sides of the square of an item's mean area.
+        turn
+            Number of the round: others cut blocks elsewhere.
+        """
+        before, circle = self._cost(self.active), self.circle()
+        low = self._lows()
+        tilt = (
+            TILT * (1 - 2 * (turn // SWAY % 2)) if self.is_swaying and trust > TILTED_TRUST else 0.0
+        )
+        found = blocks(self.arrangement.places[self.active, :2], turn)
+        for block in sorted(found, key=lambda items: float(low[items].mean())):
+            self._step(block, trust * self._spacing, tilt)
+        self._drops = low - self._lows()
+        self._narrowed = circle - self.circle()
+        return before - self._cost(self.active)
+
+    def _lows(self) -> FloatArray:
+        """Height of each active item, by its area."""
+        return np.asarray(self.pull().parts / self.areas[self.active])
+
+    def _farthest(self) -> float:
+        """How far the tenth that went farthest down came in the last round, canvas units.
+
+        Or the circle, if it came farther.
+        """
+        some = max(len(self._drops) // 10, 1)
+        return max(float(np.sort(self._drops)[-some:].mean()), self._narrowed)
+
+    def is_still(self, gained: float, least: float) -> bool:
+        """Whether a round gained less than ``least`` sides of an item's square."""
+        return gained < least * self._spacing
+
+    def _step(self, block: IntArray, trust: float, tilt: float) -> None:
+        """One step of some of the active items, the way down turned by ``tilt``."""
+        board = self.arrangement.board
+        slopes = self.pull().slopes[block]
+        if not slopes.any():
+            return
+        items = self.active[block]
+        cosine, sine = np.cos(tilt), np.sin(tilt)
+        slopes = slopes @ np.array([[cosine, sine], [-sine, cosine]])
+        before = self.arrangement.places[items].copy()
+        height = self._cost(items)
+        pairs = distances.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
+        if self.centre is None:
+            step = downward(board, slopes, self._turns, items, pairs, trust, self._gap, self._hair)
+        else:
+            worth = ROUNDNESS * float(self.areas[self.active].sum())
+            step = inward(
+                board, slopes, self._turns, items, pairs, trust, self._gap, self._hair,
+                self.centre, worth,
+            )  # fmt: skip
+        _kernels.move(board, items, step, pairs, self._gap)
+        if self._cost(items) > height:
+            # Near a point the slope turns within a step.
+            self.arrangement.put(items, before)

@@ -1,0 +1,66 @@
+"""Steps down a potential: a linear programme over the contacts of some items.
+
+Kernels one after another, not in one: what several steps share is compiled once.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.compaction import _kernels as steps
+from packwork.compaction.distances._kernels import Board
+from packwork.compaction.interior_point import _kernels as interior_point
+from packwork.settle import _kernels
+
+ACCURACY = 0.05
+"""Share of the way down that a programme may miss. Smaller costs time; larger leaves items
+hanging in the middle of their room. Tried."""
+
+Turns = tuple[FloatArray, FloatArray]
+"""Bounds of the turn of every solid: backmost, foremost."""
+
+
+def downward(
+    board: Board, slope: FloatArray, turns: Turns, items: IntArray, pairs: IntArray,
+    trust: float, gap: float, hair: float,
+) -> FloatArray:  # fmt: skip
+    """Change of place of ``items`` that goes down most and keeps the contacts apart, nearly.
+
+    Parameters
+    ----------
+    slope
+        ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each item.
+    """
+    rows = steps.rows_of(board, items, pairs, trust, gap, hair)
+    gain, low, high = _kernels.gains_and_bounds(board, slope, *turns, items, trust)
+    z = interior_point.maximise(rows, gain, low, high, ACCURACY)
+    return _step(board, items, z, low, high, trust)
+
+
+def inward(
+    board: Board, slope: FloatArray, turns: Turns, items: IntArray, pairs: IntArray,
+    trust: float, gap: float, hair: float, centre: FloatArray, weight: float,
+) -> FloatArray:  # fmt: skip
+    """The same where a smaller circle about ``centre`` is worth ``weight`` a canvas unit."""
+    n = len(items)
+    rows = steps.rows_of(board, items, pairs, trust, gap, hair)
+    circle = _kernels.circle_about(board, items, centre)
+    rows = _kernels.with_circle(board, items, rows, centre, circle, trust)
+    gain, low, high = np.zeros((3, 4 * n + 4))
+    own = _kernels.gains_and_bounds(board, slope, *turns, items, trust)
+    gain[: 4 * n], low[: 4 * n], high[: 4 * n] = own
+    # What makes room for others may go anywhere.
+    for c in range(2):
+        low[c : 4 * n : 4], high[c : 4 * n : 4] = -1.0, 1.0
+    gain[4 * n], low[4 * n] = -weight, -1.0
+    z = interior_point.maximise(rows, gain, low, high, ACCURACY)
+    return _step(board, items, z, low, high, trust)
+
+
+def _step(
+    board: Board, items: IntArray, z: FloatArray, low: FloatArray, high: FloatArray, trust: float
+) -> FloatArray:
+    # An interior point is a little off its bounds: what may not turn would.
+    within = np.minimum(np.maximum(z, low), high)
+    return np.asarray(steps.step_of(board, items, within, trust))

@@ -1,0 +1,249 @@
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import shapely
+from hypothesis import given, settings
+
+from packwork.arrays import FloatArray
+from packwork.compaction._kernels import LEAST_GROWTH, MOST_GROWTH, Objective
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.blocks import blocks
+from packwork.compaction.compact import compact, worth
+from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize
+from packwork.compaction.outer_simplify.outer_simplify import inner_simplified, outer_simplified
+from packwork.compaction.relocate import relocate
+from packwork.compaction.separate import separate, separate_evenly
+from packwork.finish.anneal import Lengths, anneal
+from packwork.finish.bottlenecks import relocate_bottleneck
+from packwork.geometry.outline import Outline
+from packwork.readers.container import read_container
+from scenes import box, disc, square, star
+from strategies import generators, star_rings
+
+GAP, HAIR = 0.01, 0.001
+
+
+def free(arrangement: Arrangement, areas: FloatArray) -> FreeSizes:
+    """Any turn, half to twice the size."""
+    n = arrangement.count
+    turns = np.full(n, -np.inf), np.full(n, np.inf)
+    return FreeSizes(areas, turns, np.full(n, -np.log(2)), np.full(n, np.log(2)))
+
+
+def is_clean(arrangement: Arrangement) -> bool:
+    return len(arrangement.conflicts(arrangement.pairs(GAP), GAP)) == 0
+
+
+@given(star_rings(), generators())
+@settings(deadline=None, max_examples=60)
+def test_a_cover_holds_the_region_and_a_lining_is_held(
+    ring: FloatArray, rng: np.random.Generator
+) -> None:
+    region = Outline.from_rings([ring]).region
+    tolerance = float(10.0 ** rng.uniform(-5, -0.5))
+    assert outer_simplified(region, tolerance).covers(region)
+    assert region.covers(inner_simplified(region, tolerance))
+
+
+def test_covers_have_few_vertices_and_are_tight() -> None:
+    circle = disc(1.0, 500).region
+    cover = outer_simplified(circle, 1e-3)
+    assert len(cover.exterior.coords) < 150
+    assert cover.area / circle.area < 1.01
+
+
+@pytest.mark.parametrize("count", [0, 1, 5, 128, 1000])
+def test_blocks_hold_every_item_once(count: int) -> None:
+    positions = np.random.default_rng(0).uniform(size=(count, 2))
+    for turn in range(6):
+        found = blocks(positions, turn, most=32)
+        assert sorted(np.concatenate([*found, np.zeros(0, int)])) == list(range(count))
+        assert max((len(block) for block in found), default=0) <= 32
+
+
+def test_blocks_are_cut_elsewhere_each_round() -> None:
+    positions = np.random.default_rng(0).uniform(size=(100, 2))
+    cuts = {tuple(map(len, blocks(positions, turn, most=64))) for turn in range(5)}
+    assert len(cuts) == 5
+
+
+def test_parting_shrinks_only_those_in_conflict() -> None:
+    places = np.array([[3.0, 5.0, 0, 0], [4.9, 5.0, 0, 0], [8.0, 8.0, 0, 0]])
+    arrangement = Arrangement([square()] * 3, box(0, 0, 10, 10), places)
+    moved = separate(arrangement, GAP)
+    growth = arrangement.places[:, 3]
+    assert is_clean(arrangement)
+    assert len(moved) == 0
+    assert growth[2] == 0
+    assert -0.1 < growth[:2].max() < 0
+
+
+def test_parting_evenly_leaves_one_size_for_all_and_no_conflict() -> None:
+    places = np.array([[3.0, 5.0, 0, 0], [4.7, 5.0, 0, 0], [8.0, 8.0, 0, 0]])
+    arrangement = Arrangement([square()] * 3, box(0, 0, 10, 10), places)
+    separate_evenly(arrangement, GAP)
+    growth = arrangement.places[:, 3]
+    assert is_clean(arrangement)
+    assert np.ptp(growth) < 1e-6
+    assert -0.3 < growth[0] < np.log(0.85)
+
+
+def test_a_trapped_item_moves_to_a_void() -> None:
+    places = np.array([[5.0, 5.0, 0, 0], [5.0, 5.0, 0, 0]])
+    arrangement = Arrangement([square(4.0), square(0.4)], box(0, 0, 20, 10), places)
+    moved = separate(arrangement, GAP)
+    assert is_clean(arrangement)
+    assert moved.tolist() == [1]
+    assert arrangement.places[1, 0] > 9
+    assert arrangement.places[0, 3] > -0.5
+
+
+def test_items_outside_come_in() -> None:
+    places = np.array([[30.0, 30.0, 0, 0], [5.0, 5.0, 0, 0]])
+    arrangement = Arrangement([square()] * 2, box(0, 0, 10, 10), places)
+    separate(arrangement, GAP)
+    assert is_clean(arrangement)
+
+
+def test_the_largest_item_gets_the_largest_void() -> None:
+    places = np.array([[5.0, 5.0, 0, 0], [0.0, 0.0, 0, 0.0], [0.0, 0.0, 0, 0.0]])
+    arrangement = Arrangement([square(4.9), square(0.5), square(2.0)], box(0, 0, 30, 10), places)
+    relocate(arrangement, np.array([1, 2]), GAP)
+    assert is_clean(arrangement)
+    assert arrangement.places[2, 3] == pytest.approx(0.0)
+    assert arrangement.places[2, 0] > 12
+
+
+def test_an_item_without_a_void_stays() -> None:
+    arrangement = Arrangement(
+        [box(-4.99, -4.99, 4.99, 4.99), square(0.5)],
+        box(0, 0, 10, 10),
+        np.array([[5.0, 5.0, 0, 0], [2.0, 2.0, 0.5, 0.1]]),
+    )
+    relocate(arrangement, np.array([1]), GAP)
+    assert arrangement.places[1].tolist() == [2.0, 2.0, 0.5, 0.1]
+
+
+def test_items_that_no_trial_reaches_grow_all_the_same() -> None:
+    x = np.arange(3.0, 120.0, 6.0)
+    zero = np.zeros_like(x)
+    arrangement = Arrangement(
+        [square()] * len(x), box(0, 0, 123, 6), np.column_stack([x, zero + 3, zero, zero])
+    )
+    sizing = free(arrangement, zero + 4.0)
+    room = Lengths(6.0, GAP, HAIR)
+
+    def objective_at(places: FloatArray) -> Objective:
+        return sizing.objective(places[:, 3], 0.1)
+
+    anneal(arrangement, objective_at, 3, room, np.random.default_rng(0))
+    assert is_clean(arrangement)
+    assert arrangement.places[:, 3].min() > 0.05
+
+
+@given(generators())
+@settings(deadline=None, max_examples=25)
+def test_a_round_never_leaves_a_conflict_nor_loses_area(rng: np.random.Generator) -> None:
+    count = int(rng.integers(1, 9))
+    shapes = [star(1.0), square(0.8), disc(0.7, 12), box(-1.5, -0.2, 1.5, 0.2)]
+    outlines = [shapes[k] for k in rng.integers(4, size=count)]
+    places = np.column_stack(
+        [rng.uniform(2, 8, (count, 2)), rng.uniform(0, 6, count), np.zeros(count)]
+    )
+    arrangement = Arrangement(outlines, box(0, 0, 10, 10), places)
+    separate(arrangement, GAP)
+    objective = free(arrangement, np.array([o.area for o in outlines])).objective(places[:, 3], 0.1)
+    everyone = np.arange(count)
+    for trust in (2.0, 0.5, 0.1):
+        before = worth(arrangement, objective, everyone)
+        moved = compact(arrangement, objective, everyone, trust, GAP, HAIR)
+        assert is_clean(arrangement)
+        # What is cut to come clear is far less than what a step gains.
+        assert worth(arrangement, objective, everyone) > before - 0.05 * count or not moved
+
+
+def test_a_lone_square_fills_its_box() -> None:
+    arrangement = Arrangement([square()], box(0, 0, 10, 10), np.array([[3.0, 4.0, 0.7, 0.0]]))
+    turns = np.full(1, -np.inf), np.full(1, np.inf)
+    sizing = FreeSizes(np.array([4.0]), turns, np.array([-9.0]), np.array([9.0]))
+    for trust in np.geomspace(2.0, 0.01, 30):
+        compact(
+            arrangement,
+            sizing.objective(arrangement.places[:, 3], 1.0),
+            np.arange(1),
+            trust,
+            GAP,
+            HAIR,
+        )
+    assert 2 * np.exp(arrangement.places[0, 3]) == pytest.approx(10 - 2 * GAP, abs=0.02)
+
+
+def test_turn_limits_hold() -> None:
+    arrangement = Arrangement([square()], box(0, 0, 10, 10), np.array([[5.0, 5.0, 0.7, 0.0]]))
+    turns = np.array([0.6]), np.array([0.8])
+    sizing = FreeSizes(np.array([4.0]), turns, np.array([-9.0]), np.array([9.0]))
+    for trust in np.geomspace(2.0, 0.01, 30):
+        compact(
+            arrangement,
+            sizing.objective(arrangement.places[:, 3], 1.0),
+            np.arange(1),
+            trust,
+            GAP,
+            HAIR,
+        )
+    assert 0.6 - 1e-6 < arrangement.places[0, 2] < 0.8 + 1e-6
+
+
+def test_shared_sizes_favour_the_smallest() -> None:
+    turns = np.zeros(3), np.zeros(3)
+    growth = np.array([-0.2, 0.0, 0.01])
+    objective = SharedSize(np.ones(3), turns).objective(growth, 0.05)
+    value = objective.weights * np.exp(objective.power * growth)
+    assert value[0] > value[1] > value[2]
+    assert objective.largest[0] < growth[1]
+
+
+def test_fixed_sizes_are_done_when_all_are_back() -> None:
+    turns = np.zeros(2), np.zeros(2)
+    sizing = FixedSize(np.ones(2), turns)
+    assert not sizing.is_done(np.array([0.0, -1e-4]))
+    assert sizing.is_done(np.zeros(2))
+    assert sizing.laggards(np.array([0.0, -0.3])).tolist() == [1]
+
+
+def test_a_lining_of_a_coast_keeps_its_land() -> None:
+    """Bays that close upon each other must not fill what they enclose."""
+    coast = read_container("australia").outline.region
+    for tolerance in (0.05, 0.5, 1.0):
+        safe = inner_simplified(coast, tolerance)
+        assert coast.covers(safe)
+        assert coast.area - safe.area < 3 * tolerance * coast.length
+
+
+def test_specks_neither_vanish_nor_jump() -> None:
+    """Items far smaller than the trust region: programmes are no guide there."""
+    tiny = np.array([[0.0, 0.0, 0.0, -9.0], [3e-4, 0.0, 0.0, -9.0]])
+    two = Arrangement([square(1.0), square(1.0)], square(5.0), tiny)
+    turns = np.full(2, -np.inf), np.full(2, np.inf)
+    objective = FixedSize(np.full(2, 4.0), turns).objective(two.places[:, 3], 1.0)
+    for _ in range(3):
+        before = two.places[:, 3].copy()
+        compact(two, objective, np.arange(2), 0.8, 1e-5, 1e-6)
+        grown = two.places[:, 3] - before
+        assert grown.max() <= MOST_GROWTH
+        assert two.places[:, 3].min() >= LEAST_GROWTH
+
+
+def test_an_item_moves_house_to_where_it_grows_most() -> None:
+    """The pocket has the larger disc, but a bar has more room in the corridor."""
+    bar = box(-4.0, -0.5, 4.0, 0.5)
+    walls = Outline.from_region(shapely.union(box(0, 0, 4, 4).region, box(3.9, 0, 30, 2).region))
+    arrangement = Arrangement([bar], walls, np.array([[2.0, 2.0, 0.0, -0.8]]))
+    free, still = np.full(1, 9.0), np.zeros(1)
+    objective = Objective(-free, free, still, still, np.full(1, 8.0), 2.0, np.zeros((1, 2)))
+    room = Lengths(10.0, GAP, GAP)
+    assert relocate_bottleneck(arrangement, 0, objective, room, np.random.default_rng(0))
+    assert is_clean(arrangement)
+    assert arrangement.places[0, 0] > 4
+    assert arrangement.places[0, 3] > np.log(0.5)
