@@ -8,9 +8,10 @@ import shapely
 
 from packwork.readers.svg.centre_lines import FinePoints, open_stroke, piece_strokes
 from packwork.readers.svg.drawing import read_drawing
-from packwork.readers.svg.path_data import parse_path
-from packwork.readers.svg.shapes import flattened
-from packwork.readers.svg.strokes import Pen, stroke_region
+from packwork.readers.svg.strokes import stroke_region
+from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.path_data import parse_path
+from packwork.readers.svg_syntax.shapes import flattened
 
 ARC = "M50 10A40 40 0 0 1 90 50"
 

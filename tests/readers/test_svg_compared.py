@@ -8,15 +8,15 @@ import pytest
 import shapely
 
 from packwork.errors import ReadError
+from packwork.readers.budget.work import LEAST_PX, Work, work_of
 from packwork.readers.gate.door import admit
 from packwork.readers.svg import drawing as drawing_module
 from packwork.readers.svg.compare import Comparison, excess
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.ink import PaintedInk, TracedInk
 from packwork.readers.svg.item import item_of_svg, read_svg
-from packwork.readers.svg.page import read_page
 from packwork.readers.svg.solid import solid_twin
-from packwork.readers.svg.work import LEAST_PX, Work, work_of
+from packwork.readers.svg_syntax.page import read_page
 from packwork.readers.unfit import TooRichError
 
 SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'

@@ -11,11 +11,12 @@ import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from packwork.readers.svg.arcs import arc_cubics
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.path_data import parse_path
-from packwork.readers.svg.shapes import flattened, shape_pieces
-from packwork.readers.svg.strokes import Pen, stroke_region
+from packwork.readers.svg.strokes import stroke_region
+from packwork.readers.svg_syntax.arcs import arc_cubics
+from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.path_data import parse_path
+from packwork.readers.svg_syntax.shapes import flattened, shape_pieces
 from packwork.scene.item import VectorArt
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'

@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from packwork.geometry.polygon import region
-from packwork.readers.svg.crossings import Allowance, estimated_crossings
+from packwork.readers.budget.crossings import Allowance, estimated_crossings
 from packwork.readers.svg.dashing import dashed
 from packwork.readers.svg.fills import filled
 from packwork.readers.svg.item import item_of_svg

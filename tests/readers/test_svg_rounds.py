@@ -9,9 +9,9 @@ import pytest
 
 from packwork.geometry.polygon import region
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.path_data import parse_path
 from packwork.readers.svg.rounds import with_short_arcs
-from packwork.readers.svg.shapes import flattened, shape_pieces
+from packwork.readers.svg_syntax.path_data import parse_path
+from packwork.readers.svg_syntax.shapes import flattened, shape_pieces
 from packwork.scene.layout import Layout
 from packwork.writers.pdf import pdf_bytes
 from printed import read_pdf

@@ -10,7 +10,7 @@ import shapely
 
 from packwork.errors import ReadError
 from packwork.geometry import affine
-from packwork.readers import budget
+from packwork.readers import account
 from packwork.readers.gate.door import admit
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg
@@ -38,7 +38,7 @@ def data(body: str) -> bytes:
     ids=["hairs", "spiral"],
 )
 def test_rich_outlines_are_made_coarser_and_cover_what_is_drawn(body, caplog, monkeypatch):
-    monkeypatch.setattr(budget, "SHAPES_NS", 5e8)
+    monkeypatch.setattr(account, "SHAPES_NS", 5e8)
     item = item_of_svg(data(body), "a", "a.svg", is_compared=True)
     assert "is traced from its picture" in caplog.text
     assert sum(map(len, item.outline.rings)) <= MAX_POINTS
@@ -85,21 +85,21 @@ def test_filters_beyond_what_drawings_need_are_left_out(filters, caplog):
 
 
 def test_one_budget_is_shared_and_counted():
-    with budget.one_budget() as outer, budget.one_budget() as inner:
+    with account.one_budget() as outer, account.one_budget() as inner:
         assert inner is outer
-        budget.spend(budget.SHAPES_NS / 2, "x")
-        assert budget.left("shapes") == pytest.approx(budget.SHAPES_NS / 2)
-        assert budget.left("pictures") == budget.PICTURES_NS
+        account.spend(account.SHAPES_NS / 2, "x")
+        assert account.left("shapes") == pytest.approx(account.SHAPES_NS / 2)
+        assert account.left("pictures") == account.PICTURES_NS
         with pytest.raises(TooRichError, match="has too much of it"):
-            budget.spend(budget.SHAPES_NS, "has too much of it")
+            account.spend(account.SHAPES_NS, "has too much of it")
 
 
 def test_plain_drawings_spend_little_of_their_budget():
     body = '<circle cx="50" cy="50" r="40" stroke="#000"/><text y="90" font-size="30">abc</text>'
-    with budget.one_budget() as spent:
+    with account.one_budget() as spent:
         item_of_svg(data(body), "a", "a.svg", is_compared=True)
-    assert spent.left("shapes") > 0.5 * budget.SHAPES_NS
-    assert spent.left("pictures") > 0.8 * budget.PICTURES_NS
+    assert spent.left("shapes") > 0.5 * account.SHAPES_NS
+    assert spent.left("pictures") > 0.8 * account.PICTURES_NS
 
 
 def test_every_pixel_that_a_line_crosses_is_touched_and_no_other():

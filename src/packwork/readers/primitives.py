@@ -7,8 +7,8 @@ from collections.abc import Mapping
 
 from packwork.geometry.polygon import Region, region
 from packwork.readers.svg.ink import FLATTENING
-from packwork.readers.svg.path_data import parse_path
-from packwork.readers.svg.shapes import flattened
+from packwork.readers.svg_syntax.path_data import parse_path
+from packwork.readers.svg_syntax.shapes import flattened
 from packwork.readers.unfit import UnfitError
 
 MOST_STRIPE = 100.0

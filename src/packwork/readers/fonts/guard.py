@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.readers.svg.crossings import Allowance
+from packwork.readers.budget.crossings import Allowance
 from packwork.readers.unfit import TooRichError, UnfitError
 
 MAX_FONT_BYTES = 50_000_000

@@ -6,17 +6,18 @@ import xml.etree.ElementTree as ET
 import zlib
 from xml.sax.saxutils import escape, quoteattr
 
-from packwork.readers.budget import one_budget
-from packwork.readers.gate.expansion import bound_expansion, check_size
-from packwork.readers.gate.filters import settle_filters
+from packwork.readers.account import one_budget
+from packwork.readers.budget.expansion import bound_expansion, check_size
+from packwork.readers.budget.filters import settle_filters
 from packwork.readers.gate.plain.cuts import settle_cuts
 from packwork.readers.gate.plain.dash_units import settle_dash_units
 from packwork.readers.gate.plain.moves import settle_moves
 from packwork.readers.gate.plain.units import settle_root, settle_units
-from packwork.readers.gate.references import drop_dangling, prune_hidden, prune_unused
-from packwork.readers.gate.sanitise import HREF, sanitised
+from packwork.readers.gate.sanitise import sanitised
 from packwork.readers.gate.xml_tree import parse_xml
-from packwork.readers.svg.page import read_page
+from packwork.readers.svg_syntax.page import read_page
+from packwork.readers.svg_syntax.references import drop_dangling, prune_hidden, prune_unused
+from packwork.readers.svg_syntax.vocabulary import HREF
 from packwork.readers.unfit import UnfitError
 
 MAX_BYTES = 20_000_000

@@ -7,19 +7,15 @@ such a picture is written anew: its first frame, upright.
 from __future__ import annotations
 
 import base64
-import binascii
-import re
 import warnings
 from io import BytesIO
 
 from PIL import Image, ImageOps
 
-from packwork.readers.budget import spend
-from packwork.readers.pictures.decode import eight_bit, opened, picture_size
+from packwork.readers.account import spend
+from packwork.readers.pictures.decode import eight_bit, opened
+from packwork.readers.svg_syntax.embedded import embedded_bytes, embedded_size
 from packwork.readers.unfit import UnfitError
-
-MAX_ENCODED = 15_000_000
-"""Letters of one embedded picture in base64, about 11 MB of file. Chosen."""
 
 MAX_EMBEDDED_PIXELS = 16_000_000
 """Pixels of one embedded picture: four bytes each once decoded. Chosen."""
@@ -31,8 +27,6 @@ _QUALITY = 95
 _ORIENTATION = 0x0112
 _ALL_READ = frozenset({"PNG", "JPEG"})
 """Kinds that every program shows, if they neither move nor are turned."""
-
-_HEAD = re.compile(r"data:image/(png|jpeg|jpg|webp|gif)\s*;\s*base64\s*,", re.IGNORECASE)
 
 
 def is_harmless_picture(reference: str) -> bool:
@@ -61,7 +55,7 @@ def one_picture(reference: str) -> str | None:
     """
     if not is_harmless_picture(reference):
         return None
-    data = _content(reference)
+    data = embedded_bytes(reference)
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
@@ -91,26 +85,3 @@ def _upright(image: Image.Image) -> str:
         plain.save(file, "PNG")
     kind = "jpeg" if is_photo else "png"
     return f"data:image/{kind};base64,{base64.b64encode(file.getvalue()).decode('ascii')}"
-
-
-def embedded_size(reference: str) -> tuple[int, int] | None:
-    """Width and height in pixels of an embedded picture, None if it is not usable.
-
-    Examples
-    --------
-    >>> embedded_size("data:image/png;base64,####") is None
-    True
-    """
-    data = _content(reference)
-    return None if data is None else picture_size(data)
-
-
-def _content(reference: str) -> bytes | None:
-    """Bytes of an embedded picture."""
-    head = _HEAD.match(reference)
-    if head is None or len(reference) > MAX_ENCODED:
-        return None
-    try:
-        return base64.b64decode(re.sub(r"\s+", "", reference[head.end() :]), validate=True)
-    except (binascii.Error, ValueError):
-        return None

@@ -14,7 +14,8 @@ import xml.etree.ElementTree as ET
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from packwork.readers.budget import spend
+from packwork.readers.account import spend
+from packwork.readers.budget.filters import FILTER
 from packwork.readers.gate.css.cascade import Cascade
 from packwork.readers.gate.css.colours import plain_colour
 from packwork.readers.gate.css.declarations import parse_declarations
@@ -22,7 +23,8 @@ from packwork.readers.gate.css.nodes import Node
 from packwork.readers.gate.css.sheets import Sheet
 from packwork.readers.gate.css.variables import filled_in, with_variables
 from packwork.readers.gate.embedded import one_picture
-from packwork.readers.gate.vocabulary import (
+from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
+from packwork.readers.svg_syntax.vocabulary import (
     ATTRIBUTES,
     COLOURS,
     CSS_ONLY,
@@ -30,15 +32,12 @@ from packwork.readers.gate.vocabulary import (
     FILTER_PARTS,
     FUNCTIONS,
     GRADIENTS,
+    HREF,
     MOVES,
     RENAMED,
     TEXTS,
 )
-from packwork.readers.svg.lengths import parse_length, parse_numbers
 from packwork.readers.unfit import UnfitError, notice
-
-HREF = "xlink:href"
-"""The one spelling of references, understood by old and new programs alike."""
 
 MAX_VALUE = 2_000
 """Letters of an attribute that is no list of coordinates: patterns are matched against
@@ -67,8 +66,6 @@ LOST = {
 
 MAX_SAID = 8
 """Things left out that are named in one notice. Chosen."""
-
-FILTER = "filter"
 
 _ELEMENT_NS = 3e4
 """For cleaning an element. Measured."""

@@ -9,11 +9,8 @@ from typing import Any
 from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import XMLParser
 
+from packwork.readers.budget.expansion import MAX_DEPTH
 from packwork.readers.unfit import UnfitError
-
-MAX_DEPTH = 100
-"""Elements inside one another, also after ``use`` has been expanded. Drawings made by
-people stay below 40; recursion over the tree stays far from Python's own limit. Chosen."""
 
 MAX_ELEMENTS = 200_000
 """Elements of any kind in one file, metadata included. Chosen."""

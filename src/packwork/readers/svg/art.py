@@ -10,9 +10,9 @@ import xml.etree.ElementTree as ET
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.gate.door import link_declaration, serialised, uses_links
-from packwork.readers.gate.references import elements_by_id, rename_references
-from packwork.readers.gate.vocabulary import GRADIENTS
-from packwork.readers.svg.page import Page
+from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.references import elements_by_id, rename_references
+from packwork.readers.svg_syntax.vocabulary import GRADIENTS
 from packwork.scene.item import VectorArt
 
 _OWN_TO_ROOT = frozenset(

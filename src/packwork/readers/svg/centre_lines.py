@@ -18,9 +18,10 @@ from packwork.arrays import FloatArray
 from packwork.geometry.overlay import simplify, union
 from packwork.geometry.polygon import Region
 from packwork.readers.svg.dashing import dashed
-from packwork.readers.svg.path_data import SubPath
-from packwork.readers.svg.shapes import flattened_all, step_counts
-from packwork.readers.svg.strokes import Pen, stroke_region
+from packwork.readers.svg.strokes import stroke_region
+from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.path_data import SubPath
+from packwork.readers.svg_syntax.shapes import flattened_all, step_counts
 
 FINER = 4_096.0
 """Factor in tolerance by which pieces that end are followed: a 64th of a chord's length, so
@@ -69,7 +70,7 @@ def piece_strokes(
 
     Examples
     --------
-    >>> from packwork.readers.svg.path_data import parse_path
+    >>> from packwork.readers.svg_syntax.path_data import parse_path
     >>> [r.area for r in piece_strokes(parse_path("M0 0h4 M0 9h2"), Pen(2), 0.1, FinePoints())]
     [8.0, 4.0]
     """

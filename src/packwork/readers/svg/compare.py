@@ -14,10 +14,10 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
-from packwork.readers.svg.page import PLAIN_VIEWPORT, Page
+from packwork.readers.budget.work import Work
 from packwork.readers.svg.render import TRACE_PX, Part, coverage
 from packwork.readers.svg.solid import solid_twin
-from packwork.readers.svg.work import Work
+from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page
 
 LEAST_AGREEMENT = 0.98
 """Intersection over union below which a reading counts as wrong. Larger traces drawings
@@ -48,8 +48,8 @@ class Comparison:
     Examples
     --------
     >>> import shapely
-    >>> from packwork.readers.svg.page import read_page
-    >>> from packwork.readers.svg.work import work_of
+    >>> from packwork.readers.svg_syntax.page import read_page
+    >>> from packwork.readers.budget.work import work_of
     >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
     >>> page, half = read_page(root), shapely.box(0, 0, 10, 5)
     >>> round(Comparison(root, page, half, work_of(root, [], page)).agreement(half), 2)
@@ -107,7 +107,7 @@ def excess(region: Region, root: ET.Element, page: Page | None, side: int) -> fl
     Examples
     --------
     >>> import shapely
-    >>> from packwork.readers.svg.page import read_page
+    >>> from packwork.readers.svg_syntax.page import read_page
     >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
     >>> round(excess(shapely.box(0, 0, 10, 5), root, read_page(root), 64), 1)
     1.0

@@ -11,17 +11,15 @@ from functools import cached_property
 from shapely.errors import GEOSException
 
 from packwork.errors import ShapeError
-from packwork.readers.budget import one_budget
+from packwork.readers.account import one_budget
+from packwork.readers.budget.patterns import check_tiles
+from packwork.readers.budget.work import Work, work_of
 from packwork.readers.gate.door import admit
 from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
 from packwork.readers.svg.compare import LEAST_AGREEMENT, Comparison
-from packwork.readers.svg.extent import drawing_box
 from packwork.readers.svg.ink import Ink, painted_ink
 from packwork.readers.svg.lettering import set_in_outlines
-from packwork.readers.svg.page import Page, read_page
-from packwork.readers.svg.painted import Painted
-from packwork.readers.svg.patterns import check_tiles
 from packwork.readers.svg.render import Part
 from packwork.readers.svg.sheet import drop_sheet
 from packwork.readers.svg.solid import solid_twin
@@ -35,7 +33,9 @@ from packwork.readers.svg.trace import (
     traced_ink,
 )
 from packwork.readers.svg.walk import painted_shapes
-from packwork.readers.svg.work import Work, work_of
+from packwork.readers.svg_syntax.extent import drawing_box
+from packwork.readers.svg_syntax.page import Page, read_page
+from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.unfit import TooRichError, UnfitError, notice
 
 MAX_SHAPES = 8_000

@@ -14,8 +14,8 @@ from shapely.geometry import LinearRing, MultiLineString, Polygon
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry.polygon import FillRule, Region, enclosed, region, signed_area
-from packwork.readers.budget import spend
-from packwork.readers.svg.crossings import Allowance
+from packwork.readers.account import spend
+from packwork.readers.budget.crossings import Allowance
 from packwork.readers.unfit import TooRichError
 
 MAX_NESTED = 200_000

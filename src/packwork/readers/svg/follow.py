@@ -14,15 +14,15 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.overlay import buffered, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
-from packwork.readers.budget import spend
+from packwork.readers.account import spend
+from packwork.readers.budget.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
 from packwork.readers.svg.centre_lines import FinePoints, piece_strokes
-from packwork.readers.svg.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
-from packwork.readers.svg.extent import is_inside, stretch, whole_box
 from packwork.readers.svg.fills import filled
-from packwork.readers.svg.painted import Clip, Painted
-from packwork.readers.svg.path_data import SubPath
-from packwork.readers.svg.shapes import flattened_all
-from packwork.readers.svg.strokes import Pen
+from packwork.readers.svg_syntax.extent import is_inside, stretch, whole_box
+from packwork.readers.svg_syntax.painted import Clip, Painted
+from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.path_data import SubPath
+from packwork.readers.svg_syntax.shapes import flattened_all
 
 FLATTENING = 2e-5
 """Largest distance of a curve from its chords, as a share of the drawing's extent: half

@@ -6,8 +6,8 @@ import copy
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
-from packwork.readers.gate.expansion import count_expanded
-from packwork.readers.gate.filters import FILTER, drop_filters
+from packwork.readers.budget.expansion import count_expanded
+from packwork.readers.budget.filters import FILTER, drop_filters
 from packwork.readers.svg.compare import SIDES_PX, excess
 from packwork.readers.svg.drawing import Drawing
 from packwork.readers.unfit import notice

@@ -6,7 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from packwork.geometry.outline import Outline
-from packwork.readers.budget import one_budget
+from packwork.readers.account import one_budget
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import ReadOptions

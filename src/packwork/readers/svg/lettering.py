@@ -17,15 +17,15 @@ import shapely
 from packwork.fonts import replaced_families
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
-from packwork.readers.budget import left, spend
-from packwork.readers.gate.references import elements_by_id
-from packwork.readers.gate.vocabulary import NEVER_DRAWN
-from packwork.readers.svg.lengths import parse_length, parse_numbers
-from packwork.readers.svg.page import Page
-from packwork.readers.svg.painted import PlacedText
+from packwork.readers.account import left, spend
 from packwork.readers.svg.render import Part, coverage, inked
 from packwork.readers.svg.stage import PLACED, paints_of, stage_of
 from packwork.readers.svg.walk import placed_texts
+from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
+from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.painted import PlacedText
+from packwork.readers.svg_syntax.references import elements_by_id
+from packwork.readers.svg_syntax.vocabulary import NEVER_DRAWN
 from packwork.readers.unfit import notice
 
 MAX_TEXTS = 60
@@ -76,7 +76,7 @@ def set_in_outlines(root: ET.Element, page: Page | None) -> None:
 
     Examples
     --------
-    >>> from packwork.readers.svg.page import read_page
+    >>> from packwork.readers.svg_syntax.page import read_page
     >>> root = ET.fromstring('<svg viewBox="0 0 9 9"><text y="8" fill="red">a</text></svg>')
     >>> set_in_outlines(root, read_page(root))
     >>> root[0].tag, root[0].get("fill"), root[0].get("d")[0]

@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import document
 from packwork.readers.pictures.decode import decode_picture
-from packwork.readers.svg.page import Page
+from packwork.readers.svg_syntax.page import Page
 from packwork.readers.unfit import UnfitError
 
 TRACE_PX = 1_000
@@ -36,7 +36,7 @@ def coverage(root: ET.Element, page: Page, part: Part, longest_px: int) -> Float
 
     Examples
     --------
-    >>> from packwork.readers.svg.page import read_page
+    >>> from packwork.readers.svg_syntax.page import read_page
     >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
     >>> float(coverage(root, read_page(root), (0.0, 0.0, 20.0, 20.0), 4).sum())
     4.0
@@ -80,7 +80,7 @@ def page_picture(
 
     Examples
     --------
-    >>> from packwork.readers.svg.page import read_page
+    >>> from packwork.readers.svg_syntax.page import read_page
     >>> root = ET.fromstring('<svg width="20" height="20"/>')
     >>> page_picture(root, read_page(root))[1:4]
     b'PNG'

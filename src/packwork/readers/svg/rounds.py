@@ -14,9 +14,9 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.readers.svg.lengths import parse_length
-from packwork.readers.svg.path_data import SubPath
-from packwork.readers.svg.shapes import shape_pieces
+from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.path_data import SubPath
+from packwork.readers.svg_syntax.shapes import shape_pieces
 
 PIECES = 10
 """Arcs that make a whole ellipse. As one cubic, each is within 1.2e-6 of the radius; the

@@ -5,10 +5,9 @@ from __future__ import annotations
 import copy
 import xml.etree.ElementTree as ET
 
-from packwork.readers.gate.references import elements_by_id, paint_server
-from packwork.readers.gate.sanitise import HREF
-from packwork.readers.gate.vocabulary import GRADIENTS
-from packwork.readers.svg.painting import is_clear, opacity
+from packwork.readers.svg_syntax.painting import is_clear, opacity
+from packwork.readers.svg_syntax.references import elements_by_id, paint_server
+from packwork.readers.svg_syntax.vocabulary import GRADIENTS, HREF
 
 _COLOURING = GRADIENTS | {"filter"}
 _OPACITIES = ("opacity", "fill-opacity", "stroke-opacity")

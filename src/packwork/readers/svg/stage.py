@@ -6,8 +6,8 @@ import copy
 import xml.etree.ElementTree as ET
 from typing import TypeAlias
 
-from packwork.readers.gate.references import referenced_ids
-from packwork.readers.svg.painted import PlacedText
+from packwork.readers.svg_syntax.painted import PlacedText
+from packwork.readers.svg_syntax.references import referenced_ids
 
 PAINTS = frozenset(
     {"fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-dasharray"}

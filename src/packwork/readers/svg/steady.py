@@ -11,11 +11,11 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.svg.page import Page
-from packwork.readers.svg.painted import Painted
-from packwork.readers.svg.path_data import SubPath
-from packwork.readers.svg.transforms import parse_transform
 from packwork.readers.svg.walk import painted_shapes
+from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.painted import Painted
+from packwork.readers.svg_syntax.path_data import SubPath
+from packwork.readers.svg_syntax.transforms import parse_transform
 
 EFFECT, STEADY = "vector-effect", "non-scaling-stroke"
 

@@ -8,7 +8,6 @@ differs from SVG's (it clips where SVG bevels), so mitres are added here, corner
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -17,43 +16,13 @@ from shapely.geometry import LinearRing, LineString, Point, Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry.overlay import buffered, union
 from packwork.geometry.polygon import Region
+from packwork.readers.svg_syntax.painting import Pen
 
 MAX_QUARTER_STEPS = 64
 """Chords of a quarter turn at most, as for a width as large as the drawing. Chosen."""
 
 _CAPS = {"butt": "flat", "round": "round", "square": "square"}
 _JOINS = {"round": "round", "bevel": "bevel"}
-
-
-@dataclass(frozen=True)
-class Pen:
-    """What a line is drawn with, in the units of the line.
-
-    Parameters
-    ----------
-    width
-        Full width, positive.
-    cap, join
-        SVG's words.
-    miter_limit
-        Largest ratio of a mitre's length to the width.
-    dashes
-        Lengths of dashes and gaps in turn, an even number of them; none for a solid line.
-    dash_offset
-        Where in that pattern a line begins.
-    """
-
-    width: float = 1.0
-    cap: str = "butt"
-    join: str = "miter"
-    miter_limit: float = 4.0
-    dashes: tuple[float, ...] = ()
-    dash_offset: float = 0.0
-
-    @property
-    def longest_gap(self) -> float:
-        """Length of the longest gap between dashes, caps not counted."""
-        return max(self.dashes[1::2], default=0.0)
 
 
 def stroke_region(points: FloatArray, is_closed: bool, pen: Pen, tolerance: float) -> Region:

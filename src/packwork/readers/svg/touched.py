@@ -11,8 +11,8 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
-from packwork.readers.svg.painted import Painted
-from packwork.readers.svg.shapes import flattened_all
+from packwork.readers.svg_syntax.painted import Painted
+from packwork.readers.svg_syntax.shapes import flattened_all
 
 MAX_STEPS = 4_000_000
 """Points along all lines that are looked up; of longer ones fewer. Chosen: a second's work."""

@@ -15,17 +15,17 @@ from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region, polygon_parts
-from packwork.readers.gate.vocabulary import TEXTS, TRACED
+from packwork.readers.budget.work import LEAST_PX, Work
 from packwork.readers.options import HALF
 from packwork.readers.svg.ink import TracedInk
-from packwork.readers.svg.page import Page
-from packwork.readers.svg.painted import Painted
 from packwork.readers.svg.render import TRACE_PX as TRACE_PX
 from packwork.readers.svg.render import Part, coverage, inked
 from packwork.readers.svg.render import page_picture as page_picture
 from packwork.readers.svg.solid import solid_twin
 from packwork.readers.svg.touched import touched
-from packwork.readers.svg.work import LEAST_PX, Work
+from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.painted import Painted
+from packwork.readers.svg_syntax.vocabulary import TEXTS, TRACED
 
 FIND_PX = 250
 """Longer side of the rendering in which the ink is looked for. Larger costs time, smaller
@@ -90,8 +90,8 @@ def traced_ink(
 
     Examples
     --------
-    >>> from packwork.readers.svg.page import read_page
-    >>> from packwork.readers.svg.work import work_of
+    >>> from packwork.readers.svg_syntax.page import read_page
+    >>> from packwork.readers.budget.work import work_of
     >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
     >>> page = read_page(root)
     >>> part = (0.0, 0.0, 20.0, 20.0)
@@ -130,8 +130,8 @@ def inked_part(root: ET.Element, page: Page, work: Work) -> Part | None:
 
     Examples
     --------
-    >>> from packwork.readers.svg.page import read_page
-    >>> from packwork.readers.svg.work import work_of
+    >>> from packwork.readers.svg_syntax.page import read_page
+    >>> from packwork.readers.budget.work import work_of
     >>> root = ET.fromstring('<svg width="100" height="50"><rect width="10" height="9"/></svg>')
     >>> page = read_page(root)
     >>> [round(side, 1) for side in inked_part(root, page, work_of(root, [], page))]

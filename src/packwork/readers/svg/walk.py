@@ -13,17 +13,16 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
-from packwork.readers.gate.references import elements_by_id, paint_server
-from packwork.readers.gate.sanitise import HREF
-from packwork.readers.gate.vocabulary import NEVER_DRAWN, SHAPES
-from packwork.readers.svg.lengths import parse_length
-from packwork.readers.svg.page import PLAIN_VIEWPORT, view_box
-from packwork.readers.svg.page import Page as Page
-from packwork.readers.svg.painted import Clip, Painted, PlacedText
-from packwork.readers.svg.painting import Painting, opacity
-from packwork.readers.svg.path_data import MAX_SEGMENTS, SubPath
-from packwork.readers.svg.shapes import Viewport, diagonal, shape_pieces
-from packwork.readers.svg.transforms import parse_transform, view_matrix
+from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, view_box
+from packwork.readers.svg_syntax.page import Page as Page
+from packwork.readers.svg_syntax.painted import Clip, Painted, PlacedText
+from packwork.readers.svg_syntax.painting import Painting, opacity
+from packwork.readers.svg_syntax.path_data import MAX_SEGMENTS, SubPath
+from packwork.readers.svg_syntax.references import elements_by_id, paint_server
+from packwork.readers.svg_syntax.shapes import Viewport, diagonal, shape_pieces
+from packwork.readers.svg_syntax.transforms import parse_transform, view_matrix
+from packwork.readers.svg_syntax.vocabulary import HREF, NEVER_DRAWN, SHAPES
 from packwork.readers.unfit import UnfitError
 
 

@@ -14,7 +14,7 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.readers.svg.lengths import MAX_COORDINATE
+from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
 from packwork.readers.unfit import UnfitError
 
 APPLICATION = "PACKWORK"

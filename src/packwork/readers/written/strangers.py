@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ET
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.phrasing import number_of
-from packwork.readers.svg.transforms import parse_transform
+from packwork.readers.svg_syntax.transforms import parse_transform
 
 PAINTED = frozenset(
     {"g", "a", "use", "path", "image", "text", "rect", "circle", "ellipse", "line", "polyline",

@@ -28,10 +28,10 @@ from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
 from packwork.readers.regions import SPECK, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
-from packwork.readers.svg.lengths import parse_length
-from packwork.readers.svg.page import view_box
-from packwork.readers.svg.shapes import points_of
-from packwork.readers.svg.transforms import parse_transform
+from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.page import view_box
+from packwork.readers.svg_syntax.shapes import points_of
+from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.readers.unfit import UnfitError
 from packwork.readers.written.assembly import Found, Sheet, assembled, sound_gap, sound_weight
 from packwork.readers.written.strangers import group_named, loose_items, tag, unmeasured

@@ -6,7 +6,7 @@ from collections import defaultdict
 from collections.abc import Mapping
 from typing import TypeAlias, final
 
-from packwork.readers.budget import spend
+from packwork.readers.account import spend
 from packwork.readers.gate.css.declarations import Declarations
 from packwork.readers.gate.css.nodes import Node
 from packwork.readers.gate.css.selectors import Compound

@@ -9,7 +9,7 @@ from functools import lru_cache
 
 from packwork.readers.gate.css.selectors import split_outside
 from packwork.readers.gate.css.shorthands import SHORTHANDS, UnknownValueError
-from packwork.readers.gate.vocabulary import CUSTOM, PROPERTIES
+from packwork.readers.svg_syntax.vocabulary import CUSTOM, PROPERTIES
 
 LOST_PROPERTIES = {
     "animation": "its animation",

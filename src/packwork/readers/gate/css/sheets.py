@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from packwork.readers.budget import spend
+from packwork.readers.account import spend
 from packwork.readers.gate.css.declarations import Declarations, parse_declarations
 from packwork.readers.gate.css.selectors import (
     Selector,
@@ -19,7 +19,7 @@ from packwork.readers.gate.css.selectors import (
     parse_selector,
     split_outside,
 )
-from packwork.readers.svg.lengths import parse_length
+from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.unfit import UnfitError
 
 MAX_RULES = 20_000

@@ -8,12 +8,11 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.budget import spend
-from packwork.readers.gate.sanitise import HREF
-from packwork.readers.gate.vocabulary import NEVER_DRAWN, SHAPES
-from packwork.readers.svg.lengths import parse_length
-from packwork.readers.svg.shapes import Viewport, flattened_all, shape_pieces
-from packwork.readers.svg.transforms import parse_transform
+from packwork.readers.account import spend
+from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.shapes import Viewport, flattened_all, shape_pieces
+from packwork.readers.svg_syntax.transforms import parse_transform
+from packwork.readers.svg_syntax.vocabulary import HREF, NEVER_DRAWN, SHAPES
 
 MAX_DEPTH = 12
 """Uses inside one another that are followed. Chosen."""

@@ -7,9 +7,9 @@ import xml.etree.ElementTree as ET
 
 from packwork.readers.gate.css.selectors import split_outside
 from packwork.readers.gate.plain.boxes import Box, fill_box
-from packwork.readers.gate.references import elements_by_id
-from packwork.readers.svg.lengths import parse_length
-from packwork.readers.svg.page import PLAIN_VIEWPORT, Page, view_box
+from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, view_box
+from packwork.readers.svg_syntax.references import elements_by_id
 
 CLIP = "clip-path"
 

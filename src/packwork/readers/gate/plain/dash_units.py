@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 
-from packwork.readers.gate.dashes import DASHES, curve_length
-from packwork.readers.gate.vocabulary import SHAPES
-from packwork.readers.svg.lengths import parse_length
+from packwork.readers.budget.dashes import DASHES, curve_length
+from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.vocabulary import SHAPES
 
 PATH_LENGTH, OFFSET = "pathLength", "stroke-dashoffset"
 

@@ -14,11 +14,11 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.gate.plain.boxes import Box, fill_box
-from packwork.readers.gate.references import elements_by_id
-from packwork.readers.gate.vocabulary import CSS_MOVES
-from packwork.readers.svg.lengths import parse_length
-from packwork.readers.svg.page import PLAIN_VIEWPORT, Page, view_box
-from packwork.readers.svg.transforms import parse_transform
+from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, view_box
+from packwork.readers.svg_syntax.references import elements_by_id
+from packwork.readers.svg_syntax.transforms import parse_transform
+from packwork.readers.svg_syntax.vocabulary import CSS_MOVES
 
 ORIGIN, BOX = "transform-origin", "transform-box"
 

@@ -11,8 +11,8 @@ import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from packwork.readers.svg.lengths import PX_PER_UNIT
-from packwork.readers.svg.page import PLAIN_VIEWPORT, Page, view_box
+from packwork.readers.svg_syntax.lengths import PX_PER_UNIT
+from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, view_box
 from packwork.units import NUMBER
 
 PLAIN_FONT_PX = 16.0

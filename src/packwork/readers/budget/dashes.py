@@ -11,9 +11,9 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 
-from packwork.readers.gate.vocabulary import SHAPES, TEXTS
-from packwork.readers.svg.lengths import MAX_COORDINATE, parse_length
-from packwork.readers.svg.shapes import flattened_all, shape_pieces
+from packwork.readers.svg_syntax.lengths import MAX_COORDINATE, parse_length
+from packwork.readers.svg_syntax.shapes import flattened_all, shape_pieces
+from packwork.readers.svg_syntax.vocabulary import SHAPES, TEXTS
 
 DASHES = "stroke-dasharray"
 

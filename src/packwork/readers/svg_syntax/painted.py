@@ -11,9 +11,9 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
-from packwork.readers.svg.painting import Painting
-from packwork.readers.svg.path_data import SubPath
-from packwork.readers.svg.shapes import Viewport
+from packwork.readers.svg_syntax.painting import Painting
+from packwork.readers.svg_syntax.path_data import SubPath
+from packwork.readers.svg_syntax.shapes import Viewport
 
 
 @dataclass(frozen=True, eq=False)

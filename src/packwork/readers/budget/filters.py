@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 
-from packwork.readers.gate.references import elements_by_id, referenced_ids
-from packwork.readers.gate.vocabulary import FILTER_STEPS
-from packwork.readers.svg.lengths import parse_length, parse_numbers
+from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
+from packwork.readers.svg_syntax.references import elements_by_id, referenced_ids
+from packwork.readers.svg_syntax.vocabulary import FILTER_STEPS
 from packwork.readers.unfit import notice
 
 MAX_STEPS = 800

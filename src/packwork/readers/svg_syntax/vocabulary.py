@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+HREF = "xlink:href"
+"""The one spelling of references, understood by old and new programs alike."""
+
 SHAPES = frozenset({"path", "rect", "circle", "ellipse", "line", "polyline", "polygon"})
 
 GROUPS = frozenset({"svg", "g", "defs", "symbol", "use"})

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.readers.budget import spend
-from packwork.readers.svg.arcs import arc_cubics
-from packwork.readers.svg.lengths import (
+from packwork.readers.account import spend
+from packwork.readers.svg_syntax.arcs import arc_cubics
+from packwork.readers.svg_syntax.lengths import (
     MAX_COORDINATE,
     NUMBER,
     checked,
@@ -74,7 +74,7 @@ def parse_path(data: str) -> list[SubPath]:
     >>> [(len(p.segments), p.is_closed) for p in parse_path("M0 0h4v4z m9 9l1 1 oops")]
     [(2, True), (1, False)]
     """
-    pen = Pen()
+    pen = PathBuilder()
     for name, args in _calls(data):
         if pen.at is None and name not in "Mm":
             break
@@ -129,7 +129,7 @@ def _arguments(name: str, text: str) -> tuple[list[float], bool]:
     return found, not text[place:].strip(" \t\r\n\f,")
 
 
-class Pen:
+class PathBuilder:
     """Draws segments; the one place that knows where the current point is."""
 
     def __init__(self) -> None:
@@ -219,17 +219,17 @@ class Pen:
         self._segments = []
 
 
-_DRAWN_BY: dict[str, Callable[[Pen, list[float], Point | None], None]] = {
-    "m": Pen.move,
-    "l": Pen.line,
-    "h": Pen._horizontal,
-    "v": Pen._vertical,
-    "c": Pen.cubic,
-    "s": Pen._smooth_cubic,
-    "q": Pen._quadratic,
-    "t": Pen._smooth_quadratic,
-    "a": Pen._arc,
-    "z": Pen.close,
+_DRAWN_BY: dict[str, Callable[[PathBuilder, list[float], Point | None], None]] = {
+    "m": PathBuilder.move,
+    "l": PathBuilder.line,
+    "h": PathBuilder._horizontal,
+    "v": PathBuilder._vertical,
+    "c": PathBuilder.cubic,
+    "s": PathBuilder._smooth_cubic,
+    "q": PathBuilder._quadratic,
+    "t": PathBuilder._smooth_quadratic,
+    "a": PathBuilder._arc,
+    "z": PathBuilder.close,
 }
 _SMOOTH_AFTER = {"s": "cs", "t": "qt"}
 

@@ -9,13 +9,21 @@ from __future__ import annotations
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
-from packwork.readers.gate.dashes import dashes_per_unit, draw_solid, line_length, settle_dashes
-from packwork.readers.gate.embedded import embedded_size
-from packwork.readers.gate.references import elements_by_id, referenced_ids
-from packwork.readers.gate.sanitise import HREF
-from packwork.readers.gate.vocabulary import FILTER_STEPS, GRADIENTS, NEVER_DRAWN, SHAPES
-from packwork.readers.gate.xml_tree import MAX_DEPTH
+from packwork.readers.budget.dashes import dashes_per_unit, draw_solid, line_length, settle_dashes
+from packwork.readers.svg_syntax.embedded import embedded_size
+from packwork.readers.svg_syntax.references import elements_by_id, referenced_ids
+from packwork.readers.svg_syntax.vocabulary import (
+    FILTER_STEPS,
+    GRADIENTS,
+    HREF,
+    NEVER_DRAWN,
+    SHAPES,
+)
 from packwork.readers.unfit import UnfitError, notice
+
+MAX_DEPTH = 100
+"""Elements inside one another, also after ``use`` has been expanded. Drawings made by
+people stay below 40; recursion over the tree stays far from Python's own limit. Chosen."""
 
 MAX_EXPANDED = 30_000
 """Elements of a drawing after expansion. Icons have some tens, rich illustrations some

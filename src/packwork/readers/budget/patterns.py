@@ -8,11 +8,11 @@ from collections.abc import Iterable
 import numpy as np
 
 from packwork.geometry import affine
-from packwork.readers.gate.references import elements_by_id, paint_server
-from packwork.readers.gate.sanitise import HREF
-from packwork.readers.svg.lengths import parse_length
-from packwork.readers.svg.painted import Painted
-from packwork.readers.svg.transforms import parse_transform
+from packwork.readers.svg_syntax.lengths import parse_length
+from packwork.readers.svg_syntax.painted import Painted
+from packwork.readers.svg_syntax.references import elements_by_id, paint_server
+from packwork.readers.svg_syntax.transforms import parse_transform
+from packwork.readers.svg_syntax.vocabulary import HREF
 from packwork.readers.unfit import UnfitError
 
 LARGEST_TILE = 4.0

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from packwork.geometry.polygon import FillRule
-from packwork.readers.svg.lengths import parse_length
-from packwork.readers.svg.strokes import Pen
+from packwork.readers.svg_syntax.lengths import parse_length
 
 _CLEAR = re.compile(
     r"none|transparent|#[0-9a-f]{3}0|#[0-9a-f]{6}00"
@@ -26,6 +25,37 @@ _WORDS = {
     "stroke-linecap": ("butt", "round", "square"),
     "stroke-linejoin": ("miter", "round", "bevel", "miter-clip", "arcs"),
 }
+
+
+@dataclass(frozen=True)
+class Pen:
+    """What a line is drawn with, in the units of the line.
+
+    Parameters
+    ----------
+    width
+        Full width, positive.
+    cap, join
+        SVG's words.
+    miter_limit
+        Largest ratio of a mitre's length to the width.
+    dashes
+        Lengths of dashes and gaps in turn, an even number of them; none for a solid line.
+    dash_offset
+        Where in that pattern a line begins.
+    """
+
+    width: float = 1.0
+    cap: str = "butt"
+    join: str = "miter"
+    miter_limit: float = 4.0
+    dashes: tuple[float, ...] = ()
+    dash_offset: float = 0.0
+
+    @property
+    def longest_gap(self) -> float:
+        """Length of the longest gap between dashes, caps not counted."""
+        return max(self.dashes[1::2], default=0.0)
 
 
 @dataclass(frozen=True)

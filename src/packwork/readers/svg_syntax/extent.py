@@ -10,8 +10,8 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region
-from packwork.readers.svg.lengths import MAX_COORDINATE
-from packwork.readers.svg.painted import Painted
+from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
+from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.unfit import UnfitError
 
 Box: TypeAlias = tuple[float, float, float, float]

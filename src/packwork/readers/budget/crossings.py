@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.readers.budget import spend
+from packwork.readers.account import spend
 from packwork.readers.unfit import TooRichError
 
 MAX_CROSSINGS = 20_000

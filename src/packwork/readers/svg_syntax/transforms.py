@@ -9,7 +9,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.svg.lengths import NUMBER, checked, parse_numbers
+from packwork.readers.svg_syntax.lengths import NUMBER, checked, parse_numbers
 
 _CALL = re.compile(r"[\s,]*([A-Za-z]+)\s*\(([^()]*)\)")
 _UNIT = re.compile(rf"(?<![\d.])({NUMBER})\s*(deg|grad|rad|turn|px)", re.IGNORECASE)

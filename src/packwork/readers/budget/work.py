@@ -11,11 +11,11 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from packwork.readers.budget import left, spend
-from packwork.readers.gate.expansion import count_expanded
-from packwork.readers.svg.extent import drawing_box, stretch
-from packwork.readers.svg.page import Page
-from packwork.readers.svg.painted import Painted
+from packwork.readers.account import left, spend
+from packwork.readers.budget.expansion import count_expanded
+from packwork.readers.svg_syntax.extent import drawing_box, stretch
+from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.unfit import TooRichError
 
 PICTURE_NS = 5e8

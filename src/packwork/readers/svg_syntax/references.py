@@ -6,8 +6,14 @@ import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
 
-from packwork.readers.gate.sanitise import HREF
-from packwork.readers.gate.vocabulary import GRADIENTS, GROUPS, NEVER_DRAWN, SHAPES, TEXTS
+from packwork.readers.svg_syntax.vocabulary import (
+    GRADIENTS,
+    GROUPS,
+    HREF,
+    NEVER_DRAWN,
+    SHAPES,
+    TEXTS,
+)
 
 _URL = re.compile(r"url\(#([^()]+)\)")
 _PAINTS = GRADIENTS | {"pattern"}

@@ -1,0 +1,1 @@
+"""What a clean drawing says: numbers, paths, transforms, pages, paints, references."""
