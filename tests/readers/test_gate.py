@@ -13,7 +13,7 @@ from PIL import Image
 from packwork.errors import ReadError
 from packwork.readers.gate.door import admit, document
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.render import render
+from packwork.readers.svg.render.resvg import render
 from packwork.readers.unfit import UnfitError
 
 HANG_S = 5.0

@@ -11,11 +11,11 @@ from packwork.errors import ReadError
 from packwork.readers.budget.work import LEAST_PX, Work, work_of
 from packwork.readers.gate.door import admit
 from packwork.readers.svg import drawing as drawing_module
-from packwork.readers.svg.compare import Comparison, excess
 from packwork.readers.svg.drawing import read_drawing
-from packwork.readers.svg.ink import PaintedInk, TracedInk
 from packwork.readers.svg.item import item_of_svg, read_svg
-from packwork.readers.svg.solid import solid_twin
+from packwork.readers.svg.paint.solid import solid_twin
+from packwork.readers.svg.region.ink import PaintedInk, TracedInk
+from packwork.readers.svg.render.compare import Comparison, excess
 from packwork.readers.svg_syntax.page import read_page
 from packwork.readers.unfit import TooRichError
 

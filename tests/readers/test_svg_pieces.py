@@ -12,7 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.strokes import stroke_region
+from packwork.readers.svg.region.strokes import stroke_region
 from packwork.readers.svg_syntax.arcs import arc_cubics
 from packwork.readers.svg_syntax.painting import Pen
 from packwork.readers.svg_syntax.path_data import parse_path

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from packwork.geometry.polygon import region
 from packwork.readers.budget.crossings import Allowance, estimated_crossings
-from packwork.readers.svg.dashing import dashed
-from packwork.readers.svg.fills import filled
 from packwork.readers.svg.item import item_of_svg
+from packwork.readers.svg.region.dashing import dashed
+from packwork.readers.svg.region.fills import filled
 from packwork.readers.unfit import TooRichError
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
@@ -122,7 +122,7 @@ def test_outlines_of_arcs_do_not_close_the_ring():
 
 
 def test_hidden_shapes_cost_nothing(monkeypatch):
-    from packwork.readers.svg.follow import Follower
+    from packwork.readers.svg.region.follow import Follower
 
     followed = []
     whole = Follower._whole_fill

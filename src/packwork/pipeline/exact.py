@@ -23,7 +23,7 @@ from packwork.pipeline.result import Unplaced
 from packwork.pipeline.start import Beginning
 from packwork.pipeline.staying import needs_no_levels
 from packwork.progress import Observer, Step, Stop, until_over
-from packwork.readers.svg.follow import FLATTENING
+from packwork.readers.svg.region.follow import FLATTENING
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.solver import scale_bounds

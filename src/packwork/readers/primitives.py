@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping
 
 from packwork.geometry.polygon import Region, region
-from packwork.readers.svg.ink import FLATTENING
+from packwork.readers.svg.region.ink import FLATTENING
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.readers.svg_syntax.shapes import flattened
 from packwork.readers.unfit import UnfitError

@@ -17,7 +17,7 @@ from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Segment, Shaped
 from packwork.readers.fonts.guard import check_glyph
 from packwork.readers.fonts.itemise import Piece, visual_order
 from packwork.readers.fonts.pictures import Picture, picture_of
-from packwork.readers.svg.follow import FLATTENING
+from packwork.readers.svg.region.follow import FLATTENING
 from packwork.readers.unfit import UnfitError
 from packwork.scene.live_text import TextRun
 

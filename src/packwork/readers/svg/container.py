@@ -14,10 +14,10 @@ from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.regions import clean_union, tell_if_full
 from packwork.readers.svg.drawing import Drawing, read_drawing
-from packwork.readers.svg.ink import Ink, TracedInk
-from packwork.readers.svg.sheet import LEAST_WHITE
-from packwork.readers.svg.trace import TRACE_PX, page_picture
-from packwork.readers.svg.walk import Page
+from packwork.readers.svg.paint.walk import Page
+from packwork.readers.svg.region.ink import Ink, TracedInk
+from packwork.readers.svg.region.sheet import LEAST_WHITE
+from packwork.readers.svg.render.trace import TRACE_PX, page_picture
 from packwork.readers.svg.whites import has_whites, without_whites
 from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import naming, notice

@@ -12,7 +12,7 @@ from packwork.geometry import affine
 from packwork.readers.files import read_bytes
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.svg.drawing import Drawing, read_drawing
-from packwork.readers.svg.follow import FLATTENING
+from packwork.readers.svg.region.follow import FLATTENING
 from packwork.readers.svg_syntax.shapes import flattened_all
 from packwork.readers.unfit import naming
 

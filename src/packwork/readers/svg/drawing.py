@@ -17,14 +17,15 @@ from packwork.readers.budget.work import Work, work_of
 from packwork.readers.gate.door import admit
 from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
-from packwork.readers.svg.compare import LEAST_AGREEMENT, Comparison
-from packwork.readers.svg.ink import Ink, painted_ink
-from packwork.readers.svg.lettering import set_in_outlines
-from packwork.readers.svg.render import Part
-from packwork.readers.svg.sheet import drop_sheet
-from packwork.readers.svg.solid import solid_twin
-from packwork.readers.svg.steady import settle_steady
-from packwork.readers.svg.trace import (
+from packwork.readers.svg.paint.solid import solid_twin
+from packwork.readers.svg.paint.steady import settle_steady
+from packwork.readers.svg.paint.walk import painted_shapes
+from packwork.readers.svg.region.ink import Ink, painted_ink
+from packwork.readers.svg.region.sheet import drop_sheet
+from packwork.readers.svg.render.compare import LEAST_AGREEMENT, Comparison
+from packwork.readers.svg.render.lettering import set_in_outlines
+from packwork.readers.svg.render.resvg import Part
+from packwork.readers.svg.render.trace import (
     MAX_POINTS,
     MAX_RINGS,
     inked_part,
@@ -32,7 +33,6 @@ from packwork.readers.svg.trace import (
     needs_tracing,
     traced_ink,
 )
-from packwork.readers.svg.walk import painted_shapes
 from packwork.readers.svg_syntax.extent import drawing_box
 from packwork.readers.svg_syntax.page import Page, read_page
 from packwork.readers.svg_syntax.painted import Painted

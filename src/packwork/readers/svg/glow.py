@@ -8,8 +8,8 @@ from dataclasses import replace
 
 from packwork.readers.budget.expansion import count_expanded
 from packwork.readers.budget.filters import FILTER, drop_filters
-from packwork.readers.svg.compare import SIDES_PX, excess
 from packwork.readers.svg.drawing import Drawing
+from packwork.readers.svg.render.compare import SIDES_PX, excess
 from packwork.readers.unfit import notice
 
 MOST_GLOW = 0.02

@@ -15,10 +15,10 @@ from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import LARGESSE, read_drawing
 from packwork.readers.svg.glow import without_glow
-from packwork.readers.svg.ink import TracedInk
 from packwork.readers.svg.kept import read_once
+from packwork.readers.svg.region.ink import TracedInk
+from packwork.readers.svg.region.sheet import WHOLE_PAGE
 from packwork.readers.svg.rounds import with_short_arcs
-from packwork.readers.svg.sheet import WHOLE_PAGE
 from packwork.readers.unfit import naming
 from packwork.scene.item import Item
 

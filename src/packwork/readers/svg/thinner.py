@@ -19,8 +19,8 @@ from packwork.geometry.polygon import silhouette
 from packwork.readers.regions import Holes, clean_union, without_holes
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import Drawing, read_drawing
-from packwork.readers.svg.ink import PaintedInk
-from packwork.readers.svg.walk import painted_shapes
+from packwork.readers.svg.paint.walk import painted_shapes
+from packwork.readers.svg.region.ink import PaintedInk
 from packwork.readers.svg_syntax.extent import drawing_box
 from packwork.readers.unfit import UnfitError
 from packwork.scene.item import Item, VectorArt

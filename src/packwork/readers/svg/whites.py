@@ -11,8 +11,8 @@ import shapely
 from packwork.geometry.overlay import difference, intersection, union
 from packwork.geometry.polygon import Region
 from packwork.readers.svg.drawing import Drawing
-from packwork.readers.svg.follow import FLATTENING, Follower
-from packwork.readers.svg.sheet import is_near_white
+from packwork.readers.svg.region.follow import FLATTENING, Follower
+from packwork.readers.svg.region.sheet import is_near_white
 from packwork.readers.svg_syntax.extent import drawing_box
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.painting import opacity

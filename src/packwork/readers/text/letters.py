@@ -20,7 +20,7 @@ from packwork.readers.fonts.guard import check_glyph
 from packwork.readers.fonts.itemise import clusters, script_of, visual_order
 from packwork.readers.fonts.lettering import Setting
 from packwork.readers.fonts.pictures import picture_of
-from packwork.readers.svg.follow import FLATTENING
+from packwork.readers.svg.region.follow import FLATTENING
 from packwork.readers.unfit import UnfitError, naming
 
 STAND_ALONE = frozenset({

@@ -16,8 +16,8 @@ from packwork.geometry.overlay import buffered, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.account import spend
 from packwork.readers.budget.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
-from packwork.readers.svg.centre_lines import FinePoints, piece_strokes
-from packwork.readers.svg.fills import filled
+from packwork.readers.svg.region.centre_lines import FinePoints, piece_strokes
+from packwork.readers.svg.region.fills import filled
 from packwork.readers.svg_syntax.extent import is_inside, stretch, whole_box
 from packwork.readers.svg_syntax.painted import Clip, Painted
 from packwork.readers.svg_syntax.painting import Pen
@@ -57,7 +57,7 @@ class Follower:
     Examples
     --------
     >>> import xml.etree.ElementTree as ET
-    >>> from packwork.readers.svg.walk import painted_shapes
+    >>> from packwork.readers.svg.paint.walk import painted_shapes
     >>> shapes = painted_shapes(ET.fromstring('<svg><rect width="4" height="2"/></svg>'), None)
     >>> Follower(4.0).parts(shapes[0])[0].area
     8.0

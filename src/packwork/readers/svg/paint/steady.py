@@ -11,7 +11,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.svg.walk import painted_shapes
+from packwork.readers.svg.paint.walk import painted_shapes
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.path_data import SubPath

@@ -17,12 +17,12 @@ from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.budget.work import LEAST_PX, Work
 from packwork.readers.options import HALF
-from packwork.readers.svg.ink import TracedInk
-from packwork.readers.svg.render import TRACE_PX as TRACE_PX
-from packwork.readers.svg.render import Part, coverage, inked
-from packwork.readers.svg.render import page_picture as page_picture
-from packwork.readers.svg.solid import solid_twin
-from packwork.readers.svg.touched import touched
+from packwork.readers.svg.paint.solid import solid_twin
+from packwork.readers.svg.region.ink import TracedInk
+from packwork.readers.svg.render.resvg import TRACE_PX as TRACE_PX
+from packwork.readers.svg.render.resvg import Part, coverage, inked
+from packwork.readers.svg.render.resvg import page_picture as page_picture
+from packwork.readers.svg.render.touched import touched
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.vocabulary import TEXTS, TRACED

@@ -18,9 +18,9 @@ from packwork.fonts import replaced_families
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.account import left, spend
-from packwork.readers.svg.render import Part, coverage, inked
-from packwork.readers.svg.stage import PLACED, paints_of, stage_of
-from packwork.readers.svg.walk import placed_texts
+from packwork.readers.svg.paint.stage import PLACED, paints_of, stage_of
+from packwork.readers.svg.paint.walk import placed_texts
+from packwork.readers.svg.render.resvg import Part, coverage, inked
 from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import PlacedText

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from shapely.errors import GEOSException
 
 from packwork.readers.pages import PageFate
-from packwork.readers.svg.ink import painted_ink
+from packwork.readers.svg.region.ink import painted_ink
 from packwork.readers.svg_syntax.extent import Box, drawing_box
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import Painted
@@ -53,7 +53,7 @@ def drop_sheet(
     Examples
     --------
     >>> from packwork.readers.svg_syntax.page import read_page
-    >>> from packwork.readers.svg.walk import painted_shapes
+    >>> from packwork.readers.svg.paint.walk import painted_shapes
     >>> paper = '<rect width="9" height="9" fill="white"/>'
     >>> root = ET.fromstring(f'<svg viewBox="0 0 9 9">{paper}<circle r="3"/></svg>')
     >>> page = read_page(root)

@@ -15,8 +15,8 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.budget.work import Work
-from packwork.readers.svg.render import TRACE_PX, Part, coverage
-from packwork.readers.svg.solid import solid_twin
+from packwork.readers.svg.paint.solid import solid_twin
+from packwork.readers.svg.render.resvg import TRACE_PX, Part, coverage
 from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page
 
 LEAST_AGREEMENT = 0.98

@@ -17,8 +17,8 @@ from shapely.geometry import Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry.overlay import simplify, union
 from packwork.geometry.polygon import Region
-from packwork.readers.svg.dashing import dashed
-from packwork.readers.svg.strokes import stroke_region
+from packwork.readers.svg.region.dashing import dashed
+from packwork.readers.svg.region.strokes import stroke_region
 from packwork.readers.svg_syntax.painting import Pen
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all, step_counts

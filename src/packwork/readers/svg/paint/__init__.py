@@ -1,0 +1,1 @@
+"""A clean drawing to its painted shapes, in painting order."""

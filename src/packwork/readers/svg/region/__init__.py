@@ -1,0 +1,1 @@
+"""Painted shapes to the regions that their fills and strokes cover."""

@@ -1,0 +1,1 @@
+"""Drawings to pictures, held against shapes, or traced where shapes do not tell."""
