@@ -38,11 +38,11 @@ from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import admit, document
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.regions import clean_union
-from packwork.readers.svg.render.compare import LEAST_AGREEMENT, iou, side_by_side
 from packwork.readers.svg.drawing import read_drawing
-from packwork.readers.svg.region.ink import TracedInk
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.paint.solid import solid_twin
+from packwork.readers.svg.region.ink import TracedInk
+from packwork.readers.svg.render.compare import LEAST_AGREEMENT, iou, side_by_side
 from packwork.readers.svg.render.trace import needs_tracing
 from packwork.readers.unfit import naming
 from packwork.scene.item import Item

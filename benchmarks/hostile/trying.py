@@ -26,7 +26,7 @@ from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.read import read_photos
 from packwork.readers.recipe import read_recipe
 from packwork.readers.svg.walls import walled_container
-from packwork.readers.weights import read_weights
+from packwork.readers.tables.weights import read_weights
 from packwork.readers.words.items import read_word_items
 from packwork.readers.written.read import read_written
 from packwork.recipe import make_recipe

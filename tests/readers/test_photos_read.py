@@ -15,10 +15,10 @@ from PIL import ExifTags, Image, ImageCms, ImageDraw
 from packwork import pipeline
 from packwork.errors import ReadError, RecipeError
 from packwork.raster.drawing import drawn_png
-from packwork.readers.photos.developing import developed, inspected
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.photo import read_photo
-from packwork.readers.photos.read import read_photos
+from packwork.readers.photos.read import read_photos, shape_of
+from packwork.readers.pictures.developing import developed, inspected
 from packwork.scene.item import Item, PhotoArt
 
 SIZE = (90, 60)
@@ -40,7 +40,8 @@ def saved(
 
 
 def read(file: str, **options: Any) -> Item:
-    return read_photo(file, PhotoOptions(sources=(file,), **options))
+    asked = PhotoOptions(sources=(file,), **options)
+    return read_photo(file, asked, shape=shape_of(asked))
 
 
 def shown(item: Item, px_per_unit: float = 1.0, margin: float = 2.0) -> np.ndarray[Any, Any]:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image, ImageOps
 
-from packwork.readers.photos.developing import developed
 from packwork.readers.pictures import decode, reducing
 from packwork.readers.pictures.decode import averageable, decode_picture
+from packwork.readers.pictures.developing import developed
 
 
 def noise(mode: str, size: tuple[int, int]) -> Image.Image:

@@ -10,8 +10,8 @@ import pytest
 import packwork as pw
 from packwork.errors import ReadError
 from packwork.metrics.certificate import taken_on_trust
-from packwork.readers import layout as saved
 from packwork.readers.written import assembly
+from packwork.readers.written import geojson as saved
 from packwork.readers.written.read import read_written
 
 WALL = '<g id="container" display="none"><path d="M0 0h9v9h-9z"/></g>'

@@ -18,7 +18,7 @@ from packwork.display.frame import data_frame
 from packwork.display.picture import notebook_png, notebook_svg
 from packwork.metrics.measure import measure
 from packwork.pipeline.filming import film_options
-from packwork.readers.layout import read_layout
+from packwork.readers.written.geojson import read_layout
 from packwork.refusals import refusal
 from packwork.scene import layout as scene
 from packwork.writers.film.options import FilmOptions

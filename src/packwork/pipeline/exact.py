@@ -15,6 +15,7 @@ from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
 from packwork.finish.pinned import settled
 from packwork.forces.forces import Forces
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, union
 from packwork.pipeline.job import Job
@@ -23,7 +24,6 @@ from packwork.pipeline.result import Unplaced
 from packwork.pipeline.start import Beginning
 from packwork.pipeline.staying import needs_no_levels
 from packwork.progress import Observer, Step, Stop, until_over
-from packwork.readers.svg.region.follow import FLATTENING
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.solver import scale_bounds

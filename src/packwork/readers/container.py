@@ -16,12 +16,12 @@ from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.quiet.container import QuietOptions, container_around
 from packwork.readers.slits import closed_slits
-from packwork.readers.svg.container import container_of_svg, placed_container
+from packwork.readers.svg.container import container_of_svg
 from packwork.readers.text import PREFIX
 from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import naming
 from packwork.recipe_paths import AROUND, BUILTIN
-from packwork.scene.canvas import on_canvas
+from packwork.scene.canvas import on_canvas, placed_container
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.polygon import Region, region
-from packwork.readers.svg.region.ink import FLATTENING
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.readers.svg_syntax.shapes import flattened
 from packwork.readers.unfit import UnfitError

@@ -5,11 +5,40 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import shapely
 
 from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.units import CanvasSize
+
+
+def placed_container(
+    name: str,
+    source: str,
+    region: Region,
+    canvas: tuple[float, float, float, float],
+    side: float,
+) -> Container:
+    """Container of a region on its canvas, both scaled to ``side``.
+
+    Parameters
+    ----------
+    canvas
+        Left, top, width and height in the region's units.
+
+    Examples
+    --------
+    >>> box = shapely.box(1, 1, 2, 2)
+    >>> placed_container("a", "a", box, (0, 0, 4, 2), 8.0).outline.bounds
+    (2.0, 2.0, 4.0, 4.0)
+    """
+    left, top, width, height = canvas
+    scale = side / max(width, height)
+    moved = shapely.transform(region, lambda points: (points - (left, top)) * scale)
+    return Container(name, source, Outline.from_region(moved), width * scale, height * scale)
 
 
 def on_canvas(container: Container, size: CanvasSize | None) -> Container:

@@ -23,11 +23,11 @@ from packwork.pipeline.use import Use
 from packwork.progress import Observer, Stop
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_pixels
-from packwork.readers.svg.container import placed_container
 from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import EM_PX, word_item
 from packwork.readers.words.word import Word
 from packwork.recipe import make_recipe
+from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout

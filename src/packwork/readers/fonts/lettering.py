@@ -11,13 +11,13 @@ import numpy as np
 from shapely import affinity
 
 from packwork.arrays import FloatArray
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.polygon import Region, region, united
 from packwork.readers.fonts.curves import path_data, points_of, rings_of
 from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Segment, Shaped, Typeface
 from packwork.readers.fonts.guard import check_glyph
 from packwork.readers.fonts.itemise import Piece, visual_order
 from packwork.readers.fonts.pictures import Picture, picture_of
-from packwork.readers.svg.region.follow import FLATTENING
 from packwork.readers.unfit import UnfitError
 from packwork.scene.live_text import TextRun
 

@@ -10,9 +10,9 @@ import shapely
 from packwork.geometry import affine
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
-from packwork.readers.options import AS_DRAWN, HALF
-from packwork.readers.photos.developing import Negative, Window, developed
+from packwork.readers.options import HALF
 from packwork.readers.photos.options import PhotoOptions
+from packwork.readers.pictures.developing import Negative, Window, developed
 from packwork.readers.pictures.silhouette import outline_of_cut_out
 from packwork.readers.pictures.transparency import solidity, tell_what_is_faint
 
@@ -52,7 +52,11 @@ class Frame:
 
 
 def framed(
-    data: bytes, negative: Negative, options: PhotoOptions, threshold: float = HALF
+    data: bytes,
+    negative: Negative,
+    options: PhotoOptions,
+    threshold: float = HALF,
+    shape: Region | None = None,
 ) -> Frame:
     """Frame of a photo: its rectangle, its cut-out, or the largest shape in its middle.
 
@@ -60,11 +64,11 @@ def framed(
     ----------
     threshold
         Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
+    shape
+        Region that the photo is cut to, of any size.
 
     Raises
     ------
-    ReadError
-        If the shape cannot be read.
     UnfitError
         If a cut-out shows nothing.
     """
@@ -73,8 +77,8 @@ def framed(
     shorter = min(width, height)
     if options.rounding:
         window, picture = full, _rounded(full, options.rounding * shorter)
-    elif options.shape is not None and options.rounding is None:
-        window, picture = _shaped(options.shape, full)
+    elif shape is not None:
+        window, picture = _shaped(shape, full)
     elif negative.has_alpha:
         window, picture = full, _cut_out(data, negative, threshold)
     else:
@@ -91,17 +95,13 @@ def _rounded(full: Window, radius: float) -> Region:
     return buffered(middles.convex_hull, radius, quad_segs=CORNER_SEGMENTS)
 
 
-def _shaped(shape: str, full: Window) -> tuple[Window, Region]:
+def _shaped(shape: Region, full: Window) -> tuple[Window, Region]:
     """The largest copy of a shape in the middle of a photo, and the box about it."""
-    # Containers may be parts of photos: they know this module.
-    from packwork.readers.container import read_container
-
-    region = read_container(shape, reading=AS_DRAWN).outline.region
-    left, top, right, bottom = region.bounds
+    left, top, right, bottom = shape.bounds
     scale = min(full[2] / (right - left), full[3] / (bottom - top))
     middle = full[2] / 2 - scale * (left + right) / 2, full[3] / 2 - scale * (top + bottom) / 2
     place = affine.similarity(*middle, 0.0, scale)
-    placed = shapely.transform(region, lambda points: affine.apply(place, points))
+    placed = shapely.transform(shape, lambda points: affine.apply(place, points))
     x0, y0, x1, y1 = placed.bounds
     return (max(x0, 0.0), max(y0, 0.0), min(x1, full[2]), min(y1, full[3])), placed
 

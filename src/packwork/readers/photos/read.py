@@ -12,10 +12,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.geometry.polygon import Region
+from packwork.readers.container import read_container
 from packwork.readers.files import exists, is_folder
 from packwork.readers.folders import LOOK_LIKE_PICTURES, Listing, listed, matched
 from packwork.readers.items import ItemsRead
-from packwork.readers.options import HALF
+from packwork.readers.options import AS_DRAWN, HALF
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.photo import read_photo
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
@@ -72,7 +74,8 @@ def read_photos(
     # not set aside warnings each for itself.
     with warnings.catch_warnings(), ThreadPoolExecutor(_threads()) as threads:
         warnings.simplefilter("ignore")
-        results = list(threads.map(_reading(options, threshold), named, range(1, len(named) + 1)))
+        read = _reading(options, threshold, shape_of(options))
+        results = list(threads.map(read, named, range(1, len(named) + 1)))
     items: list[Item] = []
     skipped: list[ReadError] = []
     for one, result in zip(named, results, strict=True):
@@ -89,10 +92,30 @@ def read_photos(
     return ItemsRead(tuple(items), (*skipped, *unread))
 
 
-def _reading(options: PhotoOptions, threshold: float) -> Callable[[_Named, int], Item | ReadError]:
+def shape_of(options: PhotoOptions) -> Region | None:
+    """Region that photos are cut to; None where they keep their shape or only lose corners.
+
+    Raises
+    ------
+    ReadError
+        If the shape cannot be read.
+
+    Examples
+    --------
+    >>> round(shape_of(PhotoOptions(sources="a.jpg", shape="square")).area)
+    360000
+    """
+    if options.shape is None or options.rounding is not None:
+        return None
+    return read_container(options.shape, reading=AS_DRAWN).outline.region
+
+
+def _reading(
+    options: PhotoOptions, threshold: float, shape: Region | None
+) -> Callable[[_Named, int], Item | ReadError]:
     def read(one: _Named, number: int) -> Item | ReadError:
         try:
-            return read_photo(one.file, options, number, threshold)
+            return read_photo(one.file, options, number, threshold, shape)
         except ReadError as error:
             return error
 

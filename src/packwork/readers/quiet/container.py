@@ -14,9 +14,9 @@ from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import Region
 from packwork.geometry.snapping import sound
 from packwork.readers.files import read_bytes, stem
-from packwork.readers.photos.developing import Negative, inspected
-from packwork.readers.photos.photo import Photograph
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
+from packwork.readers.pictures.developing import Negative, inspected
+from packwork.readers.pictures.photograph import Photograph
 from packwork.readers.quiet.region import quiet_part
 from packwork.readers.unfit import naming
 from packwork.recipe_paths import AROUND

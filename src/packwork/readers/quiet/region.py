@@ -10,8 +10,8 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.fields.saliency import spectral_residual
 from packwork.geometry.polygon import Region, polygon_parts
-from packwork.readers.photos.developing import Negative, developed
 from packwork.readers.pictures.contours import contour_region
+from packwork.readers.pictures.developing import Negative, developed
 from packwork.readers.unfit import UnfitError
 
 SALIENCY_PX = 64

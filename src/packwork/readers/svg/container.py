@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import shapely
 
-from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, silhouette
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
@@ -21,6 +20,7 @@ from packwork.readers.svg.render.trace import TRACE_PX, page_picture
 from packwork.readers.svg.whites import has_whites, without_whites
 from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import naming, notice
+from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
 
@@ -106,32 +106,6 @@ def stated_unit(root: ET.Element) -> Unit | None:
         if unit is not None and unit != "px":
             return unit
     return None
-
-
-def placed_container(
-    name: str,
-    source: str,
-    region: Region,
-    canvas: tuple[float, float, float, float],
-    side: float,
-) -> Container:
-    """Container of a region on its canvas, both scaled to ``side``.
-
-    Parameters
-    ----------
-    canvas
-        Left, top, width and height in the region's units.
-
-    Examples
-    --------
-    >>> box = shapely.box(1, 1, 2, 2)
-    >>> placed_container("a", "a", box, (0, 0, 4, 2), 8.0).outline.bounds
-    (2.0, 2.0, 4.0, 4.0)
-    """
-    left, top, width, height = canvas
-    scale = side / max(width, height)
-    moved = shapely.transform(region, lambda points: (points - (left, top)) * scale)
-    return Container(name, source, Outline.from_region(moved), width * scale, height * scale)
 
 
 def _inside(ink: Ink) -> Region:

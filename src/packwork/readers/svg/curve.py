@@ -9,10 +9,10 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.errors import ReadError
 from packwork.geometry import affine
+from packwork.geometry.bezier import FLATTENING
 from packwork.readers.files import read_bytes
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.svg.drawing import Drawing, read_drawing
-from packwork.readers.svg.region.follow import FLATTENING
 from packwork.readers.svg_syntax.shapes import flattened_all
 from packwork.readers.unfit import naming
 

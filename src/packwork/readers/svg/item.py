@@ -26,7 +26,7 @@ from packwork.scene.item import Item
 def read_svg(path: str | Path, holes: Holes = "fill", reading: ReadOptions | None = None) -> Read:
     """Item of an SVG file, its units CSS pixels (96 to the inch).
 
-    Curves and round strokes are flattened to ``follow.FLATTENING`` of the drawing's
+    Curves and round strokes are flattened to ``bezier.FLATTENING`` of the drawing's
     extent. Text, clips, masks and pictures are rendered and traced. A white page behind
     all else is left out, unless something on it touches its edges or it is to stay.
 

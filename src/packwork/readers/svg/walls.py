@@ -14,11 +14,12 @@ from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.regions import clean_union
-from packwork.readers.svg.container import placed_container, stated_unit
+from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.curve import Line, lines_of
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import UnfitError, naming
+from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, convert
 

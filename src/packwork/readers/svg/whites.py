@@ -8,10 +8,11 @@ from dataclasses import dataclass
 
 import shapely
 
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import difference, intersection, union
 from packwork.geometry.polygon import Region
 from packwork.readers.svg.drawing import Drawing
-from packwork.readers.svg.region.follow import FLATTENING, Follower
+from packwork.readers.svg.region.follow import Follower
 from packwork.readers.svg.region.sheet import is_near_white
 from packwork.readers.svg_syntax.extent import drawing_box
 from packwork.readers.svg_syntax.painted import Painted

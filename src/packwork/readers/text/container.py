@@ -6,11 +6,11 @@ from pathlib import Path
 
 from packwork.readers.fonts.fallback import Fonts, is_font_file, open_fonts, typeface_of_file
 from packwork.readers.regions import clean_union
-from packwork.readers.svg.container import placed_container
 from packwork.readers.text import PREFIX
 from packwork.readers.text.letters import letters_of
 from packwork.readers.text.lines import lines_of, set_lines
 from packwork.readers.unfit import naming
+from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 
 WEIGHT = 900

@@ -12,6 +12,7 @@ from itertools import pairwise
 import shapely
 from shapely import affinity
 
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region, region
 from packwork.readers.fonts.curves import rings_of
@@ -20,7 +21,6 @@ from packwork.readers.fonts.guard import check_glyph
 from packwork.readers.fonts.itemise import clusters, script_of, visual_order
 from packwork.readers.fonts.lettering import Setting
 from packwork.readers.fonts.pictures import picture_of
-from packwork.readers.svg.region.follow import FLATTENING
 from packwork.readers.unfit import UnfitError, naming
 
 STAND_ALONE = frozenset({

@@ -12,6 +12,7 @@ from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import buffered, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.account import spend
@@ -23,11 +24,6 @@ from packwork.readers.svg_syntax.painted import Clip, Painted
 from packwork.readers.svg_syntax.painting import Pen
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all
-
-FLATTENING = 2e-5
-"""Largest distance of a curve from its chords, as a share of the drawing's extent: half
-a pixel of a print 25,000 px wide. Smaller costs vertices everywhere, larger shows on
-posters. Chosen."""
 
 BRIDGED_SHARE = 0.1
 """Gap of a dashed line, as a share of the drawing's extent, up to which an outline passes

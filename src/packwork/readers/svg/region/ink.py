@@ -12,9 +12,8 @@ import shapely
 from shapely.geometry import Polygon
 
 from packwork.geometry import affine
-from packwork.geometry.bezier import MAX_STEPS
+from packwork.geometry.bezier import FLATTENING, MAX_STEPS
 from packwork.geometry.polygon import Region
-from packwork.readers.svg.region.follow import FLATTENING as FLATTENING
 from packwork.readers.svg.region.follow import Follower
 from packwork.readers.svg_syntax.extent import drawing_box, is_inside, shown_box
 from packwork.readers.svg_syntax.painted import Painted
