@@ -1,4 +1,4 @@
-"""Rings to regions, dashes, and the estimate that keeps scribbles from taking minutes."""
+"""Rings to regions, and dashes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from packwork.geometry.polygon import region
-from packwork.readers.budget.crossings import Allowance, estimated_crossings
+from packwork.readers.budget.crossings import Allowance
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.region.dashing import dashed
 from packwork.readers.svg.region.fills import filled
@@ -61,22 +61,6 @@ def test_rings_deep_in_each_other_are_too_rich():
     rings = [polygon((0, 0), 9 - k / 1000, 4, 1) for k in range(2000)]
     with pytest.raises(TooRichError, match="pairs of rings"):
         filled(rings, "evenodd", Allowance(1e9))
-
-
-@pytest.mark.parametrize("count", [30, 300, 900])
-def test_crossings_are_estimated_well(count):
-    ring = np.random.default_rng(count).random((count, 2))
-    edges = shapely.linestrings(np.stack([ring, np.roll(ring, -1, axis=0)], axis=1))
-    true = shapely.STRtree(edges).query(edges, predicate="crosses").shape[1] / 2
-    assert estimated_crossings([ring]) == pytest.approx(true, rel=0.25)
-
-
-def test_allowance_is_for_all_rings_together():
-    allowance = Allowance(150_000)
-    ring = np.random.default_rng(0).random((900, 2))
-    allowance.spend([ring])
-    with pytest.raises(TooRichError, match="crosses itself about"):
-        allowance.spend([ring])
 
 
 @given(

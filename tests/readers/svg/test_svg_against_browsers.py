@@ -1,6 +1,6 @@
 """What is read of small drawings, against where Chromium paints.
 
-``goldens/browser`` holds the drawings, and beside each its mask, 100 px wide and high, as
+``readers/goldens/browser`` holds the drawings, and beside each its mask, 100 px wide and high, as
 ``tools/render_in_browser.py`` made it once. A pixel counts only if none of its neighbours agrees:
 edges may lie a pixel apart.
 """
@@ -18,7 +18,7 @@ from scipy.ndimage import binary_dilation
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg
 
-GOLDENS = Path(__file__).parent / "goldens" / "browser"
+GOLDENS = Path(__file__).parent.parent / "goldens" / "browser"
 NAMES = sorted(path.stem for path in GOLDENS.glob("*.svg"))
 SIDE_PX = 100
 EVERYWHERE = SIDE_PX**2
