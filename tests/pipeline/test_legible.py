@@ -12,8 +12,8 @@ from PIL import Image
 import packwork as pw
 from packwork.pipeline.dress.legible import TEXT, ground_luminance, luminances_under
 from packwork.scene.contrast import contrast, contrast_over, readable_over
+from packwork.scene.swatch import representative_colour
 from packwork.writers.svg import svg_text
-from packwork.writers.swatch import representative_colour
 
 QUICK = {"effort": "draft", "levels": "50", "seed": 0}
 WORDS = {"sky": 3, "wind": 2, "cloud": 2, "air": 1}

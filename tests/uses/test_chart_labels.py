@@ -13,9 +13,9 @@ import packwork as pw
 from packwork.readers.written.read import read_written
 from packwork.scene.contrast import contrast
 from packwork.scene.note import Note
+from packwork.scene.swatch import representative_colour
 from packwork.uses.charts.mark_labels import LEAST_CONTRAST, SMALLEST_SHARE
 from packwork.uses.charts.pen import lettering
-from packwork.writers.swatch import representative_colour
 
 QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
 ROWS = {

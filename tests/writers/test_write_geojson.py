@@ -17,8 +17,8 @@ from packwork.geometry.polygon import signed_area
 from packwork.scene.colour import css_colour
 from packwork.scene.item import Art, FlatArt, Item, PictureArt, VectorArt
 from packwork.scene.layout import Layout
+from packwork.scene.swatch import NEUTRAL, representative_colour
 from packwork.writers.geojson import PRECISION, geojson_text, plain
-from packwork.writers.swatch import NEUTRAL, representative_colour
 
 
 def parsed(layout: Layout) -> dict[str, Any]:

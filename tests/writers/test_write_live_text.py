@@ -22,8 +22,8 @@ from packwork.readers.words.items import word_item
 from packwork.readers.words.word import Word
 from packwork.readers.written.read import read_written
 from packwork.scene.layout import Layout
+from packwork.scene.recolour import recoloured
 from packwork.writers.embedding import may_be_embedded
-from packwork.writers.recolour import recoloured
 from packwork.writers.svg import SvgOptions, svg_text
 
 INTER = resources.files("packwork.bundled").joinpath("fonts/InterDisplay-Black.otf").read_bytes()

@@ -14,8 +14,8 @@ from packwork.readers.builtin import builtin_item
 from packwork.readers.svg.item import item_of_svg
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
 from packwork.scene.layout import Layout
+from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.writers.png import PngOptions, png_bytes
-from packwork.writers.recolour import has_one_colour, recoloured
 from packwork.writers.svg import svg_text
 
 LayoutMaker = Callable[..., Layout]

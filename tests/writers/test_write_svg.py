@@ -16,8 +16,7 @@ from packwork.geometry import affine
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
-from packwork.writers.marks import with_fresh_ids
-from packwork.writers.notation import decimals, number, xml_text
+from packwork.scene.notation import decimals, number, with_fresh_ids, xml_text
 from packwork.writers.svg import PRECISION, SvgOptions, svg_text
 
 SVG = "{http://www.w3.org/2000/svg}"

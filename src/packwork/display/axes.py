@@ -9,7 +9,7 @@ import numpy as np
 from packwork.display.extras import found
 from packwork.geometry.outline import Outline
 from packwork.scene.layout import Layout
-from packwork.writers.swatch import representative_colour
+from packwork.scene.swatch import representative_colour
 
 INSTEAD = "save a picture"
 

@@ -11,7 +11,7 @@ import numpy as np
 from packwork.display.extras import found
 from packwork.readers.charts.columns import as_number, is_missing
 from packwork.scene.layout import Layout
-from packwork.writers.swatch import representative_colour
+from packwork.scene.swatch import representative_colour
 
 TAKEN = "mark_"
 """What our columns begin with where a table has one of that name."""

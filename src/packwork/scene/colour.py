@@ -53,6 +53,17 @@ def css_colour(text: str) -> Colour:
     return (*channels[:3], channels[3] if len(channels) == 4 else 255)
 
 
+def hex_colour(channels: tuple[int, ...]) -> str:
+    """``#rrggbb`` of the first three channels, 0 to 255.
+
+    Examples
+    --------
+    >>> hex_colour((255, 99, 71, 128))
+    '#ff6347'
+    """
+    return "#{:02x}{:02x}{:02x}".format(*channels[:3])
+
+
 def _called(name: str, words: list[str]) -> Colour:
     if len(words) not in (3, 4):
         raise ValueError("three channels and an opacity are needed")

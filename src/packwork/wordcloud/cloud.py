@@ -21,13 +21,13 @@ from packwork.fonts import bundled_file
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.words.items import EM_PX
 from packwork.scene.layout import Layout
+from packwork.scene.recolour import recoloured
 from packwork.wordcloud.colours import ColourFunction, colormap_color_func
 from packwork.wordcloud.setting import Placed, Setting, container_of_mask, placed, relative_heights
 from packwork.wordcloud.words import STOPWORDS, frequencies, tokens, with_bigrams
 from packwork.writers.atomic import write_atomic
 from packwork.writers.options import TextChoice
 from packwork.writers.png import PngOptions, png_bytes
-from packwork.writers.recolour import recoloured
 from packwork.writers.svg import SvgOptions, svg_text
 
 _LOG = logging.getLogger("packwork")

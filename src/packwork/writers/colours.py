@@ -27,14 +27,3 @@ def parse_colour(key: str, text: str) -> Colour:
         raise RecipeError(
             key, f"{text[:40]!r} is not a colour; use a name, '#rrggbb', 'rgb(...)' or 'none'"
         ) from error
-
-
-def hex_colour(channels: tuple[int, ...]) -> str:
-    """``#rrggbb`` of the first three channels, 0 to 255.
-
-    Examples
-    --------
-    >>> hex_colour((255, 99, 71, 128))
-    '#ff6347'
-    """
-    return "#{:02x}{:02x}{:02x}".format(*channels[:3])

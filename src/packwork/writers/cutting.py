@@ -20,8 +20,8 @@ from packwork.geometry.overlay import buffered, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts, silhouette
 from packwork.phrasing import number_of
 from packwork.scene.layout import Layout
+from packwork.scene.notation import attributes, path_data
 from packwork.units import convert, parse_length
-from packwork.writers.notation import attributes, path_data
 from packwork.writers.options import CutLine
 
 _LOG = logging.getLogger(__name__)

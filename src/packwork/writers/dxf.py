@@ -22,9 +22,9 @@ from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import oriented_rings, polygon_parts
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.scene.notation import decimals, sound_text
 from packwork.units import convert
 from packwork.writers.cutting import CutOptions, cut_rings
-from packwork.writers.notation import decimals, sound_text
 from packwork.writers.promise import promised, stated_weights
 from packwork.writers.svg import NAME_LENGTH
 

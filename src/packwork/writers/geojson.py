@@ -21,8 +21,8 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import Region, polygon_parts, valid
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.writers.notation import decimals
-from packwork.writers.swatch import representative_colour
+from packwork.scene.notation import decimals
+from packwork.scene.swatch import representative_colour
 
 PRECISION = 1e-9
 """Last digit of a coordinate, as a share of the canvas's longer side: what is measured

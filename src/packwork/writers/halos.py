@@ -12,13 +12,14 @@ from scipy import ndimage
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.phrasing import number_of
+from packwork.scene.colour import hex_colour
 from packwork.scene.contrast import oklabs
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout
-from packwork.writers.colours import hex_colour, parse_colour
+from packwork.scene.swatch import small_png
+from packwork.writers.colours import parse_colour
 from packwork.writers.marks import shape_key
 from packwork.writers.options import HaloChoice
-from packwork.writers.swatch import small_png
 
 PAPER = "#ffffff"
 """What a clear background is taken for."""

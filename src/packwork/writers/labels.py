@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from packwork.scene.item import Item
 from packwork.scene.label import Label
-from packwork.writers.notation import attributes, sound_text, xml_text
+from packwork.scene.notation import attributes, sound_text, xml_text
 
 ID_LENGTH = 60
 """Characters of a name that an id keeps. Chosen."""

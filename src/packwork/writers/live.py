@@ -6,12 +6,12 @@ import logging
 from collections.abc import Mapping, Sequence
 from typing import TypeAlias
 
+from packwork.scene.colour import hex_colour
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.live_text import FontFile, LiveText, TextRun
-from packwork.writers.colours import hex_colour
+from packwork.scene.notation import attributes, matrix_text, xml_text
+from packwork.scene.recolour import one_colour
 from packwork.writers.embedding import Embedded, embedded_fonts
-from packwork.writers.notation import attributes, matrix_text, xml_text
-from packwork.writers.recolour import one_colour
 
 _LOG = logging.getLogger("packwork")
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import math
-import re
 from collections.abc import Mapping
 
 import numpy as np
@@ -14,16 +13,13 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
 from packwork.geometry.polygon import polygon_parts, silhouette
-from packwork.scene.colour import css_colour
+from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
-from packwork.writers.colours import hex_colour
-from packwork.writers.notation import attributes, matrix_text, path_data
+from packwork.scene.notation import attributes, matrix_text, path_data
 
 LEAST_BAY = 1e-6
 """Share of an item's area below which a bay is rounding. Larger leaves out what can be measured,
 smaller makes files longer for nothing. Chosen, as the specks of readers."""
-
-_ID = re.compile(r"""\bid\s*=\s*(["'])([^"']+)\1""")
 
 
 def shape_key(item: Item) -> int:
@@ -95,24 +91,6 @@ def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
         return f"<image{head}{_picture(art)}/>"
     head = attributes({**own, **told, "transform": place})
     return f'<path{head} fill-rule="evenodd" d="{path_data(item.ink, digits)}"/>'
-
-
-def with_fresh_ids(markup: str, suffix: str) -> str:
-    """Markup whose ids, and what refers to them, end in ``suffix``.
-
-    A document may hold each id once, so a second copy in place needs ids of its own.
-
-    Examples
-    --------
-    >>> with_fresh_ids('<g id="a"><use href="#a"/><b fill="url(#a)" x="#ab"/></g>', "-2")
-    '<g id="a-2"><use href="#a-2"/><b fill="url(#a-2)" x="#ab"/></g>'
-    """
-    ids = {m.group(2) for m in _ID.finditer(markup)}
-    if not ids:
-        return markup
-    longest_first = "|".join(re.escape(i) for i in sorted(ids, key=lambda i: (-len(i), i)))
-    uses = re.compile(rf"""(\bid\s*=\s*["']|\#)({longest_first})(?![\w.:-])""")
-    return uses.sub(rf"\g<1>\g<2>{suffix}", markup)
 
 
 def _told(item: Item, art: FlatArt | VectorArt | PictureArt, digits: int) -> dict[str, str]:

@@ -8,8 +8,8 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.raster.drawing import drawn_png
 from packwork.scene.item import Item, PictureArt
+from packwork.scene.notation import decimals
 from packwork.writers.marks import element, paint
-from packwork.writers.notation import decimals
 
 MAX_PICTURE_PX = 4_096
 """Longer side of such a picture at most. Chosen."""

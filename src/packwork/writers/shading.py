@@ -14,13 +14,12 @@ import numpy as np
 from PIL import Image, UnidentifiedImageError
 
 from packwork.arrays import FloatArray
-from packwork.scene.colour import ABSENT, css_colour
+from packwork.scene.colour import ABSENT, css_colour, hex_colour
 from packwork.scene.contrast import oklab, oklabs, shade
 from packwork.scene.item import Art, Item, PictureArt, VectorArt
-from packwork.writers.colours import hex_colour
-from packwork.writers.marks import with_fresh_ids
-from packwork.writers.recolour import has_one_colour, recoloured, tree_of
-from packwork.writers.swatch import representative_colour
+from packwork.scene.notation import with_fresh_ids
+from packwork.scene.recolour import has_one_colour, recoloured, tree_of
+from packwork.scene.swatch import representative_colour
 
 PAINTS = ("fill", "stroke", "color", "stop-color", "flood-color", "lighting-color")
 """Attributes that hold colours."""

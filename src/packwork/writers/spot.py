@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 from packwork.arrays import FloatArray
 from packwork.errors import WriteError
+from packwork.scene.notation import number
 from packwork.writers.cutting import HAIRLINE_PT, SPOT
-from packwork.writers.notation import number
 
 _DIGITS = 4
 """Decimals of a coordinate, in points: 35 nm."""

@@ -15,25 +15,27 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from packwork.geometry import affine
+from packwork.scene.colour import hex_colour
 from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
-from packwork.scene.note import Note
-from packwork.units import Unit
-from packwork.writers.colours import hex_colour, parse_colour
-from packwork.writers.cutting import CutOptions, cut_group
-from packwork.writers.labels import item_ids, labelled
-from packwork.writers.live import LiveWords
-from packwork.writers.marks import element, paint, shape_key, with_fresh_ids
-from packwork.writers.notation import (
+from packwork.scene.notation import (
     attributes,
     decimals,
     matrix_text,
     number,
     path_data,
     points_text,
+    with_fresh_ids,
     xml_text,
 )
+from packwork.scene.note import Note
+from packwork.units import Unit
+from packwork.writers.colours import parse_colour
+from packwork.writers.cutting import CutOptions, cut_group
+from packwork.writers.labels import item_ids, labelled
+from packwork.writers.live import LiveWords
+from packwork.writers.marks import element, paint, shape_key
 from packwork.writers.options import TextChoice
 from packwork.writers.promise import promised, stated_weights
 

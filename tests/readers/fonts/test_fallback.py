@@ -18,7 +18,7 @@ from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import word_item
 from packwork.readers.words.word import Word
 from packwork.scene.item import VectorArt
-from packwork.writers.recolour import has_one_colour
+from packwork.scene.recolour import has_one_colour
 
 FONTS = Path(__file__).parent
 INTER = str(resources.files("packwork.bundled").joinpath("fonts/InterDisplay-Black.otf"))

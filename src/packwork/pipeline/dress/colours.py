@@ -18,7 +18,7 @@ from packwork.scene.label import Label
 from packwork.scene.layout import Layout
 from packwork.scene.mixing import mixed
 from packwork.scene.palette import palette_colours
-from packwork.writers.recolour import has_one_colour, recoloured
+from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.writers.shading import in_palette, shaded
 
 _Arts: TypeAlias = dict[tuple[int, int, str, bool], Art]

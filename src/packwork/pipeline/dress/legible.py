@@ -17,9 +17,9 @@ from packwork.scene.container import Backdrop, Container
 from packwork.scene.contrast import contrast_over, luminances, readable, readable_over
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout
-from packwork.writers.notation import matrix_text
-from packwork.writers.recolour import has_one_colour, recoloured
-from packwork.writers.swatch import representative_colour
+from packwork.scene.notation import matrix_text
+from packwork.scene.recolour import has_one_colour, recoloured
+from packwork.scene.swatch import representative_colour
 
 TEXT, GRAPHIC = 4.5, 3.0
 """Least contrast of words and of other items with what lies under them: WCAG 2.2, 1.4.3 and

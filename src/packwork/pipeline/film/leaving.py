@@ -13,7 +13,7 @@ from packwork.pipeline.job import Job
 from packwork.scene.canvas import brought_over
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.leaving import Leaving
-from packwork.writers.recolour import has_one_colour, recoloured
+from packwork.scene.recolour import has_one_colour, recoloured
 
 ALIKE = 1e-3
 """Share of an item's area by which its drawing may differ and still be taken for it. Larger

@@ -15,6 +15,9 @@ from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.json_rows import read_json
 from packwork.readers.tables.written import is_number_like, written_numbers
 
+MOST_NAMED = 6
+"""Rows that a notice names. Chosen."""
+
 NAME_COLUMNS = ("word", "text", "name", "term", "label", "key")
 NUMBER_COLUMNS = ("weight", "count", "frequency", "freq", "value", "size", "n")
 """Names under which tables of others keep the two; else the first and second column."""
@@ -48,6 +51,18 @@ class Pair:
     def is_sound(self) -> bool:
         """Whether there is a name, and a positive number."""
         return bool(self.name) and math.isfinite(self.number) and self.number > 0
+
+    def wanted(self, noun: str) -> str:
+        """What a row that is not sound should have.
+
+        Examples
+        --------
+        >>> Pair("", 1.0, "1", "line 3").wanted("word")
+        'needs a word and a weight, as in bear,2'
+        """
+        if not self.name or self.written is None:
+            return f"needs a {noun} and a weight, as in bear,2"
+        return f"a weight must be a positive number, not {str(self.written)[:20]!r}"
 
 
 @dataclass(frozen=True, eq=False)

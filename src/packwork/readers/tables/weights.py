@@ -8,13 +8,10 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.tables.pairs import Pair, read_pairs
+from packwork.readers.tables.pairs import MOST_NAMED, read_pairs
 
 MAX_TABLE_BYTES = 5_000_000
 """Size of a table. Chosen."""
-
-MOST_NAMED = 6
-"""Repeated rows that a notice names. Chosen."""
 
 _LOG = logging.getLogger("packwork")
 
@@ -48,7 +45,8 @@ def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str
     weights: dict[str, float] = {}
     twice = []
     for pair in table.rows:
-        _check(path, pair)
+        if not pair.is_sound:
+            raise ReadError(path, f"{pair.where}: {pair.wanted('name')}")
         if pair.name in weights:
             twice.append(f"{pair.name[:40]!r} ({pair.where})")
         known = weights.setdefault(pair.name, pair.number)
@@ -64,11 +62,3 @@ def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str
     for notice in (*table.notices, *([repeated] if twice else [])):
         _LOG.warning("%s: %s", path, notice)
     return weights
-
-
-def _check(path: str | Path, pair: Pair) -> None:
-    if not pair.name or pair.written is None:
-        raise ReadError(path, f"{pair.where}: needs a name and a weight, as in bear,2")
-    if not pair.is_sound:
-        met = repr(str(pair.written)[:20])
-        raise ReadError(path, f"{pair.where}: a weight must be a positive number, not {met}")

@@ -8,12 +8,9 @@ from dataclasses import dataclass
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.tables.pairs import Pair, read_pairs
+from packwork.readers.tables.pairs import MOST_NAMED, Pair, read_pairs
 from packwork.readers.tables.totals import total_row
 from packwork.readers.words.word import Word
-
-MOST_NAMED = 6
-"""Rows that a notice names. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,7 +60,7 @@ def read_word_table(file: str, most_bytes: int, asked: TableFormat) -> TableRead
     sound = [pair for pair in table.rows if pair.is_sound]
     odd = [pair for pair in table.rows if not pair.is_sound]
     if odd and not sound:
-        raise ReadError(file, f"{odd[0].where}: {_wanted(odd[0])}")
+        raise ReadError(file, f"{odd[0].where}: {odd[0].wanted('word')}")
     said: dict[str, list[Pair]] = {}
     for pair in odd:
         said.setdefault(_why(pair), []).append(pair)
@@ -95,12 +92,6 @@ def _why(pair: Pair) -> str:
     if pair.number == 0:
         return "whose weight is 0"
     return "whose weight is negative" if pair.number < 0 else "whose weight is no number"
-
-
-def _wanted(pair: Pair) -> str:
-    if not pair.name or pair.written is None:
-        return "needs a word and a weight, as in bear,2"
-    return f"a weight must be a positive number, not {str(pair.written)[:20]!r}"
 
 
 def _left_out(why: str, which: Sequence[Pair], count: int) -> str:

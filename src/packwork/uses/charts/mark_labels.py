@@ -18,9 +18,9 @@ from packwork.scene.contrast import contrast
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.note import Note
+from packwork.scene.recolour import one_colour
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.pen import Pen, lettering
-from packwork.writers.recolour import one_colour
 
 _LOG = logging.getLogger("packwork")
 

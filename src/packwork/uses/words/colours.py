@@ -24,7 +24,7 @@ from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout
 from packwork.scene.palette import palette_colours
-from packwork.writers.recolour import has_one_colour
+from packwork.scene.recolour import has_one_colour
 
 PICTURE_PX = 400
 """Longer side of the image in which a word's colour is looked up. Larger is slower and no

@@ -13,13 +13,13 @@ from dataclasses import replace
 
 from packwork.arrays import FloatArray
 from packwork.scene.item import VectorArt
+from packwork.scene.notation import decimals, number, with_fresh_ids
 from packwork.scene.track import COLUMNS, poses_of
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.film.knots import item_knots
 from packwork.writers.frame import picture_frame
 from packwork.writers.labels import item_ids
-from packwork.writers.marks import element, paint, with_fresh_ids
-from packwork.writers.notation import decimals, number
+from packwork.writers.marks import element, paint
 from packwork.writers.svg import Sheet, SvgOptions, svg_document
 
 TOLERANCE = 1 / 4_000

@@ -12,10 +12,9 @@ import numpy as np
 from defusedxml.ElementTree import fromstring
 from PIL import Image, UnidentifiedImageError
 
-from packwork.scene.colour import ABSENT, css_colour
+from packwork.scene.colour import ABSENT, css_colour, hex_colour
 from packwork.scene.item import Art, FlatArt, Item, PhotoArt, PictureArt, VectorArt
-from packwork.writers.colours import hex_colour
-from packwork.writers.marks import with_fresh_ids
+from packwork.scene.notation import with_fresh_ids
 
 _XLINK = "http://www.w3.org/1999/xlink"
 _HREF = f"{{{_XLINK}}}href"

@@ -1,4 +1,4 @@
-"""Numbers and names as XML: short, and safe whatever they hold."""
+"""Numbers, names and ids in XML: short, and safe whatever they hold."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ _NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _ESCAPES = str.maketrans(
     {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": " ", "\r": " ", "\t": " "}
 )
+_ID = re.compile(r"""\bid\s*=\s*(["'])([^"']+)\1""")
 
 
 def decimals(step: float) -> int:
@@ -113,3 +114,21 @@ def attributes(pairs: Mapping[str, str]) -> str:
     ' id="item-1"'
     """
     return "".join(f' {name}="{xml_text(value)}"' for name, value in pairs.items() if value)
+
+
+def with_fresh_ids(markup: str, suffix: str) -> str:
+    """Markup whose ids, and what refers to them, end in ``suffix``.
+
+    A document may hold each id once, so a second copy in place needs ids of its own.
+
+    Examples
+    --------
+    >>> with_fresh_ids('<g id="a"><use href="#a"/><b fill="url(#a)" x="#ab"/></g>', "-2")
+    '<g id="a-2"><use href="#a-2"/><b fill="url(#a-2)" x="#ab"/></g>'
+    """
+    ids = {m.group(2) for m in _ID.finditer(markup)}
+    if not ids:
+        return markup
+    longest_first = "|".join(re.escape(i) for i in sorted(ids, key=lambda i: (-len(i), i)))
+    uses = re.compile(rf"""(\bid\s*=\s*["']|\#)({longest_first})(?![\w.:-])""")
+    return uses.sub(rf"\g<1>\g<2>{suffix}", markup)

@@ -11,10 +11,9 @@ from PIL import Image, UnidentifiedImageError
 
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
-from packwork.scene.colour import ABSENT, css_colour
+from packwork.scene.colour import ABSENT, css_colour, hex_colour
 from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
-from packwork.writers.colours import hex_colour
-from packwork.writers.notation import attributes, matrix_text
+from packwork.scene.notation import attributes, matrix_text
 
 NEUTRAL = "#808080"
 """Stands for arts whose colour cannot be told cheaply."""
