@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image, ImageCms, ImageDraw
 
-from packwork import pipeline
+from packwork import uses
 from packwork.errors import ReadError, RecipeError
 from packwork.raster.drawing import drawn_png
 from packwork.readers.photos.options import PhotoOptions
@@ -118,10 +118,10 @@ def test_soft_shadows_count_from_the_threshold_asked(
     pixels[30:80, 60:100, 3] = 90
     Image.fromarray(pixels).save(tmp_path / "cup.png")
     source = str(tmp_path / "cup.png")
-    recipe = pipeline.photos_recipe("square", [source])
-    (tight,) = pipeline.read(recipe).items
+    recipe = uses.photos_recipe("square", [source])
+    (tight,) = uses.read(recipe).items
     assert "--alpha-threshold" in caplog.text
-    (wide,) = pipeline.read(recipe.model_copy(update={"alpha_threshold": 0.2})).items
+    (wide,) = uses.read(recipe.model_copy(update={"alpha_threshold": 0.2})).items
     assert tight.outline.area == pytest.approx(40 * 40, rel=0.02)
     assert wide.outline.area == pytest.approx(40 * 40 + 50 * 40, rel=0.02)
 
