@@ -32,7 +32,7 @@ def read_written(path: str | Path) -> Layout:
     """Layout of a file that we wrote, its outlines those that stand in the file.
 
     GeoJSON and DXF hold the outlines themselves. In an SVG each drawing is read anew, as
-    people will see it, and followed to ``svg.FLATTENING`` of the canvas.
+    people will see it, and followed to ``svg.MEASURED_FLATTENING`` of the canvas.
 
     Raises
     ------

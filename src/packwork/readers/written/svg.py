@@ -38,7 +38,7 @@ from packwork.readers.written.strangers import group_named, loose_items, tag, un
 from packwork.scene.layout import Layout
 from packwork.units import Unit, convert
 
-FLATTENING = 1e-6
+MEASURED_FLATTENING = 1e-6
 """Largest distance of a curve from its chords, as a share of the canvas. Chosen: a tenth of
 the finest gap that a finish keeps."""
 
@@ -201,7 +201,9 @@ class _Drawings:
             raise UnfitError(f"has an item without any size, {_NOT_OURS}")
         document = ET.Element(f"{_SPACE}svg")
         document.extend(elements)
-        drawing = read_drawing(ET.tostring(document), tolerance=FLATTENING * self._side / size)
+        drawing = read_drawing(
+            ET.tostring(document), tolerance=MEASURED_FLATTENING * self._side / size
+        )
         return clean_union(drawing.ink.body, speck=_SPECK)
 
 
