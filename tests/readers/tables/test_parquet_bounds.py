@@ -132,6 +132,12 @@ def test_a_text_as_long_as_a_book_is_no_name(written: Any, monkeypatch: pytest.M
     assert len(read_table(written({"n": [1], "name": ["x" * 50]})).rows) == 1
 
 
+@pytest.mark.parametrize("coding", ["PLAIN", "DELTA_LENGTH_BYTE_ARRAY", "DELTA_BYTE_ARRAY"])
+def test_texts_of_every_encoding_are_read(coding: str, written: Any) -> None:
+    file = written({"name": ["a", "b", None]}, use_dictionary=False, column_encoding=coding)
+    assert [row["name"] for row in read_table(file).rows] == ["a", "b", None]
+
+
 def test_pages_are_counted(written: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     file = written({"n": list(range(5_000))}, use_dictionary=False, data_page_size=64)
     assert len(read_table(file).rows) == 5_000

@@ -111,8 +111,9 @@ def _read(
     arrow = importlib.import_module("pyarrow")
     parquet = importlib.import_module("pyarrow.parquet")
     shared = {piece.name for piece in pieces if piece.is_shared}
+    plain = {piece.name for piece in pieces if piece.is_delta}
     opened = parquet.ParquetFile(
-        io.BytesIO(data), read_dictionary=[name for name in texts if name not in shared]
+        io.BytesIO(data), read_dictionary=[name for name in texts if name not in plain]
     )
     if not shared:
         return opened.read(columns=names, use_threads=False, use_pandas_metadata=False)

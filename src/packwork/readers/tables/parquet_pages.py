@@ -18,6 +18,9 @@ MOST_PAGES = 100_000
 DELTA_BYTE_ARRAY = 7
 """Number of the encoding of texts by what they share with the one before."""
 
+DELTA_LENGTH_BYTE_ARRAY = 6
+"""Number of the encoding of texts behind all of their lengths."""
+
 _DEEPEST = 12
 _TRUE, _FALSE, _BYTE, _DOUBLE, _BINARY, _LIST, _STRUCT = 1, 2, 3, 7, 8, 9, 12
 _WHOLE = (4, 5, 6)
@@ -44,6 +47,8 @@ class Piece:
         Bytes unpacked, and values, by the headers of its pages.
     is_shared
         Whether texts are told by what they share with the one before.
+    is_delta
+        Whether texts are in an encoding that Arrow does not read as a dictionary.
     """
 
     name: str
@@ -53,6 +58,7 @@ class Piece:
     size: int
     found: int
     is_shared: bool
+    is_delta: bool
 
 
 def pieces_of(data: bytes) -> list[Piece]:
@@ -84,7 +90,9 @@ def _piece(data: bytes, told: Fields, rows: int) -> Piece:
         counts = header.get(_DATA) or header.get(_DATA_2) or {}
         found += max(counts.get(_COUNT, 0), 0)
     name = told[3][0].decode("utf-8", errors="replace")
-    return Piece(name, rows, told[5], told[6], size, found, DELTA_BYTE_ARRAY in told[2])
+    is_shared = DELTA_BYTE_ARRAY in told[2]
+    is_delta = is_shared or DELTA_LENGTH_BYTE_ARRAY in told[2]
+    return Piece(name, rows, told[5], told[6], size, found, is_shared, is_delta)
 
 
 def _headers(data: bytes, told: Fields) -> Iterator[Fields]:
