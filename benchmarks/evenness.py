@@ -22,7 +22,7 @@ from manifests import Manifest, stamp, write_manifest, write_text
 from measuring import Timing, machine, markdown_table
 from packwork import pipeline
 from packwork.arrays import FloatArray
-from packwork.presets import PRESETS
+from packwork.recipe.presets import PRESETS
 from runs import EA, LC, LNU, MEASURES, OO, on_frozen_set
 
 SEEDS = (0, 1, 2, 3, 4)

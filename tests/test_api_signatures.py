@@ -13,7 +13,7 @@ from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.options import offered
 from packwork.recipe import Recipe
-from packwork.verbs import VERBS, default_of, run_options
+from packwork.recipe.verbs import VERBS, default_of, run_options
 from packwork.writers.options import DrawingOptions
 
 

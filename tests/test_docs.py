@@ -21,7 +21,7 @@ from packwork.metrics.shape import ShapeMetrics
 from packwork.offers import Offered
 from packwork.options import offered
 from packwork.recipe import Recipe
-from packwork.verbs import VERBS, default_of, options_of
+from packwork.recipe.verbs import VERBS, default_of, options_of
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.film.registry import FILMS
 

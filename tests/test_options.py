@@ -10,8 +10,8 @@ import pytest
 from pydantic import ValidationError
 
 from packwork.options import Options
-from packwork.piles import Moving
 from packwork.recipe import Recipe
+from packwork.recipe.piles import Moving
 
 
 class Kept(Options):

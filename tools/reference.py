@@ -13,12 +13,12 @@ from pydantic.fields import FieldInfo
 
 import packwork
 from packwork.cli import app
-from packwork.piles import PileOptions
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
-from packwork.rules import Pin, Rule
+from packwork.recipe.piles import PileOptions
+from packwork.recipe.rules import Pin, Rule
 from packwork.writers.film.options import FilmOptions
 
 TABLES = {

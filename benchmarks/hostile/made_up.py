@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from hostile.mutations import ODD_NUMBERS, ODD_WORDS, sayable
 from packwork.recipe import Recipe
-from packwork.rules import Rule
+from packwork.recipe.rules import Rule
 
 TAGS = (
     "g", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "use", "defs",

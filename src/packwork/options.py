@@ -32,7 +32,7 @@ class Options(BaseModel):
 
     Examples
     --------
-    >>> from packwork.piles import PileOptions
+    >>> from packwork.recipe.piles import PileOptions
     >>> PileOptions.model_fields["compact"].description
     'Report how tight the pile is: shares of its hull, its smallest circle and its box.'
     """
@@ -57,7 +57,7 @@ def offered(model: type[Options]) -> tuple[Offered, ...]:
 
     Examples
     --------
-    >>> from packwork.piles import PileOptions
+    >>> from packwork.recipe.piles import PileOptions
     >>> [option.name for option in offered(PileOptions)]
     ['open', 'size', 'emit', 'release', 'compact']
     """

@@ -9,7 +9,7 @@ import pytest
 from packwork import uses
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
-from packwork.rules import Pin, Rule
+from packwork.recipe.rules import Pin, Rule
 
 ROOT = Path(__file__).parents[2]
 PAGE = (ROOT / "docs" / "rules.md").read_text(encoding="utf-8")

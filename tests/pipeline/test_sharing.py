@@ -10,8 +10,8 @@ from PIL import Image
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.pictures import share_of_kinds
 from packwork.pipeline.plan.shares import kinds_of
+from packwork.recipe.pictures import share_of_kinds
 from packwork.uses import read, words_recipe
 
 WORDS = {"honey": 3, "bear": 2, "bee": 1}

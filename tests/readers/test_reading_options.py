@@ -16,8 +16,8 @@ from packwork.readers.options import ReadOptions
 from packwork.readers.slits import closed_slits
 from packwork.readers.svg.walls import walled_container
 from packwork.readers.written.read import read_written
-from packwork.reading import Interpreted
 from packwork.recipe import make_recipe
+from packwork.recipe.reading import Interpreted
 from packwork.scene.container import Container
 from packwork.writers.svg import svg_text
 

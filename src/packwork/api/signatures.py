@@ -9,7 +9,7 @@ from typing import Any, ParamSpec, TypeVar
 from packwork.offers import Offered, Verbs
 from packwork.options import Options, offered
 from packwork.recipe import Recipe
-from packwork.verbs import default_of, run_options
+from packwork.recipe.verbs import default_of, run_options
 
 P = ParamSpec("P")
 R = TypeVar("R")

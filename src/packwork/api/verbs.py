@@ -15,8 +15,8 @@ from packwork.options import offered
 from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
-from packwork.reading import Interpreted
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe.reading import Interpreted
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.writers.options import DrawingOptions

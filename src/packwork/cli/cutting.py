@@ -9,8 +9,8 @@ from packwork import pipeline
 from packwork.cli.terminal import say
 from packwork.errors import RecipeError, WriteError
 from packwork.recipe import Recipe
+from packwork.recipe.verbs import VERBS, default_of, options_of
 from packwork.units import split_length
-from packwork.verbs import VERBS, default_of, options_of
 from packwork.writers.cutting import kiss_cut
 
 UNASKED = frozenset(

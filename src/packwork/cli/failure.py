@@ -55,7 +55,7 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
 
 def _flag(key: str) -> str:
     """What an option is called on the command line."""
-    from packwork.verbs import VERBS, options_of
+    from packwork.recipe.verbs import VERBS, options_of
 
     known = {option.name: option for verb in VERBS for option in options_of(verb)}
     return known[key].flag if key in known else f"--{key.replace('_', '-')}"

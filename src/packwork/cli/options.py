@@ -13,7 +13,7 @@ from packwork.cli.flags import flag
 from packwork.offers import Offered, Verbs
 from packwork.options import Options, offered
 from packwork.recipe import Recipe
-from packwork.verbs import VERBS, WRITTEN, in_groups, options_of, run_options
+from packwork.recipe.verbs import VERBS, WRITTEN, in_groups, options_of, run_options
 from packwork.writers.film.options import FilmOptions
 
 Command = Callable[..., None]

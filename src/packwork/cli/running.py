@@ -39,8 +39,8 @@ from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
 from packwork.phrasing import number_of
-from packwork.pipeline.filming import film_options
 from packwork.recipe import Recipe
+from packwork.recipe.film import film_options
 from packwork.uses.room import NO_CONTAINER
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions

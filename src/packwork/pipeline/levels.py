@@ -8,7 +8,6 @@ import numpy as np
 
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
-from packwork.levels import refined_levels
 from packwork.pipeline.film.recorder import Recorder
 from packwork.pipeline.job import Job
 from packwork.pipeline.placed import Placed
@@ -17,6 +16,7 @@ from packwork.pipeline.plan.padding import check_padding, padded
 from packwork.pipeline.start import Beginning, begin
 from packwork.pipeline.staying import as_it_was, calmed, needs_no_levels, with_homes
 from packwork.progress import Observer, Stop, together
+from packwork.recipe.levels import refined_levels
 from packwork.scene.container import Container
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import Ending, Outcome, solve

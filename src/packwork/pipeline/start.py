@@ -20,7 +20,7 @@ from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.limits import check_poses, held_to, item_limits, pinned_scales
 from packwork.pipeline.plan.sizes import given_scales
 from packwork.progress import Stop, never
-from packwork.rules import Rotation
+from packwork.recipe.rules import Rotation
 from packwork.scene.canvas import brought_over
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from packwork.finish.finish import Finished
 from packwork.pipeline.job import Job
-from packwork.rules import Rotation
+from packwork.recipe.rules import Rotation
 
 AS_LARGE = 0.97
 """Area that an item has upright, as a share of what it has turned, from which it is left upright.

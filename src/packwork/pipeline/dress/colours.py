@@ -12,7 +12,7 @@ from packwork.pipeline.dress.legible import legible
 from packwork.pipeline.dress.neighbours import beside
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.asked import Asked
-from packwork.rules import OWN_COLOURS
+from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.label import Label
 from packwork.scene.layout import Layout

@@ -10,7 +10,7 @@ from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.recipe import Recipe
-from packwork.rules import Pin, Rotation, Rule, hero_rule
+from packwork.recipe.rules import Pin, Rotation, Rule, hero_rule
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from packwork.pipeline.plan.asked import Asked, Voice, named, voices
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.weights import read_weights
 from packwork.recipe import Recipe
-from packwork.rules import MAX_COUNT, Rule
+from packwork.recipe.rules import MAX_COUNT, Rule
 from packwork.scene.item import Item
 
 WIDEST_WEIGHTS = 1e6

@@ -9,13 +9,13 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from packwork.levels import parse_levels
-from packwork.pictures import Shades
-from packwork.presets import PRESETS, Preset
 from packwork.readers.regions import Holes
 from packwork.recipe import APART, EPOCHS, Effort, Recipe
-from packwork.refusals import refusal
-from packwork.rules import Rotation
+from packwork.recipe.levels import parse_levels
+from packwork.recipe.pictures import Shades
+from packwork.recipe.presets import PRESETS, Preset
+from packwork.recipe.refusals import refusal
+from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
 from packwork.scene.palette import palette_colours
 from packwork.solve.options import ImageLossFunction, OutlineChoice, SizeMode, SolveOptions

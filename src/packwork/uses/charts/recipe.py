@@ -11,9 +11,9 @@ from packwork.offers import Verbs
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.colours import check_colour
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe.refusals import refusal
+from packwork.recipe.verbs import with_defaults
 from packwork.recipe_paths import check_names
-from packwork.refusals import refusal
-from packwork.verbs import with_defaults
 
 NOT_OURS = ("sizes", "weights", "count", "size_ratio", "stretch", "target_coverage")
 """Options that would let sizes say something else than the data."""

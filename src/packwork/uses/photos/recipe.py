@@ -10,9 +10,9 @@ from pydantic import ValidationError
 from packwork.offers import Verbs
 from packwork.readers.photos.options import PhotoOptions
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe.refusals import refusal
+from packwork.recipe.verbs import with_defaults
 from packwork.recipe_paths import check_names
-from packwork.refusals import refusal
-from packwork.verbs import with_defaults
 
 
 def photos_recipe(

@@ -8,11 +8,11 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.piles import Emitter, PileOptions, parse_emitter
 from packwork.pipeline.plan.forces import point_at
 from packwork.readers.container import read_container
 from packwork.readers.options import AS_DRAWN
 from packwork.readers.svg.curve import read_curve
+from packwork.recipe.piles import Emitter, PileOptions, parse_emitter
 from packwork.scene.container import Container
 from packwork.settle.pour import Source
 from packwork.units import CanvasSize

@@ -14,7 +14,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts
 from packwork.geometry.snapping import sound
-from packwork.piles import Side
+from packwork.recipe.piles import Side
 from packwork.scene.container import Container
 from packwork.units import CanvasSize
 

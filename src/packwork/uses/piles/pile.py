@@ -12,7 +12,6 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.metrics.compactness import compactness
-from packwork.piles import PileOptions
 from packwork.pipeline.dress.line_weights import evened
 from packwork.pipeline.earlier import matched
 from packwork.pipeline.exact import gap_with_bulge
@@ -25,6 +24,7 @@ from packwork.pipeline.result import Run, Unplaced
 from packwork.pipeline.run import with_track
 from packwork.pipeline.start import first_angles
 from packwork.progress import Observer, Stop, together
+from packwork.recipe.piles import PileOptions
 from packwork.scene.canvas import brought_over
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

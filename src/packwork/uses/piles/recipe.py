@@ -8,9 +8,9 @@ from typing import Any
 from pydantic import ValidationError
 
 from packwork.errors import RecipeError
-from packwork.piles import PileOptions
 from packwork.recipe import Recipe, make_recipe
-from packwork.refusals import refusal
+from packwork.recipe.piles import PileOptions
+from packwork.recipe.refusals import refusal
 from packwork.uses.room import NO_CONTAINER
 
 DEFAULT_FORCE, DEFAULT_FORCE_ALONE = "down", "towards centre"

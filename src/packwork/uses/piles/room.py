@@ -9,12 +9,12 @@ from pathlib import Path
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.piles import PileOptions
 from packwork.pipeline.plan.cast import Cast
 from packwork.pipeline.plan.sizes import given_scales
 from packwork.pipeline.read import read_room
 from packwork.readers.svg.walls import walled_container
 from packwork.recipe import Recipe
+from packwork.recipe.piles import PileOptions
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.geometry.simplify import hull_areas
-from packwork.piles import PileOptions
 from packwork.pipeline.earlier import matched
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import MOST
 from packwork.pipeline.plan.sizes import given_scales
 from packwork.pipeline.widest import widest_cu
+from packwork.recipe.piles import PileOptions
 from packwork.scene.canvas import brought_over
 from packwork.scene.container import Container
 from packwork.scene.item import Item

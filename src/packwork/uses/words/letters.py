@@ -21,7 +21,7 @@ from packwork.pipeline.start import Beginning
 from packwork.progress import Observer, Stop
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead
 from packwork.readers.words.options import WordOptions
-from packwork.refusals import length_asked
+from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.options import SizeMode

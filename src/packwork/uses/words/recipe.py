@@ -11,11 +11,11 @@ from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe.refusals import refusal
+from packwork.recipe.verbs import with_defaults
 from packwork.recipe_paths import AROUND, check_names
-from packwork.refusals import refusal
 from packwork.scene.contrast import readable
 from packwork.scene.palette import palette_colours
-from packwork.verbs import with_defaults
 
 PALETTE = "ink"
 """Colours of words that are given none."""

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from packwork.refusals import refusal
+from packwork.recipe.refusals import refusal
 from packwork.writers.film.options import FilmOptions
 
 

@@ -18,17 +18,16 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
-from packwork.levels import checked_levels
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
-from packwork.pictures import Pictured, known_palette
-from packwork.piles import Moving
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
-from packwork.reading import Interpreted
-from packwork.recipe_paths import check_names
-from packwork.refusals import length_asked, length_of, refusal
-from packwork.rules import (
+from packwork.recipe.levels import checked_levels
+from packwork.recipe.pictures import Pictured, known_palette
+from packwork.recipe.piles import Moving
+from packwork.recipe.reading import Interpreted
+from packwork.recipe.refusals import length_asked, length_of, refusal
+from packwork.recipe.rules import (
     MAX_COUNT,
     ItemCount,
     Rotation,
@@ -38,6 +37,7 @@ from packwork.rules import (
     known_rotation,
     some_rules,
 )
+from packwork.recipe_paths import check_names
 from packwork.solve.options import (
     MAX_STRETCH,
     ImageLossFunction,

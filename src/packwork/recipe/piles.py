@@ -11,8 +11,8 @@ from packwork.errors import RecipeError
 from packwork.forces.spec import ForceTexts, is_pair
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options
+from packwork.recipe.refusals import length_of
 from packwork.recipe_paths import split_words
-from packwork.refusals import length_of
 
 Side: TypeAlias = Literal["top", "bottom", "left", "right"]
 """Where a container is open."""

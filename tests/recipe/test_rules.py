@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from packwork.errors import RecipeError
 from packwork.recipe import make_recipe
-from packwork.rules import HERO_SIZE, UPRIGHT, Rotation, Rule, hero_rule
+from packwork.recipe.rules import HERO_SIZE, UPRIGHT, Rotation, Rule, hero_rule
 
 BAD: list[tuple[dict[str, Any], str]] = [
     ({"items": []}, "items: use a name, a pattern"),

@@ -17,14 +17,14 @@ from pydantic import BaseModel
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.levels import parse_levels
 from packwork.pipeline.plan.plan import Plan
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.recipe import read_recipe
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe
-from packwork.rules import Rule
+from packwork.recipe.levels import parse_levels
+from packwork.recipe.rules import Rule
 from packwork.solve.options import MAX_RESOLUTION, MIN_RESOLUTION
 from packwork.writers import recipe_bytes
 from scenes import square_container

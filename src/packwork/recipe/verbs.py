@@ -14,11 +14,11 @@ from typing import Any
 
 from packwork.offers import Group, Offered, Verbs
 from packwork.options import Options, offered
-from packwork.piles import PileOptions
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
+from packwork.recipe.piles import PileOptions
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 
