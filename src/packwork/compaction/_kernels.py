@@ -1,4 +1,8 @@
-"""One round of compaction: contacts, the linear programme over them, the exact check."""
+"""One round of compaction: contacts, the linear programme over them, the exact check.
+
+``board``: polygons in place, as of ``distances``; ``items``: ``(n,)`` those that move; ``pairs``:
+``(k, 2)`` solids that may meet. Sources: ``compact.py``.
+"""
 
 from __future__ import annotations
 
@@ -69,7 +73,9 @@ HALVINGS = 4
 
 
 class Objective(NamedTuple):
-    """Bounds of growth and turn of each item, and what growth is worth.
+    """Objective and bounds of a compaction: what growth is worth, how far items may turn and grow.
+
+    Logarithms of growth and radians, ``(n,)`` each.
 
     An item of growth g is worth ``weights * exp(power * g) / power``: its area with power
     2; with a large negative power, the smallest items count most. ``push``: ``(n, 2)`` what
@@ -87,7 +93,7 @@ class Objective(NamedTuple):
 
 @helper
 def all_contacts(board, pairs, reach, slants):
-    """Which pair each contact belongs to, and its numbers."""
+    """All contacts of pairs: the pair of each ``(m,)`` and its numbers ``(m, 7)``."""
     room = 24 * pairs.shape[0] + 256
     while True:
         who, numbers = np.empty(room, np.int64), np.empty((room, 7))
@@ -176,7 +182,7 @@ def gains_and_bounds(board, objective, items, trust):
 
 @helper
 def mark_conflicts(board, pairs, gap, changed, struck, room):
-    """Mark solids in conflict; only pairs of which one has ``changed`` can be. How many."""
+    """Mark solids in conflict; only pairs of which one has ``changed`` can be. Number of pairs."""
     count = 0
     for p in range(pairs.shape[0]):
         struck[pairs[p, 0]] = struck[pairs[p, 1]] = False

@@ -1,4 +1,4 @@
-"""Items and container in one array of points, and where the items are now."""
+"""Polygons in place: items and container in one array of points, and where the items are now."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from packwork.compaction.distances import _kernels as distances
 from packwork.geometry.outline import Outline
 
 PAIRS_PER_ITEM = 16
-"""Lengths for near pairs at first; more are counted and then looked for again."""
+"""Room for near pairs at first; more are counted and then looked for again."""
 
 
 class Arrangement:

@@ -1,4 +1,9 @@
-"""Items in blocks of neighbours, which are solved one after another."""
+"""Blocks of neighbouring items, for which compaction is solved one after another.
+
+By recursive bisection along the longer side (M. Berger and S. Bokhari, "A partitioning strategy
+for nonuniform problems on multiprocessors", IEEE Transactions on Computers C-36 (1987), 570-580),
+cut elsewhere in each round.
+"""
 
 from __future__ import annotations
 

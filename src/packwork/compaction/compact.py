@@ -1,4 +1,19 @@
-"""Rounds of small best steps: items make room for each other and grow into it."""
+"""Compaction: the best small step of some items by a linear programme over their contacts.
+
+Z. Li and V. Milenkovic, "Compaction and separation algorithms for non-convex polygons and their
+applications", European Journal of Operational Research 84 (1995), 539-561,
+doi:10.1016/0377-2217(95)00021-H: positions of polygons as unknowns, contacts as linear
+constraints, solved again about each new layout. That sizes grow and items turn in the same
+programme is as in the adaptive shrinking cell of S. Torquato and Y. Jiao, "Dense packings of the
+Platonic and Archimedean solids", Nature 460 (2009), 876-879, doi:10.1038/nature08239, and in
+"Robust algorithm to generate a diverse class of dense disordered and ordered sphere packings via
+linear programming", Physical Review E 82 (2010), 061302, doi:10.1103/PhysRevE.82.061302; where
+their cell shrinks round particles, our items grow in a container that stays.
+
+Ours differs from both: constraints bind vertices to edges and corners that they see, no no-fit
+polygons are made; programmes are over blocks of neighbours; and each step is checked in exact
+geometry and cut until no conflict is left.
+"""
 
 from __future__ import annotations
 
@@ -37,7 +52,7 @@ def compact(
     gap
         Least distance that the check asks for.
     hair
-        The part of it that nobody asked for.
+        The part of it that was not asked for.
     """
     board = arrangement.board
     pairs = distances.pairs_of(board.boxes, items, gap + TRAVEL * trust)

@@ -1,4 +1,4 @@
-"""What is still in conflict, by the true outlines."""
+"""Conflicts of a layout: pairs that overlap or are too near, by the true outlines."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Arrangements of outlines as fine as a stage of the finish needs them."""
+"""Arrangements of outlines simplified to a tolerance, as fine as a stage needs them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What items may do and what their growth is worth, by size mode and turn limit."""
+"""Objective and bounds of a compaction: what growth is worth, by size mode and turn limit."""
 
 from __future__ import annotations
 

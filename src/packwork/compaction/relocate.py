@@ -1,4 +1,9 @@
-"""Items without a place, moved into the largest voids at the size that fits."""
+"""Relocation of items that have no place to the largest voids, at the size that fits.
+
+The centre of a void is that of the largest empty circle (G. Toussaint, "Computing largest empty
+circles with location constraints", International Journal of Computer and Information Sciences 12
+(1983), 347-358), read from a distance transform and not from a Voronoi diagram.
+"""
 
 from __future__ import annotations
 

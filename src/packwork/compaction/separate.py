@@ -1,4 +1,9 @@
-"""Layouts with conflicts to layouts without: conflicts shrink, hopeless ones move."""
+"""Separation: layouts with conflicts to layouts without, by shrinking and relocating items.
+
+Z. Li and V. Milenkovic (1995, see :mod:`packwork.compaction`) separate overlapping polygons of
+fixed sizes by the least motion. Ours shrinks items in conflict a little at a time, so that none
+has to move, and relocates those that would become too small; compaction lets them grow again.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Box means of an image, at any size for the same price."""
+"""Box means of an image by running sums, at any size for the same price.
+
+M. McDonnell, "Box-filtering techniques", Computer Graphics and Image Processing 17 (1981), 65-70.
+"""
 
 from __future__ import annotations
 

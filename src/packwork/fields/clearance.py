@@ -1,4 +1,7 @@
-"""How much room there is round each point, kept up to date as items are placed."""
+"""Clearance: radius of the largest empty circle about each pixel, kept as discs are placed.
+
+From a Euclidean distance transform; after each disc only a window round it is updated.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Opening and closing of regions by discs (Serra 1982), through distance transforms."""
+"""Opening and closing of regions by discs, through distance transforms.
+
+J. Serra, "Image Analysis and Mathematical Morphology", Academic Press 1982.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""Where a picture draws the eye: what of its spectrum is unlike that of most pictures."""
+"""Saliency of a picture by the spectral residual: where it draws the eye.
+
+X. Hou and L. Zhang, "Saliency Detection: A Spectral Residual Approach", CVPR 2007,
+doi:10.1109/CVPR.2007.383267. Ours adds a margin of mirror image, or opposite edges that meet
+would stand out; sums the channels; and leaves blank pictures blank.
+"""
 
 from __future__ import annotations
 
@@ -23,9 +28,7 @@ def spectral_residual(picture: FloatArray) -> FloatArray:
     """How much each pixel stands out, 0..1; zeros for a picture of one colour.
 
     The logarithm of a picture's spectrum is smooth but for what is peculiar to it; what is left
-    once the smooth part is off leads back to where that is. Hou and Zhang 2007, "Saliency
-    Detection: A Spectral Residual Approach", with two changes: a margin of its mirror image goes
-    round the picture, or opposite edges that meet would stand out, and channels are added.
+    once the smooth part is off leads back to where that is.
 
     Parameters
     ----------

@@ -1,4 +1,8 @@
-"""The middle line of a region."""
+"""Skeleton of a region: its middle line, one pixel wide.
+
+T. Zhang and C. Suen, "A fast parallel algorithm for thinning digital patterns", Communications of
+the ACM 27 (1984), 236-239, doi:10.1145/357994.358023, as scikit-image has it.
+"""
 
 from __future__ import annotations
 
@@ -10,7 +14,7 @@ from packwork.arrays import BoolArray
 def medial_axis(mask: BoolArray) -> BoolArray:
     """True on the line, one pixel wide, that runs midway between the region's edges.
 
-    Thinned (Zhang and Suen 1984), not read from the distance field: the same mask always
+    Thinned, not read from the distance field: the same mask always
     has the same axis, and the staircases of slanting edges grow no branches. Every part
     of the region keeps at least one pixel. What lies off the image counts as outside.
 

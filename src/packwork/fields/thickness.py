@@ -1,4 +1,7 @@
-"""How thick a region is: what discs of growing radius cannot reach (granulometry, Matheron)."""
+"""Thickness of a region: what openings by discs of growing radius leave uncovered (granulometry).
+
+G. Matheron, "Random Sets and Integral Geometry", Wiley 1975.
+"""
 
 from __future__ import annotations
 

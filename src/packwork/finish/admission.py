@@ -1,4 +1,4 @@
-"""Fillers in a clean layout: made to fit, or sent away."""
+"""Insertion of fillers into a clean layout: shrunk until they fit, or left out."""
 
 from __future__ import annotations
 

@@ -1,4 +1,13 @@
-"""Trials after the compaction: items turned or exchanged, kept where that gains."""
+"""Simulated annealing of a compacted layout: items turned or exchanged, kept where that gains.
+
+S. Kirkpatrick, C. Gelatt and M. Vecchi, "Optimization by simulated annealing", Science 220
+(1983), 671-680, doi:10.1126/science.220.4598.671. A trial may lose an amount drawn from an
+exponential distribution of mean ``heat``, which accepts a loss L with probability
+exp(-L / heat), the rule of Metropolis; the temperature falls linearly to nothing.
+
+Ours differs: the moved items and their neighbours are compacted before a trial is judged, a trial
+ends early where it has fallen far behind, and where sizes are common only gains are kept.
+"""
 
 from __future__ import annotations
 
@@ -43,7 +52,7 @@ ALIKE = 24
 """How many items nearest in size are considered for an exchange. Tried."""
 
 WITH_FORCES = 0.5
-"""Share of exchanges with whom forces like best, where there are some. Tried."""
+"""Share of exchanges with the item that forces like best there, where there are forces. Tried."""
 
 BEHIND, BEHIND_SHARE = 0.125, 0.7
 """Where the smallest is worth most: which share of the items are the smallest, and share
@@ -76,7 +85,7 @@ CUT, CHECKS = 0.06, 25
 
 @dataclass(frozen=True)
 class Lengths:
-    """Lengths of a search, canvas units.
+    """Lengths of a finish, canvas units.
 
     Parameters
     ----------
@@ -85,7 +94,7 @@ class Lengths:
     gap
         Least distance.
     hair
-        The part of it that nobody asked for.
+        The part of it that was not asked for.
     """
 
     spacing: float

@@ -1,4 +1,8 @@
-"""Who may hold all others back, and where else it could lie."""
+"""Bottlenecks: items that keep all others from growing, relocated to voids.
+
+Where all sizes share one factor, it is that of the tightest place. The smallest items and those
+that they touch are tried in the largest voids, turned; a move is kept if all can then grow.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From an almost clean layout to one in which nothing meets, in exact geometry."""
+"""From an almost clean layout to one in which nothing meets: separation, compaction, annealing."""
 
 from __future__ import annotations
 

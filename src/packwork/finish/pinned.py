@@ -1,4 +1,4 @@
-"""Items that the finish may not move come free of each other all the same."""
+"""Separation of pinned items, which compaction may not move."""
 
 from __future__ import annotations
 

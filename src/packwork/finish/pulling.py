@@ -1,4 +1,4 @@
-"""What forces ask of a finish: pushes for its programmes, and a price on what undoes them."""
+"""Forces in the objective of a finish: pushes of items, and a price on trials that undo them."""
 
 from __future__ import annotations
 

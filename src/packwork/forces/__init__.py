@@ -1,1 +1,1 @@
-"""Object-space losses that pull items about: a function of where they are, and its slope."""
+"""Object-space losses that pull items: a function of where they are, and its slope."""

@@ -1,4 +1,4 @@
-"""The same way everywhere, as gravity."""
+"""Uniform field: the same pull everywhere, as gravity."""
 
 from __future__ import annotations
 

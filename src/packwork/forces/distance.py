@@ -1,4 +1,4 @@
-"""Distances from points, lines and curves, with the way that leads off."""
+"""Distance fields of points, lines and curves, with unit vectors that lead away."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Items that change places where that lowers what forces make of them."""
+"""Exchanges of items that lower the cost of forces: a 2-opt of places."""
 
 from __future__ import annotations
 

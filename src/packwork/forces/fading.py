@@ -1,4 +1,4 @@
-"""Forces that are felt near by and fade with the distance."""
+"""Fading: a distance field whose pull decays exponentially with the distance."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a force is: a height over the canvas that items go down, or one of a whole group."""
+"""Protocols of forces: a height over the canvas (field), or one of a whole group (bond)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The container itself draws in what is outside."""
+"""Inward force: distance from the container, for what is outside."""
 
 from __future__ import annotations
 

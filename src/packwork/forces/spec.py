@@ -1,4 +1,4 @@
-"""Forces as people write them: ``down``, ``towards 50%,50% strength=2``, ``together``."""
+"""Parser of forces: ``down``, ``towards 50%,50% strength=2``, ``together``."""
 
 from __future__ import annotations
 

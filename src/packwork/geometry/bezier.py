@@ -1,8 +1,8 @@
-"""Curves to polylines, each with a stated tolerance.
+"""Flattening of curves to polylines, each with a stated tolerance.
 
-A cubic's chord error over a parameter step ``h`` is at most ``h**2 / 8`` times the
-largest second derivative, so the number of equal steps is known beforehand
-(Goldman, "Curvature formulas"; the bound is the standard interpolation error).
+A cubic's chord error over a parameter step ``h`` is at most ``h**2 / 8`` times the largest second
+derivative, so the number of equal steps is known beforehand: Wang's formula (R. Goldman, "Pyramid
+Algorithms", Morgan Kaufmann 2003, section 5.6.3).
 """
 
 from __future__ import annotations

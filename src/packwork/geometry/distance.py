@@ -1,4 +1,4 @@
-"""How near regions of many vertices are to each other or to themselves, by indices of their edges.
+"""Distances of regions of many vertices, from each other and from themselves, by indices of edges.
 
 Plain distances look at every pair of edges: a coast of a hundred thousand vertices and an item of
 a thousand take a second. An index (GEOS: indexed facet distance, STR trees) leaves the near ones.

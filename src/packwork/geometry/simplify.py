@@ -1,4 +1,8 @@
-"""Fewer points for the same region, within a stated distance."""
+"""Simplification of outlines: fewer points for the same region, within a stated distance.
+
+D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to
+represent a digitized line or its caricature", Cartographica 10 (1973), 112-122, by GEOS.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +24,7 @@ def simplified(outline: Outline, tolerance: float) -> Outline:
     at which a ring starts.
 
     Never collapses: if simplifying would leave no area, the outline comes back as it
-    was. Rings stay simple (Douglas-Peucker with topology kept, by GEOS).
+    was. Rings stay simple (topology is kept).
 
     Examples
     --------

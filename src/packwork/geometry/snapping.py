@@ -1,7 +1,9 @@
 """Regions whose rings keep a distance from themselves that rounding cannot take away.
 
-Snap rounding (Hobby 1999), repeated until it changes nothing (Halperin and Packer 2002), of
-those regions alone whose minimum clearance asks for it: the smallest distance by which a vertex
+Snap rounding (J. Hobby, "Practical segment intersection with finite precision output",
+Computational Geometry 13 (1999), 199-214), repeated until it changes nothing (D. Halperin and
+E. Packer, "Iterated snap rounding", Computational Geometry 23 (2002), 209-225), of those regions
+alone whose minimum clearance asks for it: the smallest distance by which a vertex
 may move before a ring meets itself or another. An outline that all but touches itself would
 cross itself once it is turned, or written with so many digits.
 """

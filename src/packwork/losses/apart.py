@@ -1,4 +1,4 @@
-"""Items of one kind push each other away."""
+"""Repulsion of items of one kind."""
 
 from __future__ import annotations
 

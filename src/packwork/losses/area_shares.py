@@ -1,4 +1,4 @@
-"""Items keep the shares of area that were asked for."""
+"""Area-share loss: variance of areas against those asked for."""
 
 from __future__ import annotations
 

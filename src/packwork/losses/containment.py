@@ -1,4 +1,4 @@
-"""What lies outside the container costs."""
+"""Containment loss: mean density outside the container."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Large empty places cost more than many small ones."""
+"""Evenness loss: large empty places cost more than many small ones."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is covered of the container pays."""
+"""Filling loss: minus the container's mean coverage, a reward."""
 
 from __future__ import annotations
 

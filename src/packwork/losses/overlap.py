@@ -1,4 +1,4 @@
-"""What is covered twice costs."""
+"""Overlap loss: mean density above one, where items cover a place twice."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Items whose centre lies outside the container are called back."""
+"""Recall: distance from the container of items whose centre lies outside it."""
 
 from __future__ import annotations
 

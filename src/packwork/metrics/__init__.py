@@ -1,1 +1,1 @@
-"""What a layout is worth: one file per measure."""
+"""Measures of a layout, one file each."""

@@ -1,4 +1,4 @@
-"""Whether a layout keeps what its run promised, checked by exact measures alone."""
+"""Certificate: whether a layout keeps what its run promised, by exact measures alone."""
 
 from __future__ import annotations
 

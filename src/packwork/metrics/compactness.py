@@ -1,4 +1,4 @@
-"""How tight a heap of items is, by what could be drawn round it."""
+"""Compactness of a pile: shares of its hull, smallest circle and box that items cover."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a layout is worth in exact geometry: no pixels, and no code of the solver's."""
+"""Coverage, overlap, excess and smallest gap in exact geometry, with no code of the solver's."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a layout shows the shape of its container."""
+"""How far a layout shows the shape of its container, by morphological closing."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Who keeps a layout from its certificate, by name, so that the rest can have it."""
+"""Violations: the pairs, by number, that keep a layout from its certificate."""
 
 from __future__ import annotations
 

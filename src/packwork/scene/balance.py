@@ -1,4 +1,4 @@
-"""Items handed round among the parts of a container until all parts can fill alike."""
+"""Balance of items among the parts of a container, by exchanges, until all parts fill alike."""
 
 from __future__ import annotations
 

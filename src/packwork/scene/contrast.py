@@ -1,4 +1,4 @@
-"""Colours that can be read on a background: lightness changes, hue stays."""
+"""Contrast of colours with a background: lightness changes until they can be read, hue stays."""
 
 from __future__ import annotations
 

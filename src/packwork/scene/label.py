@@ -1,4 +1,4 @@
-"""What people call one placed item, and what it does in a file that can be clicked."""
+"""Label of one placed item: its name, link and tooltip in a file."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Items that stay on one side of upright, so that not all of them lean the same way."""
+"""Least tilts that hold items on one side of upright, so that not all of them lean the same way.
+
+Sizes of tilts are spread by multiples of the golden ratio, a sequence of low discrepancy.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Items of an earlier layout that a new one has no more, and those that it has besides."""
+"""Items that leave: those of an earlier layout that a new one lacks, and those that it adds."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How far single items may go: sizes, turns, places, and who is not to lie beside whom."""
+"""Limits of single items: sizes, turns, places, zones, and kinds that are not to be neighbours."""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""Labels handed round among places until neighbours have unlike ones."""
+"""Mixing of labels among places until few neighbours have the same: a colouring of fixed counts.
+
+By exchanges that take most conflicts away, the min-conflicts heuristic (S. Minton, M. Johnston,
+A. Philips and P. Laird, "Minimizing conflicts: a heuristic repair method for constraint
+satisfaction and scheduling problems", Artificial Intelligence 58 (1992), 161-205).
+"""
 
 from __future__ import annotations
 

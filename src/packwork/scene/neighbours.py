@@ -1,4 +1,4 @@
-"""Who lies beside whom."""
+"""Neighbouring items: Delaunay edges, and pairs with a small gap between them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is drawn beside items and is none: letters and keys of a legend."""
+"""Notes: filled paths drawn beside the items, such as letters and keys of a legend."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Colours to choose from: named palettes, and those that people write down."""
+"""Palettes: named lists of colours, and colours that users write down."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The way of all items through a run: poses at moments, and any moment between them."""
+"""Keyframes of all items through a run, and poses interpolated between them."""
 
 from __future__ import annotations
 

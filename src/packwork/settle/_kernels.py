@@ -147,7 +147,7 @@ def _move_share(board, items, before, step, share, pairs, gap):
 
 @kernel
 def move(board, items, step, pairs, gap):
-    """Move ``items`` by as much of ``step`` as leaves no conflict; False if nobody moved."""
+    """Move ``items`` by as much of ``step`` as leaves no conflict; False if nothing moved."""
     n = items.shape[0]
     before = np.empty((n, 4))
     for k in range(n):

@@ -1,4 +1,10 @@
-"""Items, as discs, one after another to where they lie lowest and touch nobody."""
+"""Bottom-left placement: discs one after another to the lowest free place.
+
+B. Baker, E. Coffman and R. Rivest, "Orthogonal packings in two dimensions", SIAM Journal on
+Computing 9 (1980), 846-855, doi:10.1137/0209064, place rectangles as far down, then as far left
+as they go. Ours takes discs for items and any height for "down", and fills holes, too: candidates
+are the free pixels and the places at which a disc touches two others.
+"""
 
 from __future__ import annotations
 
@@ -68,7 +74,7 @@ class FreeRoom:
         pixels = np.column_stack([columns.ravel(), rows.ravel()]) + 0.5
         self._points = self._corner + pixels / self._px_per_cu
         self._largest = float(arrangement.radii.max())
-        # Lengths beyond that of the largest disc interests nobody.
+        # Room beyond that of the largest disc is not needed.
         self._most = self._largest + self._gap + 2 / self._px_per_cu
         self._room = np.minimum(self._wall.ravel(), self._most)
         self._heights: dict[int, FloatArray] = {}
@@ -119,7 +125,7 @@ class FreeRoom:
         if len(points) == 0:
             return None
         pixels, off = self._pixels(points)
-        # Lengths changes by no more than the way, so a look at the pixel drops most places.
+        # Room changes by no more than the way, so a look at the pixel drops most places.
         points = points[self._room[pixels] + off >= radius + self._gap]
         order = np.argsort(heights(points, item), kind="stable")
         for first in range(0, len(order), AT_ONCE):

@@ -1,4 +1,4 @@
-"""Items that come in one after another, from where an emitter lets them go."""
+"""Emitters: items that come in one after another while the others settle."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from packwork.progress import Stop
 from packwork.settle.settle import FIRST_TRUST, Settling
 
 STILL = 0.02
-"""Mean way of a round, in its bounds, below which nothing makes way any more for who waits.
+"""Mean way of a round, in its bounds, below which nothing makes way any more for the next item.
 Larger gives up on slow heaps, smaller waits in vain. Chosen."""
 
 AWAY = 1e3
@@ -48,7 +48,7 @@ class Spout:
     source
         The places.
     region
-        Lengths that a disc has to lie in.
+        Room that a disc has to lie in.
     gap
         Least distance to keep.
     rng
@@ -91,9 +91,9 @@ def pour(
     Parameters
     ----------
     settling
-        Its arrangement holds all items; nobody is active at first.
+        Its arrangement holds all items; none is active at first.
     queue
-        Who comes when.
+        ``(m,)`` indices of items, in the order in which they come.
     every
         Rounds between one item and the next.
     tell
@@ -117,7 +117,7 @@ def pour(
 
 
 def _send_away(settling: Settling) -> None:
-    """Put all items where they touch nobody."""
+    """Put all items where they touch nothing."""
     arrangement = settling.arrangement
     left, top, right, bottom = arrangement.container.bounds
     places = arrangement.places.copy()

@@ -1,4 +1,4 @@
-"""Items of a round pack in the small circle from which they settle best."""
+"""Round packs: items as discs in a small circle, from which they settle best."""
 
 from __future__ import annotations
 

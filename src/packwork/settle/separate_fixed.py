@@ -1,4 +1,8 @@
-"""Items that nearly lie clear of each other, eased apart at the sizes that they have."""
+"""Separation at fixed sizes: items that nearly lie clear of each other are moved apart.
+
+Items in conflict shrink and grow back by compaction; those that do not reach their size again
+are told.
+"""
 
 from __future__ import annotations
 

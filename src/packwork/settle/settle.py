@@ -1,4 +1,8 @@
-"""Rounds of small steps down the forces' heights until nothing goes lower: at rest."""
+"""Compaction down the forces' heights until nothing goes lower: at rest.
+
+The compaction of Z. Li and V. Milenkovic (1995, see :mod:`packwork.compaction`) with a potential
+as its objective; items also turn, and while steps are wide the way down sways to both sides.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +22,7 @@ from packwork.settle.steps import downward, inward
 
 FIRST_TRUST, LAST_TRUST = 0.25, 1e-2
 """First and last bound of a move, in sides of the square of an item's mean area. A larger
-first one falls faster and fails more checks; a smaller last one gains what nobody sees.
+first one falls faster and fails more checks; a smaller last one gains what is not seen.
 Tried."""
 
 NARROWING = 0.5
@@ -68,7 +72,7 @@ class Settling:
     gap
         Least distance that the check asks for.
     hair
-        The part of it that nobody asked for.
+        The part of it that was not asked for.
     side
         Longer side of the canvas.
     """

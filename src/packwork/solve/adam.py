@@ -1,4 +1,9 @@
-"""Adam with one step length per quantity (Kingma and Ba 2015)."""
+"""Adam with one step length per quantity.
+
+D. Kingma and J. Ba, "Adam: a method for stochastic optimization", ICLR 2015, arXiv:1412.6980. Ours
+shares the second moment among the components of an item, and ties epsilon to the size of the
+typical gradient.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Items that change places: those beside their kind, and those that crowd a part."""
+"""Exchanges of items between levels: away from their kind, among parts, down what forces ask."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Poses on their way: one Adam step after another."""
+"""Poses under optimisation: bounded steps of Adam."""
 
 from __future__ import annotations
 

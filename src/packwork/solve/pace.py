@@ -1,4 +1,4 @@
-"""How far a run has come: counted in epochs, or in seconds where a time was given."""
+"""Progress of a run: counted in epochs, or in seconds where a time was given."""
 
 from __future__ import annotations
 

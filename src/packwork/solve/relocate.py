@@ -1,7 +1,7 @@
-"""Trapped items move to the largest voids.
+"""Relocation of trapped items to the largest voids, between levels.
 
 An item wholly inside another sees the same adjoint all round: no force, no torque, only
-shrinking. Between levels, and half-way through the last, the worst are lifted out.
+shrinking. Between levels, and half-way through the last, the worst are moved out.
 """
 
 from __future__ import annotations

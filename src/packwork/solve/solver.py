@@ -1,4 +1,10 @@
-"""From first poses to good ones: levels, Adam, the herder between levels."""
+"""Image-space optimisation: from first poses to good ones by levels, Adam and relocations.
+
+Wang and Lu, "Image-Space Collage and Packing with Differentiable Rendering", SIGGRAPH 2025,
+doi:10.1145/3721238.3730690, arXiv:2406.04008. Ours renders the sum of coverages, with exact
+gradients on boundaries, works through a pyramid of outlines beside that of images, and relocates
+what is trapped.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Some items are kept in a part of the container, beside what keeps all of them in it."""
+"""Zones: a price and a pull that keep some items in a part of the container."""
 
 from __future__ import annotations
 

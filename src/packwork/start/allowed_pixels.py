@@ -1,4 +1,4 @@
-"""Where single items may begin: the pixels of their zone, or of the line they lie on."""
+"""Pixels in which single items may begin: those of their zone, or of the line that they lie on."""
 
 from __future__ import annotations
 

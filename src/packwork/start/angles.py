@@ -1,4 +1,4 @@
-"""First angles."""
+"""First angles of items, within limits or among choices."""
 
 from __future__ import annotations
 

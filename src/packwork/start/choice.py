@@ -1,4 +1,4 @@
-"""Which start suits a container."""
+"""Choice of the start that suits a container: medial axis where it is narrow."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Greedy start: each item, largest first, where there is most room."""
+"""Distance-field start: each item, largest first, at the centre of the largest empty circle.
+
+Wang and Lu 2025, section 3.4 (doi:10.1145/3721238.3730690).
+"""
 
 from __future__ import annotations
 

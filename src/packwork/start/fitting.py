@@ -1,4 +1,4 @@
-"""How large an outline can be in a void, by what is free in each direction."""
+"""Largest scale and turn of an outline in a void, by what is free in each direction."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Discs placed one after another: those that are bound to a place, then the largest."""
+"""Greedy placement of discs: those that are bound to a place first, then the largest."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Start along the container's middle line: larger items where it is wider."""
+"""Medial-axis start: items along the container's middle line, larger ones where it is wider.
+
+Wang and Lu 2025, section 3.4 (doi:10.1145/3721238.3730690).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Bad starts made good: buried items move to free places before the run begins."""
+"""Relocation of buried items to free places, before a run begins."""
 
 from __future__ import annotations
 

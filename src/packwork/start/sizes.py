@@ -1,4 +1,4 @@
-"""Scales to begin with."""
+"""First scales of items, from weights and areas."""
 
 from __future__ import annotations
 

@@ -1,4 +1,9 @@
-"""Voids between the items of a layout, and copies that fit into them."""
+"""Voids between the items of a layout, and copies that fit into them.
+
+Voids are maxima of a distance transform (largest empty circles); what is free in each direction
+is found by sphere tracing (J. Hart, "Sphere tracing: a geometric method for the antialiased ray
+tracing of implicit surfaces", The Visual Computer 12 (1996), 527-545, doi:10.1007/s003710050084).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,8 @@
-"""What keeps polygons in place apart: vertices against the edges and corners they could meet."""
+"""Contacts of polygons in place: vertices with the edges and corners that they could meet.
+
+The linear constraints of a compaction (Z. Li and V. Milenkovic 1995) without no-fit polygons: a
+convex vertex binds to each edge within reach that it sees from outside.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Distances of polygons in place, pair by pair.
+"""Distances of polygons in place, pair by pair, and the pairs that are near.
 
 All solids lie one after another in ``points``: first the items, last the container,
 whose rings run backwards, so that its solid is all that must not be entered. The outward

@@ -1,4 +1,8 @@
-"""Mehrotra's interior-point method for programmes whose rows touch one item or two.
+"""Primal-dual interior-point method for linear programmes whose rows touch one item or two.
+
+S. Mehrotra, "On the implementation of a primal-dual interior point method", SIAM Journal on
+Optimization 2 (1992), 575-601, doi:10.1137/0802028: a predictor step sets the centring of the
+corrector.
 
 Maximise ``gain . z`` with ``coefficients . z <= limits`` and ``low <= z <= high``; four
 unknowns an item. A row's second item of -1 is none: a wall, or an item that stands still.

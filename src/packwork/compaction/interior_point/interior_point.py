@@ -1,4 +1,9 @@
-"""Linear programmes whose rows touch one item or two."""
+"""Linear programmes whose rows touch one item or two, by an interior-point method.
+
+S. Mehrotra, "On the implementation of a primal-dual interior point method", SIAM Journal on
+Optimization 2 (1992), 575-601, doi:10.1137/0802028. Ours keeps the normal equations in an
+envelope of four unknowns an item, and starts from the layout as it is.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +19,7 @@ def maximise(
 ) -> FloatArray:
     """Unknowns ``(n, 4)`` within bounds and rows with nearly the largest total gain.
 
-    Mehrotra 1992. Starts from standing still; deterministic. The result may break rows by
+    Starts from standing still; deterministic. The result may break rows by
     a little: the caller checks.
 
     Parameters

@@ -1,4 +1,7 @@
-"""Rings with fewer vertices, by changes that only ever add to the solid."""
+"""Outer simplification: rings with fewer vertices, by changes that only ever add to the solid.
+
+Sources: ``outer_simplify.py``.
+"""
 
 from __future__ import annotations
 

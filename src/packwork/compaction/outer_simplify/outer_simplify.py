@@ -1,4 +1,12 @@
-"""Regions with few vertices that hold all of another, or lie inside it."""
+"""Outer and inner simplification: regions of few vertices that hold another, or lie in it.
+
+Vertices go one by one, the cheapest first, as in M. Visvalingam and J. Whyatt, "Line
+generalisation by repeated elimination of points", The Cartographic Journal 30 (1993), 46-51. Ours
+drops only vertices of bays, and edges by prolonging their neighbours, so that the solid grows and
+never shrinks; the cost is a distance, not an area. A plain simplification (D. Douglas and
+T. Peucker, "Algorithms for the reduction of the number of points required to represent a
+digitized line or its caricature", Cartographica 10 (1973), 112-122) with a margin comes first.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,9 @@
-"""Discs in the smallest circle about the origin: put one by one, squeezed, moved into holes.
+"""Circle packing about the origin: front chain, descent of squared overlaps, hops.
 
-``discs``: ``(n, 2)`` centres; what they lack of lying apart, and what they stick out of the
-circle, is squared and summed, with the circle's own square as a pressure.
+``discs``: ``(n, 2)`` centres. Overlaps of discs, and what they stick out of the circle, are
+squared and summed, with the circle's own square as a pressure, and go down by L-BFGS (J. Nocedal,
+"Updating quasi-Newton matrices with limited storage", Mathematics of Computation 35 (1980),
+773-782). Sources of the whole: ``packing.py``.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ STILL = 1e-5
 """Slope, in shares of the pressure's, at which a descent ends. Chosen."""
 
 MEMORY = 8
-"""Steps that a descent remembers (Nocedal 1980). Chosen."""
+"""Steps that a descent remembers. Chosen."""
 
 CURVED = 1e-12
 """Least curvature along a step that is remembered. Chosen."""
@@ -62,7 +64,7 @@ NOTHING = 1e-300
 
 @kernel
 def front_chain(radii, order, shift, aside):
-    """Discs one after another where they touch two and lie nearest to the origin.
+    """Front chain: discs one after another where they touch two and lie nearest to the origin.
 
     The first two touch each other across the origin, moved by ``shift`` along their line and
     by ``aside`` off it. ``order``: the largest first.
@@ -105,7 +107,7 @@ def _meet(x, y, own, discs, radii, j):
 def _touching(discs, radii, order, k, pair, best):
     """Put disc ``order[k]`` where it touches a pair, if that is free and better.
 
-    ``pair``: two discs, and who was in the way on either side the last time.
+    ``pair``: two discs, and which one was in the way on either side the last time.
     """
     i, a, b = order[k], pair[0], pair[1]
     along_x, along_y = discs[b, 0] - discs[a, 0], discs[b, 1] - discs[a, 1]
@@ -197,7 +199,7 @@ def _energy(z, radii, pairs, pressure, slope):
 
 @helper
 def _way_down(slope, steps, bends, count, way):
-    """Write the direction that the last steps and their changes of slope propose."""
+    """Write the direction of L-BFGS: two loops over the last steps and changes of slope."""
     shares = np.empty(MEMORY)
     way[:] = -slope
     latest = min(count, MEMORY)
@@ -267,7 +269,7 @@ def circle_of(discs, radii):
 
 @kernel
 def squeeze(discs, radii):
-    """Press discs together and spread them until none meet, in place; the circle's radius."""
+    """Minimise overlaps under pressure, then spread until none meet, in place; the radius."""
     n = radii.shape[0]
     z = np.empty(2 * n + 1)
     z[: 2 * n] = discs.ravel()
@@ -330,7 +332,7 @@ def _shake(discs, radii, circle, draws):
 
 @kernel
 def hop(discs, radii, draws):
-    """Try changes one after another and keep those with a smaller circle, in place; its radius.
+    """Monotonic basin hopping: keep hops with a smaller circle, in place; its radius.
 
     ``draws``: ``(k, m)`` numbers from 0 to 1, a row for each trial.
     """

@@ -1,4 +1,13 @@
-"""Where items, as discs, lie in a small circle: fronts about many centres, then trials."""
+"""Circle packing: discs, equal or not, in a small enclosing circle.
+
+Front chain: W. Wang, H. Wang, G. Dai and H. Wang, "Visualization of large hierarchical data by
+circle packing", CHI 2006, 517-520, doi:10.1145/1124772.1124851; ours looks at all pairs and not
+at the chain's alone, begins about several centres and takes the best. Then monotonic basin
+hopping: A. Grosso, A. Jamali, M. Locatelli and F. Schoen, "Solving the problem of packing equal
+and unequal circles in a circular container", Journal of Global Optimization 47 (2010), 63-81,
+doi:10.1007/s10898-009-9458-3; our hops move a disc of the rim into a hole, or shake some, and
+local minima are those of squared overlaps under a pressure, found by L-BFGS.
+"""
 
 from __future__ import annotations
 

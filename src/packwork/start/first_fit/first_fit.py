@@ -2,7 +2,9 @@
 
 First-fit decreasing, on pixels; among free places the one that touches most of what is
 there already, be it an item or the edge ("touching perimeter": Lodi, Martello and Vigo 1999,
-"Heuristic and metaheuristic approaches for a class of two-dimensional bin packing problems").
+"Heuristic and metaheuristic approaches for a class of two-dimensional bin packing problems",
+INFORMS Journal on Computing 11, 345-357, doi:10.1287/ijoc.11.4.345). Ours
+places outlines of any form, at several angles, and repeats with the failed item earlier.
 """
 
 from __future__ import annotations
