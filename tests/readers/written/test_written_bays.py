@@ -10,7 +10,6 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from packwork.pipeline.opening import opened
 
 from packwork.errors import ReadError
 from packwork.geometry.polygon import Region
@@ -21,6 +20,7 @@ from packwork.readers.written.read import read_written
 from packwork.recipe.piles import Side
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
+from packwork.uses.piles.opening import opened
 from packwork.writers import write
 from packwork.writers.registry import WriteOptions
 from packwork.writers.svg import SvgOptions

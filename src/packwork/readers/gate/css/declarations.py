@@ -22,7 +22,9 @@ LOST_PROPERTIES = {
 }
 """What is said of properties that browsers know and this reading does not."""
 
-_COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)|<!--|-->", re.DOTALL)
+COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)|<!--|-->", re.DOTALL)
+"""Comments, which may lack their end, and the brackets of old ones."""
+
 _IMPORTANT = re.compile(r"!\s*important\s*$", re.IGNORECASE)
 _HARMLESS = frozenset({"none", "auto", "normal", "initial", "0s", "1"})
 
@@ -56,7 +58,7 @@ def parse_declarations(text: str) -> Declarations:
     """
     found: dict[str, tuple[str, bool]] = {}
     lost: set[str] = set()
-    for declaration in _declarations(_COMMENT.sub(" ", text)):
+    for declaration in _declarations(COMMENT.sub(" ", text)):
         name, _, raw = (part.strip() for part in declaration.partition(":"))
         name = name if name.startswith(CUSTOM) else name.lower()
         is_important = "!" in raw and _IMPORTANT.search(raw) is not None

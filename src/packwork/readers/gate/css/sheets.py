@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from packwork.readers.account import spend
-from packwork.readers.gate.css.declarations import Declarations, parse_declarations
+from packwork.readers.gate.css.declarations import COMMENT, Declarations, parse_declarations
 from packwork.readers.gate.css.selectors import (
     Selector,
     UnknownSelectorError,
@@ -31,7 +31,6 @@ MAX_BLOCKS = 8
 _RULE_NS = 2e5
 """For reading a selector with its declarations. Measured."""
 
-_COMMENT = re.compile(r"/\*.*?(?:\*/|\Z)|<!--|-->", re.DOTALL)
 _MARK = re.compile(r"[{};]")
 _FEATURE = re.compile(r"\(\s*([\w-]+)\s*(?::\s*([^()]+?)\s*)?\)")
 _OPEN = frozenset({"supports", "layer"})
@@ -88,7 +87,7 @@ class Sheet:
         UnfitError
             If there are too many of them.
         """
-        plain = _COMMENT.sub(" ", text)
+        plain = COMMENT.sub(" ", text)
         if re.search(r"@import\b", plain):
             self.lost.add("other style sheets")
         self._add(plain, "", 0)

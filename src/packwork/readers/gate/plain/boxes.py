@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Sequence
 
 import numpy as np
 
@@ -19,6 +20,7 @@ MAX_DEPTH = 12
 
 _SHAPE_NS = 4e5
 _FINE = 1e-4
+_SIDES = {"left": 0.0, "top": 0.0, "center": 0.5, "right": 1.0, "bottom": 1.0}
 
 Box = tuple[float, float, float, float]
 """Left, top, width and height."""
@@ -40,6 +42,24 @@ def fill_box(element: ET.Element, by_id: dict[str, ET.Element], viewport: Viewpo
         return None
     (left, top), (width, height) = points.min(axis=0).tolist(), np.ptp(points, axis=0).tolist()
     return left, top, width, height
+
+
+def place_in(box: Box, words: Sequence[str]) -> tuple[float, float]:
+    """Point of a box that CSS names by up to two words, across and down, or the other way round.
+
+    Examples
+    --------
+    >>> place_in((10.0, 0.0, 4.0, 8.0), ["top"]), place_in((10.0, 0.0, 4.0, 8.0), ["25%", "1"])
+    ((12.0, 0.0), (11.0, 1.0))
+    """
+    across, down = [*words, "center", "center"][:2]
+    if across in {"top", "bottom"} or down in {"left", "right"}:
+        across, down = down, across
+    x, y = (
+        box[k] + (_SIDES[w] * box[2 + k] if w in _SIDES else parse_length(w, box[2 + k]) or 0.0)
+        for k, w in enumerate((across, down))
+    )
+    return x, y
 
 
 def _points(

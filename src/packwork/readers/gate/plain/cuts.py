@@ -6,7 +6,7 @@ import re
 import xml.etree.ElementTree as ET
 
 from packwork.readers.gate.css.selectors import split_outside
-from packwork.readers.gate.plain.boxes import Box, fill_box
+from packwork.readers.gate.plain.boxes import Box, fill_box, place_in
 from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, view_box
 from packwork.readers.svg_syntax.references import elements_by_id
@@ -19,8 +19,6 @@ _SHAPE = re.compile(
 _QUOTED = re.compile(r"['\"](.*)['\"]", re.DOTALL)
 _ROUND_LINES = frozenset({"", "border-box", "stroke-box", "margin-box"})
 """Boxes that hold the line too; without a word it is one of these."""
-
-_SIDES = {"left": 0.0, "top": 0.0, "center": 0.5, "right": 1.0, "bottom": 1.0}
 
 
 def settle_cuts(root: ET.Element, page: Page | None) -> None:
@@ -91,7 +89,7 @@ def _stencil(kind: str, text: str, box: Box) -> ET.Element:
 
 def _round(kind: str, text: str, box: Box) -> ET.Element:
     radii, _, place = text.partition("at ")
-    x, y = _place(place.split() or ["center", "center"], box)
+    x, y = place_in(box, place.split())
     sides = (x - box[0], box[0] + box[2] - x, y - box[1], box[1] + box[3] - y)
     diagonal = ((box[2] ** 2 + box[3] ** 2) / 2) ** 0.5
     words = radii.split() or ["closest-side"]
@@ -111,21 +109,10 @@ def _radius(word: str, whole: float, ends: dict[str, float]) -> float:
     return ends[word] if word in ends else max(0.0, parse_length(word, whole) or 0.0)
 
 
-def _place(words: list[str], box: Box) -> tuple[float, float]:
-    words = [*words, "center"][:2]
-    if words[0] in {"top", "bottom"} or words[1] in {"left", "right"}:
-        words.reverse()
-    x, y = (
-        box[k] + (_SIDES[w] * box[2 + k] if w in _SIDES else parse_length(w, box[2 + k]) or 0.0)
-        for k, w in enumerate(words)
-    )
-    return x, y
-
-
 def _polygon(text: str, box: Box) -> ET.Element:
     parts = [part.split() for part in split_outside(text, ",")]
     rule = parts.pop(0)[0] if parts and parts[0] in (["evenodd"], ["nonzero"]) else "nonzero"
-    points = [_place(part, box) for part in parts if len(part) == 2]
+    points = [place_in(box, part) for part in parts if len(part) == 2]
     written = " ".join(f"{x:.12g},{y:.12g}" for x, y in points)
     return ET.Element("polygon", {"points": written, "clip-rule": rule})
 

@@ -13,7 +13,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.gate.plain.boxes import Box, fill_box
+from packwork.readers.gate.plain.boxes import Box, fill_box, place_in
 from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, view_box
 from packwork.readers.svg_syntax.references import elements_by_id
@@ -23,8 +23,6 @@ from packwork.readers.svg_syntax.vocabulary import CSS_MOVES
 ORIGIN, BOX = "transform-origin", "transform-box"
 
 _SHARED = re.compile(r"(translate[xy]?)\s*\(([^()]*%[^()]*)\)", re.IGNORECASE)
-_SIDES = {"left": 0.0, "top": 0.0, "center": 0.5, "right": 1.0, "bottom": 1.0}
-_ACROSS, _DOWN = frozenset({"left", "right"}), frozenset({"top", "bottom"})
 _OWN_BOXES = frozenset({"fill-box", "stroke-box", "content-box", "border-box"})
 
 
@@ -68,7 +66,7 @@ def _settle(
     for name, read in _READERS.items():
         matrix = affine.compose(matrix, read(element.attrib.pop(name, "none"), box))
     matrix = affine.compose(matrix, parse_transform(own))
-    x, y = _origin(origin or "0 0", box)
+    x, y = place_in(box, (origin or "0 0").lower().split())
     there, back = affine.similarity(x, y, 0.0, 1.0), affine.similarity(-x, -y, 0.0, 1.0)
     numbers = affine.compose(affine.compose(there, matrix), back).T.ravel()
     element.set("transform", f"matrix({' '.join(f'{number:.12g}' for number in numbers)})")
@@ -101,16 +99,3 @@ def _scaled(text: str, _: Box) -> FloatArray:
 
 _NOTHING = affine.identity()
 _READERS = {"css-translate": _translated, "css-rotate": _turned, "css-scale": _scaled}
-
-
-def _origin(text: str, box: Box) -> tuple[float, float]:
-    words = text.lower().split()[:2]
-    if len(words) == 1:
-        words = ["center", *words] if words[0] in _DOWN else [*words, "center"]
-    if words[0] in _DOWN or words[1] in _ACROSS:
-        words.reverse()
-    places = [
-        box[k] + (_SIDES[w] * box[2 + k] if w in _SIDES else parse_length(w, box[2 + k]) or 0.0)
-        for k, w in enumerate(words)
-    ]
-    return places[0], places[1]
