@@ -108,7 +108,7 @@ def test_empty_folder(tmp_path):
 
 def test_folder_of_unusable_files(tmp_path):
     (tmp_path / "bad.svg").write_text("")
-    with pytest.raises(ReadError, match="none of 1 files can be used"):
+    with pytest.raises(ReadError, match="its one file cannot be used"):
         read_items(tmp_path)
 
 

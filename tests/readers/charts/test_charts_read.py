@@ -165,7 +165,7 @@ def test_marks_go_to_the_values_of_their_names() -> None:
         (LANDS, {"size_by": "kg", "unit": 1e-99}, "more than 1,000,000,000 marks; .* --unit 0.01"),
         ([{"a": 1}, {"a": 1e9}], {"size_by": "a"}, "at most 1e\\+06 can be shown"),
         (LANDS, {"mark": ("circle", "star")}, "say which row has which"),
-        (LANDS, {"mark": ("star",), "mark_by": "land"}, "2 values for 1 marks"),
+        (LANDS, {"mark": ("star",), "mark_by": "land"}, "2 values for 1 mark;"),
         ([], {}, "has no rows"),
         (LANDS, {"paper": "x"}, "paper: 'x' is no colour"),
     ],
