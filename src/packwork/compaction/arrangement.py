@@ -57,7 +57,7 @@ class Arrangement:
         return np.asarray(self.board.arms * np.exp(self.places[:, 3]))
 
     def put(self, items: IntArray, places: FloatArray) -> None:
-        """Place some items; ``places`` has one row for each of them.
+        """Put items ``(m,)`` to places ``(m, 4)``: x, y, turn, growth, as in the class.
 
         Examples
         --------
@@ -82,11 +82,11 @@ class Arrangement:
         return np.concatenate([found[:count], wall])
 
     def distances(self, pairs: IntArray, reach: float) -> FloatArray:
-        """Distance of each pair: 0 if they meet, ``reach`` if it is not below that."""
+        """``(k,)`` distances of pairs ``(k, 2)``, canvas units: 0 if they meet, or ``reach``."""
         return np.asarray(distances.distances(self.board, pairs, reach))
 
     def rings(self, items: IntArray) -> tuple[FloatArray, IntArray]:
-        """Points of some items in place, and the starts of their rings, as for a renderer."""
+        """Points ``(p, 2)`` of items ``(m,)`` in place, and starts of their rings ``(r + 1,)``."""
         chosen = np.isin(self._ring_items, items)
         sizes = self._ring_sizes[chosen]
         of_items = self.board.points[: self.board.starts[-2]]
@@ -94,7 +94,7 @@ class Arrangement:
         return points, np.concatenate([[0], np.cumsum(sizes)])
 
     def conflicts(self, pairs: IntArray, gap: float) -> IntArray:
-        """Those of the pairs that are nearer than ``gap``, meet, or are not inside.
+        """Those of pairs ``(k, 2)`` nearer than ``gap``, canvas units, that meet or stick out.
 
         Examples
         --------

@@ -46,7 +46,7 @@ def compact(
     objective
         Bounds and worths of all items.
     items
-        Those that move, neighbours near each other in the list.
+        ``(m,)`` indices of those that move, neighbours near each other in the list.
     trust
         Bound of each move, and of turns and growths at an item's farthest vertex.
     gap
@@ -66,7 +66,7 @@ def compact(
 
 
 def worth(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:
-    """What some items are worth together; less for those out of their bounds.
+    """Worth of items ``(m,)`` together; less for those out of their bounds.
 
     Examples
     --------

@@ -67,7 +67,7 @@ class Detail:
         return Detail(outlines, container, self._poses)
 
     def some(self, items: IntArray, poses: Poses) -> Detail:
-        """The same of some items, as they are now: of the same sizes, in other poses."""
+        """The same of items ``(m,)``, by their indices: of the same sizes, in other poses."""
         return Detail([self._outlines[int(k)] for k in items], self._container, poses.some(items))
 
     def arrangement(self, places: FloatArray) -> Arrangement:

@@ -40,12 +40,12 @@ AREA_POWER = 2.0
 """Area goes with the square of the scale."""
 
 SIZE_TOLERANCE = 1e-3
-"""Logarithm of size below which nobody is too small: steps end a little off their bounds,
+"""Logarithm of size below which no item is too small: steps end a little off their bounds,
 and a thousandth is not seen. Chosen."""
 
 
 class Sizing(ABC):
-    """A size mode: what to wish for in the next round, and who stayed behind.
+    """A size mode: objective of the next round, and the items that stayed behind.
 
     Parameters
     ----------
@@ -61,24 +61,24 @@ class Sizing(ABC):
 
     @abstractmethod
     def objective(self, growth: FloatArray, spread: float) -> Objective:
-        """Bounds and worths at these growths; ``spread``: the most that one step grows."""
+        """Objective at growths ``(n,)``, logarithms; ``spread``: the most that one step grows."""
 
     @abstractmethod
     def laggards(self, growth: FloatArray) -> IntArray:
-        """Items much smaller than they may be, or than the others are."""
+        """Indices of items whose growths ``(n,)`` are far below their bounds or the others'."""
 
     def undersized(self, growth: FloatArray) -> tuple[int, ...]:
-        """Items smaller than they have to be; none where sizes are common."""
+        """Indices of items whose growths ``(n,)`` are below their bounds; none of common sizes."""
         return ()
 
     @abstractmethod
     def is_done(self, growth: FloatArray) -> bool:
-        """Whether nothing is left to wish for."""
+        """Whether the objective is reached at growths ``(n,)``, logarithms."""
 
 
 @final
 class FreeSizes(Sizing):
-    """Each item within its own bounds, all area worth the same.
+    """Free sizes: each item within its own bounds, all area worth the same.
 
     ``smallest``, ``largest``: ``(n,)`` logarithms of growth.
     """
@@ -94,26 +94,26 @@ class FreeSizes(Sizing):
         self.smallest, self.largest = smallest, largest
 
     def objective(self, growth: FloatArray, spread: float) -> Objective:
-        """Bounds and worths, the same in all rounds."""
+        """Objective at growths ``(n,)``, logarithms: the same in all rounds."""
         worths = AREA_POWER * self.areas
         still = np.zeros((len(growth), 2))
         return Objective(self.smallest, self.largest, *self.turns, worths, AREA_POWER, still)
 
     def laggards(self, growth: FloatArray) -> IntArray:
-        """Items below their smallest size."""
+        """Indices of items whose growths ``(n,)`` are below their smallest size."""
         return np.flatnonzero(growth < self.smallest - LAGGARD)
 
     def undersized(self, growth: FloatArray) -> tuple[int, ...]:
-        """Those below their smallest size."""
+        """Indices of items whose growths ``(n,)`` are below their smallest size."""
         return tuple(int(k) for k in np.flatnonzero(self.smallest - growth > SIZE_TOLERANCE))
 
     def is_done(self, growth: FloatArray) -> bool:
-        """False: there is always room to grow into, unless all are as large as they may."""
+        """Whether all growths ``(n,)``, logarithms, are as large as they may be."""
         return bool((growth >= self.largest).all())
 
 
 class CommonSize(Sizing):
-    """One common factor: the smallest is worth most."""
+    """Sizes of one common factor: growth of the smallest item is worth most."""
 
     def _objective(self, growth: FloatArray, spread: float, largest: FloatArray) -> Objective:
         """Worths that rise with how far an item is behind the median, in ``spread``."""
@@ -128,41 +128,41 @@ class CommonSize(Sizing):
 
 @final
 class SharedSize(CommonSize):
-    """As large as goes; none runs far ahead of the smallest."""
+    """Shared sizes: one common factor, as large as possible."""
 
     def objective(self, growth: FloatArray, spread: float) -> Objective:
-        """An aim a little above the smallest; the farther behind, the worthier."""
+        """Objective at growths ``(n,)``, logarithms: bounds a little above the smallest."""
         largest = np.maximum(growth, growth.min() + AHEAD * spread)
         return self._objective(growth, spread, largest)
 
     def levelling(self, growth: FloatArray, back: float) -> Objective:
-        """All smaller than the smallest by ``back``, a logarithm, and no more."""
+        """Objective at growths ``(n,)``: all smaller than the smallest by ``back``, logarithms."""
         aim = np.full_like(growth, growth.min() - back)
         return Objective(aim, aim, *self.turns, np.exp(-growth), 1.0, np.zeros((len(growth), 2)))
 
     def laggards(self, growth: FloatArray) -> IntArray:
-        """Items far smaller than most."""
+        """Indices of items whose growths ``(n,)`` are far below most."""
         return np.flatnonzero(growth < np.median(growth) - LAGGARD)
 
     def is_done(self, growth: FloatArray) -> bool:
-        """False: there is always room to grow into."""
+        """False at any growths ``(n,)``, logarithms: there is always room to grow into."""
         return False
 
 
 @final
 class FixedSize(CommonSize):
-    """The sizes as they are: all that was shrunk to come free grows back, no farther."""
+    """Fixed sizes: items that were shrunk grow back to growth 0, no farther."""
 
     def objective(self, growth: FloatArray, spread: float) -> Objective:
-        """Back to growth 0; the farther behind, the worthier."""
+        """Objective at growths ``(n,)``, logarithms: back to 0, the farther behind the worthier."""
         return self._objective(growth, spread, np.maximum(growth, OVERSHOOT))
 
     def laggards(self, growth: FloatArray) -> IntArray:
-        """Items far from back."""
+        """Indices of items whose growths ``(n,)`` are far below 0."""
         return np.flatnonzero(growth < -LAGGARD)
 
     def is_done(self, growth: FloatArray) -> bool:
-        """Whether all are back."""
+        """Whether all growths ``(n,)``, logarithms, are at 0 or above."""
         return bool((growth >= 0).all())
 
 

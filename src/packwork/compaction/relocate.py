@@ -34,7 +34,7 @@ believed. Chosen."""
 
 
 def relocate(arrangement: Arrangement, items: IntArray, gap: float) -> None:
-    """Move items, the largest first, to where most room is left; smaller, never larger.
+    """Move items ``(m,)``, the largest first, to the largest voids; smaller, never larger.
 
     An item for which there is no room stays where it is.
     """
@@ -55,7 +55,7 @@ def relocate(arrangement: Arrangement, items: IntArray, gap: float) -> None:
 def free_room(
     arrangement: Arrangement, items: IntArray
 ) -> tuple[Clearance, float, tuple[float, float]]:
-    """Free room when only ``items`` are there; px per canvas unit; the image's corner."""
+    """Free room beside ``items`` ``(m,)`` alone; px per canvas unit; the image's corner."""
     left, top, right, bottom = arrangement.container.bounds
     side = max(right - left, bottom - top)
     wanted = PIXELS_PER_ITEM * np.sqrt(arrangement.count)

@@ -34,7 +34,7 @@ HOPELESS_SHARE = 0.1
 lie where nothing fits. Larger goes on without hope, smaller gives up too early. Chosen."""
 
 EVENINGS = 6
-"""Times that all come down to the smallest: who is smaller is in no new conflict but where
+"""Times that all come down to the smallest: an item that is smaller is in no new conflict but where
 its origin lies off its outline. Tried: more gain nothing."""
 
 EVEN = 1e-6
@@ -42,7 +42,7 @@ EVEN = 1e-6
 
 
 def separate(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS) -> IntArray:
-    """Make items in conflict smaller until none is; the items that had to be moved.
+    """Make items in conflict smaller until none is; ``(m,)`` indices of the items that were moved.
 
     Only items in conflict change. Some conflicts may be left, if the container has no
     room at all.
@@ -80,7 +80,7 @@ def separate(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS
             relocate(arrangement, hopeless, gap)
             first[hopeless] = arrangement.places[hopeless, 3]
             moved += hopeless.tolist()
-        # All in conflict have changed: nobody else can be in one now.
+        # All in conflict have changed: no other pair can be in one now.
         changed = np.isin(np.arange(arrangement.count + 1), items)
         near = arrangement.pairs(gap)
         near = near[changed[near].any(axis=1)]
@@ -88,7 +88,7 @@ def separate(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS
 
 
 def relocate_stuck(arrangement: Arrangement, gap: float) -> bool:
-    """Whether few items, if any, are still in conflict after being parted, and moved to voids.
+    """Relocate items still in conflict to voids and separate again; whether few are left.
 
     Items that are next to nothing and yet too near each other ask for more room than there
     is: nothing that a finish could do would change that.
@@ -120,14 +120,14 @@ def separate_evenly(arrangement: Arrangement, gap: float) -> None:
     True
     """
     separate(arrangement, gap)
-    everyone = np.arange(arrangement.count)
+    all_items = np.arange(arrangement.count)
     for _ in range(EVENINGS):
         places = arrangement.places.copy()
         least = places[:, 3].min()
         if np.ptp(places[:, 3]) < EVEN:
             return
         places[:, 3] = least
-        arrangement.put(everyone, places)
+        arrangement.put(all_items, places)
         separate(arrangement, gap)
 
 

@@ -20,7 +20,7 @@ def box_mean(image: Image, size: int) -> Image:
     Parameters
     ----------
     image
-        float32 or float64, contiguous.
+        ``(rows, columns)``, float32 or float64, contiguous.
     size
         Odd, at least 1.
 

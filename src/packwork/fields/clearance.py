@@ -12,7 +12,7 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 
 
 def distance_inside(mask: BoolArray) -> FloatArray:
-    """Distance of each True pixel's centre from the mask's edge, in pixels; 0 outside.
+    """Distance ``(rows, columns)`` of each True pixel's centre from the mask's edge, px; 0 outside.
 
     What lies off the image counts as outside.
 
@@ -32,7 +32,7 @@ class Clearance:
     Parameters
     ----------
     free
-        True where there is room.
+        ``(rows, columns)``, True where there is room.
 
     Examples
     --------

@@ -12,7 +12,7 @@ from packwork.arrays import BoolArray, FloatArray
 
 
 def distance_to(mask: BoolArray) -> FloatArray:
-    """Distance of each pixel's centre from the nearest True one's; infinite if there is none.
+    """Distance ``(rows, columns)``, px, of pixels from the nearest True one; infinite without one.
 
     Examples
     --------
@@ -25,7 +25,7 @@ def distance_to(mask: BoolArray) -> FloatArray:
 
 
 def closed(mask: BoolArray, radius_px: float) -> BoolArray:
-    """Region with all its bays and gaps filled that no disc of a radius can enter.
+    """Closing of a mask ``(rows, columns)``: what a disc of a radius, px, cannot enter is filled.
 
     What lies off the image counts as outside.
 
@@ -43,7 +43,7 @@ def closed(mask: BoolArray, radius_px: float) -> BoolArray:
 
 
 def opened(mask: BoolArray, radius_px: float) -> BoolArray:
-    """All places of a region that a disc of a radius inside it can cover.
+    """Opening of a mask ``(rows, columns)``: what a disc of a radius, px, inside it can cover.
 
     What lies off the image counts as outside.
 

@@ -53,7 +53,7 @@ class Thickness:
 
 
 def thickness(mask: BoolArray, reach_px: float) -> Thickness:
-    """Thickness of a region that holds at least one pixel.
+    """Thickness of a mask ``(rows, columns)`` that holds at least one pixel; lengths in pixels.
 
     Examples
     --------

@@ -28,7 +28,7 @@ def admitted(
     fillers: int,
     gap_cu: float,
 ) -> tuple[IntArray, Poses]:
-    """Who may stay, and the poses of those: no two of them in conflict.
+    """``(m,)`` indices of the items that stay, and their poses: no two of them in conflict.
 
     The last ``fillers`` items shrink until they are free of all others; those that do
     not come free are left out. All others stay as they are.
@@ -53,8 +53,8 @@ def admitted(
     >>> poses = Poses(
     ...     np.array([3.0, 7.9, 3.2]), np.full(3, 5.0), np.zeros(3), np.array([2.8, 2.4, 0.1])
     ... )
-    >>> who, stay = admitted(wall, [box] * 3, poses, 2, 0.0)
-    >>> who.tolist(), bool(2 < stay.scale[1] < 2.1)
+    >>> kept, stay = admitted(wall, [box] * 3, poses, 2, 0.0)
+    >>> kept.tolist(), bool(2 < stay.scale[1] < 2.1)
     ([0, 1], True)
     """
     gap = gap_cu + HAIR * container.side

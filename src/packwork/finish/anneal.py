@@ -112,7 +112,7 @@ def anneal(
     tell: Callable[[int], None] | None = None,
     pulling: Pulling | None = None,
 ) -> int:
-    """Try to turn or exchange items; how many trials were kept.
+    """Anneal a compacted layout by turns and exchanges of items; how many trials were kept.
 
     The arrangement has no conflicts and gets none. Where all area is worth the same, a
     trial may lose a little and be kept: ever less, at last nothing.
@@ -122,7 +122,7 @@ def anneal(
     arrangement
         Changed in place.
     objective_at
-        What to wish for at given growths; asked again after each trial.
+        Objective and bounds at places ``(n, 4)``; asked again after each trial.
     trials
         How many.
     room
@@ -134,7 +134,7 @@ def anneal(
     tell
         Called with the number of each trial, once it has been kept or undone.
     pulling
-        What else counts beside sizes; None for nothing.
+        Forces that count beside sizes; None for none.
     """
     objective = objective_at(arrangement.places)
     can_turn = bool((objective.backmost < objective.foremost).any())
@@ -180,19 +180,19 @@ def anneal(
 def _value(
     arrangement: Arrangement, objective: Objective, items: IntArray, pulling: Pulling | None
 ) -> float:
-    """What some items are worth together, less what forces charge for all."""
+    """Worth of some items together, less the cost of forces on all."""
     cost = 0.0 if pulling is None else pulling.cost(arrangement.places)
     return worth(arrangement, objective, items) - cost
 
 
 def _shortfall(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:
-    """How far some items are below their smallest sizes, as logarithms, in all."""
+    """Sum of how far some items are below their smallest sizes, logarithms."""
     growth = arrangement.places[items, 3]
     return float(np.maximum(objective.smallest[items] - growth - ROUNDING, 0.0).sum())
 
 
 def _sweep(arrangement: Arrangement, objective: Objective, room: Lengths, turn: int) -> None:
-    """Let all items grow."""
+    """Rounds of compaction over all items."""
     for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * room.spacing):
         for block in blocks(arrangement.places[:, :2], turn + index):
             compact(arrangement, objective, block, trust, room.gap, room.hair)
@@ -205,7 +205,7 @@ def put_best(
     candidates: FloatArray,
     room: Lengths,
 ) -> bool:
-    """Put ``moved`` to the best of some candidate places; False if none comes clear.
+    """Put items ``(m,)`` to the best of candidate places ``(k, m, 4)``; False if none fits.
 
     The best is the one where they grow to the largest worth in a few rounds, all others
     standing still.
@@ -246,7 +246,7 @@ def _grow(
 def _turned(
     arrangement: Arrangement, smallest_first: bool, rng: np.random.Generator
 ) -> tuple[IntArray, FloatArray]:
-    """Any one item where it is; mostly one of the smallest, if those come first."""
+    """Trial that turns one item; mostly one of the smallest, if those come first."""
     pool = np.arange(arrangement.count)
     if smallest_first and rng.random() < BEHIND_SHARE:
         order = np.argsort(arrangement.places[:, 3], kind="stable")
@@ -258,7 +258,7 @@ def _turned(
 def _exchanged(
     arrangement: Arrangement, rng: np.random.Generator, pulling: Pulling | None
 ) -> tuple[IntArray, FloatArray]:
-    """Two items of like size, each where the other was and as large."""
+    """Trial that exchanges two items of like size, each as large as the other was."""
     radii = arrangement.radii
     i = int(rng.integers(arrangement.count))
     alike = least_of(np.abs(np.log(radii / radii[i])), ALIKE + 1)
@@ -274,7 +274,7 @@ def _exchanged(
 
 
 def least_of(values: FloatArray, count: int) -> IntArray:
-    """Indices of the smallest values, in order; of equal ones the first.
+    """Indices of the smallest of values ``(n,)``, in order; of equal ones the first.
 
     Examples
     --------

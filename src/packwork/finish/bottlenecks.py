@@ -15,15 +15,15 @@ from packwork.compaction.relocate import free_room
 from packwork.finish.anneal import Lengths, at_angles, put_best
 
 LOWEST, MOST_SUSPECTS = 3, 10
-"""How many of the smallest items, and how many of them and of whom they touch, are
-suspected of holding all back. More take longer and find little more. Tried."""
+"""How many of the smallest items, and how many of them and of those they touch, are taken for
+bottlenecks. More take longer and find little more. Tried."""
 
 TOUCHING = 0.05
 """Gap within which items touch, shares of the side of an item's share of the container.
 Tried."""
 
 VOIDS = 8
-"""Largest voids that a suspect is tried in. More take longer. Tried."""
+"""Largest voids that a bottleneck is tried in. More take longer. Tried."""
 
 SMALLEST_VOID = 1.0
 """Radius of the smallest of them, px of the image of voids. Chosen."""
@@ -50,7 +50,9 @@ VOID_SPREAD = 0.05
 
 
 def bottlenecks(arrangement: Arrangement, spacing: float) -> IntArray:
-    """The smallest items and whom they touch, small ones first: those find a place soonest.
+    """``(m,)`` indices of the smallest items and those that they touch, small ones first.
+
+    ``spacing``: side of an item's share of the container, canvas units.
 
     Examples
     --------
@@ -80,7 +82,7 @@ def relocate_bottleneck(
     room: Lengths,
     rng: np.random.Generator,
 ) -> bool:
-    """Put an item, turned, where among the largest voids it grows most; False for nowhere.
+    """Relocate an item, turned, to the void in which it grows most; False for nowhere.
 
     All others stand still. Where False, the arrangement may have conflicts.
     """

@@ -33,7 +33,7 @@ from packwork.scene.pose import Poses
 FIRST_TRUST, LAST_TRUST = 0.08, 0.003
 """Trust region of the first and the last round, shares of the side of an item's share of
 the container. A larger first one lets items pass each other and fails more checks, a
-smaller last one gains what nobody sees. Tried."""
+smaller last one gains what is not seen. Tried."""
 
 REFINING_TRUST = 0.03
 """The same of the first round where a clean layout is refined. Larger moves what lies well,
@@ -233,7 +233,7 @@ class _Run:
             self._relieve(range(count // 2, count))
 
     def _relieve(self, rounds: range) -> None:
-        """Move who holds all others back to a void, as long as that lets all grow."""
+        """Relocate bottlenecks to voids, as long as that lets all grow."""
         left = bottlenecks.TRIES // self.arrangement.count
         while left > 0 and not self._stop():
             found = bottlenecks.bottlenecks(self.arrangement, self._spacing)[:left]
@@ -252,7 +252,7 @@ class _Run:
 
     def _helps(self, item: int, rounds: range) -> bool:
         """Whether all can grow once an item has moved to a void; else undone."""
-        arrangement, everyone = self.arrangement, np.arange(self.arrangement.count)
+        arrangement, all_items = self.arrangement, np.arange(self.arrangement.count)
         before = arrangement.places.copy()
         least = before[:, 3].min()
         objective = self._objective(before, bottlenecks.VOID_SPREAD)
@@ -266,7 +266,7 @@ class _Run:
             self._is_trying = False
             if arrangement.places[:, 3].min() >= least + bottlenecks.RELIEF:
                 return True
-        arrangement.put(everyone, before)
+        arrangement.put(all_items, before)
         return False
 
     def refine(self) -> None:
@@ -374,18 +374,18 @@ class _Run:
 
     def _put_at_one_size(self) -> bool:
         """Make all as small as the smallest; False, and undone, if that makes a conflict."""
-        arrangement, everyone = self.arrangement, np.arange(self.arrangement.count)
+        arrangement, all_items = self.arrangement, np.arange(self.arrangement.count)
         before = arrangement.places.copy()
         level = before.copy()
         level[:, 3] = before[:, 3].min()
-        arrangement.put(everyone, level)
+        arrangement.put(all_items, level)
         if len(arrangement.conflicts(arrangement.pairs(self.gap), self.gap)) == 0:
             return True
-        arrangement.put(everyone, before)
+        arrangement.put(all_items, before)
         return False
 
     def _tell(self, done: float) -> None:
-        # What is only tried may be undone: nobody is to see it.
+        # What is only tried may be undone, and is not told.
         if self._observer is None or self._is_trying:
             return
         growth = self.arrangement.places[:, 3]

@@ -28,7 +28,7 @@ MOST_ROUNDS = 400
 """Times at most: by then items are a fifth of what they were. Chosen."""
 
 
-def settled(
+def separate_pinned(
     container: Container,
     outlines: Sequence[Outline],
     poses: Poses,
@@ -36,7 +36,7 @@ def settled(
     items: IntArray,
     gap: float,
 ) -> Poses:
-    """Poses in which some items, looked at alone, are no nearer than ``gap``, if that can be.
+    """Poses in which some items, without the others, are no nearer than ``gap``, if that can be.
 
     Those in conflict shrink as far as they may, and move along the line that they are
     pinned to, if it is one.
@@ -48,7 +48,7 @@ def settled(
     limits
         Of all items.
     items
-        Which to settle.
+        ``(m,)`` indices of those to separate.
 
     Examples
     --------
@@ -59,7 +59,7 @@ def settled(
     >>> limits = replace(
     ...     Limits.free(2), x=two.x, y=two.y, smallest=np.array([0.1, 1.0]), largest=np.ones(2)
     ... )
-    >>> free = settled(wall, [tile] * 2, two, limits, np.arange(2), 0.1)
+    >>> free = separate_pinned(wall, [tile] * 2, two, limits, np.arange(2), 0.1)
     >>> bool(free.scale[0] < 0.81), float(free.scale[1]), free.x.tolist()
     (True, 1.0, [4.0, 5.9])
     """

@@ -41,7 +41,7 @@ class Pulling:
     gives_way: bool
 
     def cost(self, places: FloatArray) -> float:
-        """What it costs that items lie at places ``(n, 4)``."""
+        """Cost of items at places ``(n, 4)``, in the unit of worths."""
         return self.unit * self.forces.cost(places[:, :2], self.areas).value
 
     def pushed(self, objective: Objective, arrangement: Arrangement) -> Objective:
@@ -55,9 +55,9 @@ class Pulling:
         return objective._replace(push=np.ascontiguousarray(push))
 
     def gains(self, places: FloatArray, item: int, others: IntArray) -> FloatArray:
-        """``(m,)`` what it would gain, about, that an item changes places with each of others.
+        """``(m,)`` gain, about, of an exchange of an item with each of others ``(m,)``.
 
-        Nothing with copies of the same thing.
+        In the unit of worths, at places ``(n, 4)``; 0 for copies of the same thing.
         """
         points = places[:, :2]
         there = self.forces.cost_changes(points, self.areas, points[others])[item]

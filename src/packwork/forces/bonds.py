@@ -68,12 +68,12 @@ class Alignment:
         return _about(across, group.areas, NARROW * group.side)
 
     def changes(self, group: Group, places: FloatArray) -> FloatArray:
-        """As each lay nearer to the line of all, or farther from it."""
+        """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         across, there = (at * (np.arange(2) == self.axis) for at in (group.points, places))
         return _about_elsewhere(across, group.areas, NARROW * group.side, there)
 
     def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
-        """Distance from the line through the others."""
+        """``(m,)`` heights, canvas units, of points ``(m, 2)``: by distance from the line."""
         return _alone((points - anchor) * (np.arange(2) == self.axis), NARROW * side)
 
 
@@ -105,7 +105,7 @@ class Together:
         return parts, slopes
 
     def changes(self, group: Group, places: FloatArray) -> FloatArray:
-        """As each lay nearer to its kind, or farther from it."""
+        """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         kinds: IntArray = np.zeros_like(group.kinds) if self.is_one else group.kinds
         found = np.zeros((len(kinds), len(places)))
         for kind in np.unique(kinds):
@@ -114,7 +114,7 @@ class Together:
         return found
 
     def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
-        """Distance from the others."""
+        """``(m,)`` heights, canvas units, of points ``(m, 2)``: by distance from the others."""
         return _alone(points - anchor, side)
 
 
@@ -143,13 +143,13 @@ class Home:
         return parts, group.areas[:, None] * off / group.side
 
     def changes(self, group: Group, places: FloatArray) -> FloatArray:
-        """As each lay nearer to its home, or farther from it."""
+        """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         before = (np.nan_to_num(group.points - self.places) ** 2).sum(axis=1)
         after = np.nan_to_num(_squares(self.places, places))
         return np.asarray(group.areas[:, None] * (after - before[:, None]) / (2 * group.side))
 
     def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
-        """None: each has a home of its own."""
+        """``(m,)`` zeros at points ``(m, 2)``, canvas units: each item has a place of its own."""
         return np.zeros(len(points))
 
 
@@ -179,7 +179,7 @@ class Balance:
         return parts, group.areas[:, None] * off / group.side
 
     def changes(self, group: Group, places: FloatArray) -> FloatArray:
-        """As the centre of mass came nearer to the point or the axis, or went farther off."""
+        """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         whole = group.areas.sum()
         off = np.nan_to_num(np.average(group.points, axis=0, weights=group.areas) - self.point)
         counts = np.logical_not(np.isnan(self.point))
@@ -188,5 +188,5 @@ class Balance:
         return np.asarray(whole * (after - off @ off) / (2 * group.side))
 
     def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
-        """Distance from the point or the axis."""
+        """``(m,)`` heights, canvas units, of points ``(m, 2)``: by distance from point or axis."""
         return _alone(np.nan_to_num(points - self.point), side)

@@ -34,5 +34,5 @@ class Direction:
         return np.array([math.cos(self.angle), math.sin(self.angle)])
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Minus the way along the direction."""
+        """Heights ``(n,)``, canvas units: minus the way along it; and slopes ``(n, 2)``."""
         return -points @ self.way, np.tile(-self.way, (len(points), 1))

@@ -52,7 +52,7 @@ class Distance:
         return len(self.begins) == 1 and bool((self.begins == self.ends).all())
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Distance and the unit vectors that lead off; zero where there is none."""
+        """Distances ``(n,)``, canvas units, and unit vectors ``(n, 2)`` that lead off, or zeros."""
         off = np.empty_like(points)
         step = max(AT_ONCE // max(len(self.begins), 1), 1)
         for first in range(0, len(points), step):
@@ -62,7 +62,7 @@ class Distance:
         return heights, off / np.maximum(heights, NOWHERE)[:, None]
 
     def nearest(self, points: FloatArray) -> FloatArray:
-        """``(n, 2)`` nearest point of the pieces to each point."""
+        """``(n, 2)`` nearest point of the pieces to each point ``(n, 2)``, canvas units."""
         along = self.ends - self.begins
         square = np.maximum((along**2).sum(axis=1), NOWHERE**2)
         since = points[:, None] - self.begins

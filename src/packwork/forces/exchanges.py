@@ -45,7 +45,7 @@ def exchanged(
     areas
         ``(n,)`` how much each item counts, wherever it stands.
     sizes
-        ``(n,)`` of items and of the places that they have: nobody goes to a place whose size
+        ``(n,)`` of items and of the places that they have: no item goes to a place whose size
         differs from its own by more than 1.
     groups
         ``(n,)`` items change places with those of one number, and never if it is negative.
@@ -86,7 +86,7 @@ def exchanged(
 def _exchange(
     forces: Forces, places: FloatArray, areas: FloatArray, pairs: IntArray, at: IntArray
 ) -> int:
-    """Exchange pairs that pay, the first first and nobody twice; how many. Changes ``at``."""
+    """Exchange pairs that pay, the first first and no item twice; how many. Changes ``at``."""
     cost = forces.cost(places[at], areas).value
     busy, count = np.zeros(len(at), dtype=bool), 0
     for i, j in pairs:

@@ -34,7 +34,7 @@ class Fading:
     reach: float
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Faded height and slope."""
+        """Faded heights ``(n,)``, canvas units, and slopes ``(n, 2)``."""
         heights, slopes = self.field(points)
         left = np.exp(-heights / self.reach)
         return self.reach * (1 - left), slopes * left[:, None]

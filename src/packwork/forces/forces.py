@@ -146,12 +146,12 @@ class Forces:
         return np.asarray(force.field.begins[0])
 
     def cost(self, points: FloatArray, areas: FloatArray) -> Pull:
-        """What it costs that items lie where they do, in areas covered; and its slope."""
+        """Cost of points ``(n, 2)`` and areas ``(n,)``, squared canvas units, and its slope."""
         pull, weight = self(points, areas), FORCE_WEIGHT / self.side
         return Pull(weight * pull.parts, weight * pull.slopes)
 
     def cost_changes(self, points: FloatArray, areas: FloatArray, places: FloatArray) -> FloatArray:
-        """``(n, m)`` change of the whole cost if one item lay at another place.
+        """``(n, m)`` change of the whole cost, squared canvas units, by an item at another place.
 
         Examples
         --------
@@ -176,13 +176,13 @@ class Forces:
     def buoyant(self, areas: FloatArray) -> Forces:
         """The same where a container is full: what is drawn less than others gives way.
 
-        Of fields that draw everyone, little of the mean is left: it would press all together
+        Of fields that draw all items, little of the mean is left: it would press all together
         and make all smaller.
 
         Parameters
         ----------
         areas
-            ``(n,)`` how much each counts.
+            ``(n,)`` how much each counts, squared canvas units.
         """
         fields = []
         for force in self.fields:
@@ -193,7 +193,7 @@ class Forces:
         return Forces(fields, self.bonds, self.kinds, self.side)
 
     def some(self, items: IntArray) -> Forces:
-        """The same on some of the items."""
+        """The same on some of the items, ``(m,)`` indices."""
         return Forces(
             [FieldForce(f.field, f.strengths[items]) for f in self.fields],
             [BondForce(b.bond, b.strengths[items]) for b in self.bonds],

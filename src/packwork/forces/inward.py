@@ -32,7 +32,7 @@ class Inward:
     outline: Outline
 
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Distance of what is outside, and the way that leads off."""
+        """Distances ``(n,)``, canvas units, 0 inside, and unit vectors ``(n, 2)`` that lead off."""
         begins = np.concatenate(self.outline.rings)
         ends = np.concatenate([np.roll(ring, -1, axis=0) for ring in self.outline.rings])
         heights, slopes = np.zeros(len(points)), np.zeros((len(points), 2))

@@ -47,7 +47,7 @@ def stretched(ratio: float) -> FloatArray:
 
 
 def compose(outer: FloatArray, inner: FloatArray) -> FloatArray:
-    """Map that does ``inner`` first and ``outer`` after it.
+    """Map (2 x 3) that does ``inner`` first and ``outer`` after it, in the unit of ``outer``.
 
     Examples
     --------
@@ -71,7 +71,7 @@ def apply(matrix: FloatArray, points: FloatArray) -> FloatArray:
 
 
 def inverse(matrix: FloatArray) -> FloatArray:
-    """Map that undoes another, which must not flatten the plane.
+    """Map (2 x 3) that undoes another, which must not flatten the plane.
 
     Examples
     --------

@@ -49,7 +49,7 @@ class Outline:
 
     @classmethod
     def from_rings(cls, rings: Sequence[FloatArray]) -> Outline:
-        """Outline of rings that are already simple and oriented."""
+        """Outline of rings ``(k, 2)``, in any unit, that are already simple and oriented."""
         starts = np.concatenate([[0], np.cumsum([len(r) for r in rings])]).astype(np.int64)
         return cls(np.concatenate(rings), starts)
 
@@ -143,7 +143,7 @@ class Outline:
         return shape if shape.is_valid else None
 
     def mapped(self, matrix: FloatArray) -> Outline:
-        """Image under an affine map (2 x 3) that does not mirror."""
+        """Image under an affine map (2 x 3) to any unit; it must not mirror."""
         return Outline(affine.apply(matrix, self.points), self.starts)
 
     def without_holes(self) -> Outline:

@@ -123,7 +123,7 @@ def oriented_rings(shape: Region) -> list[FloatArray]:
 
 
 def signed_area(points: FloatArray) -> float:
-    """Shoelace area of one ring: positive if clockwise on screen (y down).
+    """Shoelace area of one ring ``(n, 2)``, its unit squared: positive if clockwise on screen.
 
     Examples
     --------

@@ -9,7 +9,7 @@ from packwork.losses.term import Term
 
 
 def containment(density: Image, container: Image) -> Term:
-    """Mean density outside the container: linear in the area that sticks out.
+    """Mean density outside the container, of images ``(rows, columns)``: linear in that area.
 
     The density itself counts, not min(density, 1): coincident items outside must
     still be pushed back. Wang and Lu 2025, section 3.3, use a squared error; the linear

@@ -62,14 +62,14 @@ class Windows:
         self._per_window = self.factor**2 / len(WINDOWS) / container.size
 
     def blocks(self, image: Image) -> Image:
-        """Sums over squares of ``factor`` pixels; those at the edges may be cut off."""
+        """Sums of an image ``(rows, columns)`` over squares of ``factor`` pixels."""
         rows, columns = (np.arange(0, side, self.factor) for side in image.shape)
         return np.ascontiguousarray(
             np.add.reduceat(np.add.reduceat(image, rows, axis=0), columns, axis=1)
         )
 
     def spread(self, blocks: Image) -> Image:
-        """Each block's value at all of its pixels."""
+        """Image ``(rows, columns)`` with each block's value at all of its pixels."""
         rows, columns = self._shape_px
         wide = blocks.repeat(self.factor, axis=0).repeat(self.factor, axis=1)
         return wide[:rows, :columns]
@@ -80,7 +80,7 @@ class Windows:
         Parameters
         ----------
         empty
-            Empty container per block, in pixels.
+            ``(rows, columns)`` of blocks: empty container in each, in pixels.
         """
         totals = [
             float(np.sum((box_mean(empty, size) * per_inside) ** SHARPNESS))
@@ -89,7 +89,7 @@ class Windows:
         return float(sum(totals) * self._per_window)
 
     def derivative(self, empty: Image) -> Image:
-        """What :meth:`value` grows by, per empty pixel more in each block."""
+        """Derivative of :meth:`value` by each block's empty pixels, ``(rows, columns)``."""
         by_empty = np.zeros_like(empty)
         slope = empty.dtype.type(SHARPNESS * self._per_window)
         for size, per_inside in zip(self._sizes, self._per_inside, strict=True):
@@ -100,7 +100,7 @@ class Windows:
 
 
 def evenness(density: Image, container: Image, items: int = TYPICAL_ITEMS) -> Term:
-    """Mean emptiness of windows of growing size, to a high power.
+    """Mean emptiness of windows of growing size, to a high power, of images ``(rows, columns)``.
 
     Wang and Lu 2025, section 3.3 (the uniform loss), keep only windows whose mean
     emptiness is above 0.999; the power is a smooth form of that. A window's emptiness is

@@ -10,7 +10,7 @@ from packwork.losses.term import Term
 
 
 def filling(density: Image, container: Image) -> Term:
-    """Minus the mean of container covered: a reward, so that items grow into gaps.
+    """Minus the mean of container covered, of images ``(rows, columns)``: items grow into gaps.
 
     Examples
     --------

@@ -63,7 +63,10 @@ class FusedAdjoint:
         self._empty: Image = np.zeros((1, 1), dtype=container.dtype)
 
     def __call__(self, accumulation: Image, weights: FusedWeights) -> Image:
-        """Consume ``accumulation`` (it is zero afterwards); the result is reused."""
+        """Adjoint ``(rows, columns)`` per unit of density; the next call reuses it.
+
+        ``accumulation``: ``(rows + 1, columns)``, consumed: it is zero afterwards.
+        """
         as_pixel = self._container.dtype.type
         emphasis, factor = self._emphasis(accumulation, weights.evenness)
         _kernels.adjoint(

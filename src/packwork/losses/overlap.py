@@ -13,7 +13,7 @@ hides real overlap, smaller turns rounding into force. Derived."""
 
 
 def overlap(density: Image, container: Image) -> Term:
-    """Mean density above one.
+    """Mean density above one, of images ``(rows, columns)``.
 
     Wang and Lu 2025, section 3.3, count pixels that are too opaque, which has no
     gradient; this is the rectified excess that their own code uses.

@@ -14,6 +14,8 @@ OUTSIDE = 100.0
 def paper_containment(density: Image, container: Image) -> Term:
     """Mean squared difference of covered and container, outside a hundred times dearer.
 
+    Of images ``(rows, columns)``.
+
     Wang and Lu 2025, section 3.3. Inside, covered is min(density, 1), as black items on
     white compose; outside it is the density itself, so that coincident items there are
     still pushed back.

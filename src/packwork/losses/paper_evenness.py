@@ -23,7 +23,9 @@ GAIN = 1_000.0
 
 
 def paper_evenness(density: Image, container: Image) -> Term:
-    """Windows that hold nothing but empty container, larger ones weighing more.
+    """Share of windows that hold nothing but empty container, larger ones weighing more.
+
+    Of images ``(rows, columns)``.
 
     Wang and Lu 2025, section 3.3: the empty space is dilated by kernels of growing size
     and only what is almost wholly empty is kept. A window that sticks out of the image

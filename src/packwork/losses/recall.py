@@ -20,7 +20,7 @@ class Recall:
     Parameters
     ----------
     container
-        Coverage of the container at any resolution.
+        ``(rows, columns)`` coverage of the container at any resolution.
     px_per_cu
         Pixels of that image per canvas unit.
 

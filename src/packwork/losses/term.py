@@ -36,12 +36,12 @@ class ImageLoss(Protocol):
     """
 
     def __call__(self, density: Image, container: Image) -> Term:
-        """Return the value and its derivative; leave both images as they are."""
+        """Return value and derivative; leave both images, ``(rows, columns)``, as they are."""
         ...
 
 
 def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
-    """Term of a loss that may be anyone's, found fit to be used.
+    """Term of a loss that a user may have written, checked, of images ``(rows, columns)``.
 
     Raises
     ------
@@ -59,7 +59,7 @@ def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
     name = getattr(loss, "__name__", repr(loss))
     try:
         term = loss(density, container)
-    except Exception as error:  # anyone's code may raise anything
+    except Exception as error:  # a user's code may raise anything
         raise RecipeError("loss", f"{name} failed: {type(error).__name__}: {error}") from error
     if not isinstance(term, Term):
         raise RecipeError("loss", f"{name} must return a Term, not {type(term).__name__}")
@@ -86,7 +86,7 @@ class Placed:
     nominal
         ``(n,)`` scales that were asked for.
     kinds
-        ``(n,)`` items of one number are copies of one thing; None if nobody asks.
+        ``(n,)`` items of one number are copies of one thing; None where it does not matter.
     """
 
     poses: Poses

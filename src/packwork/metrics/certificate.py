@@ -27,7 +27,7 @@ SHARE_TOLERANCE = 1e-3
 
 @dataclass(frozen=True)
 class Promise:
-    """What a run says of its layout.
+    """Smallest gap and shares of area that a run promises of its layout.
 
     Parameters
     ----------
@@ -57,7 +57,7 @@ class Promise:
 
 
 def taken_on_trust(manifest: Mapping[str, Any]) -> tuple[str, ...]:
-    """What a reader could not see in a file and believed, a sentence each.
+    """Facts that a reader took from a file without seeing them, a sentence each.
 
     Examples
     --------
@@ -69,7 +69,7 @@ def taken_on_trust(manifest: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, ...]:
-    """What of the promise does not hold, a sentence each; empty if all of it does.
+    """Parts of a promise that do not hold, a sentence each; empty if all do.
 
     Shares no code with the finish: it reads the measures of :func:`exact_metrics`.
 

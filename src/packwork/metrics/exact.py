@@ -158,7 +158,7 @@ def _meeting_pairs(regions: _Regions) -> IntArray:
 def _merged(regions: _Regions, pairs: IntArray) -> _Regions:
     """Regions with those that meet united: areas of the result add up.
 
-    Uniting groups, not everything, spares the many that meet nobody.
+    Uniting groups, not everything, spares the many that meet no other.
     """
     if pairs.size == 0:
         return regions

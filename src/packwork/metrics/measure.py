@@ -16,7 +16,7 @@ from packwork.scene.layout import Layout
 
 @dataclass(frozen=True)
 class LayoutMetrics:
-    """What a layout is worth, by pixels and in exact geometry.
+    """All measures of a layout, by pixels and in exact geometry.
 
     Parameters
     ----------

@@ -24,8 +24,8 @@ gaps up to twice as wide are closed by the eye. Larger finds a sparse layout goo
 cloud of words bad. Tried on 30 layouts, by eye."""
 
 SPECK = 1e-4
-"""Share of the container's square box below which a part of it is not looked at: nobody sees
-whether there is anything in it. Chosen."""
+"""Share of the container's square box below which a part of it is not looked at: it cannot be
+seen whether there is anything in it. Chosen."""
 
 
 @dataclass(frozen=True)

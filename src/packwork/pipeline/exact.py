@@ -13,7 +13,7 @@ from packwork.compaction.options import HAIR
 from packwork.errors import ShapeError
 from packwork.finish.finish import Finished, finish
 from packwork.finish.options import FinishOptions
-from packwork.finish.pinned import settled
+from packwork.finish.pinned import separate_pinned
 from packwork.forces.forces import Forces
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
@@ -103,7 +103,7 @@ def finished(
     if limits is not None and len(done):
         gap = gap_with_bulge(job, done, largest[done]) + HAIR * job.container.side
         kept = replace(limits, smallest=smallest, largest=largest)
-        poses = settled(job.container, outlines, poses, kept, done, gap)
+        poses = separate_pinned(job.container, outlines, poses, kept, done, gap)
     for group in [*range(1, groups.max(initial=0) + 1), 0]:
         items = np.flatnonzero(groups == group)
         if len(items) == 0:

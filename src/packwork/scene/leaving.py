@@ -29,7 +29,7 @@ class Leaving:
     Parameters
     ----------
     items
-        Who leaves.
+        Those that leave.
     poses
         Where they were: as many as items.
 
@@ -86,7 +86,7 @@ def grown_in(track: Track, new: IntArray) -> Track:
     track
         Of all items; those that are new are in it at full size from the beginning.
     new
-        Which these are.
+        ``(k,)`` indices of these.
 
     Examples
     --------

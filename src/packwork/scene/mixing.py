@@ -71,7 +71,7 @@ def mixed(
 
 
 class _Table:
-    """Who has which label, and beside how many of the same."""
+    """Label of each place, and how many of its neighbours have the same."""
 
     def __init__(self, labels: IntArray, pairs: IntArray) -> None:
         self.labels = labels.copy()

@@ -45,7 +45,7 @@ def number(value: float, digits: int) -> str:
 
 
 def matrix_text(matrix: FloatArray) -> str:
-    """Affine map as an SVG ``transform``, to 12 significant digits.
+    """Affine map (2 x 3), in user units, as an SVG ``transform``, to 12 significant digits.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def path_data(outline: Outline, digits: int) -> str:
 
 
 def points_text(points: FloatArray, digits: int) -> str:
-    """Coordinates ``(n, 2)`` one after another.
+    """Coordinates ``(n, 2)``, in any unit, one after another.
 
     Examples
     --------

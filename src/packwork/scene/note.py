@@ -20,7 +20,7 @@ class Note:
     fill
         Any CSS colour.
     says
-        What it says, for those who do not see it; may be empty.
+        What it says, for readers who do not see it; may be empty.
     is_on_item
         Whether it is a label on an item: what is under it can still be pointed at, and films, in
         which items move, are without it.

@@ -37,7 +37,7 @@ PALETTES: Mapping[str, tuple[str, ...]] = MappingProxyType(
         ),
     }
 )  # fmt: skip
-"""Palettes by name; people who see few colours tell theirs apart."""
+"""Palettes by name; most can be told apart by readers who are colour blind."""
 
 _COMMA = re.compile(r",(?![^(]*\))")
 """Between two colours, not between the channels of one."""

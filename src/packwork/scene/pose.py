@@ -87,7 +87,7 @@ class Poses:
         return affine.compose(place, affine.stretched(float(self.stretch[k])))
 
     def some(self, items: IntArray) -> Poses:
-        """Poses of some items.
+        """Poses of some items, ``(m,)`` indices.
 
         Examples
         --------
@@ -98,7 +98,7 @@ class Poses:
         return Poses(*(getattr(self, column.name)[items] for column in fields(Poses)))
 
     def with_some(self, items: IntArray, poses: Poses) -> Poses:
-        """All poses, those of some items replaced.
+        """All poses, those of some items, ``(m,)`` indices, replaced.
 
         Examples
         --------

@@ -48,7 +48,7 @@ class FreeRoom:
     arrangement
         Whose container is the room.
     standing
-        Items that are in it already.
+        ``(m,)`` indices of items that are in it already.
     gap
         Least distance of two discs, and of a disc and the edge.
     """
@@ -197,7 +197,7 @@ def bottom_left(
     kinds: IntArray,
     gap: float,
 ) -> IntArray:
-    """Put items, in this order, to their lowest places; those that fit nowhere.
+    """Put items ``(m,)``, in this order, to their lowest places; indices of those that fit nowhere.
 
     Each is taken for the disc about its origin that holds it, so the arrangement gets no
     conflicts.
@@ -205,7 +205,7 @@ def bottom_left(
     Parameters
     ----------
     standing
-        Items that stay where they are; all others count as not there.
+        ``(k,)`` indices of items that stay where they are; all others count as not there.
     heights
         What is low, for each item.
     kinds

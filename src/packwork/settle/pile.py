@@ -1,4 +1,4 @@
-"""Items of given sizes in a heap: placed, eased apart, settled, exact all the way."""
+"""Piles: items of given sizes placed, separated and settled, exact all the way."""
 
 from __future__ import annotations
 
@@ -108,7 +108,7 @@ def pile(
         Asked before each round.
     known
         Items that begin where their poses have them, not quite clear of each other; None for
-        nobody.
+        none.
     shuffle
         Logarithm of size within which items without a place come in random order and not the
         largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
@@ -193,7 +193,7 @@ class _Pile:
 
     def gather(self, room: Outline, known: IntArray) -> None:
         """Give all items a first place without conflicts."""
-        everyone = self._items
+        all_items = self._items
         standing = known
         self._is_given = len(known) > 0
         if self._is_given:
@@ -201,16 +201,16 @@ class _Pile:
             lost = separate_fixed(near, self._gap, self._hair)
             self._take_over(near, known)
             standing = np.delete(known, lost)
-        arrangement = self._arrangement(room, COARSE, everyone)
-        lifted = np.setdiff1d(everyone, standing)
+        arrangement = self._arrangement(room, COARSE, all_items)
+        lifted = np.setdiff1d(all_items, standing)
         sizes = self._order_sizes(arrangement)
         lifted = lifted[np.lexsort((-sizes[lifted], self.ranks[lifted]))]
         if self._gather_round(arrangement):
             left = np.arange(0)
         else:
             left = self._bottom_left(arrangement, lifted, standing)
-        self._take_over(arrangement, everyone)
-        self._items = np.setdiff1d(everyone, left)
+        self._take_over(arrangement, all_items)
+        self._items = np.setdiff1d(all_items, left)
         self._keeps_round = len(left) == 0
 
     def round_off(self, room: Outline) -> None:
@@ -233,28 +233,28 @@ class _Pile:
         return ROUGH_TRUST if self._is_given else FIRST_TRUST
 
     def pour(self, room: Outline, source: Source) -> None:
-        """Let items in by a source."""
-        everyone = self._items
-        arrangement = self._arrangement(room, COARSE, everyone)
+        """Let items in one after another from a source (an emitter)."""
+        all_items = self._items
+        arrangement = self._arrangement(room, COARSE, all_items)
         rng = np.random.default_rng(self._options.seed)
-        queue = rng.permutation(everyone)
+        queue = rng.permutation(all_items)
         if source.every == 0:
             near = Distance.from_points(source.points)
             left = bottom_left(
                 arrangement, queue, np.arange(0), lambda points, _: near(points)[0],
-                np.zeros(len(everyone), dtype=np.int64), self._gap,
+                np.zeros(len(all_items), dtype=np.int64), self._gap,
             )  # fmt: skip
         else:
             spout = Spout(source, room.region, self._gap, rng)
-            settling = self._settling(arrangement, everyone)
+            settling = self._settling(arrangement, all_items)
 
             def tell(places: FloatArray) -> None:
                 self._tell(settling.active, places[settling.active])
 
             left, rounds = pour(settling, spout, queue, source.every, tell, self._stop)
             self._rounds += rounds
-        self._take_over(arrangement, everyone)
-        self._items = np.setdiff1d(everyone, left)
+        self._take_over(arrangement, all_items)
+        self._items = np.setdiff1d(all_items, left)
 
     def _settling(self, arrangement: Arrangement, items: IntArray) -> Settling:
         settling = Settling(
@@ -309,7 +309,7 @@ class _Pile:
         return len(new) > 0
 
     def result(self) -> Piled:
-        """What there is now."""
+        """Poses, and which items have a place, as they are now."""
         return Piled(self._poses, self._items, self._rounds, self._height)
 
     def _bottom_left(
@@ -357,13 +357,13 @@ class _Pile:
         self._poses = _moved(self._poses, items, arrangement.places)
 
     def _tell(self, items: IntArray, places: FloatArray) -> None:
-        """Tell of those items that are there: who waits lies anywhere."""
+        """Tell of the items that are there: those that wait lie anywhere."""
         if self._observer is None:
             return
         covered = float(self._areas[items].sum() / self._container.outline.area)
         now = _moved(self._poses, items, places).some(items)
         self._told += 1
-        # How many rounds it will take nobody knows: the bar comes ever nearer to its end.
+        # The number of rounds is not known: the bar comes ever nearer to its end.
         progress = self._told / (self._told + USUAL_ROUNDS)
         shares = (covered, 0.0, 0.0)
         self._observer.on_step(

@@ -65,7 +65,7 @@ class Spout:
         self._source, self._room, self._gap, self._rng = source, room, gap, rng
 
     def place(self, radius: float, discs: FloatArray) -> FloatArray | None:
-        """Free centre ``(2,)`` for a disc among others, ``(k, 3)`` x, y and radius."""
+        """Free centre ``(2,)``, canvas units, for a disc among others ``(k, 3)``: x, y, radius."""
         points = self._source.points
         is_free = self._room >= radius + self._gap
         for x, y, other in discs:
@@ -86,7 +86,7 @@ def pour(
     tell: Callable[[FloatArray], None],
     stop: Stop,
 ) -> tuple[IntArray, int]:
-    """Let items in while all go down; those that found no way in, and how many rounds it took.
+    """Let items in while all go down; indices of those that found no way in, and rounds taken.
 
     Parameters
     ----------

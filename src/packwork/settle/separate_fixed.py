@@ -25,7 +25,7 @@ TRUST = 0.1
 
 
 def separate_fixed(arrangement: Arrangement, gap: float, hair: float) -> IntArray:
-    """Move items apart until nothing meets, sizes as given; those that found no room.
+    """Separate items at the sizes given; ``(m,)`` indices of those that found no room.
 
     Those stand where they were, in conflict or not: they have to be placed anew.
 
@@ -39,7 +39,7 @@ def separate_fixed(arrangement: Arrangement, gap: float, hair: float) -> IntArra
     (0, 0)
     """
     first = arrangement.places.copy()
-    everyone = np.arange(arrangement.count)
+    all_items = np.arange(arrangement.count)
     separate(arrangement, gap)
     free = np.full(arrangement.count, np.inf)
     sizing = FixedSize(np.square(arrangement.board.arms), (-free, free))
@@ -57,5 +57,5 @@ def separate_fixed(arrangement: Arrangement, gap: float, hair: float) -> IntArra
     places = arrangement.places.copy()
     places[short] = first[short]
     places[:, 3] = 0.0
-    arrangement.put(everyone, places)
+    arrangement.put(all_items, places)
     return short

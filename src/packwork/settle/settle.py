@@ -114,7 +114,7 @@ class Settling:
         return self.mean_height() + ROUNDNESS * self.circle(items)
 
     def circle(self, items: IntArray | None = None) -> float:
-        """Radius of the circle that holds some items, or all; 0 where none is asked for."""
+        """Radius, canvas units, of the circle that holds items ``(m,)``; 0 if none is asked."""
         if self.centre is None:
             return 0.0
         some = self.active if items is None else items
@@ -126,12 +126,12 @@ class Settling:
         stop: Stop,
         trusts: tuple[float, float] = (FIRST_TRUST, LAST_TRUST),
     ) -> int:
-        """Let all go down until they are at rest; how many rounds it took.
+        """Compact all down the potential until they are at rest; how many rounds it took.
 
         Parameters
         ----------
         tell
-            Called with the places after each round.
+            Called with the places ``(n, 4)``, canvas units and rad, after each round.
         stop
             Asked before each round.
         trusts

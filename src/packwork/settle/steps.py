@@ -42,7 +42,7 @@ def inward(
     board: Board, slope: FloatArray, turns: Turns, items: IntArray, pairs: IntArray,
     trust: float, gap: float, hair: float, centre: FloatArray, weight: float,
 ) -> FloatArray:  # fmt: skip
-    """The same where a smaller circle about ``centre`` is worth ``weight`` a canvas unit."""
+    """The same where a smaller circle about ``centre`` ``(2,)`` is worth ``weight`` a unit."""
     n = len(items)
     rows = steps.rows_of(board, items, pairs, trust, gap, hair)
     circle = _kernels.circle_about(board, items, centre)

@@ -1,1 +1,1 @@
-"""Poses to better poses: levels, Adam, the herder."""
+"""Image-space optimisation of poses: levels, Adam, relocation."""

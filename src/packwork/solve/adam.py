@@ -46,7 +46,10 @@ class Adam:
         self._count = 0
 
     def step(self, gradient: FloatArray, rate: float) -> FloatArray:
-        """Change to add to the quantity, about ``rate`` long; the next call reuses it."""
+        """Change ``(n, components)`` of the quantity, in its unit, about ``rate`` long.
+
+        ``gradient``: of the same shape. The next call reuses the result.
+        """
         self._count += 1
         # Columns of a wider array would need a kernel of their own.
         _kernels.adam(

@@ -62,5 +62,5 @@ class Ensemble:
         return self._by_pose
 
     def per_item(self, per_ring: FloatArray) -> FloatArray:
-        """Sums over each item's rings."""
+        """Sums ``(items,)`` of numbers ``(rings,)`` over each item's rings, in their unit."""
         return np.asarray(np.add.reduceat(per_ring, self._rings_before))

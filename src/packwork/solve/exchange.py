@@ -37,7 +37,9 @@ def exchange(
     largest: FloatArray,
     forces: Forces | None = None,
 ) -> tuple[Poses, list[int]]:
-    """Poses in which items have changed places where that is wanted, and who was moved.
+    """Poses in which items have changed places, and the indices of those that were moved.
+
+    ``smallest``, ``largest``: ``(n,)`` bounds of scales.
 
     Among the parts of a container, where sizes may change, until all parts can fill
     alike; then down what forces ask for; then, where kinds matter, until few items lie beside
@@ -83,7 +85,7 @@ def _order_by_forces(
     places = np.column_stack([poses.x, poses.y])
     lengths = np.sqrt(hull_areas(outlines))
     sizes = np.log(lengths * poses.scale)
-    # Who may grow and shrink fits into the places of more.
+    # An item that may grow and shrink fits into more places.
     is_free = bool((smallest < largest).any())
     factor = np.log(FREELY_ALIKE if is_free else ALIKE)
     kinds = forces.kinds if is_free else None
@@ -107,7 +109,7 @@ def _order_among_parts(
 def _changed_places(
     order: IntArray, hulls: FloatArray, poses: Poses, smallest: FloatArray, largest: FloatArray
 ) -> tuple[Poses, list[int]]:
-    """Poses with item ``order[p]`` in place p, and who was moved."""
+    """Poses with item ``order[p]`` in place p, and the indices of those that were moved."""
     moved = np.flatnonzero(order != np.arange(len(order)))
     comers = order[moved]
     x, y, scale = poses.x.copy(), poses.y.copy(), poses.scale.copy()

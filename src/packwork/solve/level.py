@@ -133,7 +133,10 @@ class Level:
         return self.rasteriser.density()
 
     def shares(self, density: Image) -> tuple[float, float, float]:
-        """Shares of the container: covered, covered twice, covered outside it."""
+        """Shares of the container: covered, covered twice, covered outside it.
+
+        ``density``: ``(rows, columns)`` of this level.
+        """
         # A container that no pixel of this level shows counts as one pixel.
         whole = max(float(self.container_image.sum()), 1.0)
         covered = np.minimum(density, 1)

@@ -67,7 +67,10 @@ class Motion:
         return Poses(self.x.copy(), self.y.copy(), self.angle.copy(), scale, stretch)
 
     def follow(self, gradient: FloatArray, factor: float) -> None:
-        """One step against the pose gradient, at ``factor`` of the full rates."""
+        """One step against the pose gradient, at ``factor`` of the full rates.
+
+        ``gradient``: ``(n, 5)`` by x, y (canvas units), angle (rad), log scale, log stretch.
+        """
         options = self._options
         if self._free is not None:
             gradient = gradient * self._free

@@ -113,5 +113,5 @@ class SolveOptions(Options):
     """Decay of Adam's second moment (the paper: 0.9). Tried."""
 
     relocating: bool = True
-    """Between levels and half-way through the last one, move items that are badly
-    overlapped into the largest voids."""
+    """Between levels and half-way through the last one, relocate items that are badly
+    overlapped to the largest voids."""

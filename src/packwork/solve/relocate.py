@@ -29,7 +29,7 @@ SNUGNESS = 0.8
 
 @dataclass(frozen=True)
 class Relocation:
-    """One item moved by the herder, canvas units."""
+    """One item that was relocated, canvas units."""
 
     item: int
     share: float
@@ -62,7 +62,7 @@ def relocate_trapped(
     largest: FloatArray,
     limits: Limits | None = None,
 ) -> tuple[Poses, list[Relocation]]:
-    """Move the worst trapped items into the largest voids.
+    """Relocate the worst trapped items to the largest voids.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def relocate_trapped(
     smallest, largest
         ``(n,)`` bounds of the scales; equal where an item may not change.
     limits
-        Who is held in place, and who has to stay in which zone of the level's.
+        Which items are held in place, and which stay in which zone of the level's.
     """
     density = level.density(poses)
     shares = violation_shares(level, poses, density)

@@ -149,7 +149,7 @@ class _Run:
         self._exchanges = list(EXCHANGES if forces is None else FORCED_EXCHANGES)
 
     def level(self, index: int) -> LevelReport:
-        """Run one level, and the herder when it is due."""
+        """Run one level, and relocations when they are due."""
         began, before = time.perf_counter(), self._done
         resolution = self._options.levels[index]
         px_per_cu = resolution / self._container.side

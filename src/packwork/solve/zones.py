@@ -29,7 +29,7 @@ class ZonePull:
     Parameters
     ----------
     zone
-        Where, and who.
+        The part of the container, and the items that stay in it.
     outlines
         One per item of the whole layout, item units, as the level sees them.
     shape

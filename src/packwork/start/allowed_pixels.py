@@ -27,7 +27,7 @@ def allowed_pixels(limits: Limits, container: Image, px_per_cu: float) -> Allowe
     Parameters
     ----------
     container
-        Coverage of the container.
+        ``(rows, columns)`` coverage of the container.
     px_per_cu
         Pixels of that image per canvas unit.
 
@@ -57,7 +57,7 @@ def allowed_pixels(limits: Limits, container: Image, px_per_cu: float) -> Allowe
 def around(
     container: Image, px_per_cu: float, outlines: Sequence[Outline], poses: Poses, items: IntArray
 ) -> Image:
-    """What some items leave of the container; all of it, should they leave nothing.
+    """Coverage ``(rows, columns)`` that items ``(m,)`` leave; all of it, should they leave nothing.
 
     Examples
     --------

@@ -27,7 +27,7 @@ def relocated(
     rng: np.random.Generator,
     limits: Limits | None = None,
 ) -> Poses:
-    """Poses in which buried items lie where the others leave most room, the largest first.
+    """Poses with buried items relocated to where the others leave most room, the largest first.
 
     Items in a heap see nearly the same forces and do not come apart by them; lifted out
     one by one while a run goes on, they find the room already taken. The other items
@@ -42,11 +42,11 @@ def relocated(
     poses
         Where the items are; angles, scales and stretches are kept.
     buried
-        Which items to move: those of which most is overlapped or outside.
+        ``(m,)`` indices of items to move: those of which most is overlapped or outside.
     rng
         Shifts them a little.
     limits
-        Who may not be moved at all, and who only within a zone.
+        Which items may not be moved at all, and which only within a zone.
 
     Examples
     --------
