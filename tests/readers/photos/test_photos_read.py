@@ -7,6 +7,7 @@ import io
 import logging
 from pathlib import Path
 from typing import Any
+from unittest.mock import Mock
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from PIL import ExifTags, Image, ImageCms, ImageDraw
 from packwork import uses
 from packwork.errors import ReadError, RecipeError
 from packwork.raster.drawing import drawn_png
+from packwork.readers.container import read_container
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.photo import read_photo
 from packwork.readers.photos.read import read_photos, shape_of
@@ -147,6 +149,17 @@ def test_a_shape_cuts_the_middle_out_of_a_photo(tmp_path: Path) -> None:
     assert picture[3, 3, 3] == 0
     assert picture[32, 20, 0] > 200
     assert picture[32, 44, 2] > 200
+
+
+def test_the_shape_of_all_photos_is_read_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    shapes = Mock(wraps=read_container)
+    monkeypatch.setattr("packwork.readers.photos.read.read_container", shapes)
+    photos = tuple(saved(tmp_path, f"{k}.png") for k in range(3))
+    found = read_photos(PhotoOptions(sources=photos, shape="circle")).items
+    assert [item.outline.area for item in found] == pytest.approx([np.pi * 30**2] * 3, rel=2e-3)
+    assert shapes.call_count == 1
 
 
 def test_rounded_corners_take_off_what_they_should(tmp_path: Path) -> None:
