@@ -1,34 +1,28 @@
-"""Discs one after another: whose place is chosen when, and what is then taken."""
+"""Discs one after another: how they are shifted, and where preferred pixels put them."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from packwork.fields.clearance import Clearance
-from packwork.start.greedy import JITTER, Spot, place_discs
+from packwork.start.greedy import JITTER, place_discs
 
 
-def test_the_largest_chooses_first_and_each_sees_what_is_left() -> None:
-    room = Clearance(np.ones((40, 40), dtype=bool))
-    asked: list[float] = []
-    left: list[float] = []
-
-    def spot_for(radius: float) -> Spot:
-        asked.append(radius)
-        left.append(room.largest()[2])
-        return room.largest()
-
-    place_discs(room, np.array([3.0, 9.0, 5.0]), spot_for, np.random.default_rng(0))
-    assert asked == [9.0, 5.0, 3.0]
-    assert left == sorted(left, reverse=True)
+def _room() -> Clearance:
+    return Clearance(np.ones((9, 9), dtype=bool))
 
 
 def test_no_disc_is_shifted_further_than_the_room_round_it() -> None:
-    room = Clearance(np.ones((9, 9), dtype=bool))
-    radii = np.full(50, 1.0)
-    tight, wide = (
-        place_discs(room, radii, lambda _, r=free: (4.5, 4.5, r), np.random.default_rng(0))
-        for free in (-1.0, 5.0)
-    )
-    assert set(tight[0]) == {4.5}
-    assert 0 < np.abs(wide[0] - 4.5).max() <= JITTER
+    radii, rng = np.full(50, 1.0), np.random.default_rng(0)
+    tight, _ = place_discs(Clearance(np.zeros((9, 9), dtype=bool)), radii, rng)
+    assert set(tight % 1) == {0.5}
+    wide = [place_discs(_room(), np.ones(1), rng)[0][0] for _ in range(20)]
+    assert 0 < np.abs(np.array(wide) - 4.5).max() <= JITTER
+
+
+def test_preferred_pixels_are_taken_while_discs_fit_there() -> None:
+    corner, rng = np.array([0, 1]), np.random.default_rng(0)
+    small, _ = place_discs(_room(), np.full(1, 0.4), rng, preferred=corner)
+    large, _ = place_discs(_room(), np.full(1, 3.0), rng, preferred=corner)
+    assert small[0] < 2
+    assert abs(large[0] - 4.5) < 1

@@ -12,6 +12,7 @@ import numpy as np
 from packwork.arrays import FloatArray, Image, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.fields.clearance import Clearance
+from packwork.fields.voids import largest_voids
 from packwork.raster.coverage import coverage
 
 PIXELS_PER_ITEM = 24.0
@@ -40,16 +41,18 @@ def relocate(arrangement: Arrangement, items: IntArray, gap: float) -> None:
     """
     others = np.setdiff1d(np.arange(arrangement.count), items)
     room, px_per_cu, corner = free_room(arrangement, others)
-    for k in items[np.argsort(-arrangement.radii[items], kind="stable")]:
-        x, y, radius = room.largest()
-        if radius < SMALLEST_VOID:
-            break
-        fitting = max(SNUG * radius / px_per_cu - gap, SNUG * SMALLEST_VOID / px_per_cu)
+    order = items[np.argsort(-arrangement.radii[items], kind="stable")]
+
+    def fitting(radius: float) -> float:
+        return max(SNUG * radius / px_per_cu - gap, SNUG * SMALLEST_VOID / px_per_cu)
+
+    for k, x, y, radius in largest_voids(
+        room, order, lambda _, radius: fitting(radius) * px_per_cu, least_px=SMALLEST_VOID
+    ):
         _, _, turn, growth = arrangement.places[k]
-        growth = min(growth, float(np.log(fitting / arrangement.board.arms[k])))
+        growth = min(growth, float(np.log(fitting(radius) / arrangement.board.arms[k])))
         place = [corner[0] + x / px_per_cu, corner[1] + y / px_per_cu, turn, growth]
         arrangement.put(np.array([k]), np.array([place]))
-        room.occupy(x, y, fitting * px_per_cu)
 
 
 def free_room(

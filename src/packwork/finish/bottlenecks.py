@@ -12,6 +12,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction._kernels import Objective
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.relocate import free_room
+from packwork.fields.voids import largest_voids
 from packwork.finish.anneal import Lengths, at_angles, put_best
 
 LOWEST, MOST_SUSPECTS = 3, 10
@@ -100,11 +101,8 @@ def _in_voids(arrangement: Arrangement, moved: IntArray) -> list[FloatArray]:
     others = np.setdiff1d(np.arange(arrangement.count), moved)
     room, px_per_cu, corner = free_room(arrangement, others)
     found = []
-    for _ in range(VOIDS):
-        x, y, radius = room.largest()
-        if radius < SMALLEST_VOID:
-            break
-        room.occupy(x, y, radius)
+    voids = largest_voids(room, range(VOIDS), lambda _, radius: radius, least_px=SMALLEST_VOID)
+    for _, x, y, _ in voids:
         places = arrangement.places[moved]
         places[0, :2] = corner[0] + x / px_per_cu, corner[1] + y / px_per_cu
         found.append(places)

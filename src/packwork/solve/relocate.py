@@ -12,6 +12,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
+from packwork.fields.voids import largest_voids
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
@@ -22,6 +23,9 @@ Smaller moves items that would have worked themselves free. Tried."""
 
 MOST_AT_ONCE = 0.1
 """Share of the items moved in one go: more upsets a layout that was settling. Tried."""
+
+SMALLEST_VOID = float(np.nextafter(0.0, 1.0))
+"""Radius of the smallest void that takes an item, px: any. Chosen."""
 
 SNUGNESS = 0.8
 """Area of a moved item over that of the void's largest disc, at most. Tried."""
@@ -89,21 +93,24 @@ def relocate_trapped(
     room = Clearance((level.container_image > 0.5) & (density < 0.5))
     x, y, scale = poses.x.copy(), poses.y.copy(), poses.scale.copy()
     relocations = []
-    for k in worst:
-        home = homes.get(int(k))
-        x_px, y_px, free_px = room.largest() if home is None else room.largest_among(home)
-        if free_px <= 0 and home is not None:
-            continue
-        if free_px <= 0:
-            break  # No void is left: wherever it went, it would be worse off.
+
+    def fitted(k: int, free_px: float) -> float:
         free = free_px / level.px_per_cu
         fitting = np.sqrt(SNUGNESS * np.pi * free**2 / areas[k])
-        scale[k] = np.clip(min(fitting, scale[k]), smallest[k], largest[k])
+        return float(np.clip(min(fitting, poses.scale[k]), smallest[k], largest[k]))
+
+    def taken_px(k: int, free_px: float) -> float:
+        return float(np.sqrt(areas[k] / np.pi) * fitted(k, free_px) * level.px_per_cu)
+
+    # Where no void is left, an item would be worse off anywhere.
+    for k, x_px, y_px, free_px in largest_voids(
+        room, worst, taken_px, least_px=SMALLEST_VOID, among=homes.get
+    ):
+        scale[k] = fitted(k, free_px)
         x[k], y[k] = x_px / level.px_per_cu, y_px / level.px_per_cu
-        room.occupy(x_px, y_px, float(np.sqrt(areas[k] / np.pi) * scale[k] * level.px_per_cu))
         relocations.append(
             Relocation(
-                int(k), float(shares[k]), float(poses.x[k]), float(poses.y[k]),
+                k, float(shares[k]), float(poses.x[k]), float(poses.y[k]),
                 float(x[k]), float(y[k]),
             )
         )  # fmt: skip

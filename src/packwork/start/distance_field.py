@@ -69,5 +69,5 @@ def distance_field(
     True
     """
     room = Clearance(container > 0.5)
-    x, y = place_discs(room, radii_cu * px_per_cu, lambda radius: room.largest(), rng, homes)
+    x, y = place_discs(room, radii_cu * px_per_cu, rng, homes)
     return x / px_per_cu, y / px_per_cu

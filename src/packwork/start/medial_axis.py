@@ -11,7 +11,7 @@ from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
 from packwork.fields.skeleton import medial_axis as axis_of
 from packwork.start.allowed_pixels import AllowedPixels
-from packwork.start.greedy import Spot, place_discs
+from packwork.start.greedy import place_discs
 
 ELBOW_ROOM = 1.5
 """As for the distance field; closer, because items on a line have two neighbours only.
@@ -55,10 +55,5 @@ def medial_axis(
     mask = container > 0.5
     room = Clearance(mask)
     axis = np.flatnonzero(axis_of(mask))
-
-    def spot_for(radius: float) -> Spot:
-        on_axis = room.largest_among(axis)
-        return on_axis if on_axis[2] >= radius else room.largest()
-
-    x, y = place_discs(room, radii_cu * px_per_cu, spot_for, rng, homes)
+    x, y = place_discs(room, radii_cu * px_per_cu, rng, homes, axis)
     return x / px_per_cu, y / px_per_cu

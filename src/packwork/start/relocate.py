@@ -68,7 +68,7 @@ def relocated(
     room = Clearance(image > 0.5)
     for k in np.setdiff1d(np.arange(len(outlines)), buried):
         room.occupy(float(poses.x[k]) * px_per_cu, float(poses.y[k]) * px_per_cu, radii_px[k])
-    found_x, found_y = place_discs(room, radii_px[buried], lambda radius: room.largest(), rng, own)
+    found_x, found_y = place_discs(room, radii_px[buried], rng, own)
     x, y = poses.x.copy(), poses.y.copy()
     x[buried], y[buried] = found_x / px_per_cu, found_y / px_per_cu
     return replace(poses, x=x, y=y)
