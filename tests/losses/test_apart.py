@@ -8,16 +8,16 @@ import pytest
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.losses.apart import REACH, apart
-from packwork.losses.term import Placed
+from packwork.losses.term import PosedItems
 from scenes import poses
 
 KINDS = np.array([0, 1, 0, 2, 1, 0, 1])
 
 
-def placed(centres: FloatArray, kinds: object = KINDS, radius: float = 2.0) -> Placed:
+def placed(centres: FloatArray, kinds: object = KINDS, radius: float = 2.0) -> PosedItems:
     count = len(centres)
     where = poses(centres[:, 0], centres[:, 1])
-    return Placed(where, np.full(count, np.pi * radius**2), np.ones(count), np.asarray(kinds))
+    return PosedItems(where, np.full(count, np.pi * radius**2), np.ones(count), np.asarray(kinds))
 
 
 def test_derivative_by_the_places(rng: np.random.Generator) -> None:
@@ -54,7 +54,7 @@ def test_permuting_items_permutes_the_forces(rng: np.random.Generator) -> None:
 
 def test_without_kinds_or_items_there_is_no_loss() -> None:
     where = poses([0.0, 0.1], [0.0, 0.0])
-    assert apart(Placed(where, np.ones(2), np.ones(2))).value == 0
+    assert apart(PosedItems(where, np.ones(2), np.ones(2))).value == 0
     assert apart(placed(np.zeros((0, 2)), np.zeros(0, dtype=np.int64))).value == 0
 
 

@@ -10,7 +10,7 @@ import pytest
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.losses.area_shares import area_shares
-from packwork.losses.term import Placed
+from packwork.losses.term import PosedItems
 from scenes import poses
 
 
@@ -18,8 +18,8 @@ def test_derivative_by_the_log_of_each_scale(rng: np.random.Generator) -> None:
     nominal, areas = rng.uniform(0.5, 2.0, 6), rng.uniform(1, 3, 6)
     where = poses(np.zeros(6), np.zeros(6), 0.0, rng.uniform(0.5, 2.0, 6))
 
-    def placed(log_scale: FloatArray) -> Placed:
-        return Placed(dataclasses.replace(where, scale=np.exp(log_scale)), areas, nominal)
+    def placed(log_scale: FloatArray) -> PosedItems:
+        return PosedItems(dataclasses.replace(where, scale=np.exp(log_scale)), areas, nominal)
 
     at = np.log(where.scale)
     by_scale = area_shares(placed(at)).log_scale
@@ -30,4 +30,4 @@ def test_derivative_by_the_log_of_each_scale(rng: np.random.Generator) -> None:
 def test_one_common_factor_costs_nothing(rng: np.random.Generator) -> None:
     nominal = rng.uniform(0.5, 2.0, 6)
     where = poses(np.zeros(6), np.zeros(6), 0.0, 3 * nominal)
-    assert area_shares(Placed(where, np.ones(6), nominal)).value == pytest.approx(0, abs=1e-12)
+    assert area_shares(PosedItems(where, np.ones(6), nominal)).value == pytest.approx(0, abs=1e-12)

@@ -250,7 +250,7 @@ def trapped() -> Scene:
 
 
 @pytest.mark.parametrize("sizes", ["free", "fixed"])
-def test_a_trapped_item_is_herded_into_the_void_and_logged(sizes: str, quick: Options) -> None:
+def test_a_trapped_item_is_relocated_to_the_void_and_logged(sizes: str, quick: Options) -> None:
     outlines, start = trapped()
     options = quick(sizes=sizes, epochs=80, position_rate=0.002, size_rate=0.001)
     outcome = solve(square_container(), outlines, start, start.scale, options)
@@ -262,7 +262,7 @@ def test_a_trapped_item_is_herded_into_the_void_and_logged(sizes: str, quick: Op
     assert overlap_area(placed(outlines, outcome.poses)) < 1.0
 
 
-def test_without_the_herder_a_trapped_item_stays(quick: Options) -> None:
+def test_without_relocation_a_trapped_item_stays(quick: Options) -> None:
     outlines, start = trapped()
     options = quick(sizes="fixed", relocating=False, position_rate=0.002)
     outcome = solve(square_container(), outlines, start, start.scale, options)

@@ -82,7 +82,7 @@ def limits_of(items: list[int], count: int, **changes: object) -> Limits:
     return replace(Limits.free(count), zones=(Zone(ZONE, np.array(items)),), **changes)
 
 
-def test_what_lies_outside_its_zone_is_wronged_and_herded_into_it() -> None:
+def test_what_lies_outside_its_zone_is_in_violation_and_relocated_into_it() -> None:
     container, outlines = square_container(), [disc(), disc()]
     where = poses([80.0, 85.0], [50.0, 20.0], 0.0, 6.0)
     level = Level(container, outlines, 200, limits=limits_of([0], 2))
@@ -96,7 +96,7 @@ def test_what_lies_outside_its_zone_is_wronged_and_herded_into_it() -> None:
     assert shapely.contains_xy(ZONE.region, after.x[0], after.y[0])
 
 
-def test_the_herder_leaves_held_items_where_they_are() -> None:
+def test_relocation_leaves_held_items_where_they_are() -> None:
     outlines = [square(), disc()]
     where = poses([38.0, 38.0], [50.0, 50.0], 0.0, [32.0, 20.0])
     level = Level(square_container(), outlines, 200)

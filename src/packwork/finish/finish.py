@@ -154,7 +154,7 @@ def finish(
     began = time.perf_counter()
     if len(outlines) == 0:
         return Finished(poses, True, (), (), 0, 0.0)
-    run = _Run(container, outlines, poses, options, observer, stop, is_enough, forces)
+    run = _Finish(container, outlines, poses, options, observer, stop, is_enough, forces)
     if options.refining:
         run.refine()
         if options.staying:
@@ -171,7 +171,7 @@ def finish(
     )
 
 
-class _Run:
+class _Finish:
     """State of one finish between its rounds."""
 
     def __init__(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.losses import _kernels
-from packwork.losses.term import Placed, PoseTerm
+from packwork.losses.term import PosedItems, PoseTerm
 
 REACH = 1.5
 """Distance from which two items of a kind do not feel each other, in sums of the radii of
@@ -13,7 +13,7 @@ discs as large as they are asked to be: another item lies between them then. Lar
 spread kinds over the container and let them yield less to their neighbours. Tried."""
 
 
-def apart(placed: Placed) -> PoseTerm:
+def apart(placed: PosedItems) -> PoseTerm:
     """Sum over near pairs of one kind of (1 - distance / reach)², per item.
 
     Nothing if no kinds are given. An object-space loss; its value is dimensionless, and
@@ -24,7 +24,7 @@ def apart(placed: Placed) -> PoseTerm:
     >>> from packwork.scene.pose import Poses
     >>> zero, one = np.zeros(2), np.ones(2)
     >>> poses = Poses(np.array([0.0, 1.5]), zero, zero, one)
-    >>> term = apart(Placed(poses, np.pi * one, one, kinds=np.zeros(2, dtype=np.int64)))
+    >>> term = apart(PosedItems(poses, np.pi * one, one, kinds=np.zeros(2, dtype=np.int64)))
     >>> term.value, term.x.tolist()
     (0.125, [0.16666666666666666, -0.16666666666666666])
     """

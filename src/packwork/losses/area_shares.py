@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.losses.term import Placed, PoseTerm
+from packwork.losses.term import PosedItems, PoseTerm
 
 
-def area_shares(placed: Placed) -> PoseTerm:
+def area_shares(placed: PosedItems) -> PoseTerm:
     """Variance of the logarithm of area over area asked for.
 
     Zero when all items are larger or smaller than asked by one common factor. For free
@@ -19,7 +19,7 @@ def area_shares(placed: Placed) -> PoseTerm:
     >>> from packwork.scene.pose import Poses
     >>> zero = np.zeros(2)
     >>> poses = Poses(zero, zero, zero, np.array([1.0, np.e]))
-    >>> term = area_shares(Placed(poses, np.ones(2), np.ones(2)))
+    >>> term = area_shares(PosedItems(poses, np.ones(2), np.ones(2)))
     >>> term.value, term.log_scale.tolist()
     (1.0, [-2.0, 2.0])
     """

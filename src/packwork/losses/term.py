@@ -74,8 +74,8 @@ def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
-    """What an object-space loss sees of n items.
+class PosedItems:
+    """Poses, areas and kinds of n items: the argument of an object-space loss.
 
     Parameters
     ----------
@@ -118,6 +118,6 @@ class PoseTerm:
 class PoseLoss(Protocol):
     """A pure function of the poses: an object-space loss."""
 
-    def __call__(self, placed: Placed) -> PoseTerm:
+    def __call__(self, placed: PosedItems) -> PoseTerm:
         """Return the value and its derivative."""
         ...

@@ -12,7 +12,7 @@ from packwork.geometry.outline import Outline
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
 from packwork.losses.recall import Recall
 from packwork.losses.registry import POSE_LOSSES, find_loss
-from packwork.losses.term import ImageLoss, Placed, PoseLoss, PoseTerm, checked_term
+from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, checked_term
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
@@ -123,7 +123,7 @@ class Level:
             # Their values have no unit: weighed by the container's area, as a mean over
             # its pixels would be.
             weight = weights.get(name, 0.0) * self._container_area
-            _add(by_pose, loss(Placed(poses, self.areas, self._nominal, self._kinds)), weight)
+            _add(by_pose, loss(PosedItems(poses, self.areas, self._nominal, self._kinds)), weight)
         return by_pose
 
     def density(self, poses: Poses) -> Image:

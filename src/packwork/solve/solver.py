@@ -110,7 +110,7 @@ def solve(
     forces
         What pulls items about; None for nothing.
     """
-    run = _Run(container, outlines, start, nominal, options, observer, stop, limits, forces)
+    run = _Solve(container, outlines, start, nominal, options, observer, stop, limits, forces)
     reports = []
     for index in range(len(options.levels)):
         if not run.pace.has_reached(index, 1.0):
@@ -120,7 +120,7 @@ def solve(
     return Outcome(run.motion.poses, Ending.DONE, reports)
 
 
-class _Run:
+class _Solve:
     """State of one solve between its epochs."""
 
     def __init__(
@@ -197,7 +197,7 @@ class _Run:
         return relocations
 
     def _exchange(self) -> None:
-        """Let items change places."""
+        """Exchanges of items."""
         poses = self.motion.poses
         bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
         region = self._container.outline

@@ -25,7 +25,7 @@ from packwork.scene.container import Container
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import allowed_pixels
-from packwork.start.first_fit.crowd import Crowd
+from packwork.start.first_fit.kind_penalty import KindPenalty
 from packwork.start.first_fit.occupancy import Occupancy
 from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all
 from packwork.start.first_poses import container_image
@@ -160,7 +160,7 @@ class _Fitting:
         self._wide: dict[int, tuple[float, Outline]] = {}
         self._areas = np.array([outline.area for outline in outlines]) * scales**2
         self._urgency, self._kinds = self._areas, kinds
-        self._crowd: Crowd | None = None
+        self._penalty: KindPenalty | None = None
         limits = Limits.free(count) if limits is None else limits
         self._is_sized = limits.held[:, 3]
         self._pins = np.column_stack([limits.x, limits.y])
@@ -239,7 +239,7 @@ class _Fitting:
         """
         is_loose = np.isin(np.arange(len(order)), order[len(order) - loose :])
         occupancy = Occupancy(self._inside, REACH)
-        self._crowd = None if self._kinds is None else Crowd(self._inside, self._kinds)
+        self._penalty = None if self._kinds is None else KindPenalty(self._inside, self._kinds)
         x, y, angle = np.zeros((3, len(scales)))
         poses = Poses(x, y, angle, scales)
         is_pinned: BoolArray = np.logical_not(np.isnan(self._pins).any(axis=1))
@@ -256,8 +256,8 @@ class _Fitting:
                 which, row, column = best
                 turn, stencil = own[which]
             occupancy.take(stencil, row, column)
-            if self._crowd is not None:
-                self._crowd.join(int(k), row + stencil.origin[0], column + stencil.origin[1])
+            if self._penalty is not None:
+                self._penalty.add(int(k), row + stencil.origin[0], column + stencil.origin[1])
             poses.x[k] = (column + stencil.origin[1]) / self._px_per_cu
             poses.y[k] = (row + stencil.origin[0]) / self._px_per_cu
             poses.angle[k] = turn
@@ -284,7 +284,7 @@ class _Fitting:
 
         Made when it is asked for: one image for each item would be gigabytes.
         """
-        worth = self._noise if self._crowd is None else self._noise - self._crowd.price(item)
+        worth = self._noise if self._penalty is None else self._noise - self._penalty.at(item)
         for force, height in zip(self._fields, self._heights, strict=True):
             if force.strengths[item]:
                 worth = worth - PULL * force.strengths[item] * height

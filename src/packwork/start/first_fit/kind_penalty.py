@@ -1,4 +1,4 @@
-"""What keeps items of one kind from lying side by side while they are put one after another."""
+"""Penalty of places near items of one kind, while items are put one after another."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ WIDTH = 0.5
 its kind alone there. Larger keeps them apart over voids, smaller only side by side. Tried."""
 
 
-class Crowd:
-    """How near items of each kind lie to each pixel.
+class KindPenalty:
+    """Penalty of each pixel for each kind: a Gaussian about each of its items.
 
     Parameters
     ----------
@@ -27,9 +27,9 @@ class Crowd:
 
     Examples
     --------
-    >>> crowd = Crowd(np.ones((20, 20), dtype=bool), np.array([0, 0, 1]))
-    >>> crowd.join(0, 5.0, 5.0)
-    >>> float(crowd.price(1)[5, 5]), float(crowd.price(2)[5, 5])
+    >>> penalty = KindPenalty(np.ones((20, 20), dtype=bool), np.array([0, 0, 1]))
+    >>> penalty.add(0, 5.0, 5.0)
+    >>> float(penalty.at(1)[5, 5]), float(penalty.at(2)[5, 5])
     (0.5, 0.0)
     """
 
@@ -39,7 +39,7 @@ class Crowd:
         self._widths = WIDTH * np.sqrt(np.count_nonzero(inside) / np.maximum(counts, 1))
         self._prices = np.zeros((len(counts), *inside.shape))
 
-    def join(self, item: int, row: float, column: float) -> None:
+    def add(self, item: int, row: float, column: float) -> None:
         """Note that an item lies there."""
         kind = self._kinds[item]
         prices = self._prices[kind]
@@ -49,6 +49,6 @@ class Crowd:
         )
         np.maximum(prices, PRICE * np.outer(along, across), out=prices)
 
-    def price(self, item: int) -> FloatArray:
-        """What the score of each pixel loses for an item whose origin comes to lie there."""
+    def at(self, item: int) -> FloatArray:
+        """Penalty ``(rows, columns)`` of each pixel for an item whose origin comes to lie there."""
         return np.asarray(self._prices[self._kinds[item]])
