@@ -1,12 +1,13 @@
+"""Separation, compaction, relocation and simplification of polygons, piece by piece."""
+
 from __future__ import annotations
 
 import numpy as np
 import pytest
-import shapely
 from hypothesis import given, settings
 
 from packwork.arrays import FloatArray
-from packwork.compaction._kernels import LEAST_GROWTH, MOST_GROWTH, Objective
+from packwork.compaction._kernels import LEAST_GROWTH, MOST_GROWTH
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.blocks import blocks
 from packwork.compaction.compact import compact, worth
@@ -14,8 +15,6 @@ from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize
 from packwork.compaction.outer_simplify.outer_simplify import inner_simplified, outer_simplified
 from packwork.compaction.relocate import relocate
 from packwork.compaction.separate import separate, separate_evenly
-from packwork.finish.anneal import Lengths, anneal
-from packwork.finish.bottlenecks import relocate_bottleneck
 from packwork.geometry.outline import Outline
 from packwork.readers.container import read_container
 from scenes import box, disc, square, star
@@ -37,7 +36,7 @@ def is_clean(arrangement: Arrangement) -> bool:
 
 @given(star_rings(), generators())
 @settings(deadline=None, max_examples=60)
-def test_a_cover_holds_the_region_and_a_lining_is_held(
+def test_an_outer_simplification_holds_the_region_and_an_inner_one_is_held(
     ring: FloatArray, rng: np.random.Generator
 ) -> None:
     region = Outline.from_rings([ring]).region
@@ -46,7 +45,7 @@ def test_a_cover_holds_the_region_and_a_lining_is_held(
     assert region.covers(inner_simplified(region, tolerance))
 
 
-def test_covers_have_few_vertices_and_are_tight() -> None:
+def test_outer_simplifications_have_few_vertices_and_are_tight() -> None:
     circle = disc(1.0, 500).region
     cover = outer_simplified(circle, 1e-3)
     assert len(cover.exterior.coords) < 150
@@ -68,7 +67,7 @@ def test_blocks_are_cut_elsewhere_each_round() -> None:
     assert len(cuts) == 5
 
 
-def test_parting_shrinks_only_those_in_conflict() -> None:
+def test_separation_shrinks_only_those_in_conflict() -> None:
     places = np.array([[3.0, 5.0, 0, 0], [4.9, 5.0, 0, 0], [8.0, 8.0, 0, 0]])
     arrangement = Arrangement([square()] * 3, box(0, 0, 10, 10), places)
     moved = separate(arrangement, GAP)
@@ -79,7 +78,7 @@ def test_parting_shrinks_only_those_in_conflict() -> None:
     assert -0.1 < growth[:2].max() < 0
 
 
-def test_parting_evenly_leaves_one_size_for_all_and_no_conflict() -> None:
+def test_separation_evenly_leaves_one_size_for_all_and_no_conflict() -> None:
     places = np.array([[3.0, 5.0, 0, 0], [4.7, 5.0, 0, 0], [8.0, 8.0, 0, 0]])
     arrangement = Arrangement([square()] * 3, box(0, 0, 10, 10), places)
     separate_evenly(arrangement, GAP)
@@ -123,23 +122,6 @@ def test_an_item_without_a_void_stays() -> None:
     )
     relocate(arrangement, np.array([1]), GAP)
     assert arrangement.places[1].tolist() == [2.0, 2.0, 0.5, 0.1]
-
-
-def test_items_that_no_trial_reaches_grow_all_the_same() -> None:
-    x = np.arange(3.0, 120.0, 6.0)
-    zero = np.zeros_like(x)
-    arrangement = Arrangement(
-        [square()] * len(x), box(0, 0, 123, 6), np.column_stack([x, zero + 3, zero, zero])
-    )
-    sizing = free(arrangement, zero + 4.0)
-    room = Lengths(6.0, GAP, HAIR)
-
-    def objective_at(places: FloatArray) -> Objective:
-        return sizing.objective(places[:, 3], 0.1)
-
-    anneal(arrangement, objective_at, 3, room, np.random.default_rng(0))
-    assert is_clean(arrangement)
-    assert arrangement.places[:, 3].min() > 0.05
 
 
 @given(generators())
@@ -212,7 +194,7 @@ def test_fixed_sizes_are_done_when_all_are_back() -> None:
     assert sizing.laggards(np.array([0.0, -0.3])).tolist() == [1]
 
 
-def test_a_lining_of_a_coast_keeps_its_land() -> None:
+def test_an_inner_simplification_of_a_coast_keeps_its_land() -> None:
     """Bays that close upon each other must not fill what they enclose."""
     coast = read_container("australia").outline.region
     for tolerance in (0.05, 0.5, 1.0):
@@ -233,17 +215,3 @@ def test_specks_neither_vanish_nor_jump() -> None:
         grown = two.places[:, 3] - before
         assert grown.max() <= MOST_GROWTH
         assert two.places[:, 3].min() >= LEAST_GROWTH
-
-
-def test_an_item_moves_house_to_where_it_grows_most() -> None:
-    """The pocket has the larger disc, but a bar has more room in the corridor."""
-    bar = box(-4.0, -0.5, 4.0, 0.5)
-    walls = Outline.from_region(shapely.union(box(0, 0, 4, 4).region, box(3.9, 0, 30, 2).region))
-    arrangement = Arrangement([bar], walls, np.array([[2.0, 2.0, 0.0, -0.8]]))
-    free, still = np.full(1, 9.0), np.zeros(1)
-    objective = Objective(-free, free, still, still, np.full(1, 8.0), 2.0, np.zeros((1, 2)))
-    room = Lengths(10.0, GAP, GAP)
-    assert relocate_bottleneck(arrangement, 0, objective, room, np.random.default_rng(0))
-    assert is_clean(arrangement)
-    assert arrangement.places[0, 0] > 4
-    assert arrangement.places[0, 3] > np.log(0.5)

@@ -106,7 +106,7 @@ def anneal(
     arrangement: Arrangement,
     objective_at: Callable[[FloatArray], Objective],
     trials: int,
-    room: Lengths,
+    lengths: Lengths,
     rng: np.random.Generator,
     stop: Stop = never,
     tell: Callable[[int], None] | None = None,
@@ -125,7 +125,7 @@ def anneal(
         Objective and bounds at places ``(n, 4)``; asked again after each trial.
     trials
         How many.
-    room
+    lengths
         Lengths.
     rng
         The only source of randomness.
@@ -154,12 +154,12 @@ def anneal(
         before = arrangement.places[items]
         target = _value(arrangement, objective, items, pulling)
         if objective.power == AREA_POWER:
-            heat = HEAT * room.spacing**2 * (1 - trial / trials)
+            heat = HEAT * lengths.spacing**2 * (1 - trial / trials)
             target -= heat * rng.exponential()
         candidates = at_angles(places, moved, objective, rng)
         least, short = arrangement.places[:, 3].min(), _shortfall(arrangement, objective, items)
-        gains = put_best(arrangement, objective, moved, candidates, room) and _grow(
-            arrangement, objective, items, room, target, pulling
+        gains = put_best(arrangement, objective, moved, candidates, lengths) and _grow(
+            arrangement, objective, items, lengths, target, pulling
         )
         # Where the smallest counts, what all the others gain does not make up for it; nor
         # for an item below the size that it should have at least.
@@ -171,7 +171,7 @@ def anneal(
         if tell is not None:
             tell(trial)
         if (trial + 1) % every == 0:
-            _sweep(arrangement, objective, room, trial)
+            _sweep(arrangement, objective, lengths, trial)
         # How far an item may grow depends on how large the smallest is now.
         objective = objective_at(arrangement.places)
     return kept
@@ -191,11 +191,11 @@ def _shortfall(arrangement: Arrangement, objective: Objective, items: IntArray) 
     return float(np.maximum(objective.smallest[items] - growth - ROUNDING, 0.0).sum())
 
 
-def _sweep(arrangement: Arrangement, objective: Objective, room: Lengths, turn: int) -> None:
+def _sweep(arrangement: Arrangement, objective: Objective, lengths: Lengths, turn: int) -> None:
     """Rounds of compaction over all items."""
-    for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * room.spacing):
+    for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * lengths.spacing):
         for block in blocks(arrangement.places[:, :2], turn + index):
-            compact(arrangement, objective, block, trust, room.gap, room.hair)
+            compact(arrangement, objective, block, trust, lengths.gap, lengths.hair)
 
 
 def put_best(
@@ -203,7 +203,7 @@ def put_best(
     objective: Objective,
     moved: IntArray,
     candidates: FloatArray,
-    room: Lengths,
+    lengths: Lengths,
 ) -> bool:
     """Put items ``(m,)`` to the best of candidate places ``(k, m, 4)``; False if none fits.
 
@@ -213,11 +213,15 @@ def put_best(
     best, places = -np.inf, candidates[0]
     for candidate in candidates:
         arrangement.put(moved, candidate)
-        pairs = distances.pairs_of(arrangement.board.boxes, moved, room.gap)
-        if not _kernels.clear_by_shrinking(arrangement.board, moved, pairs, room.gap, CUT, CHECKS):
+        pairs = distances.pairs_of(arrangement.board.boxes, moved, lengths.gap)
+        if not _kernels.clear_by_shrinking(
+            arrangement.board, moved, pairs, lengths.gap, CUT, CHECKS
+        ):
             continue
         for trust in ANGLE_TRUST:
-            compact(arrangement, objective, moved, trust * room.spacing, room.gap, room.hair)
+            compact(
+                arrangement, objective, moved, trust * lengths.spacing, lengths.gap, lengths.hair
+            )
         found = worth(arrangement, objective, moved)
         if found > best:
             best, places = found, arrangement.places[moved]
@@ -229,17 +233,17 @@ def _grow(
     arrangement: Arrangement,
     objective: Objective,
     items: IntArray,
-    room: Lengths,
+    lengths: Lengths,
     target: float,
     pulling: Pulling | None,
 ) -> bool:
     """Let ``items`` grow, while that may lead to a value above ``target``."""
     for index, trust in enumerate(np.geomspace(*TRUST, ROUNDS)):
         missing = target - _value(arrangement, objective, items, pulling)
-        patience = PATIENCE * room.spacing**2 * HASTE**index
+        patience = PATIENCE * lengths.spacing**2 * HASTE**index
         if objective.power == AREA_POWER and missing > patience:
             return False
-        compact(arrangement, objective, items, trust * room.spacing, room.gap, room.hair)
+        compact(arrangement, objective, items, trust * lengths.spacing, lengths.gap, lengths.hair)
     return _value(arrangement, objective, items, pulling) > target
 
 

@@ -80,7 +80,7 @@ def relocate_bottleneck(
     arrangement: Arrangement,
     item: int,
     objective: Objective,
-    room: Lengths,
+    lengths: Lengths,
     rng: np.random.Generator,
 ) -> bool:
     """Relocate an item, turned, to the void in which it grows most; False for nowhere.
@@ -93,7 +93,7 @@ def relocate_bottleneck(
     ]
     if not candidates:
         return False
-    return put_best(arrangement, objective, moved, np.concatenate(candidates), room)
+    return put_best(arrangement, objective, moved, np.concatenate(candidates), lengths)
 
 
 def _in_voids(arrangement: Arrangement, moved: IntArray) -> list[FloatArray]:

@@ -247,7 +247,7 @@ class _Finish:
         return self._sizing.undersized(self.arrangement.places[:, 3])
 
     @property
-    def _room(self) -> Lengths:
+    def _lengths(self) -> Lengths:
         return Lengths(self._spacing, self.gap, self.hair)
 
     def _helps(self, item: int, rounds: range) -> bool:
@@ -257,7 +257,7 @@ class _Finish:
         least = before[:, 3].min()
         objective = self._objective(before, bottlenecks.VOID_SPREAD)
         rng = np.random.default_rng(item)
-        fits = bottlenecks.relocate_bottleneck(arrangement, item, objective, self._room, rng)
+        fits = bottlenecks.relocate_bottleneck(arrangement, item, objective, self._lengths, rng)
         if fits and arrangement.places[item, 3] > least - bottlenecks.NEARLY:
             self._is_trying = True
             self._compact(rounds[: bottlenecks.PROBE])
@@ -289,7 +289,7 @@ class _Finish:
             self.arrangement,
             objective_at,
             trials,
-            self._room,
+            self._lengths,
             rng,
             self._is_enough,
             tell,

@@ -1,0 +1,59 @@
+"""Trials of a finish: annealing, and bottlenecks that are relocated."""
+
+from __future__ import annotations
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray
+from packwork.compaction._kernels import Objective
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.objective import FreeSizes
+from packwork.finish.anneal import Lengths, anneal
+from packwork.finish.bottlenecks import relocate_bottleneck
+from packwork.geometry.outline import Outline
+from scenes import box, square
+
+GAP, HAIR = 0.01, 0.001
+
+
+def free(arrangement: Arrangement, areas: FloatArray) -> FreeSizes:
+    """Any turn, half to twice the size."""
+    n = arrangement.count
+    turns = np.full(n, -np.inf), np.full(n, np.inf)
+    return FreeSizes(areas, turns, np.full(n, -np.log(2)), np.full(n, np.log(2)))
+
+
+def is_clean(arrangement: Arrangement) -> bool:
+    return len(arrangement.conflicts(arrangement.pairs(GAP), GAP)) == 0
+
+
+def test_items_that_no_trial_reaches_grow_all_the_same() -> None:
+    x = np.arange(3.0, 120.0, 6.0)
+    zero = np.zeros_like(x)
+    arrangement = Arrangement(
+        [square()] * len(x), box(0, 0, 123, 6), np.column_stack([x, zero + 3, zero, zero])
+    )
+    sizing = free(arrangement, zero + 4.0)
+    lengths = Lengths(6.0, GAP, HAIR)
+
+    def objective_at(places: FloatArray) -> Objective:
+        return sizing.objective(places[:, 3], 0.1)
+
+    anneal(arrangement, objective_at, 3, lengths, np.random.default_rng(0))
+    assert is_clean(arrangement)
+    assert arrangement.places[:, 3].min() > 0.05
+
+
+def test_a_bottleneck_is_relocated_to_where_it_grows_most() -> None:
+    """The pocket has the larger disc, but a bar has more room in the corridor."""
+    bar = box(-4.0, -0.5, 4.0, 0.5)
+    walls = Outline.from_region(shapely.union(box(0, 0, 4, 4).region, box(3.9, 0, 30, 2).region))
+    arrangement = Arrangement([bar], walls, np.array([[2.0, 2.0, 0.0, -0.8]]))
+    free, still = np.full(1, 9.0), np.zeros(1)
+    objective = Objective(-free, free, still, still, np.full(1, 8.0), 2.0, np.zeros((1, 2)))
+    lengths = Lengths(10.0, GAP, GAP)
+    assert relocate_bottleneck(arrangement, 0, objective, lengths, np.random.default_rng(0))
+    assert is_clean(arrangement)
+    assert arrangement.places[0, 0] > 4
+    assert arrangement.places[0, 3] > np.log(0.5)
