@@ -9,13 +9,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
+sys.path.append(str(Path(__file__).parents[1]))
 
-import cases
-import circles
-import peer_penrose
-import peering
-from photos import album
+from benchmarks.kit import circles
+from benchmarks.paper import cases
+from benchmarks.peers import peer_penrose, peering
+from benchmarks.quality.photos import album
 
 
 def test_one_circle_covers_its_own_and_two_equal_ones_half() -> None:

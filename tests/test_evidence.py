@@ -11,14 +11,12 @@ from typing import Any
 
 import pytest
 
-sys.path.append(str(Path(__file__).parents[1] / "benchmarks"))
+sys.path.append(str(Path(__file__).parents[1]))
 
-import manifests
-import overview
-import pages
-import peer_pages
-import peering
-from published import COMPARISONS
+from benchmarks.kit import manifests
+from benchmarks.kit.published import COMPARISONS
+from benchmarks.pages import overview, pages
+from benchmarks.peers import peer_pages, peering
 
 ROOT = Path(__file__).parents[1]
 MANIFESTS = manifests.known()

@@ -11,12 +11,12 @@ from typing import Any
 
 import pytest
 
-import robustness
-from hostile import kept, meaning, page, running, trying, workers
-from hostile.inputs import KINDS, Input, inputs
-from hostile.parts import Part, Tally, state
-from hostile.stops import stop_at_random
-from hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS, attempt
+from benchmarks.robustness import robustness
+from benchmarks.robustness.hostile import kept, meaning, page, running, trying, workers
+from benchmarks.robustness.hostile.inputs import KINDS, Input, inputs
+from benchmarks.robustness.hostile.parts import Part, Tally, state
+from benchmarks.robustness.hostile.stops import stop_at_random
+from benchmarks.robustness.hostile.trying import CLEAR_ERROR, CRASH, HANG, SUCCESS, attempt
 from packwork.errors import ReadError
 
 INPUTS = 300
@@ -83,8 +83,8 @@ def test_a_false_certificate_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_the_page_tells_every_part_and_its_code(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("manifests.FOLDER", tmp_path)
-    monkeypatch.setattr("manifests.DOCS", tmp_path)
+    monkeypatch.setattr("benchmarks.kit.manifests.FOLDER", tmp_path)
+    monkeypatch.setattr("benchmarks.kit.manifests.DOCS", tmp_path)
     tally = Tally(Counter({"tried": 7, SUCCESS: 7}))
     facts = {"count": 7, "peak": 99.0, "slowest": 1.5, "mended": 2}
     page.write(

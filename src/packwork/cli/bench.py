@@ -1,4 +1,4 @@
-"""``packwork bench``: a thin runner over ``benchmarks/NAME.py`` of a checkout."""
+"""``packwork bench``: a thin runner over ``benchmarks/*/NAME.py`` of a checkout."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def bench(
     with clear_errors():
         script = _find(name)
         sys.argv = [str(script), *(arguments or [])]
-        sys.path.insert(0, str(script.parent))
+        sys.path.insert(0, str(script.parents[2]))
         runpy.run_path(str(script), run_name="__main__")
 
 
@@ -38,7 +38,7 @@ def _find(name: str) -> Path:
     for folder in (Path.cwd(), *Path.cwd().parents):
         benchmarks = folder / "benchmarks"
         if (folder / "src" / "packwork").is_dir() and benchmarks.is_dir():
-            known = {p.stem: p for p in sorted(benchmarks.glob("*.py")) if _is_script(p)}
+            known = {p.stem: p for p in sorted(benchmarks.glob("*/*.py")) if _is_script(p)}
             if name in known:
                 return known[name]
             raise ReadError(name, f"no such benchmark; there are {', '.join(known)}")

@@ -1,0 +1,1 @@
+"""The renderer, the solver, time and memory."""

@@ -1,0 +1,1 @@
+"""What benchmarks share: the frozen set, runs, medians, manifests."""

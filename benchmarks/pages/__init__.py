@@ -1,0 +1,1 @@
+"""Pages of docs anew from their manifests."""

@@ -1,0 +1,51 @@
+"""Pages of ``docs`` anew from their manifests, without measuring: ``packwork bench pages``."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from functools import partial
+
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+
+from benchmarks.engine import engine, film, outlines, scaling_page
+from benchmarks.kit.manifests import Manifest, known, of_parts, write_text
+from benchmarks.pages import overview
+from benchmarks.paper import paper, resolution
+from benchmarks.peers import peer_pages
+from benchmarks.quality import charts, evenness, forces, parts, photos, quality, words
+from benchmarks.robustness import files_page, robustness
+
+PAGES: dict[str, Callable[[Manifest], str]] = {
+    "evenness": evenness.page,
+    "paper": paper.page,
+    "peers": peer_pages.page,
+    "resolution": resolution.page,
+    "scaling": scaling_page.page,
+    **{
+        name: partial(of_parts, module.PAGE)
+        for name, module in {
+            "charts": charts, "engine": engine, "files": files_page, "films": film,
+            "forces": forces, "outlines": outlines, "parts": parts, "photos": photos,
+            "quality": quality, "robustness": robustness, "words": words,
+        }.items()
+    },
+}  # fmt: skip
+"""By the manifest's name."""
+
+
+def rendered() -> dict[str, str]:
+    """Every page whose manifest is there, by its file's name; the overview last."""
+    manifests = known()
+    found = {f"benchmarks-{name}.md": PAGES[name](one) for name, one in manifests.items()}
+    return {**found, "benchmarks.md": overview.page(manifests)}
+
+
+def main() -> None:
+    """Write them."""
+    for name, text in rendered().items():
+        write_text(name, text)
+
+
+if __name__ == "__main__":
+    main()

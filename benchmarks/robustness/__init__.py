@@ -1,0 +1,1 @@
+"""What breaks it, and how files from anywhere are read."""
