@@ -18,7 +18,7 @@ from typer.testing import Result
 
 from clone_pages import ROOT, commands, prepare, run_all, sections
 from packwork.readers.container import read_container
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 
 SECTIONS = sections("users.md")
 

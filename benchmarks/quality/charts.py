@@ -21,7 +21,7 @@ import numpy as np
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table, ranged
 from packwork import pipeline, uses, writers
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 COFFEE, NOBEL = EXAMPLES / "chart-coffee", EXAMPLES / "chart-nobel"

@@ -12,7 +12,7 @@ import packwork as pw
 from packwork import pipeline, uses, writers
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.exact import exact_metrics
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 from packwork.recipe import make_recipe
 from scenes import flat_item, square, square_container
 

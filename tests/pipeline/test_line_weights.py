@@ -12,9 +12,9 @@ import shapely
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.metrics.exact import exact_metrics
+from packwork.readers.layouts.read import read_written
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.thinner import line_drawing
-from packwork.readers.written.read import read_written
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
 

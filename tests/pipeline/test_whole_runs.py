@@ -14,7 +14,7 @@ from packwork import pipeline, uses
 from packwork.errors import PackworkError
 from packwork.metrics.certificate import SHARE_TOLERANCE, Promise, broken
 from packwork.metrics.measure import measure
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 from packwork.recipe import make_recipe
 from packwork.scene.layout import Layout
 from packwork.writers import write

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 
 QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
 NUMBERS = [3.7, 12.0, 0.9, 5.5, 1.3]

@@ -11,7 +11,7 @@ import shapely
 
 import packwork as pw
 from packwork import pipeline, uses
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 from packwork.uses.charts.cells import bars, copies
 
 QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}

@@ -10,7 +10,7 @@ import pytest
 import shapely
 
 import packwork as pw
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 from packwork.scene.contrast import contrast
 from packwork.scene.note import Note
 from packwork.scene.swatch import representative_colour

@@ -14,7 +14,7 @@ from packwork import uses
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.pipeline.result import Run
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
 from packwork.uses.photos import rim

@@ -13,7 +13,7 @@ import packwork as pw
 from packwork import pipeline, uses
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts.read import read_written
 from packwork.scene.container import Container
 from packwork.uses.piles.opening import opened
 from packwork.writers.svg import SvgOptions, svg_text

@@ -13,8 +13,8 @@ from PIL import Image
 
 import packwork as pw
 from made_fonts import EMOJI, STRIKE_PX, emoji_font
+from packwork.readers.layouts.read import read_written
 from packwork.readers.recipe import read_recipe
-from packwork.readers.written.read import read_written
 from packwork.recipe import make_recipe
 from packwork.scene.contrast import contrast
 from packwork.uses import fill, words_recipe

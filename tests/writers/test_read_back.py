@@ -14,8 +14,8 @@ from packwork.errors import ReadError
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.exact import exact_metrics
 from packwork.readers.builtin import builtin_container
+from packwork.readers.layouts.read import read_written
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.written.read import read_written
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

@@ -18,8 +18,8 @@ from shapely import Polygon
 from packwork.errors import RecipeError
 from packwork.geometry.polygon import region
 from packwork.readers.builtin import builtin_item
+from packwork.readers.layouts.read import read_written
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.written.read import read_written
 from packwork.scene.layout import Layout
 from packwork.writers.cutting import CutOptions, cut_rings
 from packwork.writers.registry import encoded, write, write_options

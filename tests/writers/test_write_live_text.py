@@ -18,9 +18,9 @@ import packwork as pw
 from made_fonts import variable_font
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.layouts.read import read_written
 from packwork.readers.words.items import word_item
 from packwork.readers.words.word import Word
-from packwork.readers.written.read import read_written
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
 from packwork.writers.embedding import may_be_embedded

@@ -22,13 +22,13 @@ from packwork.metrics.measure import measure
 from packwork.readers.charts.chart import read_chart
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
+from packwork.readers.layouts.read import read_written
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.read import read_photos
 from packwork.readers.recipe import read_recipe
 from packwork.readers.svg.walls import walled_container
 from packwork.readers.tables.weights import read_weights
 from packwork.readers.words.items import read_word_items
-from packwork.readers.written.read import read_written
 from packwork.recipe import make_recipe
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.words.recipe import words_recipe

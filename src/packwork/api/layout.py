@@ -17,7 +17,7 @@ from packwork.display.bar import bar_for, shown
 from packwork.display.frame import data_frame
 from packwork.display.picture import notebook_png, notebook_svg
 from packwork.metrics.measure import measure
-from packwork.readers.written.geojson import read_layout
+from packwork.readers.layouts.geojson import read_layout
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import refusal
 from packwork.scene import layout as scene

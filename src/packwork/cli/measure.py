@@ -43,7 +43,7 @@ def measure(
         from packwork.inputs import check_no_input
         from packwork.metrics.certificate import Promise, broken, taken_on_trust
         from packwork.metrics.measure import measure as measure_layout
-        from packwork.readers.written.read import read_written
+        from packwork.readers.layouts.read import read_written
 
         outputs = [path for path in (report, diagnose) if path is not None]
         for path in outputs:

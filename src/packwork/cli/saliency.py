@@ -26,7 +26,7 @@ def write_saliency(recipe: Recipe, path: Path | None) -> None:
     # Only what is asked for loads the picture library.
     from packwork.display.saliency import saliency_png
     from packwork.errors import RecipeError
-    from packwork.readers.quiet.container import QuietOptions
+    from packwork.readers.saliency.container import QuietOptions
     from packwork.recipe_paths import AROUND
     from packwork.writers import check_writable, write_atomic
 

@@ -11,8 +11,8 @@ from packwork.readers.container import read_container
 from packwork.readers.files import read_bytes
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.pictures.developing import developed, inspected
-from packwork.readers.quiet.container import QuietOptions
-from packwork.readers.quiet.region import saliency_map
+from packwork.readers.saliency.container import QuietOptions
+from packwork.readers.saliency.region import saliency_map
 from packwork.recipe_paths import AROUND
 
 SIDE_PX = 1_000

@@ -16,9 +16,9 @@ from packwork.pipeline.registration import registered
 from packwork.pipeline.use import Use
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
+from packwork.readers.layouts.read import is_drawn, read_written
 from packwork.readers.photos.read import read_photos
-from packwork.readers.quiet.container import QuietOptions
-from packwork.readers.written.read import is_drawn, read_written
+from packwork.readers.saliency.container import QuietOptions
 from packwork.recipe import Recipe
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container

@@ -55,7 +55,7 @@ def registered(layout: Layout, items: Sequence[Item]) -> Layout:
     Parameters
     ----------
     layout
-        As ``readers.written`` finds it.
+        As ``readers.layouts`` finds it.
     items
         Of the run; copies of one name are taken in turn.
     """

@@ -14,7 +14,7 @@ from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
-from packwork.readers.quiet.container import QuietOptions, container_around
+from packwork.readers.saliency.container import QuietOptions, container_around
 from packwork.readers.slits import closed_slits
 from packwork.readers.svg.container import container_of_svg
 from packwork.readers.text import PREFIX

@@ -7,10 +7,10 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.layouts.dxf import layout_of_dxf
+from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, read_layout
+from packwork.readers.layouts.svg import layout_of_svg
 from packwork.readers.unfit import naming
-from packwork.readers.written.dxf import layout_of_dxf
-from packwork.readers.written.geojson import MAX_LAYOUT_BYTES, read_layout
-from packwork.readers.written.svg import layout_of_svg
 from packwork.scene.layout import Layout
 
 ENDINGS = (".geojson", ".json", ".svg", ".dxf")

@@ -18,9 +18,9 @@ from PIL import Image, ImageDraw
 from packwork.errors import ReadError
 from packwork.metrics.certificate import Promise
 from packwork.readers.builtin import builtin_item
+from packwork.readers.layouts.read import read_written
 from packwork.readers.pictures.silhouette import item_of_picture
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.written.read import read_written
 from packwork.scene.canvas import brought_over, on_canvas
 from packwork.scene.item import Item
 from packwork.scene.label import Label

@@ -10,9 +10,9 @@ import pytest
 import packwork as pw
 from packwork.errors import ReadError
 from packwork.metrics.certificate import taken_on_trust
-from packwork.readers.written import assembly
-from packwork.readers.written import geojson as saved
-from packwork.readers.written.read import read_written
+from packwork.readers.layouts import assembly
+from packwork.readers.layouts import geojson as saved
+from packwork.readers.layouts.read import read_written
 
 WALL = '<g id="container" display="none"><path d="M0 0h9v9h-9z"/></g>'
 TILES = (

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from packwork.errors import ReadError
 from packwork.geometry.polygon import Region
 from packwork.metrics.exact import exact_metrics
+from packwork.readers.layouts.read import read_written
 from packwork.readers.svg.container import container_of_svg
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.written.read import read_written
 from packwork.recipe.piles import Side
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout

@@ -8,9 +8,9 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region, region
+from packwork.readers.layouts.assembly import Found, Sheet, assembled, sound_gap, sound_weight
+from packwork.readers.layouts.dxf_tags import Line, header_of, lines_of, tags_of
 from packwork.readers.unfit import UnfitError
-from packwork.readers.written.assembly import Found, Sheet, assembled, sound_gap, sound_weight
-from packwork.readers.written.dxf_tags import Line, header_of, lines_of, tags_of
 from packwork.scene.layout import Layout
 from packwork.units import Unit
 

@@ -17,7 +17,7 @@ from packwork.readers.files import read_bytes, stem
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.pictures.developing import Negative, inspected
 from packwork.readers.pictures.photograph import Photograph
-from packwork.readers.quiet.region import quiet_part
+from packwork.readers.saliency.region import quiet_part
 from packwork.readers.unfit import naming
 from packwork.recipe_paths import AROUND
 from packwork.scene.container import Backdrop, Container

@@ -23,6 +23,8 @@ from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region, silhouette
 from packwork.phrasing import number_of
 from packwork.readers.gate.xml_tree import parse_xml
+from packwork.readers.layouts.assembly import Found, Sheet, assembled, sound_gap, sound_weight
+from packwork.readers.layouts.strangers import group_named, loose_items, tag, unmeasured
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
 from packwork.readers.regions import SPECK, clean_union
@@ -33,8 +35,6 @@ from packwork.readers.svg_syntax.page import view_box
 from packwork.readers.svg_syntax.shapes import points_of
 from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.readers.unfit import UnfitError
-from packwork.readers.written.assembly import Found, Sheet, assembled, sound_gap, sound_weight
-from packwork.readers.written.strangers import group_named, loose_items, tag, unmeasured
 from packwork.scene.layout import Layout
 from packwork.units import Unit, convert
 
