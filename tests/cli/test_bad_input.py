@@ -49,7 +49,7 @@ ITEMS = [
     ("missing.svg", "there is no such file"),
     ("nothing", "holds no file that could be an item"),
     ("no-items", "holds no file that could be an item"),
-    ("all-bad", "none of 1 files can be used"),
+    ("all-bad", "its one file cannot be used"),
     ("some-bad --strict", "bad.svg"),
     ("no-such-shape", "no built-in item of that name"),
     ("note.txt", "unknown ending '.txt'"),

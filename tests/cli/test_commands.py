@@ -303,12 +303,12 @@ def test_every_letter_of_the_teaser_is_a_recipe() -> None:
 
 def test_bench_runs_a_script_of_the_checkout(folder: Path, packwork: Command) -> None:
     (folder / "src" / "packwork").mkdir(parents=True)
-    (folder / "benchmarks").mkdir()
+    (folder / "benchmarks" / "engine").mkdir(parents=True)
     script = (
         'import sys\n\nif __name__ == "__main__":\n    sys.stdout.write(" ".join(sys.argv[1:]))\n'
     )
-    (folder / "benchmarks" / "speed.py").write_text(script, encoding="utf-8")
-    (folder / "benchmarks" / "helper.py").write_text("x = 1\n", encoding="utf-8")
+    (folder / "benchmarks" / "engine" / "speed.py").write_text(script, encoding="utf-8")
+    (folder / "benchmarks" / "engine" / "helper.py").write_text("x = 1\n", encoding="utf-8")
     assert packwork("bench speed fast twice").stdout == "fast twice"
     unknown = packwork("bench unknown")
     assert unknown.exit_code == 2
