@@ -59,7 +59,7 @@ def test_parts_that_cannot_be_joined_keep_a_line_each(
     places = {"x": np.array([15, middle[0], 65.0]), "y": np.array([20, middle[1], 20.0])}
     poses = replace(stickers.poses, **places, scale=np.array([0.1, 0.005, 0.5]))
     assert len(lines(replace(stickers, poses=poses), line="silhouette")) == 4
-    assert "1 items in several parts" in caplog.text
+    assert "1 item in several parts has" in caplog.text
 
 
 def test_a_kiss_cut_lies_at_its_distance_and_meets_no_other(stickers: Layout) -> None:
