@@ -72,7 +72,9 @@ def test_a_finish_that_has_no_room_gives_up_before_its_first_round() -> None:
 
 
 def test_most_items_without_room_are_an_error_that_says_what_would_do() -> None:
-    with pytest.raises(RecipeError, match=r"padding: 90 px is too much for 25 items: 2. of 25 found"):
+    with pytest.raises(
+        RecipeError, match=r"padding: 90 px is too much for 25 items: 2. of 25 found"
+    ):
         fill(words_recipe("circle", WORDS, padding="15%", effort="draft", levels="50"))
 
 
