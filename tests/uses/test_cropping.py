@@ -85,6 +85,13 @@ def test_a_film_ends_where_the_photos_lie(run: Run) -> None:
     assert np.allclose(end.y, run.layout.poses.y)
 
 
+def test_words_among_cut_photos_are_refused(album: Path) -> None:
+    photos = {"sources": [str(album)], "edge": "crop"}
+    recipe = uses.words_recipe("circle", {"bear": 2}, photos=photos, effort="draft")
+    with pytest.raises(RecipeError, match="edge: crop words are read whole"):
+        uses.read(recipe)
+
+
 @pytest.mark.parametrize(
     ("options", "match"),
     [

@@ -6,6 +6,7 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -102,7 +103,7 @@ class Job:
             plan.keeps_apart or plan.least_dpi is not None or any(one.voices for one in self.asked)
         )
 
-    @property
+    @cached_property
     def forces(self) -> Forces | None:
         """What pulls these items about on this canvas; None if nothing.
 

@@ -21,6 +21,14 @@ if TYPE_CHECKING:
     from packwork.scene.note import Note
     from packwork.scene.pose import Poses
 
+MOST_FIRST_FIT = 1_500
+"""Items at most that are put one after another unless asked: 100 upright icons take 0.7 s of
+processor time, 400 take 5 s, 1,000 take 10 s, 1,500 take 14 s. Measured."""
+
+MOST_TURNING = 150
+"""The same of items that may turn any way, and are no words: 100 of them take 3 s, 400 take 40 s,
+where the levels take 0.6 s and 2.5 s. Measured."""
+
 
 class Use(ABC):
     """What one use has besides items and weights, and where it leaves the common road.
@@ -136,12 +144,3 @@ class Use(ABC):
         """What would show the shape, in the words of the options; None for what does for icons."""
         del job
         return None
-
-
-MOST_FIRST_FIT = 1_500
-"""Items at most that are put one after another unless asked: 100 upright icons take 0.7 s of
-processor time, 400 take 5 s, 1,000 take 10 s, 1,500 take 14 s. Measured."""
-
-MOST_TURNING = 150
-"""The same of items that may turn any way, and are no words: 100 of them take 3 s, 400 take 40 s,
-where the levels take 0.6 s and 2.5 s. Measured."""

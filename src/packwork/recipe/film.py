@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import ValidationError
-
-from packwork.recipe.refusals import refusal
+from packwork.recipe.refusals import validated
 from packwork.writers.film.options import FilmOptions
 
 
@@ -36,7 +34,4 @@ def film_options(recipes: FilmOptions | None = None, **given: Any) -> FilmOption
     """
     known = {} if recipes is None else recipes.model_dump(exclude_unset=True)
     said = {key: value for key, value in given.items() if value is not None}
-    try:
-        return FilmOptions.model_validate(known | said)
-    except ValidationError as error:
-        raise refusal(error, FilmOptions) from error
+    return validated(FilmOptions, known | said)

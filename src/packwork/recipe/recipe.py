@@ -11,7 +11,6 @@ from pydantic import (
     AfterValidator,
     BeforeValidator,
     Field,
-    ValidationError,
     ValidationInfo,
     field_validator,
     model_validator,
@@ -26,7 +25,7 @@ from packwork.recipe.levels import checked_levels
 from packwork.recipe.pictures import Pictured, known_palette
 from packwork.recipe.piles import Moving
 from packwork.recipe.reading import Interpreted
-from packwork.recipe.refusals import length_asked, length_of, refusal
+from packwork.recipe.refusals import length_asked, length_of, validated
 from packwork.recipe.rules import (
     MAX_COUNT,
     ItemCount,
@@ -344,7 +343,4 @@ def make_recipe(**options: Any) -> Recipe:
     packwork.errors.RecipeError: count: must be at least 1, not 0
     """
     check_names(options)
-    try:
-        return Recipe.model_validate(options)
-    except ValidationError as error:
-        raise refusal(error, Recipe) from error
+    return validated(Recipe, options)

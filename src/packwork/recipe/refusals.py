@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from typing import Any, get_args
+from typing import Any, TypeVar, get_args
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ValidationError
 
 from packwork.errors import RecipeError
 from packwork.synonyms import key_meant
 from packwork.units import parse_length, parse_share
+
+_Model = TypeVar("_Model", bound=BaseModel)
 
 _PLAIN_WORDS = {
     "should be": "must be",
@@ -23,6 +25,27 @@ _PLAIN_WORDS = {
     "a valid dictionary or instance of Rule": 'a table such as {items = "star", count = 3}',
     "a valid dictionary or instance of Pin": 'a table such as {x = "50%", y = "50%"}',
 }
+
+
+def validated(
+    model: type[_Model], values: Mapping[str, Any], names: Mapping[str, str] | None = None
+) -> _Model:
+    """Options of a model, from plain values.
+
+    Parameters
+    ----------
+    names
+        What people call an option that goes by another name in the model.
+
+    Raises
+    ------
+    RecipeError
+        Naming the option, what was met and what would do.
+    """
+    try:
+        return model.model_validate(values)
+    except ValidationError as error:
+        raise refusal(error, model, names) from error
 
 
 def refusal(

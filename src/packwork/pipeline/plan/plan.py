@@ -7,14 +7,12 @@ from dataclasses import dataclass, fields
 from enum import IntEnum
 from typing import Any
 
-from pydantic import ValidationError
-
 from packwork.readers.regions import Holes
 from packwork.recipe import APART, EPOCHS, Effort, Recipe
 from packwork.recipe.levels import parse_levels
 from packwork.recipe.pictures import Shades
-from packwork.recipe.presets import PRESETS, Preset
-from packwork.recipe.refusals import refusal
+from packwork.recipe.presets import DEFAULT, PRESETS, Preset
+from packwork.recipe.refusals import validated
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
 from packwork.scene.palette import palette_colours
@@ -79,8 +77,8 @@ class Plan:
         How far items may turn unless a rule says otherwise.
     has_own_turns
         Whether rules turn single items in their own way.
-    keeps_apart, apart_weight
-        Whether copies of one item are kept apart, and the weight of the loss for it.
+    apart_weight
+        Weight of the loss that keeps copies of one item apart; 0 where that is not asked.
     method
         How first places are found; None for what suits.
     is_from_layout, stays
@@ -130,14 +128,12 @@ class Plan:
     stretch: float
     rotation: Rotation
     has_own_turns: bool
-    keeps_apart: bool
     apart_weight: float
     method: str | None
     is_from_layout: bool
     stays: bool
     outline: OutlineChoice
     preset: Preset
-    is_default: bool
     levels: str | None
     losses: Losses
     effort: Effort
@@ -172,14 +168,12 @@ class Plan:
             stretch=recipe.stretch,
             rotation=recipe.rotation,
             has_own_turns=any(rule.rotate for rule in recipe.rules),
-            keeps_apart=recipe.keeps_apart,
             apart_weight=APART if recipe.apart else 0.0,
             method=None if recipe.layout_file else recipe.start,
             is_from_layout=recipe.layout_file is not None,
             stays=recipe.stay,
             outline=recipe.outline,
             preset=PRESETS[recipe.preset],
-            is_default=recipe.preset == "default",
             levels=recipe.levels,
             losses=recipe.losses,
             effort=recipe.effort,
@@ -213,10 +207,17 @@ class Plan:
             return StartOptions()
         method = "distance-field" if self.method is None else self.method
         asked = {"method": method, "coverage": self.preset.coverage}
-        try:
-            return StartOptions.model_validate(asked)
-        except ValidationError as error:
-            raise refusal(error, StartOptions, {"method": "start"}) from error
+        return validated(StartOptions, asked, {"method": "start"})
+
+    @property
+    def keeps_apart(self) -> bool:
+        """Whether copies of one item are not to lie side by side."""
+        return bool(self.apart_weight or self.losses.get("apart"))
+
+    @property
+    def is_default(self) -> bool:
+        """Whether nobody asked for another preset."""
+        return self.preset is DEFAULT
 
     @property
     def may_press(self) -> bool:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import ValidationError
-
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.colours import check_colour
 from packwork.recipe import Recipe, make_recipe
-from packwork.recipe.refusals import refusal
+from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import with_defaults
 from packwork.recipe_paths import check_names
 
@@ -47,11 +45,8 @@ def chart_recipe(container: str, data: object, **options: Any) -> Recipe:
     if background not in (None, "none", "transparent"):
         own["paper"] = check_colour("background", background)
     given = {key: value for key, value in own.items() if value is not None}
-    try:
-        check_names({"chart": {"data": data, **given}})
-        asked = ChartOptions.model_validate({"data": data, **given})
-    except ValidationError as error:
-        raise refusal(error, ChartOptions) from error
+    check_names({"chart": {"data": data, **given}})
+    asked = validated(ChartOptions, {"data": data, **given})
     if asked.by is not None and container.startswith("around:"):
         raise RecipeError("by", "repeats the container, and a picture's quiet part is there once")
     chosen = with_defaults(Verbs.CHART, options)

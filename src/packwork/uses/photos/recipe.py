@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any
-
-from pydantic import ValidationError
 
 from packwork.offers import Verbs
 from packwork.readers.photos.options import PhotoOptions
 from packwork.recipe import Recipe, make_recipe
-from packwork.recipe.refusals import refusal
+from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import with_defaults
 from packwork.recipe_paths import check_names
 
@@ -58,12 +56,6 @@ def photo_choices(sources: object, **options: Any) -> dict[str, Any]:
     """
     said = with_defaults(Verbs.PHOTOS, options)
     own = {key: said.pop(key) for key in list(said) if key in PhotoOptions.model_fields}
-    return {**said, "photos": _photo_options({"sources": sources, **own})}
-
-
-def _photo_options(values: Mapping[str, Any]) -> PhotoOptions:
+    values = {"sources": sources, **own}
     check_names({"photos": values})
-    try:
-        return PhotoOptions.model_validate(values)
-    except ValidationError as error:
-        raise refusal(error, PhotoOptions) from error
+    return {**said, "photos": validated(PhotoOptions, values)}

@@ -5,12 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pydantic import ValidationError
-
 from packwork.errors import RecipeError
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.piles import PileOptions
-from packwork.recipe.refusals import refusal
+from packwork.recipe.refusals import validated
 from packwork.uses.room import NO_CONTAINER
 
 DEFAULT_FORCE, DEFAULT_FORCE_ALONE = "down", "towards centre"
@@ -32,10 +30,7 @@ def pile_recipe(container: str, items: Sequence[str], **options: Any) -> Recipe:
     (('down',), 'fixed', ('top',))
     """
     own = {key: options.pop(key) for key in list(options) if key in PileOptions.model_fields}
-    try:
-        asked = PileOptions.model_validate(_given(own))
-    except ValidationError as error:
-        raise refusal(error, PileOptions) from error
+    asked = validated(PileOptions, _given(own))
     if options.get("sizes", "fixed") != "fixed":
         raise RecipeError("sizes", "items of a pile keep their sizes; give --size")
     plain = {**_given(options), "sizes": "fixed", "pile": asked}

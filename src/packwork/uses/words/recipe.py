@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pydantic import ValidationError
-
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
-from packwork.recipe.refusals import refusal
+from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import with_defaults
 from packwork.recipe_paths import AROUND, check_names
 from packwork.scene.contrast import readable
@@ -60,10 +58,7 @@ def words_recipe(
 def _word_options(values: Mapping[str, Any]) -> WordOptions:
     given = {key: value for key, value in values.items() if value is not None}
     check_names({"words": given})
-    try:
-        return WordOptions.model_validate(given)
-    except ValidationError as error:
-        raise refusal(error, WordOptions) from error
+    return validated(WordOptions, given)
 
 
 def _plain_source(source: object) -> object:

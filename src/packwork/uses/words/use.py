@@ -29,6 +29,7 @@ from packwork.recipe import Recipe
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.uses.photos.crop import crops
 from packwork.uses.room import Room
 from packwork.uses.words.cast import cast_words
 from packwork.uses.words.colours import check_colours, word_colours
@@ -205,6 +206,8 @@ def read_cloud(
     recipe: Recipe, asked: WordOptions, room: Room, given: Sequence[Item] | None
 ) -> Material:
     """Words of a recipe, and the items and photographs among them."""
+    # Refuses cut photographs among words.
+    crops(recipe)
     words = read_word_items(words_counted(asked, room), recipe.holes, recipe)
     check_colours(recipe, words.words)
     named = read_named(recipe, given)
