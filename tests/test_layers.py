@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import packwork
+from packwork.compiled import holds_kernels
 
 SOURCE = Path(packwork.__file__).parent
 MODULES = sorted(SOURCE.rglob("*.py"))
@@ -24,9 +25,14 @@ def imported(tree: ast.AST) -> Iterator[str]:
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
         elif isinstance(node, ast.ImportFrom) and node.module:
-            # From a package its kernels: that is an import of the kernels.
-            kernels = all(alias.name == "_kernels" for alias in node.names)
-            yield f"{node.module}._kernels" if kernels else node.module
+            # From a package its modules: that is an import of the modules.
+            inner = [f"{node.module}.{alias.name}" for alias in node.names]
+            yield from inner if all(map(holds_kernels, inner)) else [node.module]
+
+
+def is_compiled(path: Path) -> bool:
+    """Whether compiled code may lie in a file."""
+    return path.stem != "__init__" and holds_kernels(".".join(path.with_suffix("").parts))
 
 
 def parse(path: Path) -> ast.Module:
@@ -53,21 +59,21 @@ def test_only_kernels_are_compiled(path: Path) -> None:
         if isinstance(node, ast.ImportFrom) and node.module == "packwork.compiled"
         for alias in node.names
     } & {"kernel", "helper"}
-    assert bool(decorators) == (path.stem == "_kernels")
+    assert bool(decorators) == (is_compiled(path))
 
 
 @each_module
 def test_kernels_import_nothing_of_the_package_but_kernels_and_their_decorator(path: Path) -> None:
-    if path.stem == "_kernels":
+    if is_compiled(path):
         ours = [name for name in imported(parse(path)) if name.startswith("packwork")]
-        assert all(name.endswith(("_kernels", ".compiled")) for name in ours)
+        assert all(holds_kernels(name) or name == "packwork.compiled" for name in ours)
 
 
 @each_module
 def test_files_and_functions_stay_short(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
     assert text.count("\n") <= LONGEST_FILE
-    longest = LONGEST_KERNEL if path.stem == "_kernels" else LONGEST_FUNCTION
+    longest = LONGEST_KERNEL if is_compiled(path) else LONGEST_FUNCTION
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.FunctionDef) and node.body:
             # The docstring is not what makes a function long.

@@ -29,9 +29,6 @@ from numba.core.compiler import CompileResult
 
 from packwork.folders import Store
 
-MODULES = "_kernels"
-"""Name of the modules that hold kernels."""
-
 FORM = 1
 """Number of the form in which kernels are kept; a new one forgets all."""
 
@@ -202,4 +199,18 @@ def _called(source: str) -> set[str]:
             found |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
-    return {name for name in found if name.endswith(MODULES) and name in sys.modules}
+    return {name for name in found if holds_kernels(name) and name in sys.modules}
+
+
+def holds_kernels(module: str) -> bool:
+    """Whether compiled code may lie in a module: one called ``_kernels``, or in ``kernels/``.
+
+    Examples
+    --------
+    >>> holds_kernels("packwork.solve._kernels"), holds_kernels("packwork.raster.kernels.overlay")
+    (True, True)
+    >>> holds_kernels("packwork.raster.kernels"), holds_kernels("packwork.raster.overlay")
+    (False, False)
+    """
+    *packages, name = module.split(".")
+    return name == "_kernels" or packages[-1:] == ["kernels"]

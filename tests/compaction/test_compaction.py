@@ -7,12 +7,12 @@ import pytest
 from hypothesis import given, settings
 
 from packwork.arrays import FloatArray
-from packwork.compaction._kernels import LEAST_GROWTH, MOST_GROWTH
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.blocks import blocks
 from packwork.compaction.compact import compact, worth
+from packwork.compaction.kernels.steps import LEAST_GROWTH, MOST_GROWTH
 from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize
-from packwork.compaction.outer_simplify.outer_simplify import inner_simplified, outer_simplified
+from packwork.compaction.outer_simplify import inner_simplified, outer_simplified
 from packwork.compaction.relocate import relocate
 from packwork.compaction.separate import separate, separate_evenly
 from packwork.geometry.outline import Outline

@@ -5,7 +5,15 @@ import pytest
 from scipy.optimize import linprog
 
 from packwork.arrays import FloatArray
-from packwork.compaction.interior_point.interior_point import Rows, maximise
+from packwork.compaction.kernels import interior_point
+from packwork.compaction.kernels.interior_point import Rows
+
+
+def maximise(
+    gain: FloatArray, rows: Rows, low: FloatArray, high: FloatArray, accuracy: float
+) -> FloatArray:
+    z = interior_point.maximise(rows, gain.ravel(), low.ravel(), high.ravel(), accuracy)
+    return np.asarray(z).reshape(gain.shape)
 
 
 def random_rows(rng: np.random.Generator, items: int, count: int) -> Rows:

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.compaction.outer_simplify import _kernels
+from packwork.compaction.kernels.outer_simplify import simplify_outward
 
 
 def _shed_slowly(ring: FloatArray, tolerance: float) -> FloatArray:
@@ -60,7 +60,9 @@ def test_shedding_vertices_takes_the_cheapest_first() -> None:
         ring = np.column_stack([radius * np.cos(angle), radius * np.sin(angle)])
         tolerance = 10 ** rng.uniform(-4, 0)
         np.testing.assert_allclose(
-            _kernels.simplify_outward(ring, tolerance), _shed_slowly(ring, tolerance), atol=1e-9
+            simplify_outward(ring, tolerance),
+            _shed_slowly(ring, tolerance),
+            atol=1e-9,
         )
 
 
@@ -68,4 +70,4 @@ def test_a_long_ring_is_shed_at_all() -> None:
     """Forty thousand vertices: two hundred at the end, in n log n steps rather than n times n."""
     angle = np.arange(40_000) * 2 * np.pi / 40_000
     ring = np.column_stack([np.cos(angle) * (1 + 0.1 * np.sin(20 * angle)), np.sin(angle)])
-    assert 50 < len(_kernels.simplify_outward(ring, 1e-3)) < 400
+    assert 50 < len(simplify_outward(ring, 1e-3)) < 400

@@ -6,8 +6,8 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
-from packwork.compaction._kernels import Objective
 from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.objective import FreeSizes
 from packwork.finish.anneal import Lengths, anneal
 from packwork.finish.bottlenecks import relocate_bottleneck

@@ -10,7 +10,7 @@ from shapely.errors import GEOSException
 
 import packwork as pw
 from packwork.compaction.conflicts import find_conflicts
-from packwork.compaction.outer_simplify.outer_simplify import inner_simplified
+from packwork.compaction.outer_simplify import inner_simplified
 from packwork.errors import ReadError
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import region

@@ -14,9 +14,9 @@ from numerics import assert_adjoint, box_mean, white_image, winding_numbers
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.polygon import signed_area
-from packwork.raster import _kernels
 from packwork.raster.coverage import MAX_SIDE_PX, Rasteriser, coverage
-from packwork.raster.reference import coverage_image
+from packwork.raster.kernels import coverage as kernels
+from raster_reference import coverage_image
 from strategies import (
     POLYGONS,
     SEEDS,
@@ -198,7 +198,7 @@ def test_hundreds_of_items_add_up_exactly_in_any_order(rng: np.random.Generator)
 
 
 def _slow() -> bool:
-    return not hasattr(_kernels.sweep, "signatures")
+    return not hasattr(kernels.sweep, "signatures")
 
 
 @DTYPES
@@ -250,7 +250,7 @@ def test_density_fills_the_image_it_is_given() -> None:
 def test_running_sum_has_its_transpose(dtype: Any, rng: np.random.Generator) -> None:
     def forward(buffer: Any) -> Any:
         density = np.empty((6, 5), dtype=dtype)
-        _kernels.accumulate(buffer.astype(dtype), density)
+        kernels.accumulate(buffer.astype(dtype), density)
         return density
 
     def backward(image: Any) -> Any:

@@ -12,7 +12,7 @@ from numerics import assert_adjoint, white_image
 from packwork.arrays import FloatArray, Image
 from packwork.geometry.polygon import signed_area
 from packwork.raster.coverage import Rasteriser, coverage
-from packwork.raster.reference import coverage_image
+from raster_reference import coverage_image
 from strategies import POLYGONS, SHAPES, generators, joined, ring_sets
 
 

@@ -11,8 +11,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.arrays import FloatArray, Image, IntArray
-from packwork.raster import _kernels
 from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback
+from packwork.raster.kernels import coverage as kernels
 from strategies import SHAPES
 
 GUARD = 512
@@ -40,7 +40,7 @@ def _assert_stays_inside(points: FloatArray, starts: IntArray, shape: tuple[int,
         first = rasteriser._first
         # Compiled or not, extreme quotients overflow to infinity and are clamped.
         with np.errstate(all="ignore"):
-            _kernels.sweep(
+            kernels.sweep(
                 points, starts, np.arange(len(starts) - 1), True, *shape, *rasteriser._magic,
                 buffer[GUARD:-GUARD], cells, leaves, first,
             )  # fmt: skip
@@ -53,7 +53,7 @@ def _assert_stays_inside(points: FloatArray, starts: IntArray, shape: tuple[int,
         assert np.isfinite(buffer).all()
         assert (np.diff(first) > 0).all()
         assert (cells[:used] < shape[0] * shape[1]).all()
-        assert (cells[:used] > _kernels.ABOVE - shape[1]).all()
+        assert (cells[:used] > kernels.ABOVE - shape[1]).all()
         assert ((leaves[:used] >= -1e-6) & (leaves[:used] <= 1 + 1e-6)).all()
         assert (leaves[first[1:] - 1] == 1).all(), "an edge's record must end at its end"
 

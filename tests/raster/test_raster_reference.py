@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from packwork.arrays import FloatArray
 from packwork.raster.coverage import coverage
-from packwork.raster.reference import clipped_area, composite, coverage_image
+from raster_reference import clipped_area, composite, coverage_image
 from strategies import generators, star_rings
 
 

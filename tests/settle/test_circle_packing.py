@@ -11,8 +11,8 @@ from packwork.compiled import as_python
 from packwork.forces.distance import Distance
 from packwork.forces.forces import FieldForce, Forces
 from packwork.scene.pose import Poses
-from packwork.settle.circle_packing import _kernels
-from packwork.settle.circle_packing.packing import packed_circles
+from packwork.settle.circle_packing import packed_circles
+from packwork.settle.kernels import circle_packing as kernels
 from packwork.settle.options import SettleOptions
 from packwork.settle.pile import pile
 from scenes import disc, overlap_area, placed, square, square_container
@@ -65,7 +65,7 @@ def test_one_seed_gives_one_pack() -> None:
 def test_discs_of_a_front_touch_two_and_meet_none() -> None:
     radii = _mixed(40)
     order = np.argsort(-radii)
-    centres = _kernels.front_chain(radii, order, 0.3, 0.2)
+    centres = kernels.front_chain(radii, order, 0.3, 0.2)
     assert _least_gap(centres, radii) > -1e-7
     apart = np.hypot(*(centres[:, None] - centres).transpose(2, 0, 1)) - radii[:, None] - radii
     assert ((apart < 1e-7).sum(axis=1) - 1 >= 2).sum() >= 39
@@ -75,13 +75,13 @@ def test_the_energy_has_the_slope_that_it_says() -> None:
     rng = np.random.default_rng(2)
     radii = rng.uniform(0.5, 1.5, 9)
     z = np.append(rng.uniform(-2, 2, 18), 2.5)
-    pairs = as_python(_kernels._near)(z, radii, 1.0)
+    pairs = as_python(kernels._near)(z, radii, 1.0)
 
     def value(at: FloatArray) -> float:
-        return float(as_python(_kernels._energy)(at, radii, pairs, 0.1, np.empty(19)))
+        return float(as_python(kernels._energy)(at, radii, pairs, 0.1, np.empty(19)))
 
     slope = np.empty(19)
-    as_python(_kernels._energy)(z, radii, pairs, 0.1, slope)
+    as_python(kernels._energy)(z, radii, pairs, 0.1, slope)
     assert_gradient(value, slope, z)
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction.distances import _kernels as distances
+from packwork.compaction.kernels import distances
 from packwork.geometry.outline import Outline
 
 PAIRS_PER_ITEM = 16

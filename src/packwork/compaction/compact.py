@@ -20,11 +20,9 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.compaction import _kernels
-from packwork.compaction._kernels import ACCURACY, RETURN_WEIGHT, TRAVEL, Objective
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.distances import _kernels as distances
-from packwork.compaction.interior_point import _kernels as interior_point
+from packwork.compaction.kernels import distances, interior_point, steps
+from packwork.compaction.kernels.steps import ACCURACY, RETURN_WEIGHT, TRAVEL, Objective
 
 
 def compact(
@@ -57,12 +55,12 @@ def compact(
     board = arrangement.board
     pairs = distances.pairs_of(board.boxes, items, gap + TRAVEL * trust)
     # One after another, not in one kernel: what several steps share is compiled once.
-    rows = _kernels.rows_of(board, items, pairs, trust, gap, hair)
+    rows = steps.rows_of(board, items, pairs, trust, gap, hair)
     z = interior_point.maximise(
-        rows, *_kernels.gains_and_bounds(board, objective, items, trust), ACCURACY
+        rows, *steps.gains_and_bounds(board, objective, items, trust), ACCURACY
     )
-    step = _kernels.step_of(board, items, z, trust)
-    return bool(_kernels.apply_step(board, items, step, pairs, gap, trust) >= 0)
+    step = steps.step_of(board, items, z, trust)
+    return bool(steps.apply_step(board, items, step, pairs, gap, trust) >= 0)
 
 
 def worth(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:

@@ -8,7 +8,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.outer_simplify.outer_simplify import inner_simplified, outer_simplified
+from packwork.compaction.outer_simplify import inner_simplified, outer_simplified
 from packwork.geometry.outline import Outline
 from packwork.scene.pose import Poses
 

@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction._kernels import LEAST_GROWTH, Objective
+from packwork.compaction.kernels.steps import LEAST_GROWTH, Objective
 from packwork.compaction.options import MoveOptions
 from packwork.scene.leaning import turn_sides
 

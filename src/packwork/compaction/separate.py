@@ -10,8 +10,8 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import BoolArray, IntArray
-from packwork.compaction._kernels import LEAST_GROWTH
 from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.kernels.steps import LEAST_GROWTH
 from packwork.compaction.options import HOPELESS
 from packwork.compaction.relocate import relocate
 

@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.compaction import _kernels
 from packwork.compaction.detail import FINE, Detail
-from packwork.compaction.distances import _kernels as distances
+from packwork.compaction.kernels import distances, steps
 from packwork.compaction.options import HAIR
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
@@ -63,7 +62,7 @@ def admitted(
     arrangement = covers.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))
     last = np.arange(len(poses) - fillers, len(poses))
     pairs = distances.pairs_of(arrangement.board.boxes, last, gap)
-    _kernels.clear_by_shrinking(arrangement.board, last, pairs, gap, CUT, CHECKS)
+    steps.clear_by_shrinking(arrangement.board, last, pairs, gap, CUT, CHECKS)
     stuck = np.unique(arrangement.conflicts(arrangement.pairs(gap), gap))
     stay = np.setdiff1d(np.arange(len(poses)), np.intersect1d(stuck, last))
     shrunk = replace(poses, scale=poses.scale * np.exp(arrangement.places[:, 3]))

@@ -17,12 +17,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction import _kernels
-from packwork.compaction._kernels import Objective
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.blocks import blocks
 from packwork.compaction.compact import compact, worth
-from packwork.compaction.distances import _kernels as distances
+from packwork.compaction.kernels import distances, steps
+from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.objective import AREA_POWER
 from packwork.finish.pulling import Pulling
 from packwork.progress import Stop, never
@@ -214,9 +213,7 @@ def put_best(
     for candidate in candidates:
         arrangement.put(moved, candidate)
         pairs = distances.pairs_of(arrangement.board.boxes, moved, lengths.gap)
-        if not _kernels.clear_by_shrinking(
-            arrangement.board, moved, pairs, lengths.gap, CUT, CHECKS
-        ):
+        if not steps.clear_by_shrinking(arrangement.board, moved, pairs, lengths.gap, CUT, CHECKS):
             continue
         for trust in ANGLE_TRUST:
             compact(

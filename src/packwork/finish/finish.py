@@ -10,11 +10,11 @@ from functools import partial
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.compaction._kernels import MOST_GROWTH, Objective
 from packwork.compaction.blocks import blocks
 from packwork.compaction.compact import compact
 from packwork.compaction.conflicts import Conflict, find_conflicts
 from packwork.compaction.detail import COARSE, COARSE_OF_GAP, FINE, FINE_OF_GAP, Detail
+from packwork.compaction.kernels.steps import MOST_GROWTH, Objective
 from packwork.compaction.objective import SharedSize, turn_ranges
 from packwork.compaction.options import HAIR
 from packwork.compaction.relocate import relocate

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction._kernels import Objective
 from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.objective import FreeSizes, Sizing
 from packwork.forces.forces import Forces
 

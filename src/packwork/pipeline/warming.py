@@ -23,12 +23,9 @@ from typing import Any
 import numpy as np
 
 from packwork import compiled
-from packwork.compaction import _kernels as steps
-from packwork.compaction._kernels import Objective
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.distances import _kernels as distances
-from packwork.compaction.interior_point import _kernels as interior_point
-from packwork.compaction.outer_simplify import _kernels as outer_simplify
+from packwork.compaction.kernels import distances, interior_point, outer_simplify, steps
+from packwork.compaction.kernels.steps import Objective
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
@@ -168,7 +165,8 @@ def _may_have_help() -> bool:
 
 def _mark() -> str | None:
     """What is kept beside the kernels once all parts are; None where texts are not to be had."""
-    names = [name for name in sys.modules if name.startswith("packwork.") and "_kernels" in name]
+    ours = [name for name in sys.modules if name.startswith("packwork.")]
+    names = [name for name in ours if compiled.holds_kernels(name)]
     try:
         return compiled.mark_of(names)
     except OSError:

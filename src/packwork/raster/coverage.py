@@ -15,7 +15,7 @@ import numpy.typing as npt
 
 from packwork.arrays import FloatArray, Image, IntArray, as_image, as_points, as_starts
 from packwork.errors import ShapeError
-from packwork.raster import _kernels
+from packwork.raster.kernels import coverage as kernels
 
 _AREA_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 44}
 """Deposits are multiples of 2**-bits pixel. More bits: finer coverage, but sums stay
@@ -62,7 +62,7 @@ class Rasteriser:
         self.dtype = np.dtype(dtype)
         if self.dtype not in _AREA_BITS:
             raise ShapeError(f"an image must be float32 or float64, not {self.dtype}")
-        self._deposits: Image = np.zeros((rows + _kernels.SPARE_ROWS, columns), dtype=self.dtype)
+        self._deposits: Image = np.zeros((rows + kernels.SPARE_ROWS, columns), dtype=self.dtype)
         self.accumulation: Image = self._deposits[: rows + 1]
         """Swept areas, waiting for their running sum down the columns."""
         self._is_large = self.accumulation.nbytes > CACHE_BYTES
@@ -90,7 +90,7 @@ class Rasteriser:
         self._reserve(points_px, len(starts) - 1)
         self._points, self._starts = points_px, starts
         self._order = self._visiting_order()
-        _kernels.sweep(
+        kernels.sweep(
             points_px, starts, self._order, self._is_large, *self.shape, *self._magic,
             self._deposits.reshape(-1), self._cells, self._leaves, self._first,
         )  # fmt: skip
@@ -104,7 +104,7 @@ class Rasteriser:
             Image to write to, of this size and dtype; a new one if None.
         """
         density = np.empty(self.shape, dtype=self.dtype) if out is None else out
-        _kernels.accumulate(self.accumulation, density)
+        kernels.accumulate(self.accumulation, density)
         return density
 
     def pullback(self, adjoint: Image, beyond: float = 0.0) -> FloatArray:
@@ -123,7 +123,7 @@ class Rasteriser:
         FloatArray
             ``(n, 2)``; a buffer that the next call reuses.
         """
-        _kernels.pullback(
+        kernels.pullback(
             self._points, self._starts, self._order, self._is_large, self.shape[1],
             self._cells, self._leaves, self._first,
             adjoint.reshape(-1), beyond, self._gradient,
@@ -143,7 +143,7 @@ class Rasteriser:
         prefix = np.zeros((self.shape[0] + 1, self.shape[1]))
         np.cumsum(image, axis=0, dtype=np.float64, out=prefix[1:])
         totals = np.zeros(len(self._starts) - 1)
-        _kernels.ring_integrals(
+        kernels.ring_integrals(
             self._points, self._starts, self._order, self._cells, self._leaves, self._first,
             image, prefix, totals,
         )  # fmt: skip
@@ -165,7 +165,7 @@ class Rasteriser:
         if len(self._first) != count + 1:
             self._first = np.zeros(count + 1, dtype=np.int64)
             self._gradient = np.zeros((count, 2))
-        spanned = _kernels.record_bound(points_px, *self.shape)
+        spanned = kernels.record_bound(points_px, *self.shape)
         # The closing edge of a ring is as long as its other edges together at most,
         # the links between rings are counted too; eight covers cuts and rounding per edge.
         need = int(2 * spanned) + 8 * count + rings

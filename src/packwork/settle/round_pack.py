@@ -8,7 +8,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.progress import Stop
-from packwork.settle.circle_packing.packing import packed_circles
+from packwork.settle.circle_packing import packed_circles
 from packwork.settle.settle import Settling
 
 MOST_TRIES, ITEMS = 8, 120

@@ -9,10 +9,10 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.compaction._kernels import MOST_GROWTH
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.blocks import blocks
 from packwork.compaction.compact import compact
+from packwork.compaction.kernels.steps import MOST_GROWTH
 from packwork.compaction.objective import FixedSize
 from packwork.compaction.separate import separate
 

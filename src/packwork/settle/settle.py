@@ -11,13 +11,13 @@ from collections.abc import Callable
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction._kernels import TRAVEL
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.blocks import blocks
-from packwork.compaction.distances import _kernels as distances
+from packwork.compaction.kernels import distances
+from packwork.compaction.kernels.steps import TRAVEL
 from packwork.forces.forces import Forces, Pull
 from packwork.progress import Stop
-from packwork.settle import _kernels
+from packwork.settle.kernels import descent
 from packwork.settle.steps import downward, inward
 
 FIRST_TRUST, LAST_TRUST = 0.25, 1e-2
@@ -118,7 +118,7 @@ class Settling:
         if self.centre is None:
             return 0.0
         some = self.active if items is None else items
-        return float(_kernels.circle_about(self.arrangement.board, some, self.centre))
+        return float(descent.circle_about(self.arrangement.board, some, self.centre))
 
     def settle(
         self,
@@ -209,7 +209,7 @@ class Settling:
                 board, slopes, self._turns, items, pairs, trust, self._gap, self._hair,
                 self.centre, worth,
             )  # fmt: skip
-        _kernels.move(board, items, step, pairs, self._gap)
+        descent.move(board, items, step, pairs, self._gap)
         if self._cost(items) > height:
             # Near a point the slope turns within a step.
             self.arrangement.put(items, before)

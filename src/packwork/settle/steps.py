@@ -8,10 +8,9 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.compaction import _kernels as steps
-from packwork.compaction.distances._kernels import Board
-from packwork.compaction.interior_point import _kernels as interior_point
-from packwork.settle import _kernels
+from packwork.compaction.kernels import interior_point, steps
+from packwork.compaction.kernels.distances import Board
+from packwork.settle.kernels import descent
 
 ACCURACY = 0.05
 """Share of the way down that a programme may miss. Smaller costs time; larger leaves items
@@ -33,7 +32,7 @@ def downward(
         ``(m, 2)`` what a move by one canvas unit costs, by x and y, a row for each item.
     """
     rows = steps.rows_of(board, items, pairs, trust, gap, hair)
-    gain, low, high = _kernels.gains_and_bounds(board, slope, *turns, items, trust)
+    gain, low, high = descent.gains_and_bounds(board, slope, *turns, items, trust)
     z = interior_point.maximise(rows, gain, low, high, ACCURACY)
     return _step(board, items, z, low, high, trust)
 
@@ -45,10 +44,10 @@ def inward(
     """The same where a smaller circle about ``centre`` ``(2,)`` is worth ``weight`` a unit."""
     n = len(items)
     rows = steps.rows_of(board, items, pairs, trust, gap, hair)
-    circle = _kernels.circle_about(board, items, centre)
-    rows = _kernels.with_circle(board, items, rows, centre, circle, trust)
+    circle = descent.circle_about(board, items, centre)
+    rows = descent.with_circle(board, items, rows, centre, circle, trust)
     gain, low, high = np.zeros((3, 4 * n + 4))
-    own = _kernels.gains_and_bounds(board, slope, *turns, items, trust)
+    own = descent.gains_and_bounds(board, slope, *turns, items, trust)
     gain[: 4 * n], low[: 4 * n], high[: 4 * n] = own
     # What makes room for others may go anywhere.
     for c in range(2):

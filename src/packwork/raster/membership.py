@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 from packwork.arrays import as_points, as_starts
 from packwork.errors import ShapeError
-from packwork.raster.membership import _kernels
+from packwork.raster.kernels import membership as kernels
 
 
 def centre_count(
@@ -36,6 +36,6 @@ def centre_count(
     if min(shape) < 1:
         raise ShapeError(f"an image needs at least one row and one column, not {shape}")
     differences = np.zeros((shape[0] + 1, shape[1]), dtype=np.int32)
-    _kernels.count_centres(points, as_starts(starts, len(points)), differences)
+    kernels.count_centres(points, as_starts(starts, len(points)), differences)
     counts: npt.NDArray[Any] = np.cumsum(differences[:-1], axis=0, dtype=np.int32)
     return counts

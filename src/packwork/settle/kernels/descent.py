@@ -8,9 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.compaction import _kernels as steps
-from packwork.compaction.distances import _kernels as distances
-from packwork.compaction.interior_point import _kernels as interior_point
+from packwork.compaction.kernels import distances, interior_point, steps
 from packwork.compiled import helper, kernel
 
 ASIDE = 0.5

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import shapely
 
-from packwork.compaction.outer_simplify import _kernels
+from packwork.compaction.kernels.outer_simplify import simplify_outward
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import (
     Region,
@@ -56,9 +56,7 @@ def outer_simplified(region: Region, tolerance: float) -> Region:
         return region
     region = valid(region)
     loose = _grown(region, MARGIN * tolerance)
-    rings = [
-        _kernels.simplify_outward(ring, tolerance) for ring in Outline.from_region(loose).rings
-    ]
+    rings = [simplify_outward(ring, tolerance) for ring in Outline.from_region(loose).rings]
     if min(map(len, rings)) >= 3:
         cover = Outline.from_rings(rings).region
         # Bays that close upon each other may leave rings that cross, or fill a hole.

@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 
-from packwork.compaction.distances import _kernels as distances
+from packwork.compaction.kernels import distances
 from packwork.compiled import helper
 
 

@@ -10,9 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.compaction.contacts import _kernels as contacts
-from packwork.compaction.distances import _kernels as distances
-from packwork.compaction.interior_point import _kernels as interior_point
+from packwork.compaction.kernels import contacts, distances, interior_point
 from packwork.compiled import helper, kernel
 
 REACH = 3.0

@@ -16,7 +16,7 @@ import math
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.settle.circle_packing import _kernels
+from packwork.settle.kernels import circle_packing as kernels
 
 STARTS = 8
 """Fronts that are begun with, about other points of their first discs. More takes longer and finds
@@ -63,17 +63,17 @@ def packed_circles(radii: FloatArray, rng: np.random.Generator) -> FloatArray:
     best, centres = np.inf, np.zeros((n, 2))
     starts = max(min(STARTS, int(FRONTS / n**2)), 1)
     for shift, aside in _origins(rng)[:starts]:
-        found = _kernels.front_chain(radii, order, shift * radii[order[0]], aside * radii[order[0]])
-        circle = _kernels.circle_of(found, radii)
+        found = kernels.front_chain(radii, order, shift * radii[order[0]], aside * radii[order[0]])
+        circle = kernels.circle_of(found, radii)
         squeezed = found.copy()
-        narrower = _kernels.squeeze(squeezed, radii)
+        narrower = kernels.squeeze(squeezed, radii)
         if narrower < circle:
             circle, found = narrower, squeezed
         if circle < best * (1 - ROUNDING):
             best, centres = circle, found
     trials = min(TRIALS, int(WORK / n**2)) if n > 2 else 0
-    draws = rng.random((trials, 2 * max(n, _kernels.SAMPLES) + 3))
-    _kernels.hop(centres, radii, draws)
+    draws = rng.random((trials, 2 * max(n, kernels.SAMPLES) + 3))
+    kernels.hop(centres, radii, draws)
     return centres * (1 + ROUNDING)
 
 

@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.raster.overlay import _kernels
+from packwork.raster.kernels import overlay as kernels
 
 Picture = npt.NDArray[np.uint8]
 """``(rows, columns, 4)``: red, green, blue and alpha; premultiplied where it says so."""
@@ -65,7 +65,7 @@ class Texture:
         inverse /= 2**level
         # Each level has an edge of its own.
         inverse[:, 2] += _SHIFT
-        _kernels.lay(image, self.levels[level], inverse)
+        kernels.lay(image, self.levels[level], inverse)
 
 
 def texture_of(picture: Picture, matrix: FloatArray) -> Texture:

@@ -1,1 +1,0 @@
-"""What keeps polygons in place apart."""

@@ -1,1 +1,0 @@
-"""Linear programmes over small steps of items, by an interior-point method."""

@@ -1,0 +1,1 @@
+"""Compiled distances, contacts, linear programmes and steps of polygons in place."""

@@ -1,1 +1,0 @@
-"""Outlines with few vertices that still hold all of the true ones."""

@@ -1,0 +1,1 @@
+"""Compiled sweeps of polygons and pictures over pixels."""

@@ -1,1 +1,0 @@
-"""Packs with nothing round them: few items in the smallest circle."""

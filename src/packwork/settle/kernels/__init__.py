@@ -1,0 +1,1 @@
+"""Compiled steps of piles down a height, and circle packing."""
