@@ -1,19 +1,34 @@
 """The error tree: one root, one line per message.
 
-A message says what is wrong, what was met and what would do.
+A message says what is wrong, what was met and what would do. Errors are also what Python's own
+are: of files an ``OSError``, of options and shapes a ``ValueError``. They can be sent from one
+process to another.
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 
 class PackworkError(Exception):
     """Root of every error this package raises on purpose."""
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        """How it is pickled and copied: by what it holds, whatever it was made of."""
+        return _again, (type(self), self.args, self.__dict__)
 
-class ReadError(PackworkError):
-    """A file could not be used as what it was given for.
+
+def _again(kind: type[PackworkError], args: tuple[Any, ...], held: Mapping[str, Any]) -> Any:
+    error = kind.__new__(kind)
+    error.args = args
+    error.__dict__.update(held)
+    return error
+
+
+class _AboutAFileError(PackworkError, OSError):
+    """A file could not be read or written; ``errno`` is None, for no call of the system failed.
 
     Parameters
     ----------
@@ -29,20 +44,19 @@ class ReadError(PackworkError):
         super().__init__(f"{self.file}: {problem}")
 
 
+class ReadError(_AboutAFileError):
+    """A file could not be used as what it was given for."""
+
+
 class RowsLostError(ReadError):
     """Rows of a table that hold data, but none that could be used: the others were read."""
 
 
-class WriteError(PackworkError):
+class WriteError(_AboutAFileError):
     """An output could not be written; nothing was left half-written."""
 
-    def __init__(self, file: str | Path, problem: str) -> None:
-        self.file = str(file)
-        self.problem = problem
-        super().__init__(f"{self.file}: {problem}")
 
-
-class RecipeError(PackworkError):
+class RecipeError(PackworkError, ValueError):
     """An option has no meaning as it was given.
 
     Parameters

@@ -17,6 +17,7 @@ from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.reading import Interpreted
+from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.writers.options import DrawingOptions
@@ -258,7 +259,8 @@ def read_items(
     ['circle', 'star']
     """
     several = [sources] if isinstance(sources, str | Path) else list(sources)
-    how = Interpreted(keep_page=keep_page, alpha_threshold=alpha_threshold).read_options
+    asked = {"keep_page": keep_page, "alpha_threshold": alpha_threshold}
+    how = validated(Interpreted, asked).read_options
     return list(item_reader.read_items(several, holes=holes, strict=strict, reading=how).items)
 
 
@@ -297,8 +299,9 @@ def read_container(
     >>> read_container("circle").width
     600.0
     """
-    how = Interpreted(trim=trim, close_gaps=close_gaps, alpha_threshold=alpha_threshold)
-    return _read_container(str(source), canvas, font, reading=how.read_options)
+    asked = {"trim": trim, "close_gaps": close_gaps, "alpha_threshold": alpha_threshold}
+    how = validated(Interpreted, asked).read_options
+    return _read_container(str(source), canvas, font, reading=how)
 
 
 def _run(

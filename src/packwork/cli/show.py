@@ -11,7 +11,7 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from packwork.errors import WriteError
+from packwork.errors import PackworkError, WriteError
 from packwork.phrasing import number_of
 
 
@@ -34,6 +34,8 @@ def printing() -> Iterator[None]:
     """
     try:
         yield
+    except PackworkError:
+        raise
     except OSError as error:
         # What is still held back would fail once more when the program ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -5,7 +5,7 @@ from __future__ import annotations
 import stat
 from pathlib import Path
 
-from packwork.errors import ReadError
+from packwork.errors import PackworkError, ReadError
 from packwork.inputs import note_input
 
 
@@ -31,6 +31,8 @@ def read_bytes(path: str | Path, most: int) -> bytes:
         note_input(path)
         with Path(path).open("rb") as file:
             data = file.read(most + 1)
+    except PackworkError:
+        raise
     except FileNotFoundError:
         raise ReadError(path, "there is no such file") from None
     except IsADirectoryError:

@@ -53,6 +53,8 @@ def refusal(
 ) -> RecipeError:
     """The first thing wrong, as an error about the option that people know.
 
+    What a validator of ours says comes first, in its own words: it knows most.
+
     Parameters
     ----------
     error
@@ -73,6 +75,10 @@ def refusal(
     cuont: no such option; did you mean count?
     """
     found = error.errors(include_url=False)
+    causes = (problem.get("ctx", {}).get("error") for problem in found)
+    refused = next((cause for cause in causes if isinstance(cause, RecipeError)), None)
+    if refused is not None:
+        return refused
     # A misspelt key is also a missing one: name what was written.
     first = next((e for e in found if e["type"] == "extra_forbidden"), found[0])
     key, *within = first["loc"] or ("recipe",)

@@ -7,6 +7,7 @@ from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.readers.words.options import WordOptions
+from packwork.recipe.refusals import validated
 from packwork.uses.charts.recipe import NOT_OURS
 from packwork.uses.words.recipe import words_colours
 
@@ -50,7 +51,7 @@ def overridden(options: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[s
         own = {name: given.pop(key) for key, name in _OF_WORDS.items() if key in given}
         changed["words"] = words = {**changed["words"], **own}
         if "palette" in given:
-            asked = WordOptions.model_validate(words)
+            asked = validated(WordOptions, words)
             given["palette"] = words_colours(
                 given["palette"], asked, str(changed.get("container", ""))
             )

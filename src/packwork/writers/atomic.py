@@ -170,6 +170,8 @@ def write_all(files: Sequence[tuple[str | Path, bytes]]) -> None:
 def _telling(path: str | Path) -> Iterator[None]:
     try:
         yield
+    except WriteError:
+        raise
     except OSError as error:
         raise WriteError(path, _reason(error)) from error
 

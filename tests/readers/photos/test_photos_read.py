@@ -21,6 +21,7 @@ from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.photo import read_photo
 from packwork.readers.photos.read import read_photos, shape_of
 from packwork.readers.pictures.developing import developed, inspected
+from packwork.recipe.refusals import validated
 from packwork.scene.item import Item, PhotoArt
 
 SIZE = (90, 60)
@@ -278,5 +279,5 @@ def test_a_photo_that_is_gone_when_it_is_printed_is_named(tmp_path: Path) -> Non
 )
 def test_options_without_a_meaning_are_refused(option: str, value: str, reason: str) -> None:
     with pytest.raises(RecipeError, match=reason) as raised:
-        PhotoOptions.model_validate({"sources": ("a.jpg",), option: value})
+        validated(PhotoOptions, {"sources": ("a.jpg",), option: value})
     assert raised.value.key == option

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image, UnidentifiedImageError
 
+from packwork.errors import PackworkError
 from packwork.readers.pictures.reducing import orientation, shrunk, upright
 from packwork.readers.unfit import UnfitError
 
@@ -179,6 +180,8 @@ def opened(data: bytes, *, shrinking: bool = False) -> Iterator[Image.Image]:
             is_large = image.width * image.height > (MAX_PIXELS if is_reduced else LARGE_PIXELS)
             with _ONE_AT_A_TIME if is_large else nullcontext():
                 yield image
+    except PackworkError:
+        raise
     except UnidentifiedImageError:
         raise UnfitError("is not a picture that can be read; give PNG, JPEG or WebP") from None
     except Image.DecompressionBombError:

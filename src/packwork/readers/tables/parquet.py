@@ -62,6 +62,8 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
         _check_size(file, pieces)
         table = _read(file, data, names, pieces, _texts(opened, arrow))
         columns = {name: _values(table.column(name), arrow) for name in names}
+    except ReadError:
+        raise
     except MemoryError:
         raise ReadError(file, "needs more memory than there is; give fewer rows") from None
     except (arrow.ArrowException, ValueError, OSError, TypeError, KeyError, OverflowError) as error:

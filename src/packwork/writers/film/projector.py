@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image
 
 from packwork.arrays import FloatArray
-from packwork.errors import WriteError
+from packwork.errors import PackworkError, WriteError
 from packwork.geometry import affine
 from packwork.raster.drawing import drawn_png
 from packwork.raster.overlay import FINENESS, Picture, Texture, premultiplied, straight, texture_of
@@ -53,6 +53,8 @@ class Projector:
         try:
             self._sheet = _sheet(film, self.frame)
             self._textures = self._rendered()
+        except PackworkError:
+            raise
         except ValueError as error:
             raise WriteError("film", f"an item's drawing cannot be rendered ({error})") from error
 
