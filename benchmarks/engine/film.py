@@ -28,7 +28,7 @@ from packwork.writers.film.film import Film
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.film.projector import Projector
 from packwork.writers.film.registry import FILMS, film_bytes
-from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.png import ON_WHITE, png_bytes
 
 ITEMS = 100
 RUNS = {
@@ -140,7 +140,7 @@ def mega(size: int) -> str:
 
 
 def frames_table(film: Film, layout: Layout) -> str:
-    projector, options = Projector(film), PngOptions()
+    projector, options = Projector(film), ON_WHITE
     ours = timed(lambda: projector.picture(film.frames[-1]))
     theirs = timed(lambda: png_bytes(layout, SIDES, options))
     drawn = rgb(png_bytes(layout, SIDES, options))

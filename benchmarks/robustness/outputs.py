@@ -34,7 +34,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.writers.dxf import dxf_bytes
 from packwork.writers.pdf import pdf_bytes
-from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.png import png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
 sys.path.append(str(DOCS.parent / "tests"))
@@ -116,7 +116,7 @@ def _in_browser(layout: Layout, text: str) -> str:
     program = next(filter(None, map(shutil.which, BROWSERS)), None)
     if program is None:
         return f"not measured: none of {', '.join(BROWSERS)} is installed"
-    options = PngOptions(background=None)
+    options = SvgOptions()
     ours = _channels(Image.open(io.BytesIO(png_bytes(layout, PICTURE_PX, options))))
     theirs = _channels(_screenshot(program, text))
     inked = np.minimum(ours[..., 3], theirs[..., 3]) > 0.5

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from typing import TypeAlias
 
 import numpy as np
-import pytest
 import shapely
 from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.arrays import FloatArray
-from packwork.geometry.bezier import MAX_STEPS, arc_points, flatten_cubic
+from packwork.geometry.bezier import MAX_STEPS, flatten_cubic
 
 points = st.tuples(st.floats(-100, 100), st.floats(-100, 100)).map(lambda p: np.round(p, 6))
 cubics = st.tuples(points, points, points, points)
@@ -57,32 +55,3 @@ def test_degenerate_cubics() -> None:
 def test_steps_are_bounded_on_hostile_curves() -> None:
     far = np.array([1e12, 0.0])
     assert len(flatten_cubic(np.zeros(2), far, -far, np.ones(2), 1e-9)) == MAX_STEPS
-
-
-@given(
-    radius=st.floats(1e-3, 1e3),
-    start=st.floats(-7, 7),
-    sweep=st.floats(-2 * math.pi, 2 * math.pi),
-    share=st.floats(1e-5, 2.0),
-)
-def test_arcs_are_within_their_tolerance(
-    radius: float, start: float, sweep: float, share: float
-) -> None:
-    tolerance = share * radius
-    arc = arc_points((5.0, -3.0), radius, start, sweep, tolerance)
-    spokes = np.linalg.norm(arc - [5, -3], axis=1)
-    middles = np.linalg.norm((arc[1:] + arc[:-1]) / 2 - [5, -3], axis=1)
-    np.testing.assert_allclose(spokes, radius, rtol=1e-9)
-    assert float(radius - middles.min()) <= tolerance * (1 + 1e-6) + 1e-9 * radius
-    ends = np.array([start, start + sweep])
-    np.testing.assert_allclose(
-        arc[[0, -1]],
-        np.column_stack([5 + radius * np.cos(ends), -3 + radius * np.sin(ends)]),
-        atol=1e-9 * radius,
-    )
-
-
-@pytest.mark.parametrize("sweep", [2 * math.pi, -2 * math.pi])
-def test_a_full_turn_is_never_flat(sweep: float) -> None:
-    """However coarse, a circle keeps some area: it must not vanish as an item."""
-    assert len(arc_points((0, 0), 1.0, 0.0, sweep, 0.5)) >= 4

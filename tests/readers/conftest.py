@@ -56,9 +56,7 @@ def iou_with_resvg() -> Callable[[str], float]:
             text, **{"width" if longer == drawing.page.width else "height": SIDE_PX}
         )
         scale = SIDE_PX / longer
-        ink = shapely.transform(
-            clean_union(drawing.ink.fills, drawing.ink.strokes), lambda p: p * scale
-        )
+        ink = shapely.transform(clean_union(drawing.ink.whole), lambda p: p * scale)
         return iou(coverage(ink, alpha.shape), alpha)
 
     return compare

@@ -18,7 +18,7 @@ from packwork.readers.layouts.read import read_written
 from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
 from packwork.uses.photos import rim
-from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.png import png_bytes
 from packwork.writers.svg import Sheet, SvgOptions, svg_document
 from scenes import square
 
@@ -62,7 +62,7 @@ def test_files_hold_what_is_seen(run: Run, tmp_path: Path) -> None:
     read = read_written(str(path))
     assert np.allclose(np.sort(read.areas), np.sort(run.layout.areas), rtol=1e-4)
     picture = tmp_path / "a.png"
-    picture.write_bytes(png_bytes(run.layout, 200, PngOptions()))
+    picture.write_bytes(png_bytes(run.layout, 200))
     with Image.open(picture) as drawn:
         teal = np.asarray(drawn.convert("RGB"))[:, :, 0] < 128
     share = run.layout.areas.sum() / run.layout.container.width / run.layout.container.height

@@ -126,10 +126,11 @@ def test_gif_is_no_faster_than_browsers(
 
 
 def test_the_last_frame_is_the_picture_of_the_layout(make_film: MakeFilm) -> None:
-    from packwork.writers.png import PngOptions, png_bytes
+    from packwork.writers.png import png_bytes
+    from packwork.writers.svg import SvgOptions
 
     film = make_film()
-    drawn = png_bytes(film.layout, SIDE, PngOptions(background="ivory", show_container=True))
+    drawn = png_bytes(film.layout, SIDE, SvgOptions(background="ivory", show_container=True))
     with Image.open(io.BytesIO(drawn)) as picture:
         true = np.asarray(picture.convert("RGB"), dtype=np.int16)
     # Only soft edges differ, by what a second sampling costs.

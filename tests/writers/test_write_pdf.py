@@ -23,7 +23,7 @@ from packwork.scene.pose import Poses
 from packwork.units import canvas_size
 from packwork.writers.pdf import pdf_bytes, without_text
 from packwork.writers.picturing import MAX_PICTURE_PX
-from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.png import png_bytes
 from packwork.writers.svg import SvgOptions
 from printed import pdf_pixels, read_pdf
 
@@ -121,7 +121,13 @@ def test_it_looks_like_the_png(
     seen = ink_of(pdf_pixels(pdf_bytes(layout, options), 1600))
     assert shared(seen, seen) == 1 > shared(seen, np.roll(seen, 3, axis=1))
     with Image.open(
-        io.BytesIO(png_bytes(layout, 1600, PngOptions(show_container=options.show_container)))
+        io.BytesIO(
+            png_bytes(
+                layout,
+                1600,
+                replace(options, background="#ffffff"),
+            )
+        )
     ) as picture:
         expected = ink_of(np.asarray(picture))
     assert shared(seen, expected) >= 0.99

@@ -12,14 +12,17 @@ from packwork.geometry.affine import identity
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
 from packwork.writers.frame import MAX_SIDE_PX, picture_frame
-from packwork.writers.png import PngOptions, _rendered, png_bytes
+from packwork.writers.png import ON_WHITE, _rendered, png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
+
+WITH_LINE = replace(ON_WHITE, show_container=True)
+
 
 ReadPicture = Callable[[bytes], np.ndarray]
 
 
 def test_golden(three: Layout, assert_same_picture: Callable[[bytes, str], None]) -> None:
-    assert_same_picture(png_bytes(three, 160, PngOptions(show_container=True)), "three.png")
+    assert_same_picture(png_bytes(three, 160, WITH_LINE), "three.png")
 
 
 @pytest.mark.xfail(
@@ -29,7 +32,7 @@ def test_golden_of_another_layout(
     three: Layout, assert_same_picture: Callable[[bytes, str], None]
 ) -> None:
     moved = replace(three, poses=replace(three.poses, x=three.poses.x + 0.5))
-    assert_same_picture(png_bytes(moved, 160, PngOptions(show_container=True)), "three.png")
+    assert_same_picture(png_bytes(moved, 160, WITH_LINE), "three.png")
 
 
 def test_flattened_looks_the_same(three: Layout, read_picture: ReadPicture) -> None:
@@ -54,7 +57,7 @@ def test_size_is_exact_and_filled(
 
 
 def test_transparent_background(three: Layout, read_picture: ReadPicture) -> None:
-    picture = read_picture(png_bytes(three, 80, PngOptions(background="transparent")))
+    picture = read_picture(png_bytes(three, 80, SvgOptions(background="transparent")))
     assert picture[0, 0].tolist() == [0, 0, 0, 0]
     assert read_picture(png_bytes(three, 80))[0, 0].tolist() == [255, 255, 255, 255]
 
@@ -86,7 +89,7 @@ def test_too_many_pixels(three: Layout) -> None:
 
 def test_bad_background_is_refused() -> None:
     with pytest.raises(RecipeError, match="background"):
-        PngOptions(background="#12")
+        SvgOptions(background="#12")
 
 
 class PanicException(BaseException):

@@ -15,8 +15,8 @@ from packwork.readers.svg.item import item_of_svg
 from packwork.scene.item import FlatArt, Item, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import has_one_colour, recoloured
-from packwork.writers.png import PngOptions, png_bytes
-from packwork.writers.svg import svg_text
+from packwork.writers.png import png_bytes
+from packwork.writers.svg import SvgOptions, svg_text
 
 LayoutMaker = Callable[..., Layout]
 Reader = Callable[[bytes], np.ndarray]
@@ -63,7 +63,7 @@ def test_a_drawing_of_one_colour_changes_its_colour_alone(
     other = recoloured(item, "#ff8000")
     assert isinstance(other.art, VectorArt)
     assert has_one_colour(other.art)
-    clear = PngOptions(background=None)
+    clear = SvgOptions()
     before, after = (
         read_picture(png_bytes(make_layout([one], [40.0], [30.0], scale=[5.0]), 160, clear))
         for one in (item, other)

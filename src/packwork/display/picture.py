@@ -8,7 +8,7 @@ import re
 from packwork.scene.item import Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.writers.marks import shape_key
-from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.png import png_bytes
 from packwork.writers.svg import Sheet, SvgOptions, svg_document
 
 SIDE_PX = 600
@@ -37,15 +37,8 @@ def notebook_svg(layout: Layout) -> str | None:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> sheet = Container("tile", "tile", tile, 200.0, 100.0, "mm")
-    >>> empty = Layout(sheet, (), Poses(none, none, none, none), none)
-    >>> 'width="600" height="300" viewBox="0 0 200 100"' in notebook_svg(empty)
+    >>> from packwork.scene.blank import blank
+    >>> 'width="600" height="300" viewBox="0 0 200 100"' in notebook_svg(blank(200.0, 100.0, "mm"))
     True
     """
     if _is_long(layout):
@@ -68,22 +61,14 @@ def notebook_png(layout: Layout) -> tuple[bytes, dict[str, int]] | None:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> empty = Layout(
-    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
-    ... )
-    >>> notebook_png(empty) is None
+    >>> from packwork.scene.blank import blank
+    >>> notebook_png(blank()) is None
     True
     """
     if not _is_long(layout):
         return None
     width, height = _size(layout)
-    picture = png_bytes(layout, SHARPNESS * SIDE_PX, PngOptions(background=PAPER))
+    picture = png_bytes(layout, SHARPNESS * SIDE_PX, SvgOptions(background=PAPER))
     return picture, {"width": round(width), "height": round(height)}
 
 

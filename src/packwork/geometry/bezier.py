@@ -45,25 +45,3 @@ def flatten_cubic(
     t = np.arange(1, steps + 1)[:, None] / steps
     s = 1 - t
     return np.asarray(s**3 * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t**3 * p3)
-
-
-def arc_points(
-    centre: tuple[float, float],
-    radius: float,
-    start_rad: float,
-    sweep_rad: float,
-    tolerance: float,
-) -> FloatArray:
-    """Points ``(k, 2)`` on a circular arc, both ends kept, within ``tolerance`` of it.
-
-    Examples
-    --------
-    >>> arc_points((0, 0), 1.0, 0.0, np.pi, 0.5).round(3).tolist()
-    [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0]]
-    """
-    step = 2 * math.acos(max(-1.0, 1 - min(tolerance / radius, 1.0)))
-    count = min(max(math.ceil(abs(sweep_rad) / max(step, 1e-9)), 1), MAX_STEPS)
-    angles = start_rad + sweep_rad * np.arange(count + 1) / count
-    return np.column_stack(
-        [centre[0] + radius * np.cos(angles), centre[1] + radius * np.sin(angles)]
-    )

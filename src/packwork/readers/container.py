@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from packwork.errors import ReadError
-from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
@@ -21,6 +18,7 @@ from packwork.readers.text import PREFIX
 from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import naming
 from packwork.recipe_paths import AROUND, BUILTIN
+from packwork.scene.blank import sheet
 from packwork.scene.canvas import on_canvas, placed_container
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
@@ -91,10 +89,7 @@ def read_container(
 def _sheet(name: str, size: CanvasSize | None) -> Container:
     """All of a canvas."""
     whole = CanvasSize(DEFAULT_SIDE, None, "px") if size is None else size
-    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    width, height = whole.width, whole.height or whole.width
-    outline = Outline.from_rings([corners * (width, height)])
-    return Container(name, name, outline, width, height, whole.unit)
+    return sheet(name, whole.width, whole.height or whole.width, whole.unit)
 
 
 def _container(

@@ -27,7 +27,7 @@ from packwork.wordcloud.setting import Placed, Setting, container_of_mask, place
 from packwork.wordcloud.words import STOPWORDS, frequencies, tokens, with_bigrams
 from packwork.writers.atomic import write_atomic
 from packwork.writers.options import TextChoice
-from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.png import png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
 _LOG = logging.getLogger("packwork")
@@ -202,7 +202,7 @@ class WordCloud:
         """Picture of the cloud, ``scale`` times as large as its canvas."""
         self._check_generated()
         size = (int(self.width * self.scale), int(self.height * self.scale))
-        data = png_bytes(self.layout, max(size), PngOptions(background=None))
+        data = png_bytes(self.layout, max(size), SvgOptions())
         with Image.open(io.BytesIO(data)) as drawn:
             words = _without_traces(drawn.convert("RGBA").crop((0, 0, *size)))
         shown = Image.new("RGBA", size, _rgba(self.background_color))

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from packwork.writers.film.registry import FILMS, check_film, film_bytes
     from packwork.writers.geojson import geojson_text
     from packwork.writers.halos import faint_told
-    from packwork.writers.png import PngOptions, png_bytes
+    from packwork.writers.png import png_bytes
     from packwork.writers.recipe import recipe_bytes
     from packwork.writers.registry import (
         WRITERS,
@@ -34,7 +34,6 @@ __all__ = [
     "FILMS",
     "WRITERS",
     "Film",
-    "PngOptions",
     "SvgOptions",
     "WriteOptions",
     "check_film",
@@ -65,7 +64,7 @@ _HOMES = {
     "film.registry": ("FILMS", "check_film", "film_bytes"),
     "geojson": ("geojson_text",),
     "halos": ("faint_told",),
-    "png": ("PngOptions", "png_bytes"),
+    "png": ("png_bytes",),
     "recipe": ("recipe_bytes",),
     "registry": (
         "WRITERS", "WriteOptions", "check_output", "check_picture_size", "encoded", "write",

@@ -47,14 +47,8 @@ def diagnose_png(layout: Layout, longer_side_px: int) -> bytes:
 
     Examples
     --------
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> empty = Layout(
-    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
-    ... )
-    >>> diagnose_png(empty, 16)[1:4]
+    >>> from packwork.scene.blank import blank
+    >>> diagnose_png(blank(), 16)[1:4]
     b'PNG'
     """
     frame = picture_frame(layout.container, longer_side_px)

@@ -70,13 +70,8 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
 
     Examples
     --------
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> sheet = Container("tile", "tile", tile, 4.0, 4.0, "cm")
-    >>> b"LWPOLYLINE" in dxf_bytes(Layout(sheet, (), Poses(none, none, none, none), none))
+    >>> from packwork.scene.blank import blank
+    >>> b"LWPOLYLINE" in dxf_bytes(blank(unit="cm"))
     True
     """
     lines = [

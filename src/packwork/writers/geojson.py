@@ -39,15 +39,9 @@ def geojson_text(layout: Layout) -> str:
 
     Examples
     --------
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> empty = Layout(
-    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
-    ... )
-    >>> json.loads(geojson_text(empty))["features"][0]["geometry"]["coordinates"]
-    [[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 0.0]]]
+    >>> from packwork.scene.blank import blank
+    >>> json.loads(geojson_text(blank()))["features"][0]["geometry"]["coordinates"]
+    [[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]]]
     """
     container = layout.container
     digits = decimals(container.side * PRECISION)

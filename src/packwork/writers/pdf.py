@@ -59,14 +59,8 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | No
 
     Examples
     --------
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> import numpy as np
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> sheet = Container("tile", "tile", tile, 4.0, 4.0, "cm")
-    >>> pdf_bytes(Layout(sheet, (), Poses(none, none, none, none), none))[:5]
+    >>> from packwork.scene.blank import blank
+    >>> pdf_bytes(blank(unit="cm"))[:5]
     b'%PDF-'
     """
     import typst

@@ -15,13 +15,10 @@ def promised(layout: Layout) -> tuple[str, bool]:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Container("", "", Outline.from_rings([[[0, 0], [4, 0], [4, 4]]]), 4.0, 4.0)
-    >>> none, said = np.zeros(0), {"promised": {"gap": 0.5, "areas_in_shares": False}}
-    >>> promised(Layout(tile, (), Poses(none, none, none, none), none, said))
+    >>> from dataclasses import replace
+    >>> from packwork.scene.blank import blank
+    >>> said = {"promised": {"gap": 0.5, "areas_in_shares": False}}
+    >>> promised(replace(blank(), manifest=said))
     ('0.5', False)
     """
     found = layout.manifest.get("promised")
@@ -35,13 +32,8 @@ def stated_weights(layout: Layout) -> list[str]:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Container("", "", Outline.from_rings([[[0, 0], [4, 0], [4, 4]]]), 4.0, 4.0)
-    >>> none = np.zeros(0)
-    >>> stated_weights(Layout(tile, (), Poses(none, none, none, none), none))
+    >>> from packwork.scene.blank import blank
+    >>> stated_weights(blank())
     []
     """
     has_shares = promised(layout)[1]

@@ -20,7 +20,7 @@ from packwork.writers.geojson import geojson_text
 from packwork.writers.halos import haloed
 from packwork.writers.options import DrawingOptions, HaloChoice
 from packwork.writers.pdf import pdf_bytes
-from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.png import ON_WHITE, png_bytes
 from packwork.writers.printing import DPI, SPARE, printed, printed_on_paper
 from packwork.writers.stills import check_webp_side, jpeg_bytes, tiff_bytes, webp_bytes
 from packwork.writers.svg import SvgOptions, svg_text
@@ -36,7 +36,7 @@ class WriteOptions:
     Parameters
     ----------
     svg, png
-        How the layout is drawn; ``svg`` holds for PDF too.
+        How the layout is drawn: in SVG and PDF, and in pictures of pixels.
     png_side_px
         Longer side of a PNG or JPEG.
     dpi
@@ -59,7 +59,7 @@ class WriteOptions:
     """
 
     svg: SvgOptions = field(default_factory=SvgOptions)
-    png: PngOptions = field(default_factory=PngOptions)
+    png: SvgOptions = ON_WHITE
     png_side_px: int = 1600
     dpi: float | None = None
     bleed: str | None = None
@@ -92,20 +92,15 @@ def _svg(layout: Layout, options: WriteOptions) -> bytes:
     return svg_text(options.on_paper(layout), options.svg).encode()
 
 
-def _png(layout: Layout, options: WriteOptions) -> bytes:
-    return png_bytes(options.on_screen(layout), options.side_px(layout), options.png)
+def _pixels(
+    encode: Callable[[Layout, int, SvgOptions | None], bytes],
+) -> Encoder:
+    """Encoder of a format of pixels, of which all are drawn alike."""
 
+    def encoder(layout: Layout, options: WriteOptions) -> bytes:
+        return encode(options.on_screen(layout), options.side_px(layout), options.png)
 
-def _jpeg(layout: Layout, options: WriteOptions) -> bytes:
-    return jpeg_bytes(options.on_screen(layout), options.side_px(layout), options.png)
-
-
-def _webp(layout: Layout, options: WriteOptions) -> bytes:
-    return webp_bytes(options.on_screen(layout), options.side_px(layout), options.png)
-
-
-def _tiff(layout: Layout, options: WriteOptions) -> bytes:
-    return tiff_bytes(options.on_screen(layout), options.side_px(layout), options.png)
+    return encoder
 
 
 def _pdf(layout: Layout, options: WriteOptions) -> bytes:
@@ -123,12 +118,12 @@ def _geojson(layout: Layout, _: WriteOptions) -> bytes:
 WRITERS: Mapping[str, Encoder] = MappingProxyType(
     {
         ".svg": _svg,
-        ".png": _png,
-        ".jpg": _jpeg,
-        ".jpeg": _jpeg,
-        ".webp": _webp,
-        ".tif": _tiff,
-        ".tiff": _tiff,
+        ".png": _pixels(png_bytes),
+        ".jpg": _pixels(jpeg_bytes),
+        ".jpeg": _pixels(jpeg_bytes),
+        ".webp": _pixels(webp_bytes),
+        ".tif": _pixels(tiff_bytes),
+        ".tiff": _pixels(tiff_bytes),
         ".pdf": _pdf,
         ".dxf": _dxf,
         ".geojson": _geojson,
@@ -216,17 +211,10 @@ def write(layout: Layout, path: str | Path, options: WriteOptions | None = None)
 
     Examples
     --------
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> import numpy as np, tempfile
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> empty = Layout(
-    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
-    ... )
+    >>> import tempfile
+    >>> from packwork.scene.blank import blank
     >>> with tempfile.TemporaryDirectory() as folder:
-    ...     write(empty, Path(folder, "out.svg"))
+    ...     write(blank(), Path(folder, "out.svg"))
     ...     Path(folder, "out.svg").exists()
     True
     """
@@ -245,16 +233,8 @@ def encoded(layout: Layout, path: str | Path, options: WriteOptions | None = Non
 
     Examples
     --------
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> import numpy as np
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> empty = Layout(
-    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
-    ... )
-    >>> encoded(empty, "out.png")[1:4]
+    >>> from packwork.scene.blank import blank
+    >>> encoded(blank(), "out.png")[1:4]
     b'PNG'
     """
     encoder = _encoder(path)
@@ -298,7 +278,7 @@ def write_options(**options: Any) -> WriteOptions:
     asked = DrawingOptions.model_validate(options)
     background, kiss, bleed = asked.background, asked.kiss_cut, asked.bleed
     colour = None if background in {None, "none", "transparent"} else background
-    png = PngOptions(show_container=asked.show_container)
+    png = replace(ON_WHITE, show_container=asked.show_container)
     return WriteOptions(
         svg=SvgOptions(
             background=colour,

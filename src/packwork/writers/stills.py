@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 from packwork.errors import RecipeError
 from packwork.scene.layout import Layout
 from packwork.writers.frame import dots_per_inch
-from packwork.writers.png import PngOptions, png_bytes
+from packwork.writers.png import png_bytes
+from packwork.writers.svg import SvgOptions
 
 if TYPE_CHECKING:
     from PIL import Image
@@ -21,7 +22,7 @@ MOST_WEBP_PX = 16_383
 """Longer side of a WebP at most. Derived: its header has 14 bits."""
 
 
-def jpeg_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
+def jpeg_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = None) -> bytes:
     r"""JPEG file of a layout, as :func:`packwork.writers.png.png_bytes` draws it.
 
     Where the background is clear, it is white: a JPEG knows no other.
@@ -35,16 +36,8 @@ def jpeg_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None =
 
     Examples
     --------
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> import numpy as np
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> empty = Layout(
-    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
-    ... )
-    >>> jpeg_bytes(empty, 16)[:2], webp_bytes(empty, 16)[8:12], tiff_bytes(empty, 16)[:2]
+    >>> from packwork.scene.blank import blank
+    >>> jpeg_bytes(blank(), 16)[:2], webp_bytes(blank(), 16)[8:12], tiff_bytes(blank(), 16)[:2]
     (b'\xff\xd8', b'WEBP', b'II')
     """
     from PIL import Image
@@ -56,7 +49,7 @@ def jpeg_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None =
     return _saved(paper, "JPEG", quality=JPEG_QUALITY, **known)
 
 
-def webp_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
+def webp_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = None) -> bytes:
     """WebP file of a layout, without loss.
 
     Raises
@@ -86,7 +79,7 @@ def check_webp_side(longer_side_px: int) -> None:
         )
 
 
-def tiff_bytes(layout: Layout, longer_side_px: int, options: PngOptions | None = None) -> bytes:
+def tiff_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = None) -> bytes:
     """TIFF file of a layout, without loss; clear places stay clear, an opaque one has no alpha.
 
     Raises
@@ -107,7 +100,7 @@ def _density(layout: Layout, longer_side_px: int) -> dict[str, Any]:
     return {} if density is None else {"dpi": (density, density)}
 
 
-def _drawn(layout: Layout, longer_side_px: int, options: PngOptions | None) -> Image.Image:
+def _drawn(layout: Layout, longer_side_px: int, options: SvgOptions | None) -> Image.Image:
     from PIL import Image
 
     drawn = png_bytes(layout, longer_side_px, options)

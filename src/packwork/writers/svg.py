@@ -33,6 +33,7 @@ from packwork.scene.note import Note
 from packwork.units import Unit
 from packwork.writers.colours import parse_colour
 from packwork.writers.cutting import CutOptions, cut_group
+from packwork.writers.frame import Frame
 from packwork.writers.labels import item_ids, labelled
 from packwork.writers.live import LiveWords
 from packwork.writers.marks import element, paint, shape_key
@@ -122,6 +123,13 @@ class Sheet:
     view: tuple[float, float]
 
 
+def sheet_of(frame: Frame) -> Sheet:
+    """Sheet of whole pixels both ways: renderers fit a fractional canvas with soft edges."""
+    size = (float(frame.columns), float(frame.rows))
+    view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
+    return Sheet(size=size, unit="px", view=view)
+
+
 def svg_text(layout: Layout, options: SvgOptions | None = None) -> str:
     """SVG document of a layout, as large as its canvas, in canvas units.
 
@@ -154,17 +162,9 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
 
     Examples
     --------
-    >>> import numpy as np
-    >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.container import Container
-    >>> from packwork.scene.pose import Poses
-    >>> tile = Outline.from_rings([[[0, 0], [4, 0], [4, 4]]])
-    >>> none = np.zeros(0)
-    >>> empty = Layout(
-    ...     Container("tile", "tile", tile, 4.0, 4.0), (), Poses(none, none, none, none), none
-    ... )
+    >>> from packwork.scene.blank import blank
     >>> sheet = Sheet(size=(64.0, 64.0), unit="mm", view=(4.0, 4.0))
-    >>> text = svg_document(empty, SvgOptions(), sheet)
+    >>> text = svg_document(blank(), SvgOptions(), sheet)
     >>> 'width="64mm" height="64mm" viewBox="0 0 4 4"' in text
     True
     """

@@ -34,7 +34,8 @@ MAX_LAYERS = 16
 own while the drawing is rendered. Chosen."""
 
 MAX_DASHES = 20_000
-"""Dashes of a drawing: about ten milliseconds of each of its copies in a picture. Chosen."""
+"""Dashes of a drawing, or of one line: about ten milliseconds of each of its copies in a picture.
+Chosen."""
 
 _PIXELS_PER_ELEMENT = 10_000
 _COUNTABLE = 10**15

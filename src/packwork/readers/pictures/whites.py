@@ -8,7 +8,8 @@ from packwork.arrays import FloatArray
 from packwork.readers.pictures.decode import Pixels
 
 LEAST_WHITE = 240
-"""Each channel of white, of 255, at least: as of sheets behind SVGs."""
+"""Each channel of white, of 255, at least, in pictures and of sheets behind SVGs. Smaller takes
+pale tiles for paper, larger keeps ivory paper. Chosen."""
 
 MOST_WHITE = 1 / 3
 """Share of what is painted that white patches are holes up to. More are the body of a drawing

@@ -15,7 +15,7 @@ from packwork.readers.regions import clean_union, tell_if_full
 from packwork.readers.svg.drawing import Drawing, read_drawing
 from packwork.readers.svg.paint.walk import Page
 from packwork.readers.svg.region.ink import Ink, TracedInk
-from packwork.readers.svg.region.sheet import LEAST_WHITE
+from packwork.readers.svg.region.sheet import LEAST_WHITE, WHOLE_PAGE
 from packwork.readers.svg.render.trace import TRACE_PX, page_picture
 from packwork.readers.svg.whites import has_whites, without_whites
 from packwork.readers.trimming import canvas_box
@@ -32,9 +32,6 @@ _WHY_FULL = (
 TOLD_WHITE = 0.1
 """Share of a drawing that its white holes take from which they are told. Larger is silent about
 a white dress, smaller speaks of every eye. Chosen."""
-
-WHOLE_PAGE = 0.999
-"""Share of the page from which a drawing counts as painted all over. Chosen."""
 
 
 def container_of_svg(

@@ -85,6 +85,20 @@ def view_box(element: ET.Element) -> tuple[float, float, float, float] | None:
     return left, top, width, height
 
 
+def root_viewport(root: ET.Element, page: Page | None) -> Viewport:
+    """Width and height in user units that percentages in a clean drawing refer to.
+
+    Examples
+    --------
+    >>> root_viewport(ET.Element("svg", {"viewBox": "0 0 2 1"}), None)
+    (2.0, 1.0)
+    """
+    view = view_box(root)
+    if view is not None:
+        return view[2], view[3]
+    return PLAIN_VIEWPORT if page is None else (page.width, page.height)
+
+
 def _absolute(text: str | None) -> float | None:
     """A page's side; a share of an unknown window is none."""
     return None if text is not None and "%" in text else parse_length(text, 0.0)

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.geometry import affine
 from packwork.readers.account import spend
 from packwork.readers.svg_syntax.arcs import arc_cubics
 from packwork.readers.svg_syntax.lengths import (
@@ -59,6 +60,12 @@ class SubPath:
     segments: FloatArray
     start: Point
     is_closed: bool
+
+    def placed(self, matrix: FloatArray) -> SubPath:
+        """The same piece under a 2 x 3 map."""
+        (x, y) = affine.apply(matrix, np.array([self.start]))[0].tolist()
+        segments = affine.apply(matrix, self.segments.reshape(-1, 2)).reshape(-1, 4, 2)
+        return SubPath(segments, (x, y), self.is_closed)
 
 
 def parse_path(data: str) -> list[SubPath]:

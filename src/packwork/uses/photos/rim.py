@@ -125,31 +125,6 @@ def _within_reach(seen: ShapeArray, k: int, extent: float, gap: float) -> IntArr
     return np.asarray(met[met != k])
 
 
-def _rescued(
-    window: Region,
-    outlines: Sequence[Outline],
-    poses: Poses,
-    may_move: BoolArray,
-    least: float,
-    smallest: float,
-) -> Poses:
-    """Poses in which items are made smaller, about the place that is seen of them.
-
-    What is convex stays within itself so, and meets nothing that it did not meet before.
-    """
-    fitting = [factor for factor in SMALLER if factor >= smallest]
-    for k in np.flatnonzero(may_move).tolist():
-        whole = outlines[k].mapped(poses.matrix(k)).region
-        if not _is_short(whole, window, least):
-            continue
-        for row in _about_sides(outlines[k], poses, k, fitting):
-            fewer = outlines[k].mapped(row.matrix(0)).region
-            if not _is_short(fewer, window, least) and buffered(whole, _SLACK).covers(fewer):
-                poses = poses.with_some(np.array([k]), row)
-                break
-    return poses
-
-
 def _is_short(whole: Region, window: Region, least: float) -> bool:
     return bool(intersection(whole, window).area < least * whole.area)
 

@@ -20,7 +20,7 @@ from packwork.writers.film.knots import item_knots
 from packwork.writers.frame import picture_frame
 from packwork.writers.labels import item_ids
 from packwork.writers.marks import element, paint
-from packwork.writers.svg import Sheet, SvgOptions, svg_document
+from packwork.writers.svg import sheet_of, svg_document
 
 TOLERANCE = 1 / 4_000
 """Largest way of an item from where a film's frames have it, as a share of the canvas: a
@@ -34,14 +34,9 @@ _LEAVING = "leaving"
 def animated_svg_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     """SVG file of a film: the layout's own, and how its items move."""
     frame = picture_frame(film.layout.container, film.options.film_pixels)
-    size = (float(frame.columns), float(frame.rows))
-    view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
-    options = SvgOptions(background=film.background, show_container=film.show_container)
     # Halos lie under all items, in one group: they would stay behind.
     bare = tuple(replace(item, halo="") for item in film.layout.items)
-    still = svg_document(
-        replace(film.layout, items=bare), options, Sheet(size=size, unit="px", view=view)
-    )
+    still = svg_document(replace(film.layout, items=bare), film.drawing, sheet_of(frame))
     head, end_of_title, rest = still.partition("</title>")
     beneath, items, above = rest.partition('<g id="items"')
     drawn = [head, end_of_title, "\n", _style(film, tell), beneath, *_leaving(film), items, above]

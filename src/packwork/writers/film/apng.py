@@ -12,7 +12,7 @@ from PIL import Image
 
 from packwork.raster.overlay import Picture
 from packwork.writers.film.changes import Part, changed_part
-from packwork.writers.film.film import Film, Tell, tell_nobody
+from packwork.writers.film.film import Film, Tell, delays, tell_nobody
 from packwork.writers.film.projector import Projector
 
 COMPRESSION = 4
@@ -32,14 +32,11 @@ def apng_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     size = struct.pack(">II", frame.columns, frame.rows)
     out.write(_SIGNATURE + _chunk(b"IHDR", size + bytes([8, _RGBA, 0, 0, 0])))
     out.write(_chunk(b"acTL", struct.pack(">II", options.frames, 0 if options.loop else 1)))
-    ends = np.append(np.arange(1, options.frames) / options.fps, options.total)
-    delays = np.diff(np.round(_MILLISECONDS * ends), prepend=0)
+    shown = delays(options, _MILLISECONDS)
     number = 0
     for k, (part, pixels) in enumerate(_parts(projector.pictures(tell), film.is_opaque)):
         blend = _OVER if film.is_opaque and k else _SOURCE
-        out.write(
-            _chunk(b"fcTL", struct.pack(">I", number) + _control(part, int(delays[k]), blend))
-        )
+        out.write(_chunk(b"fcTL", struct.pack(">I", number) + _control(part, shown[k], blend)))
         number += 1
         for data in _compressed(pixels):
             if k == 0:

@@ -16,6 +16,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.track import Track
 from packwork.writers.colours import parse_colour
 from packwork.writers.film.options import FilmOptions
+from packwork.writers.svg import SvgOptions
 
 PAPER = "#ffffff"
 """Behind the items of a film unless something else is asked for, as in a PNG."""
@@ -68,7 +69,8 @@ class Film:
             raise WriteError(
                 "film", f"the track is of {self.track.count} items, not {len(self.layout.items)}"
             )
-        parse_colour("background", self.background)
+        # Refuses what is no colour.
+        _ = self.drawing
 
     @property
     def track(self) -> Track:
@@ -77,6 +79,11 @@ class Film:
         if track is None:
             raise WriteError("film", "the run was not recorded; give record=True to fill or words")
         return track
+
+    @property
+    def drawing(self) -> SvgOptions:
+        """How a frame is drawn, but for its items."""
+        return SvgOptions(background=self.background, show_container=self.show_container)
 
     @property
     def is_opaque(self) -> bool:
@@ -109,6 +116,20 @@ class Film:
         if leaving is None:
             return numbers
         return np.concatenate([leaving.sampled(times), numbers], axis=1)
+
+
+def delays(options: FilmOptions, ticks: int) -> list[int]:
+    """How long each frame is shown, in whole ticks of so many to the second.
+
+    Their sum is true to the film's length.
+
+    Examples
+    --------
+    >>> delays(FilmOptions(fps=3, seconds=1, hold=0), 100)
+    [33, 34, 33]
+    """
+    ends = np.append(np.arange(1, options.frames) / options.fps, options.total)
+    return [int(delay) for delay in np.diff(np.round(ticks * ends), prepend=0)]
 
 
 def _softened(sampled: Callable[[FloatArray], FloatArray], count: int, reach: int) -> FloatArray:

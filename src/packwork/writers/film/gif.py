@@ -18,8 +18,7 @@ from scipy.spatial import KDTree
 
 from packwork.raster.overlay import Picture
 from packwork.writers.film.changes import Part, changed_part
-from packwork.writers.film.film import Film, Tell, tell_nobody
-from packwork.writers.film.options import FilmOptions
+from packwork.writers.film.film import Film, Tell, delays, tell_nobody
 from packwork.writers.film.projector import Projector
 
 MAX_FPS = 50.0
@@ -39,6 +38,7 @@ BITS = 6
 """Of each channel, by which a colour is looked up. More take eight times the memory each."""
 
 _HALF = 128
+_HUNDREDTHS = 100
 
 _Indices = npt.NDArray[np.uint8]
 _LOG = logging.getLogger(__name__)
@@ -53,9 +53,10 @@ def gif_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     frame, options = projector.frame, film.options
     out = io.BytesIO()
     out.write(_head(frame.columns, frame.rows, palette, options.loop))
-    delays = _delays(options)
     indexed = (_indices(picture, lookup) for picture in projector.pictures(tell))
-    for delay, (part, pixels) in zip(delays, _parts(indexed, film.is_opaque), strict=True):
+    for delay, (part, pixels) in zip(
+        delays(options, _HUNDREDTHS), _parts(indexed, film.is_opaque), strict=True
+    ):
         out.write(_control(delay, disposal=1 if film.is_opaque else 2))
         out.write(_image(part, pixels))
     out.write(b";")
@@ -69,12 +70,6 @@ def _slowed(film: Film) -> Film:
     _LOG.warning("GIF: %g pictures a second instead of %g: it knows no more", MAX_FPS, options.fps)
     slower = options.model_copy(update={"fps": MAX_FPS})
     return Film(film.layout, slower, film.background, film.show_container)
-
-
-def _delays(options: FilmOptions) -> list[int]:
-    """Hundredths of a second for each frame, their sum true to the film's length."""
-    ends = np.append(np.arange(1, options.frames) / options.fps, options.total)
-    return [int(d) for d in np.diff(np.round(100 * ends), prepend=0)]
 
 
 def _palette(projector: Projector, film: Film) -> npt.NDArray[np.uint8]:

@@ -66,11 +66,6 @@ class FilmOptions(Options):
         return max(round(self.seconds * self.fps), 2)
 
     @property
-    def moving(self) -> float:
-        """Seconds from the first of them to the last."""
-        return (self.frames - 1) / self.fps
-
-    @property
     def total(self) -> float:
         """Seconds of the whole film."""
         return self.frames / self.fps + self.hold

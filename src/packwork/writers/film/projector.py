@@ -14,19 +14,17 @@ from packwork.errors import PackworkError, WriteError
 from packwork.geometry import affine
 from packwork.raster.drawing import drawn_png
 from packwork.raster.overlay import FINENESS, Picture, Texture, premultiplied, straight, texture_of
+from packwork.scene.blank import without_items
 from packwork.scene.item import Item
-from packwork.scene.pose import Poses
 from packwork.scene.track import poses_of
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.frame import Frame, picture_frame
 from packwork.writers.marks import paint, shape_key
 from packwork.writers.picturing import pictured
-from packwork.writers.svg import Sheet, SvgOptions, svg_document
+from packwork.writers.svg import sheet_of, svg_document
 
 _SMALLEST_PX = 1.0
 """Longer side of a drawing that is shown smaller than that, when it is rendered."""
-
-_NOWHERE = np.zeros(0)
 
 
 class Projector:
@@ -114,12 +112,7 @@ def _frame(film: Film, is_even: bool) -> Frame:
 
 def _sheet(film: Film, frame: Frame) -> Picture:
     """What lies under the items in every frame, premultiplied."""
-    none = Poses(_NOWHERE, _NOWHERE, _NOWHERE, _NOWHERE)
-    bare = replace(film.layout, items=(), poses=none, weights=_NOWHERE)
-    size = (float(frame.columns), float(frame.rows))
-    view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
-    drawn = SvgOptions(background=film.background, show_container=film.show_container)
-    document = svg_document(bare, drawn, Sheet(size=size, unit="px", view=view))
+    document = svg_document(without_items(film.layout), film.drawing, sheet_of(frame))
     return premultiplied(_pixels(drawn_png(document)))
 
 

@@ -11,7 +11,7 @@ from PIL import Image
 
 from packwork.raster.overlay import Picture
 from packwork.writers.film.changes import Part, changed_part
-from packwork.writers.film.film import Film, Tell, tell_nobody
+from packwork.writers.film.film import Film, Tell, delays, tell_nobody
 from packwork.writers.film.projector import Projector
 
 QUALITY = 85
@@ -31,16 +31,15 @@ def webp_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     """WebP file of a film."""
     projector, options = Projector(film), film.options
     frame = projector.frame
-    ends = np.append(np.arange(1, options.frames) / options.fps, options.total)
-    delays = np.diff(np.round(_MILLISECONDS * ends), prepend=0)
+    shown = delays(options, _MILLISECONDS)
     flags = _ANIMATED | (0 if film.is_opaque else _ALPHA)
     size = _three(frame.columns - 1) + _three(frame.rows - 1)
     chunks = [
         _chunk(b"VP8X", bytes([flags, 0, 0, 0]) + size),
         _chunk(b"ANIM", bytes(4) + struct.pack("<H", 0 if options.loop else 1)),
     ]
-    for delay, (part, pixels) in zip(delays, _parts(projector.pictures(tell)), strict=True):
-        chunks.append(_chunk(b"ANMF", _frame(part, pixels, int(delay), film.is_opaque)))
+    for delay, (part, pixels) in zip(shown, _parts(projector.pictures(tell)), strict=True):
+        chunks.append(_chunk(b"ANMF", _frame(part, pixels, delay, film.is_opaque)))
     body = b"WEBP" + b"".join(chunks)
     return b"RIFF" + struct.pack("<I", len(body)) + body
 

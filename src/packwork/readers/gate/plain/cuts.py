@@ -8,7 +8,7 @@ import xml.etree.ElementTree as ET
 from packwork.readers.gate.css.selectors import split_outside
 from packwork.readers.gate.plain.boxes import Box, fill_box, place_in
 from packwork.readers.svg_syntax.lengths import parse_length
-from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, view_box
+from packwork.readers.svg_syntax.page import Page, root_viewport
 from packwork.readers.svg_syntax.references import elements_by_id
 
 CLIP = "clip-path"
@@ -36,9 +36,7 @@ def settle_cuts(root: ET.Element, page: Page | None) -> None:
         return
     by_id = elements_by_id(root)
     parents = {child: parent for parent in root.iter() for child in parent}
-    viewport = PLAIN_VIEWPORT if page is None else (page.width, page.height)
-    view = view_box(root)
-    viewport = (view[2], view[3]) if view else viewport
+    viewport = root_viewport(root, page)
     for element in cut:
         match = _SHAPE.fullmatch(element.attrib.pop(CLIP))
         if match is None:

@@ -15,7 +15,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.gate.plain.boxes import Box, fill_box, place_in
 from packwork.readers.svg_syntax.lengths import parse_length
-from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, view_box
+from packwork.readers.svg_syntax.page import Page, root_viewport, view_box
 from packwork.readers.svg_syntax.references import elements_by_id
 from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.readers.svg_syntax.vocabulary import CSS_MOVES
@@ -37,9 +37,7 @@ def settle_moves(root: ET.Element, page: Page | None) -> None:
     """
     if not any(_is_special(element) for element in root.iter()):
         return
-    view = view_box(root)
-    viewport = PLAIN_VIEWPORT if page is None else (page.width, page.height)
-    _settle(root, elements_by_id(root), (view[2], view[3]) if view else viewport)
+    _settle(root, elements_by_id(root), root_viewport(root, page))
 
 
 def _is_special(element: ET.Element) -> bool:

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from packwork.readers.svg_syntax.lengths import PX_PER_UNIT
-from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, view_box
+from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, root_viewport, view_box
 from packwork.units import NUMBER
 
 PLAIN_FONT_PX = 16.0
@@ -90,9 +90,7 @@ def settle_units(root: ET.Element, page: Page | None) -> None:
     """
     window = PLAIN_VIEWPORT if page is None else (page.width, page.height)
     font = _font_size(root, Context(PLAIN_FONT_PX, PLAIN_FONT_PX, window, window))
-    view = view_box(root)
-    viewport = window if view is None else (view[2], view[3])
-    _settle(root, Context(font, font, viewport, window), is_root=True)
+    _settle(root, Context(font, font, root_viewport(root, page), window), is_root=True)
 
 
 def settle_root(root: ET.Element) -> None:

@@ -9,7 +9,6 @@ import xml.etree.ElementTree as ET
 
 import numpy as np
 
-from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.svg.paint.walk import painted_shapes
 from packwork.readers.svg_syntax.page import Page
@@ -69,7 +68,7 @@ def _straighten(shape: Painted) -> None:
     element = shape.element
     own = parse_transform(element.get("transform"))
     back = affine.compose(own, affine.inverse(shape.matrix))
-    data = " ".join(_written(piece, shape.matrix) for piece in shape.pieces)
+    data = " ".join(_written(piece.placed(shape.matrix)) for piece in shape.pieces)
     for name in ("x", "y", "width", "height", "cx", "cy", "r", "rx", "ry", "points"):
         element.attrib.pop(name, None)
     element.tag = "path"
@@ -77,9 +76,7 @@ def _straighten(shape: Painted) -> None:
     element.set("transform", f"matrix({' '.join(f'{v:.12g}' for v in back.T.ravel())})")
 
 
-def _written(piece: SubPath, matrix: FloatArray) -> str:
-    start = affine.apply(matrix, np.array([piece.start]))[0]
-    cubics = affine.apply(matrix, piece.segments.reshape(-1, 2)).reshape(-1, 4, 2)[:, 1:]
-    numbers = [" ".join(f"{v:.12g}" for v in cubic.ravel()) for cubic in cubics]
-    curves = f"C{' '.join(numbers)}" if numbers else ""
-    return f"M{start[0]:.12g} {start[1]:.12g}{curves}{'z' if piece.is_closed else ''}"
+def _written(piece: SubPath) -> str:
+    numbers = " ".join(f"{v:.12g}" for v in piece.segments[:, 1:].ravel())
+    curves = f"C{numbers}" if numbers else ""
+    return "M{:.12g} {:.12g}".format(*piece.start) + curves + ("z" if piece.is_closed else "")

@@ -14,7 +14,7 @@ from packwork.geometry import affine
 from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
 from packwork.readers.svg_syntax.lengths import parse_length
-from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, view_box
+from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, root_viewport, view_box
 from packwork.readers.svg_syntax.page import Page as Page
 from packwork.readers.svg_syntax.painted import Clip, Painted, PlacedText
 from packwork.readers.svg_syntax.painting import Painting, opacity
@@ -63,13 +63,11 @@ def placed_texts(root: ET.Element, page: Page | None) -> list[PlacedText]:
 def _walked(root: ET.Element, page: Page | None) -> _Walk:
     """Walk through the whole of a clean drawing."""
     walk = _Walk(root)
-    view = view_box(root)
     if page is None:
         frame = _Frame(affine.identity(), Painting(), PLAIN_VIEWPORT)
     else:
-        viewport = (view[2], view[3]) if view else (page.width, page.height)
         window = shapely.box(0, 0, page.width, page.height)
-        frame = _Frame(page.matrix, Painting(), viewport, window)
+        frame = _Frame(page.matrix, Painting(), root_viewport(root, page), window)
     if not walk.is_hidden(root):
         walk.visit_children(root, walk.framed(root, frame))
     return walk

@@ -7,9 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray
-
-MAX_DASHES = 20_000
-"""Dashes of one line at most; beyond it the line is solid. Chosen, as of a whole drawing."""
+from packwork.readers.budget.expansion import MAX_DASHES
 
 _DOT = 1e-9
 """Length of a dash without any, as a share of the line's: it has a direction then, which

@@ -136,7 +136,7 @@ class Follower:
 
     def _whole_fill(self, shape: Painted) -> Region:
         if shape not in self._fills:
-            placed = [_placed(piece, shape.matrix) for piece in shape.pieces]
+            placed = [piece.placed(shape.matrix) for piece in shape.pieces]
             rings = flattened_all(placed, self._tolerance)
             spend(_FILL_NS + _POINT_NS * sum(map(len, rings)), _TOO_MUCH)
             self._fills[shape] = filled(rings, shape.painting.fill_rule, self._allowance)
@@ -170,10 +170,3 @@ class Follower:
 def _rings(regions: Sequence[Region]) -> list[FloatArray]:
     points, ring = shapely.get_coordinates(shapely.get_rings(regions), return_index=True)
     return np.split(points, np.flatnonzero(np.diff(ring)) + 1)
-
-
-def _placed(piece: SubPath, matrix: FloatArray) -> SubPath:
-    """Piece in CSS pixels."""
-    start = affine.apply(matrix, np.array([piece.start]))[0]
-    segments = affine.apply(matrix, piece.segments.reshape(-1, 2)).reshape(-1, 4, 2)
-    return SubPath(segments, (float(start[0]), float(start[1])), piece.is_closed)

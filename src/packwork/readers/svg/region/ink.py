@@ -7,11 +7,9 @@ from collections.abc import Sequence
 from functools import cached_property
 from typing import final
 
-import numpy as np
 import shapely
 from shapely.geometry import Polygon
 
-from packwork.geometry import affine
 from packwork.geometry.bezier import FLATTENING, MAX_STEPS
 from packwork.geometry.polygon import Region
 from packwork.readers.svg.region.follow import Follower
@@ -48,13 +46,8 @@ class Ink(ABC):
 
     @property
     @abstractmethod
-    def strokes(self) -> Region:
-        """What is stroked; possibly empty."""
-
-    @property
-    @abstractmethod
     def lines(self) -> Region:
-        """The part of ``strokes`` that belongs to shapes without a fill."""
+        """What is stroked of shapes without a fill; possibly empty."""
 
     @property
     @abstractmethod
@@ -120,11 +113,6 @@ class TracedInk(Ink):
         return self._body
 
     @property
-    def strokes(self) -> Region:
-        """None of it."""
-        return Polygon()
-
-    @property
     def lines(self) -> Region:
         """None of it."""
         return Polygon()
@@ -175,13 +163,6 @@ class PaintedInk(Ink):
         )
 
     @cached_property
-    def strokes(self) -> Region:
-        """What is stroked."""
-        return self._follower.united(
-            self._follower.stroke(s) for s in self._shapes if s.painting.has_stroke
-        )
-
-    @cached_property
     def lines(self) -> Region:
         """What is stroked of shapes without a fill, dashes as solid lines."""
         return self._follower.united(
@@ -217,10 +198,7 @@ def _check_detail(shapes: Sequence[Painted], tolerance: float) -> None:
     pieces = (piece for shape in shapes for piece in shape.pieces)
     if sum(len(piece.segments) for piece in pieces) * MAX_STEPS <= MAX_POINTS:
         return
-    total = 0.0
-    for shape in shapes:
-        cubics = np.concatenate([piece.segments for piece in shape.pieces])
-        placed = affine.apply(shape.matrix, cubics.reshape(-1, 2)).reshape(-1, 4, 2)
-        total += float(step_counts(placed, tolerance).sum())
+    placed = (piece.placed(shape.matrix) for shape in shapes for piece in shape.pieces)
+    total = sum(float(step_counts(piece.segments, tolerance).sum()) for piece in placed)
     if total > MAX_POINTS:
         raise TooRichError(f"needs {total:,.0f} points to follow its curves")

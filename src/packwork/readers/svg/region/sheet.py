@@ -8,6 +8,7 @@ from collections.abc import Sequence
 from shapely.errors import GEOSException
 
 from packwork.readers.pages import PageFate
+from packwork.readers.pictures.whites import LEAST_WHITE as LEAST_WHITE
 from packwork.readers.svg.region.ink import painted_ink
 from packwork.readers.svg_syntax.extent import Box, drawing_box
 from packwork.readers.svg_syntax.page import Page
@@ -15,12 +16,8 @@ from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.unfit import TooRichError
 from packwork.scene.colour import css_colour
 
-LEAST_WHITE = 240
-"""Each channel of a sheet's colour, of 255, at least. Smaller takes pale tiles for paper,
-larger keeps ivory paper. Chosen."""
-
 WHOLE_PAGE = 0.999
-"""Share of the page that a sheet covers at least. Chosen."""
+"""Share of the page from which a sheet, or a drawing, covers all of it. Chosen."""
 
 EDGE = 0.002
 """How near to the page's edge, as a share of its longer side, paint touches it. Chosen."""

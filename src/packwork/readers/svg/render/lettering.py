@@ -20,7 +20,7 @@ from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.account import left, spend
 from packwork.readers.svg.paint.stage import PLACED, paints_of, stage_of
 from packwork.readers.svg.paint.walk import placed_texts
-from packwork.readers.svg.render.resvg import Part, coverage, inked
+from packwork.readers.svg.render.resvg import FIND_PX, Part, coverage, inked
 from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import PlacedText
@@ -52,9 +52,6 @@ budget that texts may take. Measured."""
 
 MAX_SIDE_PX = 8_000
 """Longer side of the picture of one text. Chosen."""
-
-FIND_PX = 250
-"""Longer side of the picture in which a text is looked for. Chosen."""
 
 _SIMPLIFY_PX = 0.2
 """Larger flattens curves, smaller keeps the wobble and thrice the points. Tried."""

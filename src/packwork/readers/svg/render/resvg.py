@@ -19,6 +19,10 @@ TRACE_PX = 1_000
 """Longer side of the rendering that is traced: the outline is good to about 1/10,000 of
 it. Larger costs time by its square. Chosen."""
 
+FIND_PX = 250
+"""Longer side of the rendering in which the ink of a drawing, or of a text, is looked for. Larger
+costs time, smaller loses specks between its pixels. Chosen."""
+
 _MARGIN_PX = 2
 _SEEN = 0.5 / 255
 

@@ -19,17 +19,13 @@ from packwork.readers.budget.work import LEAST_PX, Work
 from packwork.readers.options import HALF
 from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.region.ink import TracedInk
+from packwork.readers.svg.render.resvg import FIND_PX, Part, coverage, inked
 from packwork.readers.svg.render.resvg import TRACE_PX as TRACE_PX
-from packwork.readers.svg.render.resvg import Part, coverage, inked
 from packwork.readers.svg.render.resvg import page_picture as page_picture
 from packwork.readers.svg.render.touched import touched
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.vocabulary import TEXTS, TRACED
-
-FIND_PX = 250
-"""Longer side of the rendering in which the ink is looked for. Larger costs time, smaller
-loses specks between its pixels. Chosen."""
 
 MAX_POINTS, MAX_RINGS = 60_000, 2_000
 """Points and rings of an item's outline. Every stage goes over them again and again; detailed
