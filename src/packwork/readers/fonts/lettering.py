@@ -5,17 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cached_property
 
 import numpy as np
 from shapely import affinity
 
 from packwork.arrays import FloatArray
 from packwork.geometry.bezier import FLATTENING
-from packwork.geometry.polygon import Region, region, united
-from packwork.readers.fonts.curves import path_data, points_of, rings_of
+from packwork.geometry.polygon import Region, united
+from packwork.readers.fonts.curves import path_data, points_of
 from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Segment, Shaped, Typeface
-from packwork.readers.fonts.guard import check_glyph
+from packwork.readers.fonts.glyph_ink import ClearInk, GlyphInk, clear_ink, glyph_ends, glyph_ink
 from packwork.readers.fonts.itemise import Piece, visual_order
 from packwork.readers.fonts.pictures import Picture, picture_of
 from packwork.readers.unfit import UnfitError
@@ -23,9 +23,6 @@ from packwork.scene.live_text import TextRun
 
 LINE_STEP = 1.0
 """Distance of the base lines of a word of several lines, in ems. Chosen."""
-
-MOST_KNOWN = 4096
-"""Glyphs whose regions are remembered: those of a long Chinese text. Chosen."""
 
 _MARGIN = 0.5
 """Share of the allowed flattening that glyphs use up; the rest is rounding."""
@@ -37,8 +34,8 @@ class Lettering:
 
     Parameters
     ----------
-    region
-        What it covers, with holes and parts.
+    covered
+        What its letters cover: rings where none comes near another, else a region.
     path
         SVG path data of its curves, in units of its first font; contours may overlap,
         non-zero.
@@ -50,11 +47,16 @@ class Lettering:
         Glyphs of colour fonts.
     """
 
-    region: Region
+    covered: ClearInk | Region
     path: str
     units: float
     runs: tuple[TextRun, ...] = ()
     pictures: tuple[Picture, ...] = ()
+
+    @cached_property
+    def region(self) -> Region:
+        """What it covers, with holes and parts."""
+        return self.covered.ink.region if isinstance(self.covered, ClearInk) else self.covered
 
 
 @dataclass(frozen=True)
@@ -94,15 +96,31 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
     if not corners and not pictures:
         raise UnfitError("has no outlines to draw it with")
     tolerance = _tolerance(corners)
-    covered = [region for run in runs for region in run.regions(tolerance)]
-    whole = united([*covered, *(picture.region for picture in pictures)])
     return Lettering(
-        affinity.scale(whole, 1 / units, 1 / units, origin=(0, 0)),
+        _covered(runs, pictures, tolerance, 1 / units),
         "".join(path_data(contour) for contour in contours),
         units,
         tuple(run.text for run in runs),
         pictures,
     )
+
+
+def _covered(
+    runs: Sequence[_Run], pictures: Sequence[Picture], tolerance: float, size: float
+) -> ClearInk | Region:
+    """What glyphs and pictures cover, ``size`` times as large; curves followed to ``tolerance``."""
+    glyphs = [glyph for run in runs for glyph in run.inks(tolerance)]
+    places = np.array([place for run in runs for place in run.places()]).reshape(-1, 2)
+    sizes = np.repeat([run.scale for run in runs], [len(run.glyphs) for run in runs])
+    clear = None if pictures else clear_ink(glyphs, places * size, sizes * size)
+    if clear is not None:
+        return clear
+    regions = [
+        affinity.affine_transform(glyph.region, (own, 0, 0, own, *place))
+        for glyph, own, place in zip(glyphs, sizes, places, strict=True)
+    ]
+    whole = united([*regions, *(picture.region for picture in pictures)])
+    return affinity.scale(whole, size, size, origin=(0, 0))
 
 
 @dataclass(frozen=True)
@@ -137,16 +155,14 @@ class _Run:
         drawn = ((self.setting.face.drawing(glyph.number), glyph) for glyph in self.glyphs)
         return [self._moved(segments, glyph) for segments, glyph in drawn if segments]
 
-    def regions(self, tolerance: float) -> list[Region]:
-        """What the glyphs cover, their curves followed to ``tolerance``."""
-        face, size = self.setting.face, self.scale
-        return [
-            affinity.affine_transform(
-                _glyph_region(face, glyph.number, tolerance / size),
-                (size, 0, 0, size, *self._place(glyph)),
-            )
-            for glyph in self.glyphs
-        ]
+    def inks(self, tolerance: float) -> list[GlyphInk]:
+        """What the glyphs cover about their origins, curves followed to ``tolerance``."""
+        face = self.setting.face
+        return [glyph_ink(face, glyph.number, tolerance / self.scale) for glyph in self.glyphs]
+
+    def places(self) -> list[tuple[float, float]]:
+        """Origins of the glyphs."""
+        return [self._place(glyph) for glyph in self.glyphs]
 
     def pictures(self) -> list[Picture]:
         face = self.setting.face
@@ -159,10 +175,11 @@ class _Run:
 
     def ends(self) -> list[float]:
         """Leftmost and rightmost of what is drawn."""
-        found = [points_of(s)[:, 0] for contour in self.contours() for s in contour if s[1]]
-        found += [np.array(picture.region.bounds)[::2] for picture in self.pictures()]
-        across = np.concatenate(found) if found else np.zeros(0)
-        return [float(across.min()), float(across.max())] if len(across) else []
+        face = self.setting.face
+        drawn = [(self._place(glyph)[0], glyph_ends(face, glyph.number)) for glyph in self.glyphs]
+        across = [x + end * self.scale for x, ends in drawn for end in ends]
+        across += [end for picture in self.pictures() for end in picture.region.bounds[::2]]
+        return [min(across), max(across)] if across else []
 
     def _place(self, glyph: Glyph) -> tuple[float, float]:
         return self.x + glyph.x * self.scale, self.y + glyph.y * self.scale
@@ -196,11 +213,3 @@ def _tolerance(corners: Sequence[FloatArray]) -> float:
     extent = float(np.ptp(np.concatenate(corners), axis=0).max())
     # Words of about one length share their glyphs.
     return _MARGIN * FLATTENING * 2.0 ** math.floor(math.log2(max(extent, 1e-9)))
-
-
-@lru_cache(maxsize=MOST_KNOWN)
-def _glyph_region(face: Typeface, number: int, tolerance: float) -> Region:
-    """What a glyph covers about its origin, its curves followed to ``tolerance``."""
-    rings = rings_of(face.drawing(number), tolerance)
-    check_glyph(rings)
-    return region(rings, "nonzero")

@@ -13,8 +13,10 @@ from shapely import affinity
 from packwork.arrays import FloatArray
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
-from packwork.geometry.outline import Outline
+from packwork.geometry.outline import Outline, centre_of_area
+from packwork.geometry.snapping import CLEFT
 from packwork.readers.fonts.fallback import Fonts, open_fonts
+from packwork.readers.fonts.glyph_ink import ClearInk
 from packwork.readers.fonts.lettering import Lettering
 from packwork.readers.fonts.pictures import Picture
 from packwork.readers.regions import Holes, centred, clean_union
@@ -184,6 +186,14 @@ def area_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs)
 
 
 def _placed(drawn: Lettering, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
+    """Outline and ink about the outline's centroid, and the map that brought them there."""
+    covered = drawn.covered
+    if isinstance(covered, ClearInk) and covered.clearance > CLEFT:
+        outline = covered.silhouette if holes == "fill" else covered.ink
+        x, y = centre_of_area(outline) * EM_PX
+        place = affine.similarity(-x, -y, 0.0, 1.0)
+        whole = affine.compose(place, affine.similarity(0.0, 0.0, 0.0, EM_PX))
+        return outline.mapped(whole), covered.ink.mapped(whole), place
     region = affinity.scale(drawn.region, EM_PX, EM_PX, origin=(0, 0))
     return centred(clean_union(region), holes)
 
