@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
@@ -12,26 +12,21 @@ import numpy.typing as npt
 import shapely
 
 from packwork import pipeline, uses
-from packwork.finish.finish import Finished
-from packwork.forces.forces import Forces
+from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.pipeline.job import Job
-from packwork.pipeline.result import Run
-from packwork.pipeline.run import run_along
-from packwork.pipeline.start import Beginning
-from packwork.pipeline.use import Use
-from packwork.progress import Observer, Stop
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.unfit import UnfitError
-from packwork.readers.words.items import EM_PX, word_item
+from packwork.readers.words.items import WordsRead, word_item
+from packwork.readers.words.options import WordOptions
 from packwork.readers.words.word import Word
 from packwork.recipe import make_recipe
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.uses.words.letters import held_down
+from packwork.uses.words.letters import Letters
+from packwork.uses.words.use import Words
 
 SMALLEST_CANVAS = 4
 """Pixels on a side below which nothing is tried. Chosen."""
@@ -39,12 +34,10 @@ SMALLEST_CANVAS = 4
 TURN_STEPS = 20
 """Steps in which the share of horizontal words is kept. Chosen."""
 
-DENSE = 0.4
-"""Share of the room that words cover in a cloud that went well. Larger tries too many words,
-which takes time, smaller leaves out some that would fit. Measured on plain canvases."""
-
-FEWER = 0.6
-"""Share of the words that is tried next, where the smallest would be too small. Chosen."""
+NO_ROOM = (
+    "Couldn't find space to draw. Either the Canvas size is too small or too much of the image is "
+    "masked out."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,10 +98,7 @@ def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) ->
     >>> container_of_mask(None, 40, 20).outline.area
     800.0
     """
-    no_room = ValueError(
-        "Couldn't find space to draw. Either the Canvas size is too small or too much of the "
-        "image is masked out."
-    )
+    no_room = ValueError(NO_ROOM)
     if min(width, height) < SMALLEST_CANVAS:
         raise no_room
     dark = None if mask is None else ~_is_white(mask)
@@ -155,75 +145,12 @@ def placed(
     >>> from packwork.readers.fonts.fallback import open_fonts
     >>> asked = Setting(container_of_mask(None, 90, 60), open_fonts([]), 1.0, 1.0, 4.0, 20.0)
     >>> found = placed(asked, ["ox", "bee"], np.array([1.0, 0.5]), Random(0))
-    >>> (found.layout.poses.scale * EM_PX).round(6).tolist()
+    >>> (100 * found.layout.poses.scale).round(6).tolist()
     [20.0, 10.0]
     """
-    items, undrawn = _items(words, asked.fonts)
-    kept = _likely(asked, items, heights)
-    seed = random.randrange(2**31)
-    while kept:
-        layout = _solved(asked, [items[k] for k in kept], heights[kept], seed)
-        ems = layout.poses.scale * EM_PX
-        if float(ems.min()) >= asked.smallest:
-            return Placed(layout, tuple(kept), undrawn)
-        kept = kept[: int(FEWER * len(kept))]
-    raise ValueError(
-        "Couldn't find space to draw. Either the Canvas size is too small or too much of the "
-        "image is masked out."
-    )
-
-
-def _items(words: Sequence[str], fonts: Fonts) -> tuple[dict[int, Item], dict[str, str]]:
-    items, undrawn = dict[int, Item](), dict[str, str]()
-    for number, text in enumerate(words):
-        try:
-            item = word_item(Word(text.replace("|", " "), 1.0), fonts)
-        except UnfitError as error:
-            undrawn[text] = str(error)
-            continue
-        items[number] = replace(item, name=str(number))
-    return items, undrawn
-
-
-def _likely(
-    asked: Setting, items: Mapping[int, Item], heights: npt.NDArray[np.float64]
-) -> list[int]:
-    """As many of the first words as would be large enough in a cloud that went well."""
-    kept = list(items)
-    areas = np.array([items[k].outline.area * heights[k] ** 2 for k in kept])
-    room = DENSE * asked.container.outline.area
-    ems = EM_PX * heights[kept] * np.sqrt(room / np.maximum(np.cumsum(areas), 1e-300))
-    return kept[: max(int(np.count_nonzero(ems >= asked.smallest)), 1)] if kept else []
-
-
-@dataclass(frozen=True)
-class _LetterBound(Use):
-    """Words that are there as items already, no letter larger than so many canvas units."""
-
-    largest: float | None
-
-    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
-        """The common road."""
-        return run_along(job, observer, stop, record)
-
-    def bounded(
-        self,
-        job: Job,
-        start: Beginning,
-        exact: Finished,
-        observer: Observer | None,
-        stop: Stop,
-        forces: Forces | None,
-    ) -> Finished:
-        """Exact poses whose letters are no larger."""
-        count = len(job.items)
-        return held_down(job, start, exact, count, self.largest, observer, stop, forces)
-
-
-def _solved(
-    asked: Setting, items: Sequence[Item], heights: npt.NDArray[np.float64], seed: int
-) -> Layout:
-    areas = np.array([item.outline.area for item in items]) * heights**2
+    read = _read(words, heights, asked.fonts)
+    if not read.items:
+        raise ValueError(NO_ROOM)
     upright = round(TURN_STEPS * min(max(asked.horizontal, 0.0), 1.0))
     turns = ["0"] * upright + ["-90"] * (TURN_STEPS - upright)
     recipe = make_recipe(
@@ -233,10 +160,31 @@ def _solved(
         rotate=",".join(turns),
         padding=asked.margin,
         effort="draft",
-        seed=seed,
+        seed=random.randrange(2**31),
     )
-    job = uses.read(recipe, items, asked.container)
-    return pipeline.run(replace(job, weights=areas, use=_LetterBound(asked.largest))).layout
+    job = uses.read(recipe, read.items, asked.container)
+    use = Words(read, WordOptions(source={}), Letters(asked.smallest, asked.largest))
+    try:
+        layout = pipeline.run(replace(job, weights=read.areas, use=use)).layout
+    except RecipeError:
+        raise ValueError(NO_ROOM) from None
+    return Placed(layout, tuple(int(item.name) for item in layout.items), dict(read.undrawn))
+
+
+def _read(words: Sequence[str], heights: npt.NDArray[np.float64], fonts: Fonts) -> WordsRead:
+    """Words as items, each named by its number."""
+    items, kept, undrawn = list[Item](), list[int](), dict[str, str]()
+    for number, text in enumerate(words):
+        try:
+            item = word_item(Word(text.replace("|", " "), 1.0), fonts)
+        except UnfitError as error:
+            undrawn[text] = str(error)
+            continue
+        items.append(replace(item, name=str(number)))
+        kept.append(number)
+    areas = np.array([item.outline.area for item in items]) * heights[kept] ** 2
+    said = tuple(Word(words[k], float(heights[k])) for k in kept)
+    return WordsRead(tuple(items), areas, said, undrawn, len(words))
 
 
 def _is_white(mask: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:
