@@ -6,6 +6,7 @@ variable fonts at any weight; it does all of the reading here.
 
 from __future__ import annotations
 
+import hashlib
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -129,6 +130,18 @@ class Typeface:
             held = min(max(float(weight), axis.min_value), axis.max_value)
             self._font.set_variations({"wght": held})
         self.file = FontFile(data, name, index, held)
+
+    @cached_property
+    def identity(self) -> tuple[bytes, int, float | None]:
+        """What tells it from faces that draw otherwise: a hash of its file, its index, its weight.
+
+        Examples
+        --------
+        >>> bundled_typeface().identity == bundled_typeface().identity
+        True
+        """
+        file = self.file
+        return hashlib.blake2b(file.data, digest_size=16).digest(), file.index, file.weight
 
     @cached_property
     def weight(self) -> float:

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
 import numpy as np
 import shapely
@@ -21,6 +20,7 @@ from packwork.geometry.polygon import Region, region, silhouette
 from packwork.readers.fonts.curves import rings_of
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.guard import check_glyph
+from packwork.readers.fonts.remembered import remembered_by_font
 
 MOST_KNOWN = 4096
 """Glyphs that are remembered: those of a long Chinese text. Chosen."""
@@ -63,14 +63,14 @@ class ClearInk:
     clearance: float
 
 
-@lru_cache(maxsize=MOST_KNOWN)
+@remembered_by_font(MOST_KNOWN)
 def glyph_ends(face: Typeface, number: int) -> tuple[float, ...]:
     """Leftmost and rightmost of a glyph's curves and handles; none of a space."""
     across = [x for _, values in face.drawing(number) for x in values[::2]]
     return (min(across), max(across)) if across else ()
 
 
-@lru_cache(maxsize=MOST_KNOWN)
+@remembered_by_font(MOST_KNOWN)
 def glyph_ink(face: Typeface, number: int, tolerance: float) -> GlyphInk:
     """What a glyph covers, its curves followed to ``tolerance``.
 

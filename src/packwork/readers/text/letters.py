@@ -6,7 +6,6 @@ import re
 import unicodedata
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
 
 import shapely
@@ -21,6 +20,7 @@ from packwork.readers.fonts.guard import check_glyph
 from packwork.readers.fonts.itemise import clusters, script_of, visual_order
 from packwork.readers.fonts.lettering import Setting
 from packwork.readers.fonts.pictures import picture_of
+from packwork.readers.fonts.remembered import remembered_by_font
 from packwork.readers.unfit import UnfitError, naming
 
 STAND_ALONE = frozenset({
@@ -140,7 +140,7 @@ def _is_seen(character: str) -> bool:
     return unicodedata.category(character)[0] in "LNPS" and character not in _BLANKS
 
 
-@lru_cache(maxsize=MOST_KNOWN)
+@remembered_by_font(MOST_KNOWN)
 def _glyph_region(face: Typeface, number: int) -> Region:
     """What a glyph covers about its origin, in ems."""
     drawn = list(_unclosed(face.drawing(number)))

@@ -21,6 +21,10 @@ MOST_LETTERS = 400
 """Of one note; an ellipsis stands for the rest. Larger sets what nobody reads, slowly, and at last
 more glyphs than one word may have; smaller cuts long titles. Chosen."""
 
+MOST_KNOWN = 1024
+"""Texts that are remembered as they are drawn: the labels of a large chart. Each takes about 40 kB
+(measured), so that a program that makes chart after chart keeps 40 MB at most. Chosen."""
+
 WEIGHT = 500
 DIGITS = 6
 ROUNDING = 1e-9
@@ -98,7 +102,7 @@ def _ends(text: str) -> tuple[float, float]:
     return float(left), float(right)
 
 
-@lru_cache(maxsize=4096)
+@lru_cache(maxsize=MOST_KNOWN)
 def lettering(text: str) -> Lettering:
     """Text as it is drawn; what no font has is a question mark, and told; very long ones are cut.
 
