@@ -20,20 +20,25 @@ if TYPE_CHECKING:
     from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
+    from packwork.geometry.outline import Outline
     from packwork.losses.term import ImageLoss, Term
     from packwork.progress import Step
     from packwork.raster.coverage import coverage as render
     from packwork.raster.coverage import coverage_pullback as render_pullback
     from packwork.scene.container import Container
-    from packwork.scene.item import Item
+    from packwork.scene.item import FlatArt, Item
+    from packwork.scene.pose import Poses
 
 __all__ = [
     "Container",
     "FittedOutline",
+    "FlatArt",
     "ImageLoss",
     "Item",
     "Layout",
+    "Outline",
     "PackworkError",
+    "Poses",
     "ReadError",
     "RecipeError",
     "ShapeError",
@@ -55,10 +60,13 @@ __all__ = [
 _HOMES = {
     "Container": "packwork.scene.container:Container",
     "FittedOutline": "packwork.fit.fitted:FittedOutline",
+    "FlatArt": "packwork.scene.item:FlatArt",
     "ImageLoss": "packwork.losses.term:ImageLoss",
     "Item": "packwork.scene.item:Item",
     "Layout": "packwork.api.layout:Layout",
+    "Outline": "packwork.geometry.outline:Outline",
     "PackworkError": "packwork.errors:PackworkError",
+    "Poses": "packwork.scene.pose:Poses",
     "ReadError": "packwork.errors:ReadError",
     "RecipeError": "packwork.errors:RecipeError",
     "ShapeError": "packwork.errors:ShapeError",

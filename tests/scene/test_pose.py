@@ -39,5 +39,7 @@ def test_what_replaces_a_place_keeps_the_stretch() -> None:
 @pytest.mark.parametrize("count", [1, 3])
 def test_one_stretch_for_each_item_or_none(count: int) -> None:
     two = np.ones(2)
-    with pytest.raises(ShapeError, match=rf"as many stretches as items \(2\), not {count}"):
+    with pytest.raises(
+        ShapeError, match=rf"as many numbers of stretch as of x \(2\), not \({count},\)"
+    ):
         Poses(two, two, two, two, np.ones(count))

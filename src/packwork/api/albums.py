@@ -2,25 +2,26 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from pathlib import Path
+from collections.abc import Iterable
 from typing import Any
 
+from packwork.api.handing import handed_over, with_names
 from packwork.api.layout import Layout
 from packwork.api.signatures import of_verb
 from packwork.api.verbs import fill
 from packwork.offers import Verbs
 from packwork.progress import Observer, Stop, never
-from packwork.scene.container import Container
+from packwork.readers.memory.values import Value
 from packwork.uses.photos.recipe import photo_choices
 
 
 @of_verb(Verbs.PHOTOS)
 def photos(
-    container: str | Path | Container,
-    sources: str | Path | Sequence[str | Path],
+    container: Value,
+    sources: Value | Iterable[Value],
     *,
-    add: str | Path | Sequence[str | Path] = (),
+    add: Value | Iterable[Value] = (),
+    y_up: bool | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
@@ -33,10 +34,10 @@ def photos(
     container
         As for :func:`packwork.fill`.
     sources
-        Photos (JPEG, PNG, WebP), folders of them or patterns.
+        Photos (JPEG, PNG, WebP), folders of them or patterns; pictures, arrays and bytes too.
     add
-        Items that are placed among the photos: files, folders or built-in names.
-    observer, stop, progress
+        Items that are placed among the photos, as for :func:`packwork.fill`.
+    y_up, observer, stop, progress
         As for :func:`packwork.fill`.
     options
         As on the command line, by the names in the signature.
@@ -60,5 +61,7 @@ def photos(
     >>> [item.name for item in layout.items]
     ['sea', 'sky']
     """
-    chosen = photo_choices(sources, **options)
-    return fill(container, add, observer=observer, stop=stop, progress=progress, **chosen)
+    with handed_over(y_up) as handed:
+        named = with_names(options, handed)
+        chosen = photo_choices(handed.names_of(sources, "sources"), **named)
+        return fill(container, add, observer=observer, stop=stop, progress=progress, **chosen)

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any, Literal
 
 from packwork import uses
+from packwork.api.handing import handed_over, with_names
 from packwork.api.layout import Layout, public
 from packwork.api.signatures import of_verb
 from packwork.display.bar import bar_for, shown
@@ -15,6 +16,8 @@ from packwork.options import offered
 from packwork.progress import Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
+from packwork.readers.memory.shapes import Columns
+from packwork.readers.memory.values import Value
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.reading import Interpreted
 from packwork.recipe.refusals import validated
@@ -28,9 +31,10 @@ from packwork.writers.options import DrawingOptions
 
 @of_verb(Verbs.FILL)
 def fill(
-    container: str | Path | Container,
-    items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
+    container: Value,
+    items: Value | Iterable[Value] = "builtin:icons",
     *,
+    y_up: bool | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
@@ -43,9 +47,15 @@ def fill(
     ----------
     container
         A mask (PNG, JPEG), an SVG, ``"text:HELLO"``, ``"around:IMAGE"``, a built-in name such
-        as ``"heart"``, or a :class:`Container`.
+        as ``"heart"``, or a :class:`Container`. Also what is in memory: an array (of bools or
+        shares True, or 1, is inside; of whole numbers dark is), a picture, bytes or an open file
+        of one, the text of an SVG, a Shapely geometry, GeoJSON, a frame of geometries.
     items
-        SVGs, pictures, folders, built-in names, or what :func:`read_items` returned.
+        SVGs, pictures, folders, built-in names, values in memory as for the container, or what
+        :func:`read_items` returned; one, several, or a dict by name. Each row of a frame is one
+        item, its name and its weight from the columns that are called so.
+    y_up
+        Whether the y of geometries points up; None: where a frame says its reference system.
     observer
         Told of progress.
     stop
@@ -71,22 +81,22 @@ def fill(
     >>> layout.manifest["seed"]
     1
     """
-    given = [items] if isinstance(items, str | Path | Item) else list(items)
-    whole = container if isinstance(container, Container) else None
-    recipe = make_recipe(
-        container=whole.source if whole else str(container),
-        items=[entry.source if isinstance(entry, Item) else str(entry) for entry in given],
-        **options,
-    )
-    return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
+    with handed_over(y_up) as handed:
+        recipe = make_recipe(
+            container=handed.name_of(container, "container"),
+            items=handed.names_of(items, "items"),
+            **with_names(options, handed),
+        )
+        return _run(recipe, container, observer, stop, progress, record)
 
 
 @of_verb(Verbs.WORDS, BACKGROUND)
 def words(
-    container: str | Path | Container,
+    container: Value,
     source: str | Path | Mapping[str, float] | Any,
     *,
-    add: str | Path | Sequence[str | Path] = (),
+    add: Value | Iterable[Value] = (),
+    y_up: bool | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
@@ -98,6 +108,8 @@ def words(
     Parameters
     ----------
     container
+        As for :func:`fill`.
+    y_up
         As for :func:`fill`.
     source
         A text or the file that holds it, a table ``word,weight`` (.csv, .tsv, .json), or
@@ -126,22 +138,22 @@ def words(
     >>> heights.round(6).tolist()
     [3.0, 2.0, 1.0]
     """
-    whole = container if isinstance(container, Container) else None
-    mixed_in = [add] if isinstance(add, str | Path) else add
-    recipe = uses.words_recipe(
-        whole.source if whole else str(container),
-        source,
-        add=[str(item) for item in mixed_in],
-        **options,
-    )
-    return _run(recipe, None, whole, observer, stop, progress, record)
+    with handed_over(y_up) as handed:
+        recipe = uses.words_recipe(
+            handed.name_of(container, "container"),
+            source,
+            add=handed.names_of(add, "add"),
+            **with_names(options, handed),
+        )
+        return _run(recipe, container, observer, stop, progress, record)
 
 
 @of_verb(Verbs.PILE)
 def pile(
-    container: str | Path | Container,
-    items: str | Path | Item | Sequence[str | Path | Item] = "builtin:icons",
+    container: Value,
+    items: Value | Iterable[Value] = "builtin:icons",
     *,
+    y_up: bool | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
@@ -155,7 +167,7 @@ def pile(
     container
         As for :func:`fill`; an SVG of open paths is open where they are, and ``"none"``
         lets items lie anywhere.
-    items, observer, stop, progress, record
+    items, y_up, observer, stop, progress, record
         As for :func:`fill`.
     options
         As on the command line, by the names in the signature.
@@ -173,21 +185,21 @@ def pile(
     >>> layout.metrics["exact"]["OO"], bool(layout.poses.y.mean() > 400)
     (0.0, True)
     """
-    given = [items] if isinstance(items, str | Path | Item) else list(items)
-    whole = container if isinstance(container, Container) else None
-    recipe = uses.pile_recipe(
-        whole.source if whole else str(container),
-        [entry.source if isinstance(entry, Item) else str(entry) for entry in given],
-        **options,
-    )
-    return _run(recipe, _as_items(given, recipe), whole, observer, stop, progress, record)
+    with handed_over(y_up) as handed:
+        recipe = uses.pile_recipe(
+            handed.name_of(container, "container"),
+            handed.names_of(items, "items"),
+            **with_names(options, handed),
+        )
+        return _run(recipe, container, observer, stop, progress, record)
 
 
 @of_verb(Verbs.CHART, BACKGROUND)
 def chart(
-    container: str | Path | Container,
+    container: Value,
     data: Any,
     *,
+    y_up: bool | None = None,
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
@@ -200,7 +212,7 @@ def chart(
     ----------
     container
         As for :func:`fill`; ``"none"`` shows the groups of ``by`` as bars.
-    observer, stop, progress, record
+    y_up, observer, stop, progress, record
         As for :func:`fill`.
     data
         A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
@@ -220,27 +232,36 @@ def chart(
     >>> round(float(layout.areas[0] / layout.areas[1]), 6)
     4.0
     """
-    whole = container if isinstance(container, Container) else None
-    recipe = uses.chart_recipe(whole.source if whole else str(container), data, **options)
-    return _run(recipe, None, whole, observer, stop, progress, record)
+    with handed_over(y_up) as handed:
+        named = with_names(options, handed)
+        recipe = uses.chart_recipe(handed.name_of(container, "container"), data, **named)
+        return _run(recipe, container, observer, stop, progress, record)
 
 
 def read_items(
-    sources: str | Path | Sequence[str | Path],
+    sources: Value | Iterable[Value],
     *,
+    name_by: str | None = None,
+    weight_by: str | None = None,
+    y_up: bool | None = None,
     holes: Literal["fill", "keep"] = "fill",
     strict: bool = False,
     keep_page: bool | None = None,
     alpha_threshold: float = 0.5,
 ) -> list[Item]:
-    """Items from SVGs, pictures, folders of them, globs or built-in names.
+    """Items from SVGs, pictures, folders of them, globs, built-in names or values in memory.
 
     Unusable files in a folder are left out with a warning in the log.
 
     Parameters
     ----------
     sources
-        One or several.
+        One or several, or a dict of them by name; values in memory as for :func:`fill`.
+    name_by, weight_by
+        Columns of a frame, or properties of GeoJSON, that say what each item is called and what
+        share of area it asks for. None: those called name and weight, where there are such.
+    y_up
+        As for :func:`fill`.
     holes
         ``"keep"`` lets small items sit in the holes of large ones.
     strict
@@ -257,27 +278,38 @@ def read_items(
     --------
     >>> [item.name for item in read_items(["circle", "star"])]
     ['circle', 'star']
+    >>> import shapely
+    >>> lake = {"type": "Feature", "properties": {"lake": "Como", "km2": 146}}
+    >>> (item,) = read_items(
+    ...     {**lake, "geometry": shapely.box(0, 0, 4, 1)}, name_by="lake", weight_by="km2"
+    ... )
+    >>> item.name, item.weight, item.outline.bounds
+    ('Como', 146.0, (-2.0, -0.5, 2.0, 0.5))
     """
-    several = [sources] if isinstance(sources, str | Path) else list(sources)
     asked = {"keep_page": keep_page, "alpha_threshold": alpha_threshold}
     how = validated(Interpreted, asked).read_options
-    return list(item_reader.read_items(several, holes=holes, strict=strict, reading=how).items)
+    with handed_over(y_up, Columns(name_by, weight_by)) as handed:
+        named = handed.names_of(sources, "sources")
+        return list(item_reader.read_items(named, holes=holes, strict=strict, reading=how).items)
 
 
 def read_container(
-    source: str | Path,
+    source: Value,
     *,
     canvas: str | float | None = None,
     font: str | Path | None = None,
+    y_up: bool | None = None,
     trim: bool | None = None,
     close_gaps: str = "auto",
     alpha_threshold: float = 0.5,
 ) -> Container:
-    """Container from a mask, an SVG, ``text:WORD`` or a built-in name.
+    """Container from a mask, an SVG, ``text:WORD``, a built-in name or a value in memory.
 
     Parameters
     ----------
     source
+        As for :func:`fill`.
+    y_up
         As for :func:`fill`.
     canvas
         Its longer side (``600``, ``"200mm"``, ``"8in"``) or a sheet (``"200x150mm"``,
@@ -298,41 +330,31 @@ def read_container(
     --------
     >>> read_container("circle").width
     600.0
+    >>> import shapely
+    >>> tile = read_container(shapely.box(7.1, 46.2, 7.5, 46.4), canvas="200mm", y_up=True)
+    >>> round(tile.width), round(tile.height), tile.unit
+    (200, 100, 'mm')
     """
     asked = {"trim": trim, "close_gaps": close_gaps, "alpha_threshold": alpha_threshold}
     how = validated(Interpreted, asked).read_options
-    return _read_container(str(source), canvas, font, reading=how)
+    with handed_over(y_up) as handed:
+        name = handed.name_of(source, "container")
+        return _read_container(name, canvas, font, reading=how)
 
 
 def _run(
     recipe: Recipe,
-    items: list[Item] | None,
-    container: Container | None,
+    container: Value,
     observer: Observer | None,
     stop: Stop,
     progress: bool | None,
     record: bool,
 ) -> Layout:
     bar = bar_for(progress, observer)
+    whole = container if isinstance(container, Container) else None
     with shown(bar):
-        run = uses.fill(recipe, items, container, bar or observer, stop, record)
+        run = uses.fill(recipe, None, whole, bar or observer, stop, record)
     layout = public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = run.metrics.as_dict()
     return layout
-
-
-def _as_items(given: Sequence[str | Path | Item], recipe: Recipe) -> list[Item] | None:
-    """Items where some are given as such; None if all are names for the recipe."""
-    if not any(isinstance(entry, Item) for entry in given):
-        return None
-    chosen: list[Item] = []
-    for entry in given:
-        if isinstance(entry, Item):
-            chosen.append(entry)
-        else:
-            chosen += read_items(
-                entry, holes=recipe.holes, strict=recipe.strict, keep_page=recipe.keep_page,
-                alpha_threshold=recipe.alpha_threshold,
-            )  # fmt: skip
-    return chosen

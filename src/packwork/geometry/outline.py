@@ -5,15 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 import shapely
 from shapely.geometry import LinearRing, MultiPolygon, Polygon
+from shapely.geometry.base import BaseGeometry
 
 from packwork.arrays import FloatArray, IntArray, as_points, as_starts
 from packwork.errors import ShapeError
 from packwork.geometry import affine
-from packwork.geometry.polygon import Region, enclosed, oriented_rings, silhouette
+from packwork.geometry.overlay import valid
+from packwork.geometry.polygon import Region, enclosed, oriented_rings, region, silhouette
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,6 +70,32 @@ class Outline:
         if not rings:
             raise ShapeError("the region has no area")
         return cls.from_rings(rings)
+
+    @classmethod
+    def of(cls, shape: OutlineLike) -> Outline:
+        """Outline of a Shapely polygon, of one ring ``(n, 2)`` or of several; itself if it is one.
+
+        Rings may run either way round and cross themselves; those inside others are holes.
+
+        Raises
+        ------
+        ShapeError
+            If it is none of these, or has no area.
+
+        Examples
+        --------
+        >>> Outline.of([(0, 0), (0, 2), (2, 2), (2, 0)]).area
+        4.0
+        """
+        if isinstance(shape, Outline):
+            return shape
+        if isinstance(shape, BaseGeometry):
+            return cls.from_region(valid(shapely.force_2d(shape)))
+        try:
+            rings = [as_points(shape)]
+        except (ShapeError, TypeError, ValueError):
+            rings = _several_rings(shape)
+        return cls.from_region(region(rings, "evenodd"))
 
     @cached_property
     def rings(self) -> list[FloatArray]:
@@ -167,6 +197,20 @@ def centre_of_area(outline: Outline) -> FloatArray:
     there = here[after]
     doubled = here[:, 0] * there[:, 1] - there[:, 0] * here[:, 1]
     return np.asarray(first + (here + there).T @ doubled / (3 * doubled.sum()))
+
+
+OutlineLike: TypeAlias = Outline | BaseGeometry | npt.ArrayLike
+"""What is taken for an outline: a Shapely polygon, a ring of points, several rings."""
+
+
+def _several_rings(shape: object) -> list[FloatArray]:
+    try:
+        return [as_points(ring) for ring in shape]  # type: ignore[attr-defined]
+    except (TypeError, ValueError) as error:
+        reason = str(error) if isinstance(error, ShapeError) else type(shape).__name__
+        raise ShapeError(
+            f"an outline is a Shapely polygon, a ring of points (n, 2) or several; met: {reason}"
+        ) from None
 
 
 def joined(outlines: Sequence[Outline]) -> tuple[FloatArray, IntArray]:

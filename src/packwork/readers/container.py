@@ -8,6 +8,7 @@ from packwork.errors import ReadError
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.memory.container import container_in_memory
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
@@ -21,6 +22,7 @@ from packwork.recipe_paths import AROUND, BUILTIN
 from packwork.scene.blank import sheet
 from packwork.scene.canvas import on_canvas, placed_container
 from packwork.scene.container import Container
+from packwork.shelf import shelved
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
 
 _FORMS = (
@@ -71,6 +73,9 @@ def read_container(
     (200.0, 150.0, 'mm', (25.0, 0.0, 175.0, 150.0))
     """
     size = canvas_size(canvas) if isinstance(canvas, str | int | float) else canvas
+    made = shelved(str(source))
+    if isinstance(made, Container):
+        return on_canvas(made, size)
     if str(source) in SHEETS and not exists(source):
         return _sheet(str(source), size)
     reading = reading or ReadOptions()
@@ -100,6 +105,9 @@ def _container(
     reading: ReadOptions,
 ) -> Container:
     """Container whose canvas is ``side`` long; None lets the file decide."""
+    shape = container_in_memory(shelved(text), text, side or DEFAULT_SIDE, reading)
+    if shape is not None:
+        return shape
     if text.startswith(BUILTIN):
         return builtin_container(text.removeprefix(BUILTIN), side or DEFAULT_SIDE)
     path = Path(text)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from packwork.errors import PackworkError, ReadError
 from packwork.inputs import note_input
+from packwork.shelf import MEMORY, shelved
 
 
 def read_bytes(path: str | Path, most: int) -> bytes:
@@ -23,6 +24,19 @@ def read_bytes(path: str | Path, most: int) -> bytes:
     Traceback (most recent call last):
     packwork.errors.ReadError: no such file.svg: there is no such file
     """
+    value = shelved(str(path))
+    data = value if isinstance(value, bytes) else _read_file(path, most)
+    if len(data) > most:
+        raise ReadError(path, f"is larger than {most / 1e6:g} MB, the most for such a file")
+    return data
+
+
+def _read_file(path: str | Path, most: int) -> bytes:
+    """Content of a file, one byte more than ``most`` if it is larger."""
+    if str(path).startswith(MEMORY):
+        raise ReadError(
+            path, "was in the memory of the program that wrote this recipe; give a file"
+        )
     try:
         # Opening a pipe waits for whoever writes to it, and a device never ends.
         mode = Path(path).stat().st_mode
@@ -30,7 +44,7 @@ def read_bytes(path: str | Path, most: int) -> bytes:
             raise ReadError(path, "is a pipe or a device; give a file on disk")
         note_input(path)
         with Path(path).open("rb") as file:
-            data = file.read(most + 1)
+            return file.read(most + 1)
     except PackworkError:
         raise
     except FileNotFoundError:
@@ -40,9 +54,6 @@ def read_bytes(path: str | Path, most: int) -> bytes:
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
         raise ReadError(path, f"cannot be opened: {reason}") from None
-    if len(data) > most:
-        raise ReadError(path, f"is larger than {most / 1e6:g} MB, the most for such a file")
-    return data
 
 
 def read_text(path: str | Path, most: int) -> str:
@@ -66,13 +77,17 @@ def read_text(path: str | Path, most: int) -> str:
 
 
 def exists(path: str | Path) -> bool:
-    """Whether there is a file or a folder of that name; text that can be no name has none.
+    """Whether there is a file or a folder of that name, or a value in memory.
+
+    Text that can be no name has none.
 
     Examples
     --------
     >>> exists("no such file.svg"), exists("a" * 10_000)
     (False, False)
     """
+    if shelved(str(path)) is not None:
+        return True
     try:
         return Path(path).exists()
     except (OSError, ValueError):
@@ -101,4 +116,4 @@ def stem(path: str | Path) -> str:
     >>> stem("icons/bear.svg")
     'bear'
     """
-    return Path(path).stem
+    return Path(path).stem.removeprefix(MEMORY)

@@ -13,6 +13,7 @@ from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
 from packwork.readers.files import exists, is_folder
 from packwork.readers.folders import Listing, listed, matched
+from packwork.readers.memory.items import items_in_memory
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import Read, agreed
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
@@ -21,6 +22,7 @@ from packwork.readers.regions import Holes
 from packwork.readers.svg.item import read_svg
 from packwork.recipe_paths import BUILTIN
 from packwork.scene.item import Item
+from packwork.shelf import shelved
 
 _LOG = logging.getLogger("packwork")
 
@@ -114,6 +116,8 @@ def _read_source(source: str, asked: _Asked) -> _Found:
     if not source.strip():
         # As a path it would stand for the whole of the working folder.
         raise ReadError("items", "an empty name stands for nothing; give a file or a folder")
+    if (made := items_in_memory(shelved(source), source, asked.holes)) is not None:
+        return [Read(item) for item in made], []
     if source.startswith(BUILTIN):
         return _built_in(source.removeprefix(BUILTIN), asked)
     path = Path(source)

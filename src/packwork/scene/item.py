@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, fields
 from typing import Protocol, TypeAlias
 
 from packwork.arrays import FloatArray
-from packwork.geometry.outline import Outline
+from packwork.errors import ShapeError
+from packwork.geometry.outline import Outline, OutlineLike
 from packwork.scene.datum import Datum
 from packwork.scene.label import Label
 from packwork.scene.live_text import LiveText
@@ -88,10 +89,15 @@ class PhotoArt:
 
 Art: TypeAlias = FlatArt | VectorArt | PictureArt | PhotoArt
 
+_PLAIN, _UNLABELLED = FlatArt(), Label()
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, init=False)
 class Item:
     """One thing to be placed.
+
+    What is given is brought into form: a Shapely polygon or a ring of points is an outline, a
+    colour is an art. An outline off its centroid is moved there when the item is placed.
 
     Parameters
     ----------
@@ -101,12 +107,13 @@ class Item:
         Where it came from, as the user gave it.
     outline
         The region that must not overlap: the silhouette, or with its holes where they
-        are kept. In the item's own units, centroid at the origin (where it was, if its lines
-        have become thinner).
+        are kept. In the item's own units, y down, centroid at the origin (where it was, if its
+        lines have become thinner).
     ink
-        What is really drawn, holes and gaps taken off; same units and origin.
+        What is really drawn, holes and gaps taken off; same units and origin. Unless given,
+        the outline.
     art
-        How it is drawn.
+        How it is drawn: an art, or any CSS colour.
     label
         What this one is called in a file, where it links to, its tooltip.
     text
@@ -116,6 +123,19 @@ class Item:
         no part of the item, and is drawn under all.
     datum
         What it stands for, if it is a mark of a chart.
+    weight
+        Share of area it asks for, where nothing else says one.
+
+    Raises
+    ------
+    ShapeError
+        If the outline has no area, or the art is no colour.
+
+    Examples
+    --------
+    >>> tile = Item("tile", outline=[(0, 0), (4, 0), (4, 2), (0, 2)], art="teal", weight=3)
+    >>> tile.outline.area, tile.art
+    (8.0, FlatArt(fill='teal'))
     """
 
     name: str
@@ -123,7 +143,41 @@ class Item:
     outline: Outline
     ink: Outline
     art: Art
-    label: Label = field(default_factory=Label)
-    text: LiveText | None = None
-    halo: str = ""
-    datum: Datum | None = None
+    label: Label
+    text: LiveText | None
+    halo: str
+    datum: Datum | None
+    weight: float = 1.0  # of those kept on disk, too
+
+    def __init__(
+        self,
+        name: str,
+        source: str = "",
+        outline: OutlineLike | None = None,
+        ink: OutlineLike | None = None,
+        art: Art | str = _PLAIN,
+        label: Label = _UNLABELLED,
+        text: LiveText | None = None,
+        halo: str = "",
+        datum: Datum | None = None,
+        weight: float = 1.0,
+    ) -> None:
+        if outline is None:
+            raise ShapeError(f"the item {name!r} needs an outline, such as a Shapely polygon")
+        solid = Outline.of(outline)
+        drawn = solid if ink is None else Outline.of(ink)
+        made = FlatArt(_known_colour(art)) if isinstance(art, str) else art
+        values = (name, source, solid, drawn, made, label, text, halo, datum, weight)
+        for column, value in zip(fields(Item), values, strict=True):
+            object.__setattr__(self, column.name, value)
+
+
+def _known_colour(text: str) -> str:
+    # Loads the picture library, which most of the package can do without.
+    from packwork.scene.colour import css_colour
+
+    try:
+        css_colour(text)
+    except ValueError:
+        raise ShapeError(f"{text[:40]!r} is no colour; use one such as ivory or #102030") from None
+    return text

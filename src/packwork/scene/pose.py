@@ -2,22 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, fields
 
 import numpy as np
+import numpy.typing as npt
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ShapeError
 from packwork.geometry import affine
 
 
-def _none_given() -> FloatArray:
-    return np.ones(0)
+def _column(values: npt.ArrayLike, count: int, name: str) -> FloatArray:
+    """As many numbers as there are items."""
+    numbers = np.asarray(values, dtype=np.float64)
+    if numbers.shape == (count,):
+        return numbers
+    if numbers.ndim == 0:
+        return np.full(count, numbers)
+    raise ShapeError(f"poses need as many numbers of {name} as of x ({count}), not {numbers.shape}")
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, init=False)
 class Poses:
-    """Poses of n items, one array per parameter.
+    """Poses of n items, one array per parameter; a single number is that of all.
 
     Parameters
     ----------
@@ -36,23 +43,35 @@ class Poses:
     Raises
     ------
     ShapeError
-        If there are not as many stretches as items.
+        If there are not as many of each.
+
+    Examples
+    --------
+    >>> Poses([1, 2], [5, 5], scale=3).scale.tolist()
+    [3.0, 3.0]
     """
 
     x: FloatArray
     y: FloatArray
     angle: FloatArray
     scale: FloatArray
-    stretch: FloatArray = field(default_factory=_none_given)
+    stretch: FloatArray
 
-    def __post_init__(self) -> None:
-        if len(self.stretch) == len(self.x):
-            return
-        if len(self.stretch):
-            raise ShapeError(
-                f"poses need as many stretches as items ({len(self.x)}), not {len(self.stretch)}"
-            )
-        object.__setattr__(self, "stretch", np.ones(len(self.x)))
+    def __init__(
+        self,
+        x: npt.ArrayLike,
+        y: npt.ArrayLike,
+        angle: npt.ArrayLike = 0.0,
+        scale: npt.ArrayLike = 1.0,
+        stretch: npt.ArrayLike = 1.0,
+    ) -> None:
+        numbers = np.asarray(x, dtype=np.float64)
+        count, put = numbers.size, object.__setattr__
+        put(self, "x", _column(numbers, count, "x"))
+        put(self, "y", _column(y, count, "y"))
+        put(self, "angle", _column(angle, count, "angle"))
+        put(self, "scale", _column(scale, count, "scale"))
+        put(self, "stretch", _column(stretch, count, "stretch"))
 
     def __len__(self) -> int:
         return len(self.x)

@@ -126,7 +126,7 @@ def item_weights(
     weights: str | Mapping[str, float] | None,
     asked: TableFormat | None = None,
 ) -> FloatArray:
-    """``(n,)`` share of area of each item, by its name or its file's; 1 where none is given.
+    """``(n,)`` share of area of each item, by its name or its file's; else its own.
 
     Parameters
     ----------
@@ -139,7 +139,7 @@ def item_weights(
         If a weight names no item, or is not a positive number.
     """
     if weights is None:
-        return np.ones(len(items))
+        return np.array([float(item.weight) for item in items])
     table = read_weights(weights, asked) if isinstance(weights, str) else weights
     names = {item.name for item in items}
     files = {Path(item.source).name for item in items}
@@ -150,7 +150,7 @@ def item_weights(
             )
         if not (np.isfinite(weight) and weight > 0):
             raise RecipeError("weights", f"the weight of {name} must be positive, not {weight}")
-    of_file = [table.get(Path(item.source).name, 1.0) for item in items]
+    of_file = [table.get(Path(item.source).name, item.weight) for item in items]
     pairs = zip(items, of_file, strict=True)
     return np.array([float(table.get(item.name, other)) for item, other in pairs])
 

@@ -17,6 +17,7 @@ from packwork.readers.pictures.photograph import Photograph
 from packwork.readers.regions import centred, clean_union
 from packwork.readers.unfit import naming
 from packwork.scene.item import Item, PhotoArt
+from packwork.shelf import MEMORY
 
 PREVIEW_PX = 320
 """Longer side of the copy that is kept. Larger costs memory, and time as JPEGs are then
@@ -79,6 +80,7 @@ def read_photo(
         whole=_path(whole) if has_border else "",
         border_color=options.border_color,
         origin=(float(place[0, 2]), float(place[1, 2])),
+        data=data if file.startswith(MEMORY) else None,
     )
     longer = max(np.subtract(frame.window[2:], frame.window[:2]))
     preview = photo.drawn(photo.developed(data, PREVIEW_PX / float(longer)))

@@ -8,8 +8,10 @@ import os
 import warnings
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from contextvars import copy_context
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ParamSpec, TypeVar
 
 from packwork.errors import ReadError
 from packwork.geometry.polygon import Region
@@ -30,6 +32,9 @@ Chosen."""
 _DRAWINGS = (".svg", ".svgz", ".dxf", ".pdf", ".ai", ".eps")
 
 _LOG = logging.getLogger("packwork")
+
+P = ParamSpec("P")
+R = TypeVar("R")
 
 
 @dataclass(frozen=True)
@@ -74,7 +79,7 @@ def read_photos(
     # not set aside warnings each for itself.
     with warnings.catch_warnings(), ThreadPoolExecutor(_threads()) as threads:
         warnings.simplefilter("ignore")
-        read = _reading(options, threshold, shape_of(options))
+        read = _here(_reading(options, threshold, shape_of(options)))
         results = list(threads.map(read, named, range(1, len(named) + 1)))
     items: list[Item] = []
     skipped: list[ReadError] = []
@@ -120,6 +125,17 @@ def _reading(
             return error
 
     return read
+
+
+def _here(read: Callable[P, R]) -> Callable[P, R]:
+    """The same in any thread: what is in memory is found in the context of now."""
+    context = copy_context()
+
+    def read_here(*args: P.args, **kwargs: P.kwargs) -> R:
+        # A context is entered by one thread at a time.
+        return context.copy().run(read, *args, **kwargs)
+
+    return read_here
 
 
 def _threads() -> int:

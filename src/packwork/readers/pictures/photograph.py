@@ -45,6 +45,8 @@ class Photograph:
         Of the border.
     origin
         Where the photo's top left corner lies in item units.
+    data
+        Its content, if it was in memory; None to read the file.
     """
 
     file: str
@@ -54,6 +56,7 @@ class Photograph:
     whole: str
     border_color: str
     origin: tuple[float, float]
+    data: bytes | None = None
 
     def printed(self, px_per_unit: float) -> VectorArt:
         """The photo with that many pixels per item unit, never more than it has.
@@ -63,7 +66,8 @@ class Photograph:
         ReadError
             If the file is no longer there, or broken.
         """
-        return self.drawn(self.developed(read_bytes(self.file, MAX_PICTURE_BYTES), px_per_unit))
+        data = read_bytes(self.file, MAX_PICTURE_BYTES) if self.data is None else self.data
+        return self.drawn(self.developed(data, px_per_unit))
 
     def developed(self, data: bytes, px_per_unit: float) -> Image.Image:
         """The window of a photo's bytes, with that many pixels per item unit at most."""

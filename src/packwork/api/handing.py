@@ -1,0 +1,52 @@
+"""What users hand over in memory, wherever an option names files."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from typing import Any
+
+from packwork.readers.memory.shapes import Columns
+from packwork.readers.memory.values import Handed
+from packwork.shelf import shelf_in_use
+
+_ITEMS = ("filler", "mark")
+_CONTAINERS = ("shape", "region")
+
+
+@contextmanager
+def handed_over(y_up: bool | None = None, columns: Columns | None = None) -> Iterator[Handed]:
+    """Names for what is handed over; readers find it by them inside the block.
+
+    Examples
+    --------
+    >>> with handed_over() as handed:
+    ...     handed.name_of(b"<svg/>", "items")
+    'memory:drawing.svg'
+    """
+    with shelf_in_use() as shelf:
+        yield Handed(shelf, y_up, columns)
+
+
+def with_names(options: Mapping[str, Any], handed: Handed) -> dict[str, Any]:
+    """Options of a verb, values in memory replaced by their names.
+
+    Examples
+    --------
+    >>> with handed_over() as handed:
+    ...     with_names({"filler": b"<svg/>", "seed": 3}, handed)
+    {'filler': ['memory:drawing.svg'], 'seed': 3}
+    """
+    return {key: _named(key, value, handed) for key, value in options.items()}
+
+
+def _named(key: str, value: Any, handed: Handed) -> Any:
+    if value is None:
+        return None
+    if key in _CONTAINERS or (key in _ITEMS and isinstance(value, str)):
+        return handed.name_of(value, key)
+    if key in _ITEMS:
+        return handed.names_of(value, key)
+    if key == "rules" and isinstance(value, list | tuple):
+        return [with_names(rule, handed) if isinstance(rule, Mapping) else rule for rule in value]
+    return value

@@ -1,0 +1,1 @@
+"""Arrays, pictures and geometries in memory, as items and containers."""

@@ -1,0 +1,86 @@
+"""Values in memory to items."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.geometry import affine
+from packwork.readers.memory.coverage import Coverage
+from packwork.readers.memory.shapes import Shape, Shapes
+from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
+from packwork.readers.regions import Holes, centred, clean_union
+from packwork.readers.unfit import UnfitError, naming
+from packwork.scene.colour import css_colour
+from packwork.scene.container import Container
+from packwork.scene.item import FlatArt, Item, PhotoArt
+
+OFF_CENTRE = 0.01
+"""Distance of an outline's centroid from its origin, as a share of its extent, from which the
+item is moved there. Below lie items whose lines have become thinner. Chosen."""
+
+
+def items_in_memory(value: object, source: str, holes: Holes) -> list[Item] | None:
+    """Items of a value on the shelf; None of one that readers of files understand.
+
+    Raises
+    ------
+    ReadError
+        About ``source``, if it is none.
+
+    Examples
+    --------
+    >>> mask = Coverage("all", np.ones((10, 10)))
+    >>> [item.name for item in items_in_memory(mask, "memory:all", "fill")]
+    ['all']
+    """
+    with naming(source):
+        if isinstance(value, Item):
+            return [recentred(value)]
+        if isinstance(value, Shapes):
+            return [_item_of_shape(shape, source, holes) for shape in value.shapes]
+        if isinstance(value, Coverage):
+            if value.shares.max() < 0.5:
+                raise UnfitError("is False, or 0, all over; True, or 1, is inside")
+            region = clean_union(outline_of_coverage(value.shares), speck=SPECK)
+            return [_item_of_shape(Shape(value.name, region), source, holes)]
+        if isinstance(value, Container):
+            return [_item_of_shape(Shape(value.name, value.outline.region), source, holes)]
+    return None
+
+
+def recentred(item: Item) -> Item:
+    """The item with its outline's centroid at the origin; itself, if it is there.
+
+    Examples
+    --------
+    >>> import shapely
+    >>> from packwork.geometry.outline import Outline
+    >>> far = Outline.from_region(shapely.box(10, 10, 12, 12))
+    >>> recentred(Item("tile", "", far, far, FlatArt())).outline.bounds
+    (-1.0, -1.0, 1.0, 1.0)
+    """
+    x, y = item.outline.centroid
+    if np.hypot(x, y) <= OFF_CENTRE * item.outline.extent:
+        return item
+    place = affine.similarity(-float(x), -float(y), 0.0, 1.0)
+    art = item.art
+    if isinstance(art, PhotoArt):
+        raise UnfitError("has an outline off its photograph's middle; recentre both")
+    if not isinstance(art, FlatArt):
+        art = replace(art, matrix=affine.compose(place, art.matrix))
+    return replace(item, outline=item.outline.mapped(place), ink=item.ink.mapped(place), art=art)
+
+
+def _item_of_shape(shape: Shape, source: str, holes: Holes) -> Item:
+    outline, ink, _ = centred(clean_union(shape.region), holes)
+    art = FlatArt(shape.fill) if _is_colour(shape.fill) else FlatArt()
+    return Item(shape.name, source, outline, ink, art, weight=shape.weight)
+
+
+def _is_colour(text: str) -> bool:
+    try:
+        return css_colour(text)[3] > 0
+    except ValueError:
+        return False

@@ -1,0 +1,211 @@
+"""What users give, put on a shelf: the names that stand for it in a recipe."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Protocol, TypeAlias
+
+import numpy as np
+from PIL import Image
+
+from packwork.errors import RecipeError
+from packwork.geometry.outline import Outline
+from packwork.readers.memory.coverage import coverage_of_array, png_of_picture
+from packwork.readers.memory.shapes import Columns, is_geometry, points_up, shapes_of
+from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
+from packwork.readers.unfit import naming
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.shelf import MEMORY, Shelf
+
+
+class Readable(Protocol):
+    """An open file."""
+
+    def read(self, size: int = ..., /) -> str | bytes:
+        """Content, no more than ``size`` of it."""
+
+
+class ArrayLike(Protocol):
+    """An array of NumPy, PyTorch, xarray and others."""
+
+    def __array__(self, *args: Any, **kwargs: Any) -> Any: ...
+
+
+class GeoLike(Protocol):
+    """A geometry or a frame of them."""
+
+    @property
+    def __geo_interface__(self) -> Any: ...
+
+
+Value: TypeAlias = (
+    str
+    | os.PathLike[str]
+    | bytes
+    | bytearray
+    | memoryview
+    | Mapping[str, Any]
+    | Readable
+    | ArrayLike
+    | GeoLike
+    | Image.Image
+    | Item
+    | Container
+    | Outline
+)
+"""What is taken wherever a path is."""
+
+_FORMS = (
+    "a path, a built-in name, an array, a picture, bytes or a file of them, a Shapely geometry, "
+    "GeoJSON or a frame of geometries"
+)
+_MARKUP = ("<svg", "<?xml", "<!--", "<!doctype")
+_MOST_BLANKS = 1_000
+
+
+@dataclass
+class Handed:
+    """How values given in Python are taken, and where they are put.
+
+    Parameters
+    ----------
+    shelf
+        On which they are found.
+    y_up
+        Whether the y of geometries points up; None: where they say their reference system.
+    columns
+        Which columns of frames say names and weights.
+    texts
+        Names that were given as such.
+    """
+
+    shelf: Shelf
+    y_up: bool | None = None
+    columns: Columns | None = None
+    texts: set[str] = field(default_factory=set)
+
+    def name_of(self, value: Any, key: str, name: str | None = None) -> str:
+        """Name of one value: itself, if it is one.
+
+        Parameters
+        ----------
+        key
+            The option that it is given for.
+        name
+            What people call it; None for what it is.
+
+        Raises
+        ------
+        ReadError
+            If it is damaged.
+        RecipeError
+            If it is nothing that could be read.
+
+        Examples
+        --------
+        >>> handed = Handed(Shelf())
+        >>> handed.name_of("star", "items"), handed.name_of(np.eye(9) > 0, "items")
+        ('star', 'memory:array')
+        """
+        if isinstance(value, str) and not _is_markup(value):
+            return value
+        if isinstance(value, os.PathLike):
+            return str(os.fspath(value))
+        if isinstance(value, Item | Container):
+            return self._put_made(value)
+        if isinstance(value, Image.Image):
+            return self._put_picture(value, name)
+        if isinstance(value, str | bytes | bytearray | memoryview) or hasattr(value, "read"):
+            return self._put_file(value, name)
+        if isinstance(value, Outline) or is_geometry(value):
+            return self._put_geometry(value, name or "shape")
+        if not hasattr(value, "__array__") or hasattr(value, "columns"):
+            raise _refused(value, key)
+        return self._put_array(np.asarray(value), name)
+
+    def names_of(self, values: Any, key: str) -> list[str]:
+        """Names of one value or of several, or of values by what people call them.
+
+        Examples
+        --------
+        >>> Handed(Shelf()).names_of({"dot": b"<svg/>", "old": "star"}, "items")
+        ['memory:dot.svg', 'star']
+        """
+        if isinstance(values, Mapping) and not is_geometry(values):
+            return [self.name_of(one, key, str(name)) for name, one in values.items()]
+        if _is_one(values):
+            return [self.name_of(values, key)]
+        if not isinstance(values, Iterable):
+            raise _refused(values, key)
+        given = list(values)
+        # An item that was read is called as its file is, unless that file is named too.
+        self.texts.update(one for one in given if isinstance(one, str))
+        return [self.name_of(one, key) for one in given]
+
+    def _put_made(self, value: Item | Container) -> str:
+        known = self.shelf.values.get(value.source)
+        is_free = known is None and value.source not in self.texts
+        if value.source.strip() and (is_free or known is value):
+            self.shelf.values[value.source] = value
+            return value.source
+        return self.shelf.put(value, value.name)
+
+    def _put_picture(self, picture: Image.Image, name: str | None) -> str:
+        called = name or _stem(getattr(picture, "filename", "")) or "picture"
+        with naming(f"{MEMORY}{called}"):
+            return self.shelf.put(png_of_picture(picture), called, ".png")
+
+    def _put_file(self, value: Any, name: str | None) -> str:
+        data = _content(value)
+        called = name or _stem(getattr(value, "name", "")) or "drawing"
+        is_drawing = data.startswith(b"\x1f\x8b") or data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1] == b"<"
+        ending = ".svg" if is_drawing else ".jpg" if data.startswith(b"\xff\xd8") else ".png"
+        return self.shelf.put(data, called, ending)
+
+    def _put_geometry(self, value: Any, name: str) -> str:
+        y_up = points_up(value) if self.y_up is None else self.y_up
+        plain = value.region if isinstance(value, Outline) else value
+        with naming(f"{MEMORY}{name}"):
+            return self.shelf.put(shapes_of(plain, name, y_up=y_up, columns=self.columns), name)
+
+    def _put_array(self, array: np.ndarray[Any, Any], name: str | None) -> str:
+        called = name or "array"
+        with naming(f"{MEMORY}{called}"):
+            if array.ndim == 2 and array.shape[1] == 2 and array.dtype.kind in "iuf":
+                return self._put_geometry(Outline.of(array), name or "shape")
+            made = coverage_of_array(array, called)
+        return self.shelf.put(made, called, ".png" if isinstance(made, bytes) else "")
+
+
+def _is_one(value: Any) -> bool:
+    """Whether a value is one by itself, whatever it may be iterated over for."""
+    if is_geometry(value) or isinstance(value, str | bytes | bytearray | memoryview):
+        return True
+    if getattr(value, "ndim", None) == 1:
+        return False
+    ways = ("read", "__fspath__", "__array__")
+    return isinstance(value, Image.Image | Item | Container | Outline) or any(
+        hasattr(value, way) for way in ways
+    )
+
+
+def _is_markup(text: str) -> bool:
+    return text[:_MOST_BLANKS].lstrip("\ufeff \t\r\n").lower().startswith(_MARKUP)
+
+
+def _content(value: Any) -> bytes:
+    """Bytes of a text, of bytes or of an open file, one more than is read at most."""
+    data = value.read(MAX_PICTURE_BYTES + 1) if hasattr(value, "read") else value
+    return data.strip().encode() if isinstance(data, str) else bytes(data)
+
+
+def _stem(name: object) -> str:
+    return Path(name).stem if isinstance(name, str | os.PathLike) and str(name) else ""
+
+
+def _refused(value: object, key: str) -> RecipeError:
+    return RecipeError(key, f"is {type(value).__name__}, which cannot be read; give {_FORMS}")
