@@ -51,10 +51,10 @@ STORE = Store("kernels", MOST_BYTES, variable="NUMBA_CACHE_DIR")
 
 
 class Listener(Protocol):
-    """Whoever wants to know what is compiled."""
+    """Callback for kernels that are compiled."""
 
     def __call__(self, kernel: str, is_done: bool) -> None:
-        """Be told of a kernel that is about to be compiled, and once it is."""
+        """Called before a kernel is compiled, and after."""
         ...
 
 

@@ -1,7 +1,7 @@
 """Folders of our own for what may be lost: private, bounded, never the current one.
 
-What lies in them is trusted by whoever reads it, so nobody else may have written it: a folder
-that is not ours alone, or that others could swap for theirs, is passed over.
+What lies in them is trusted when it is read, so no other user may have written it: a folder that
+other users can write to, or could replace by theirs, is not used.
 """
 
 from __future__ import annotations
@@ -126,7 +126,7 @@ class Store:
 
 
 def private_folder(name: str, variable: str | None = None) -> Path | None:
-    """Folder of ours that nobody else may write to; made if it is missing.
+    """Folder that only this user may write to; made if it is missing.
 
     It lies where ``PACKWORK_CACHE_DIR`` says, else where ``variable`` does, else where the
     system keeps caches, else, for a user without a home, in a temporary folder.
@@ -164,7 +164,7 @@ def _private_folder(
 
 
 def _candidates(asked: tuple[str | None, ...]) -> Iterator[Path]:
-    """Folders to try, none of them relative: such a one would be somebody's current folder."""
+    """Folders to try, none of them relative: that would depend on the current folder."""
     for place in asked:
         if place and Path(place).is_absolute():
             yield Path(place) / NAME
@@ -199,7 +199,7 @@ def home_folder() -> Path | None:
 
 
 def is_private(folder: Path) -> bool:
-    """Whether only we may write into a folder, and nobody could put another in its place.
+    """Whether only this user may write into a folder, or put another in its place.
 
     Windows keeps what lies in a user's folders from others; there all are taken as private.
 

@@ -2,7 +2,7 @@
 
 The folders of the system are searched, or those that ``PACKWORK_FONTS`` names instead of
 them. What is found is handed to the renderer by file: it would read all fonts for every
-picture, looks elsewhere than we do, and tells nobody which family it missed.
+picture, searches other folders, and does not report which family it missed.
 """
 
 from __future__ import annotations

@@ -33,8 +33,8 @@ class Step:
     poses
         Where the items are now.
     measured
-        Asked for ``coverage``, ``overlap`` and ``outside`` by whoever is the first to read
-        one of them: that takes about as long as an epoch.
+        Computes ``coverage``, ``overlap`` and ``outside`` when one of them is first read: that
+        takes about as long as an epoch.
     is_finish
         Whether this is of the exact finish, after the last level.
     is_last
@@ -77,7 +77,7 @@ class Step:
 
 
 class Observer(Protocol):
-    """Whoever wants to know: a progress bar, a film, a log."""
+    """Receiver of the steps of a run: a progress bar, a film, a log."""
 
     every: int
     """Epochs between two steps that it is told; the last of a level is always told."""

@@ -1,4 +1,4 @@
-"""Where a recipe names files: one list for who reads, writes and checks recipes.
+"""Where a recipe names files: one list for reading, writing and checking recipes.
 
 A recipe file's names are seen from its own folder. Which texts are names of files, and where
 they stand inside longer ones (``towards curve.svg``), is known here alone.
@@ -66,7 +66,7 @@ def split_words(text: str) -> list[str]:
 def with_paths(options: Mapping[str, Any], rename: Rename) -> dict[str, Any]:
     """Plain options of a recipe with each file's name put through ``rename``.
 
-    What is of another type than an option should be is left alone: who checks options says so.
+    Values of a wrong type are left as they are: validation of options refuses them.
 
     Examples
     --------
@@ -149,7 +149,7 @@ def files_outside(options: Mapping[str, Any], folders: Iterable[Path]) -> list[s
 
 
 def found_from(folder: Path) -> Callable[[str], str]:
-    """Names of a recipe in ``folder``, as whoever runs it elsewhere has to call them.
+    """Names of files of a recipe in ``folder``, as seen from another folder.
 
     What is neither there nor a bundled name is looked for there too, so that a file of the same
     name in the folder where the program runs is never taken in its place.

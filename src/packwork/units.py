@@ -30,7 +30,7 @@ of lengths overflow or vanish. Chosen."""
 _LENGTH = re.compile(rf"({NUMBER})\s*(%|[a-zA-Z]*)")
 
 DEFAULT_SIDE = 600.0
-"""Longer side, in px, of a canvas that nobody gave a size. Chosen."""
+"""Longer side, in px, of a canvas for which no size is given. Chosen."""
 
 SMALLEST_PX, LARGEST_PX = 1e-3, 1e6
 """Sides that a canvas may have, in px: 260 nm to 260 m. Chosen."""

@@ -65,7 +65,7 @@ class Interrupt:
     """Tells the solver, which asks before every epoch, whether Ctrl-C was pressed.
 
     The first Ctrl-C ends the run with what it has; a second one ends it at once. Once all is
-    written, which whoever writes says by ``is_over``, there is nothing left to stop.
+    written, which the writer says by ``is_over``, there is nothing left to stop.
     """
 
     def __init__(self) -> None:

@@ -185,7 +185,7 @@ class TerminalBar:
         if self._lines is None or time.monotonic() - self._told < SECONDS_BETWEEN_LINES:
             return
         self._told = time.monotonic()
-        # Whoever reads no longer is no reason to fail.
+        # A closed pipe is no reason to fail.
         with suppress(OSError, ValueError):
             line = f"packwork: {100 * self._share:.0f} %: {text}"
             self._lines.print(line, soft_wrap=True, markup=False, highlight=False)

@@ -58,7 +58,7 @@ class Ending(Enum):
 class FittedOutline:
     """A closed area of cubic Bezier curves that stands for an outline.
 
-    Results are shared by all who ask for the same: do not write to the arrays.
+    Results are cached and shared: do not write to the arrays.
 
     Parameters
     ----------

@@ -25,7 +25,7 @@ class Outline:
     """Closed region: rings that neither cross themselves nor each other.
 
     Outer rings run clockwise on screen (positive area), holes the other way. Curves
-    have been flattened by whoever made the outline, to a tolerance stated there.
+    have been flattened before, to a tolerance stated where the outline is made.
 
     Parameters
     ----------

@@ -133,7 +133,7 @@ def finished(
 def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished) -> Finished:
     """The result without items a little smaller than free sizes go, unless a rule sizes them.
 
-    That range is what looks well, not what somebody asked for; a notice tells of them.
+    That range is a default, not an option that was given; a notice names them.
     """
     real = []
     for k in result.undersized:
@@ -204,8 +204,8 @@ def _options(
 def trials_for(job: Job, count: int) -> int:
     """How many turns and exchanges of ``count`` items are tried.
 
-    None where a trial would not know what was wanted: from whom copies stay apart, which
-    of two is to be larger, or what a loss of one's own keeps free.
+    None where a trial could undo what was asked: copies kept apart, which of two is larger,
+    or what a user-defined loss keeps free.
     """
     plan = job.plan
     is_ranked = plan.sizes == "free" and np.ptp(job.weights) > 0
@@ -256,7 +256,7 @@ def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
     Parameters
     ----------
     items
-        Who is to keep it.
+        That are to keep it.
     largest
         ``(m,)`` how large they may become.
     """
@@ -271,12 +271,12 @@ def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
     found: dict[int, str] = {}
     for offender in result.conflicts:
         partner = None if offender.other is None else job.items[offender.other].name
-        whom = "the container's edge" if partner is None else f"{partner}"
+        neighbour = "the container's edge" if partner is None else f"{partner}"
         if offender.overlap_cu2 > 0:
             how = "sticks out of the container" if partner is None else f"overlaps {partner}"
             reason = f"{how} by {offender.overlap_cu2:.3g} {unit}²"
         else:
-            reason = f"is {offender.gap_cu:.3g} {unit} from {whom}, nearer than asked"
+            reason = f"is {offender.gap_cu:.3g} {unit} from {neighbour}, nearer than asked"
         found.setdefault(offender.item, reason)
     for k in result.undersized:
         found.setdefault(k, "is smaller than it may be: there was no room at its smallest size")
@@ -293,7 +293,7 @@ class Closing:
     poses
         Of all items.
     items
-        Whom the steps are of.
+        That the steps are of.
     ids
         What all items are called by, as in ``Step``.
     """

@@ -117,7 +117,7 @@ def _kinds(job: Job) -> IntArray | None:
 def _fields(job: Job) -> Sequence[FieldForce]:
     """What draws items to places, with little of what draws all alike.
 
-    That would only press them together. Nobody is pushed the other way, as in the levels: those
+    That would only press them together. No item is pushed the other way, as in the levels: those
     drawn least would fill the far ends first, and leave the near ones to the smallest.
     """
     forces = job.forces

@@ -253,7 +253,7 @@ class _Filling:
         return self.coverage()
 
     def _closing(self, movers: IntArray) -> Closing | None:
-        # Nobody knows how many rounds there will be: each takes half of the way that is left.
+        # The number of rounds is not known beforehand: each takes half of the bar that is left.
         begun, self._rounds = 1.0 - 0.5**self._rounds, self._rounds + 1
         observer = stretch(self._observer, begun, 1.0 - 0.5**self._rounds)
         return None if observer is None else Closing(observer, self.poses, movers, self._ids)

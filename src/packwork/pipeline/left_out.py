@@ -58,8 +58,8 @@ def named(reasons: dict[int, str], layout: Layout, numbers: IntArray) -> tuple[U
 
 def _said(one: Violation, layout: Layout, other: int | None) -> str:
     unit = layout.container.unit
-    whom = "the container's edge" if other is None else layout.items[other].name
+    neighbour = "the container's edge" if other is None else layout.items[other].name
     if one.overlap_cu2 > 0:
-        how = "sticks out of the container" if other is None else f"overlaps {whom}"
+        how = "sticks out of the container" if other is None else f"overlaps {neighbour}"
         return f"{how} by {one.overlap_cu2:.3g} {unit}²"
-    return f"is {one.gap_cu:.3g} {unit} from {whom}, nearer than asked"
+    return f"is {one.gap_cu:.3g} {unit} from {neighbour}, nearer than asked"

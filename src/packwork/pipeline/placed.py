@@ -35,7 +35,7 @@ class Placed:
     before
         The job without what was put into voids; None where nothing was.
     recorder
-        Who kept the way; None if nobody.
+        Records the way of the items; None if that was not asked for.
     """
 
     job: Job

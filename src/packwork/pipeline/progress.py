@@ -19,7 +19,7 @@ class Onward:
     Parameters
     ----------
     observer
-        Who is told.
+        Told of progress.
     """
 
     def __init__(self, observer: Observer) -> None:
@@ -51,7 +51,7 @@ class Turn:
     Parameters
     ----------
     observer
-        Who listens.
+        Told of progress.
     number, count
         Which of how many, from 0.
 

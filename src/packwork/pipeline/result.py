@@ -207,7 +207,7 @@ def manifest(
     unplaced: Sequence[Unplaced],
     beside: int | None,
 ) -> dict[str, Any]:
-    """What a run did, for whoever wants to repeat or to judge it."""
+    """Manifest of a run: what repeats it, and what it measured."""
     return {
         "packwork": metadata.version("packwork"),
         "recipe": job.recipe.plain(),

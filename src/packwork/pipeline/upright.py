@@ -10,7 +10,7 @@ from packwork.recipe.rules import Rotation
 
 AS_LARGE = 0.97
 """Area that an item has upright, as a share of what it has turned, from which it is left upright.
-Larger turns it for what nobody sees, smaller wastes room. Chosen."""
+Larger turns it for a gain too small to be seen, smaller wastes room. Chosen."""
 
 _STILL = Rotation(limit=0.0)
 
@@ -18,7 +18,7 @@ _STILL = Rotation(limit=0.0)
 def upright_job(job: Job) -> Job | None:
     """The same job with its one item upright; None where it is not alone or not free to turn.
 
-    Where someone chose an angle, a force, an earlier layout or the time, that holds.
+    Not where an angle, a force, an earlier layout or a time was asked for.
     """
     plan = job.plan
     if len(job.items) != 1 or plan.rotation.is_still or plan.rotation.choices is not None:

@@ -97,11 +97,11 @@ def warm_up(counted: Counted | None = None, second: bool = False) -> None:
 
 
 def help_out(claims: str) -> None:
-    """Compile parts that nobody has claimed, last ones first; what a second process does."""
+    """Compile parts that are not claimed yet, last ones first; what a second process does."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
 
     def follow() -> None:
-        # The other end is closed when whoever asked for help has ended, however that was.
+        # The other end is closed when the parent process has ended, however that was.
         sys.stdin.buffer.read()
         os._exit(1)
 
@@ -147,7 +147,7 @@ def helped(one_more: Callable[[], None]) -> Iterator[tuple[Path, Any]]:
 
 
 def share(parts: Sequence[Part], claims: Path) -> None:
-    """Do all parts that nobody else does."""
+    """Do all parts that no other process does."""
     for part in parts:
         try:
             (claims / part.__name__).touch(exist_ok=False)
@@ -195,7 +195,7 @@ def levels() -> None:
 
 
 def pairs() -> None:
-    """Who is near whom, simpler outlines, bounds of a step, the measures."""
+    """Pairs of near items, simpler outlines, bounds of a step, the measures."""
     near = _arrangement()
     near.pairs(1.0)
     distances.pairs_of(near.board.boxes, np.arange(1), 1.0)

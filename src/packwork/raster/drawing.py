@@ -79,7 +79,7 @@ def _drawn_here(options: dict[str, Any]) -> bytes:
 
 
 def _drawn_elsewhere(options: dict[str, Any]) -> bytes:
-    """By a second process, which Ctrl-C at the terminal does not reach: we end it, if anyone."""
+    """By a second process, which Ctrl-C at the terminal does not reach: it is ended from here."""
     asked = {"path": sys.path, "options": options}
     try:
         process = subprocess.Popen(  # noqa: S603 - our own words, the document comes as data

@@ -1,4 +1,4 @@
-"""One budget of work for each file that is read, spent by everyone on the way.
+"""Budget of work for each file that is read, shared by all stages of reading.
 
 Work is counted, never timed: an account in nanoseconds of estimate, the same on every machine
 and under any load. What would take longer than its account holds is not begun.

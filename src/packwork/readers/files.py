@@ -38,7 +38,7 @@ def _read_file(path: str | Path, most: int) -> bytes:
             path, "was in the memory of the program that wrote this recipe; give a file"
         )
     try:
-        # Opening a pipe waits for whoever writes to it, and a device never ends.
+        # Opening a pipe waits for its writer, and a device never ends.
         mode = Path(path).stat().st_mode
         if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
             raise ReadError(path, "is a pipe or a device; give a file on disk")

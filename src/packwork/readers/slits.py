@@ -24,7 +24,7 @@ LONG = 10.0
 the tips of notches. Larger leaves open seams, smaller fills notches. Chosen."""
 
 LEAST_SHARE = 1e-4
-"""Share of the container's area below which slits are left as they are: nobody misses it.
+"""Share of the container's area below which slits are left as they are: too little to be seen.
 Chosen."""
 
 MOST_POINTS = 300_000

@@ -1,4 +1,4 @@
-"""Why a drawing cannot be used, before anyone has said which file it came from."""
+"""Errors of drawings that cannot be used, raised where the file's name is not known."""
 
 from __future__ import annotations
 

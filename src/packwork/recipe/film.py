@@ -1,4 +1,4 @@
-"""What is asked of a film, from a recipe and from whoever writes it."""
+"""Options of films, of a recipe and of the call that writes one."""
 
 from __future__ import annotations
 

@@ -217,10 +217,10 @@ def bottom_left(
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = box.mapped(np.array([[9.0, 0, 0], [0, 9.0, 0]]))
     >>> two = Arrangement([box] * 2, wall, np.zeros((2, 4)))
-    >>> everyone, nobody = np.arange(2), np.arange(0)
+    >>> both, none = np.arange(2), np.arange(0)
     >>> def depth(points, item):
     ...     return -points[:, 1]
-    >>> left = bottom_left(two, everyone, nobody, depth, np.zeros(2, int), 0.1)
+    >>> left = bottom_left(two, both, none, depth, np.zeros(2, int), 0.1)
     >>> len(left), bool((two.places[:, 1] > 7).all()), len(two.conflicts(two.pairs(1.0), 0.1))
     (0, True, 0)
     """

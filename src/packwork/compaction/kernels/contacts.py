@@ -15,10 +15,10 @@ from packwork.compiled import helper
 
 
 @helper
-def contacts(board, pairs, reach, slants, who, numbers):
+def contacts(board, pairs, reach, slants, pair_of, numbers):
     """Write what keeps pairs apart; returns how many, counting on past the end.
 
-    ``who``: which pair. ``numbers``: normal from the second solid to the first, point on
+    ``pair_of``: which pair. ``numbers``: normal from the second solid to the first, point on
     the first, point on the second, distance. Only features within ``reach`` bind: convex
     vertices against edges that they see from outside, near the edge's own span, and
     against convex corners that face them. ``slants``: by how much the two solids of each
@@ -45,7 +45,7 @@ def contacts(board, pairs, reach, slants, who, numbers):
             mine, theirs = (count_i, count_j) if side == 0 else (count_j, count_i)
             count = _meet(
                 edges[side], mine, edges[1 - side], theirs, near, reach, slants[k], k, side,
-                who, numbers, count,
+                pair_of, numbers, count,
             )  # fmt: skip
     return count
 
@@ -105,7 +105,7 @@ def _sift(own, a, others, count, reach, slant, has_corners, near):
 
 @helper
 def _meet(
-    own, count_own, others, count_others, near, reach, slant, pair, side, who, numbers, count,
+    own, count_own, others, count_others, near, reach, slant, pair, side, pair_of, numbers, count,
 ):  # fmt: skip
     """Contacts of convex vertices of one solid with edges and corners of another.
 
@@ -133,8 +133,8 @@ def _meet(
                     continue
                 if nx * own[3, a] + ny * own[4, a] > slant:
                     continue
-            if count < who.shape[0]:
-                who[count] = pair
+            if count < pair_of.shape[0]:
+                pair_of[count] = pair
                 row = numbers[count]
                 sign = 1.0 - 2.0 * side
                 row[0], row[1], row[6] = sign * nx, sign * ny, height

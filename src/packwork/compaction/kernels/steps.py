@@ -94,10 +94,10 @@ def all_contacts(board, pairs, reach, slants):
     """All contacts of pairs: the pair of each ``(m,)`` and its numbers ``(m, 7)``."""
     room = 24 * pairs.shape[0] + 256
     while True:
-        who, numbers = np.empty(room, np.int64), np.empty((room, 7))
-        count = contacts.contacts(board, pairs, reach, slants, who, numbers)
+        pair_of, numbers = np.empty(room, np.int64), np.empty((room, 7))
+        count = contacts.contacts(board, pairs, reach, slants, pair_of, numbers)
         if count <= room:
-            return who[:count], numbers[:count]
+            return pair_of[:count], numbers[:count]
         room = count
 
 
@@ -112,18 +112,18 @@ def _motion(board, i, nx, ny, x, y, sign, out):
 
 
 @helper
-def constraint_rows(board, pairs, who, numbers, where, trust, gap):
+def constraint_rows(board, pairs, pair_of, numbers, where, trust, gap):
     """Contacts as rows of a programme, lengths in units of ``trust``.
 
     ``where``: each solid's number in the programme, -1 if it stands still. Rows that no
     step within the trust region can reach are left out.
     """
-    most = who.shape[0]
+    most = pair_of.shape[0]
     first, second = np.empty(most, np.int64), np.empty(most, np.int64)
     coefficients, limits = np.zeros((most, 8)), np.empty(most)
     count = 0
     for k in range(most):
-        i, j = pairs[who[k], 0], pairs[who[k], 1]
+        i, j = pairs[pair_of[k], 0], pairs[pair_of[k], 1]
         a, b = where[i], where[j]
         if a < 0 and b < 0:
             continue
@@ -281,16 +281,16 @@ def near_contacts(board, items, pairs, trust, gap, hair):
     for k in range(items.shape[0]):
         where[items[k]] = k
         mean += distances.arm(board, items[k]) / items.shape[0]
-    who, numbers = all_contacts(board, pairs, gap + REACH * trust, slants)
+    pair_of, numbers = all_contacts(board, pairs, gap + REACH * trust, slants)
     kept = gap + (TIGHT - 1.0) * hair + BEND * trust * trust / mean
-    return who, numbers, where, kept
+    return pair_of, numbers, where, kept
 
 
 @kernel
 def rows_of(board, items, pairs, trust, gap, hair):
     """Rows of the programme that keep ``items`` apart, from each other and what stands still."""
-    who, numbers, where, kept = near_contacts(board, items, pairs, trust, gap, hair)
-    return constraint_rows(board, pairs, who, numbers, where, trust, kept)
+    pair_of, numbers, where, kept = near_contacts(board, items, pairs, trust, gap, hair)
+    return constraint_rows(board, pairs, pair_of, numbers, where, trust, kept)
 
 
 @kernel

@@ -1,4 +1,4 @@
-"""Colours, names, links and tooltips, once it is known who lies beside whom."""
+"""Colours, names, links and tooltips of placed items; colours of neighbours differ."""
 
 from __future__ import annotations
 
@@ -119,7 +119,7 @@ def _colours(palettes: list[tuple[str, ...]], layout: Layout) -> list[str | None
     several = sorted({palette for palette in palettes if palette})
     known = sorted({colour for palette in several for colour in palette})
     numbers = {colour: k for k, colour in enumerate(known)}
-    # Copies that keep their colours are like nobody.
+    # Copies that keep their colours are unlike all others.
     labels: IntArray = len(known) + np.arange(len(palettes))
     groups = np.full(len(palettes), -1)
     for number, palette in enumerate(several):

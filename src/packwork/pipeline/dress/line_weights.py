@@ -21,8 +21,9 @@ THIN_ONES = 0.1
 single small copy make all lines hairs, larger leaves more lines that are thinner. By eye."""
 
 ALIKE = 0.98
-"""Factor on a line's width above which it is left as it is. Larger rewrites drawings for what
-nobody sees, and comes near what curves are followed to; smaller leaves steps. Chosen."""
+"""Factor on a line's width above which it is left as it is. Larger rewrites drawings for
+changes that cannot be seen, and comes near what curves are followed to; smaller leaves steps.
+Chosen."""
 
 
 def evened(job: Job, poses: Poses, *, tells: bool = True) -> Job:

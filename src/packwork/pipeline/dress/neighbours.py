@@ -1,4 +1,4 @@
-"""Who lies beside whom in a finished layout."""
+"""Neighbouring items of a finished layout."""
 
 from __future__ import annotations
 

@@ -15,7 +15,7 @@ from packwork.recipe.rules import Pin, Rotation, Rule, hero_rule
 
 @dataclass(frozen=True)
 class Voice:
-    """Who asks: for messages.
+    """Option of a recipe that asks for something, for messages.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class Asked:
     pin
         What of the pose is given, by key.
     voices
-        Who asked, by the same keys, those of the pin with ``pin.`` before them.
+        Which option asked, by the same keys, those of the pin with ``pin.`` before them.
     is_read
         Whether the copy is a word.
     """
@@ -85,7 +85,7 @@ class Asked:
         Raises
         ------
         RecipeError
-            In the words of who asked for one of the keys.
+            About the option that asked for one of the keys.
         """
         for key in keys:
             voice = next((v for k, v in self.voices.items() if k.split(".")[0] == key), None)

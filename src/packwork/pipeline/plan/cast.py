@@ -62,17 +62,17 @@ def cast(
     Raises
     ------
     RecipeError
-        If rules name nobody, ask for more than the count, or pin one copy twice.
+        If rules name no item, ask for more than the count, or pin one copy twice.
     """
     shares = item_weights(items, recipe.weights, recipe) if areas is None else areas
     if total is None and isinstance(recipe.count, int):
         total = recipe.count
     said = voices(recipe)
-    whom = [_whom(rule, voice, items) for voice, rule in said]
-    which = turns(_counts(said, whom, len(items)), total)
+    members_of = [_members(rule, voice, items) for voice, rule in said]
+    which = turns(_counts(said, members_of, len(items)), total)
     asked = [Asked() for _ in which]
     taken: dict[int, Voice] = {}
-    for (voice, rule), members in zip(said, whom, strict=True):
+    for (voice, rule), members in zip(said, members_of, strict=True):
         for member in members:
             copies = [int(k) for k in np.flatnonzero(which == member)]
             if rule.is_for_one:
@@ -174,7 +174,7 @@ def _weights(shares: FloatArray, asked: Sequence[Asked]) -> FloatArray:
     return found
 
 
-def _whom(rule: Rule, voice: Voice, items: Sequence[Item]) -> list[int]:
+def _members(rule: Rule, voice: Voice, items: Sequence[Item]) -> list[int]:
     members = named(rule, voice, [item.name for item in items])
     if voice.key != "hero":
         return members
@@ -185,11 +185,11 @@ def _whom(rule: Rule, voice: Voice, items: Sequence[Item]) -> list[int]:
 
 
 def _counts(
-    said: Sequence[tuple[Voice, Rule]], whom: Sequence[Sequence[int]], items: int
+    said: Sequence[tuple[Voice, Rule]], members_of: Sequence[Sequence[int]], items: int
 ) -> list[int | None]:
     """Copies of each item where rules count them; a hero stands alone if others can."""
     counts: list[int | None] = [None] * items
-    for (voice, rule), members in zip(said, whom, strict=True):
+    for (voice, rule), members in zip(said, members_of, strict=True):
         for k in members:
             if rule.count is not None:
                 counts[k] = rule.count

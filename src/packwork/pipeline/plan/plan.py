@@ -216,7 +216,7 @@ class Plan:
 
     @property
     def is_default(self) -> bool:
-        """Whether nobody asked for another preset."""
+        """Whether no other preset was asked for."""
         return self.preset is DEFAULT
 
     @property

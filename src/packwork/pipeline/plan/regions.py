@@ -23,7 +23,7 @@ from packwork.units import CanvasSize, parse_length
 
 @dataclass(frozen=True, eq=False)
 class Region:
-    """A zone, and who asked for it.
+    """A zone, and the option that asked for it.
 
     Parameters
     ----------

@@ -48,7 +48,7 @@ _STEP_COST = 10
 
 
 def check_size(raw: ET.Element) -> None:
-    """Refuse a parsed document of too many shapes before anyone looks at each of them.
+    """Refuse a parsed document of too many shapes before each of them is looked at.
 
     Raises
     ------
@@ -191,7 +191,7 @@ class _Counter:
         )
 
     def _dashed(self, element: ET.Element, inside: list[_Size]) -> tuple[float, float]:
-        """Length of all lines and number of dashes; who sets dashes sets them for all inside."""
+        """Length of all lines and number of dashes; dashes are inherited by all inside."""
         if not self._is_dashed:
             return 0.0, 0.0
         length = line_length(element) + sum(part.length for part in inside)

@@ -75,7 +75,7 @@ def read_photos(
     named = [one for source in options.sources for one in _files(source, unread)]
     if strict and unread:
         raise unread[0]
-    # Pillow's own notices are of no use to whoever only wants a collage; and threads may
+    # Pillow's own notices are of no use in a collage; and threads may
     # not set aside warnings each for itself.
     with warnings.catch_warnings(), ThreadPoolExecutor(_threads()) as threads:
         warnings.simplefilter("ignore")
@@ -158,7 +158,7 @@ def _files(source: str, unread: list[ReadError]) -> list[_Named]:
 def _several(source: str, listing: Listing, unread: list[ReadError]) -> list[_Named]:
     if not listing.files:
         raise ReadError(source, f"holds no photo; those end in {', '.join(PICTURE_ENDINGS)}")
-    # Drawings among photos are no photos: nobody expects them to be read.
+    # Drawings among photos are no photos: they are not expected to be read.
     photos = [one for one in listing.unread if Path(one.file).suffix.lower() not in _DRAWINGS]
     Listing(listing.files, photos).tell(source)
     unread += photos

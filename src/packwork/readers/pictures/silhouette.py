@@ -110,7 +110,7 @@ def _read(data: bytes, name: str, source: str, holes: Holes, options: ReadOption
         object_ = whole if options.keep_page else cut_out(whole)
         pixels, (left, top) = _cropped(object_)
         tell_what_is_faint(solidity(pixels), threshold)
-        # Of the very pixels that are written: whoever reads them again finds this outline.
+        # Of the very pixels that are written: read again they give this outline.
         ink = outline_of_cut_out(pixels, threshold)
         unit = picture.unit
         to_units = affine.similarity(left * unit, top * unit, 0.0, unit)

@@ -108,7 +108,7 @@ class WordOptions(Options):
 
     @property
     def most(self) -> int:
-        """Words at most; where nobody has chosen how many, as many as by default."""
+        """Words at most; the default for ``auto`` that is not resolved yet."""
         return self.count if isinstance(self.count, int) else MOST_BY_DEFAULT
 
     @property

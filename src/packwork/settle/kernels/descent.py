@@ -64,7 +64,7 @@ def circle_about(board, items, centre):
 
 
 @helper
-def _tops(board, items, centre, least, who, numbers):
+def _tops(board, items, centre, least, item_of, numbers):
     """Write the points farther off than ``least`` that are farther than those beside them.
 
     ``numbers``: distance and unit normal of each; returns how many.
@@ -81,8 +81,8 @@ def _tops(board, items, centre, least, who, numbers):
                 if np.hypot(board.points[w, 0] - centre[0], board.points[w, 1] - centre[1]) > far:
                     is_top = False
             if is_top:
-                if count < who.shape[0]:
-                    who[count] = k
+                if count < item_of.shape[0]:
+                    item_of[count] = k
                     numbers[count, 0], numbers[count, 1], numbers[count, 2] = far, x / far, y / far
                 count += 1
     return count
@@ -94,8 +94,8 @@ def with_circle(board, items, rows, centre, circle, trust):
     n, m = items.shape[0], rows.first.shape[0]
     room = 16 * n + 64
     while True:
-        who, numbers = np.empty(room, np.int64), np.empty((room, 3))
-        count = _tops(board, items, centre, circle - steps.REACH * trust, who, numbers)
+        item_of, numbers = np.empty(room, np.int64), np.empty((room, 3))
+        count = _tops(board, items, centre, circle - steps.REACH * trust, item_of, numbers)
         if count <= room:
             break
         room = count
@@ -104,9 +104,9 @@ def with_circle(board, items, rows, centre, circle, trust):
     first[:m], second[:m] = rows.first, rows.second
     coefficients[:m], limits[:m] = rows.coefficients, rows.limits
     for k in range(count):
-        i = items[who[k]]
+        i = items[item_of[k]]
         far, nx, ny = numbers[k, 0], numbers[k, 1], numbers[k, 2]
-        first[m + k], second[m + k] = who[k], n
+        first[m + k], second[m + k] = item_of[k], n
         ex = centre[0] + far * nx - board.places[i, 0]
         ey = centre[1] + far * ny - board.places[i, 1]
         coefficients[m + k, 0], coefficients[m + k, 1] = nx, ny

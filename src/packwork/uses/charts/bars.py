@@ -108,8 +108,8 @@ class _Heaps:
 
     def gap(self, scale: float) -> float:
         """Distance that marks keep."""
-        everyone = np.arange(len(self._units))
-        return gap_with_bulge(self._job, everyone, self._units * scale)
+        all_marks = np.arange(len(self._units))
+        return gap_with_bulge(self._job, all_marks, self._units * scale)
 
     def _measured(self) -> tuple[float, float, float]:
         """Width and height of bars, and the width between their walls that marks may take."""

@@ -60,7 +60,7 @@ def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
     RecipeError
         If there are more categories than the palette has colours.
     """
-    assert recipe.chart is not None  # noqa: S101 - who asks has a chart
+    assert recipe.chart is not None  # noqa: S101 - called for charts only
     paper = recipe.chart.paper
     if chart.is_ramp and recipe.chart.color_by is not None:
         return _ramp(recipe, chart, recipe.chart.color_by, paper)

@@ -82,8 +82,8 @@ def fill_copies(
         unplaced += faults
     is_exact = job.plan.is_exact
     method = groups[0].placed.start.method
-    everyone = np.arange(len(job.items))
-    return Grouped(poses, everyone, job.container, method, tuple(unplaced) if is_exact else None)
+    all_marks = np.arange(len(job.items))
+    return Grouped(poses, all_marks, job.container, method, tuple(unplaced) if is_exact else None)
 
 
 def _filled(

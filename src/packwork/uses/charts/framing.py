@@ -117,7 +117,7 @@ def frame_ems(
     Where the container is not known yet, as much as may be needed.
     """
     options = recipe.chart
-    assert options is not None  # noqa: S101 - who asks has a chart
+    assert options is not None  # noqa: S101 - called for charts only
     above = TITLE_EM if options.title else 0.0
     below = legend_ems(recipe, chart, container)
     if not (above or below or chart.groups):
@@ -160,7 +160,7 @@ def has_sizes(options: ChartOptions) -> bool:
 def key_names(recipe: Recipe, chart: ChartRead) -> list[str]:
     """Categories that have keys, in their order: those of colours, then those of marks alone."""
     options = recipe.chart
-    assert options is not None  # noqa: S101 - who asks has a chart
+    assert options is not None  # noqa: S101 - called for charts only
     names: dict[str, None] = {}
     # Names of groups stand beside them.
     if options.color_by is not None and options.color_by != options.by:

@@ -45,7 +45,7 @@ class GroupSteps:
     Parameters
     ----------
     observer
-        Who listens.
+        Told of progress.
     poses
         Of all marks, those of the groups before in their places.
     before

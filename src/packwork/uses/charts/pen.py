@@ -18,8 +18,8 @@ from packwork.scene.note import Note
 _LOG = logging.getLogger("packwork")
 
 MOST_LETTERS = 400
-"""Of one note; an ellipsis stands for the rest. Larger sets what nobody reads, slowly, and at last
-more glyphs than one word may have; smaller cuts long titles. Chosen."""
+"""Of one note; an ellipsis stands for the rest. Larger sets text too long to be read,
+slowly, and at last more glyphs than one word may have; smaller cuts long titles. Chosen."""
 
 MOST_KNOWN = 1024
 """Texts that are remembered as they are drawn: the labels of a large chart. Each takes about 40 kB

@@ -237,7 +237,7 @@ def run_cropped(job: Job, observer: Observer | None, stop: Stop, record: bool) -
     tries = []
     for number, share in enumerate(DEPTHS):
         room, depth = with_room(job, share)
-        # Nobody knows how many tries there will be.
+        # The number of tries is not known beforehand.
         turn = stretch(observer, 1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
         solved = placed_and_filled(room, turn and Back(turn, depth), stop, record)
         placed, given = solved.job, len(solved.asked_for.items)
@@ -270,7 +270,7 @@ def run_cropped(job: Job, observer: Observer | None, stop: Stop, record: bool) -
 
 
 def lost(found: Cropped, placed: Job, ids: IntArray, given: int) -> tuple[Unplaced, ...]:
-    """Items that were given and of which too little would be seen; fillers are nobody's."""
+    """Items, fillers not among them, of which too little would be seen."""
     gone = np.setdiff1d(np.arange(len(placed.items)), found.kept)
     reason = "less than a third of it would lie in the container"
     return tuple(

@@ -17,7 +17,7 @@ these with six, in 4.5 s. Measured."""
 def jobs_tried(job: Job) -> Sequence[Job]:
     """The job, or one for each start that is to be tried.
 
-    Several only where sizes are free and nobody chose a start, the time or a draft.
+    Several only where sizes are free and no start, time or draft was asked for.
     """
     plan = job.plan
     is_open = plan.method is None and not plan.is_from_layout

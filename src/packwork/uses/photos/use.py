@@ -38,7 +38,7 @@ class Photos(Use):
         return False
 
     def starts(self, job: Job) -> Sequence[Job]:
-        """One job for each of several starts, where nobody chose one."""
+        """One job for each of several starts, where none was asked for."""
         return jobs_tried(job)
 
 

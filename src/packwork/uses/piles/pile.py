@@ -77,7 +77,7 @@ def run_pile(job: Job, heap: Heap, observer: Observer | None, stop: Stop, record
 
 
 def _heaped_to_fit(job: Job, heap: Heap, observer: Observer | None, stop: Stop) -> Run:
-    """The heap, of sizes at which all find room where nobody chose them."""
+    """The heap, of sizes at which all find room unless sizes were given."""
     if not is_size_open(job, heap.options):
         return _measured(heap.options, *_heaped(job, heap, 1.0, observer, stop))
     factor = fitting_factor(job)

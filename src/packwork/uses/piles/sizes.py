@@ -1,4 +1,4 @@
-"""How large the items of a pile are where nobody says it: so large that all find room."""
+"""Default size of the items of a pile: as large as leaves room for all."""
 
 from __future__ import annotations
 

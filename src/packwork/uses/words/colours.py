@@ -121,7 +121,7 @@ def _by_function(words: list[Word | None], colour_of: ColourOf, recipe: Recipe) 
     RecipeError
         If that is no colour.
     """
-    assert recipe.words is not None  # noqa: S101 - who asks has words
+    assert recipe.words is not None  # noqa: S101 - called for words only
     paper, first = recipe.words.paper or PAPER, _palette(recipe)[0]
     found: list[str | None] = []
     for word in words:

@@ -16,7 +16,7 @@ from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, root_viewport
 from packwork.units import NUMBER
 
 PLAIN_FONT_PX = 16.0
-"""Size of a font where nobody states one, as in every browser."""
+"""Default size of a font, as in every browser."""
 
 MAX_TERMS = 60
 """Words of one ``calc()``. Chosen."""
@@ -107,7 +107,7 @@ def settle_root(root: ET.Element) -> None:
     for name in ("width", "height"):
         text = root.get(name, "")
         if "v" in text or "%" in text:
-            # A share of a window that nobody knows.
+            # A share of a window of unknown size.
             root.attrib.pop(name, None)
         elif text:
             root.set(name, resolved(name, text, replace(plain, font=font, root_font=font)))

@@ -200,7 +200,7 @@ class _Walk:
         return [Painted(pieces, inner.matrix, painting, None, element, inner.clips)]
 
     def _inherited_painting(self, element: ET.Element) -> Painting:
-        """What an element inherits where it stands, not from who refers to it."""
+        """What an element inherits where it stands, not from what refers to it."""
         parent = self._parents.get(element)
         if parent is None:
             return Painting()

@@ -56,7 +56,7 @@ def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) ->
     kept = [LinearRing(ring) for ring in rings if len(ring) >= 3]
     is_large = sum(len(ring) for ring in rings) > _MANY
     if is_large:
-        # Before anyone looks for crossings one by one, which may take as long.
+        # Before crossings are looked for one by one, which may take as long.
         allowance.spend(rings)
         _check_nesting(kept)
     together = MultiLineString(kept)

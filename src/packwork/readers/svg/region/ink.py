@@ -90,7 +90,7 @@ def painted_ink(shapes: Sequence[Painted], tolerance: float | None = None) -> In
 
 @final
 class TracedInk(Ink):
-    """Ink that was found as one region, of which nobody knows how it was drawn."""
+    """Ink traced from a picture: one region, fills and strokes not told apart."""
 
     def __init__(self, whole: Region, body: Region = None, *, is_cut: bool = True) -> None:
         self._whole = whole

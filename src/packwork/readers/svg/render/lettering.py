@@ -185,7 +185,7 @@ def _reach(text: ET.Element) -> Part:
 
 
 def _drawn_texts(element: ET.Element, but: set[ET.Element]) -> list[ET.Element]:
-    """Texts that stand where shapes are drawn, and yet nobody met there, nor refers to."""
+    """Texts among drawn elements that were neither placed nor referred to."""
     if element.tag == "text":
         return [] if element in but or "id" in element.attrib else [element]
     drawn = (child for child in element if child.tag not in NEVER_DRAWN)
