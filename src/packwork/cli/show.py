@@ -1,4 +1,4 @@
-"""What a person sees: notices, closing tables."""
+"""Notices and closing tables on the terminal."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``packwork demo teaser``: one word, each of its letters filled in another way."""
+"""``packwork demo teaser``: one word, each of its letters filled by another use."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What reaches a terminal: only what it can show, and nothing that it would obey."""
+"""Text that is safe on a terminal: escapes removed, characters that it cannot show replaced."""
 
 from __future__ import annotations
 

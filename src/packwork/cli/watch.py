@@ -1,4 +1,4 @@
-"""Ctrl-C is answered soon, whatever the program is doing.
+"""Ctrl-C that takes effect soon, whatever the program is doing.
 
 Python hears of a signal only between two steps of its own: inside a long call of a library it
 does not. A thread hears of it at once, and answers where the program has not.

@@ -1,4 +1,4 @@
-"""Items of an earlier layout in a run of now, by their names."""
+"""Items of an earlier layout matched with those of a run, by their names."""
 
 from __future__ import annotations
 

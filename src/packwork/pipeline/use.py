@@ -1,4 +1,4 @@
-"""In what icons, words, photographs, charts and piles differ, as the road asks it."""
+"""Role of a use: the hooks in which icons, words, photographs, charts and piles differ."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Files to items and containers; the gate stands before every parser."""
+"""Readers: files to items and containers; every SVG is sanitised before it is parsed further."""

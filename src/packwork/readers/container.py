@@ -1,4 +1,4 @@
-"""Whatever names a container, to the container."""
+"""Containers from files, built-in names, ``text:`` and ``around:`` sources."""
 
 from __future__ import annotations
 

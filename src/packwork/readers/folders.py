@@ -1,4 +1,4 @@
-"""Files of a folder or a pattern: those that are read, and those that only look so."""
+"""Files of a folder or a pattern: those that can be read, and those that only look so."""
 
 from __future__ import annotations
 

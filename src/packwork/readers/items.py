@@ -1,4 +1,4 @@
-"""Whatever names items, to the items: files, folders, patterns and built-in names."""
+"""Items from files, folders, patterns and built-in names."""
 
 from __future__ import annotations
 

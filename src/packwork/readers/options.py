@@ -1,4 +1,4 @@
-"""How files of containers and items are understood."""
+"""Options of reading: how files of containers and items are understood."""
 
 from __future__ import annotations
 

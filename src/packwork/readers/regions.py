@@ -1,4 +1,4 @@
-"""Painted regions to outline and ink: what every reader of items ends with."""
+"""Painted regions to outline and ink, the last step of every reader of items."""
 
 from __future__ import annotations
 

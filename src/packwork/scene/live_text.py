@@ -1,4 +1,4 @@
-"""A word as text: what a file says that is to be read, selected and found."""
+"""Words as text: runs, fonts and places, for files in which they can be selected and found."""
 
 from __future__ import annotations
 

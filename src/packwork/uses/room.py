@@ -1,4 +1,4 @@
-"""What is filled, as far as it is known before the items are."""
+"""Container of a run, as far as it is known before the items are."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One way onto the disk: all of a file, or nothing of it; and so for several."""
+"""Atomic writing of files: each is replaced in one step, or left as it was."""
 
 from __future__ import annotations
 

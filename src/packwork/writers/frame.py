@@ -1,4 +1,4 @@
-"""The canvas as whole pixels: one rule for every picture that is written."""
+"""Size of pictures in whole pixels, from the canvas."""
 
 from __future__ import annotations
 

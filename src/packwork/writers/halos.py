@@ -1,4 +1,4 @@
-"""Items that can hardly be seen on a background: which, on what they could, and their halos."""
+"""Items that contrast too little with the background: which, better backgrounds, and halos."""
 
 from __future__ import annotations
 

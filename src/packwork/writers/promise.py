@@ -1,4 +1,4 @@
-"""What a run promised of its layout, in words that fit into any file.
+"""Promises of a run (gap, shares of area) as text that fits into any file.
 
 A measure of the file alone can then say whether the promise holds.
 """

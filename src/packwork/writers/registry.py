@@ -1,4 +1,4 @@
-"""Which ending is written how. A new format is one file and one line of ``WRITERS``."""
+"""Formats by file ending. A new format is one file and one line of ``WRITERS``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Layouts as JPEG, WebP and TIFF: the PNG that would be written, in another wrapping."""
+"""Layouts as JPEG, WebP and TIFF, converted from the PNG."""
 
 from __future__ import annotations
 

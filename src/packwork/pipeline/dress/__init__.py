@@ -1,1 +1,1 @@
-"""What items look like and are called, once they lie in their places."""
+"""Appearance of placed items: colours, line weights, halos, labels."""

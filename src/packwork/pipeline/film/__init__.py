@@ -1,1 +1,1 @@
-"""The way of the items, kept for films."""
+"""Recording of the items' motion, for films."""

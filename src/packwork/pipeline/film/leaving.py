@@ -1,4 +1,4 @@
-"""Items of an earlier layout that a run has no more, for the film of it."""
+"""Items of an earlier layout that a run no longer has, for its film."""
 
 from __future__ import annotations
 

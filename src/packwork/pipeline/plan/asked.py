@@ -1,4 +1,4 @@
-"""What is asked of each copy, once all rules have been heard."""
+"""Options that rules set for each copy."""
 
 from __future__ import annotations
 

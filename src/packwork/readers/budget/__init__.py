@@ -1,1 +1,1 @@
-"""What would take too long, told before it is begun: counts, their limits and their cost."""
+"""Limits on the cost of reading: counts that are checked before costly work begins."""

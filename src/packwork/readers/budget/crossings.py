@@ -1,4 +1,4 @@
-"""Scribbles that would take minutes to resolve, told from drawings by a sample."""
+"""Estimated number of edge crossings, from a sample, to refuse scribbles that take minutes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Dashed lines: how many dashes a renderer would have to draw.
+"""Number of dashes that dashed lines make a renderer draw.
 
 A line a thousand units long with dashes of a thousandth is a million dashes in fifty
 letters. Dashes are measured in the line's own units, so transforms do not matter.

@@ -1,4 +1,4 @@
-"""How large a drawing is once every reference has been followed.
+"""Size of a drawing once every ``use`` and every paint reference is followed.
 
 Ten nested ``use`` elements of ten each are 10^10 shapes in a kilobyte of file. Counting
 by memoised recursion takes one visit per element, whatever the count.

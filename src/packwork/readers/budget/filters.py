@@ -1,4 +1,4 @@
-"""Filters: which are let in, and how much work they are.
+"""SVG filters: which are allowed, and their cost.
 
 Those that shade a shape from its own light and edge are part of its look. What fetches
 pictures, makes noise or takes time by the square of a radius is not let in, nor is a

@@ -1,4 +1,4 @@
-"""Pattern fills, whose tiles renderers allocate whole: kept within the drawing's size."""
+"""Pattern fills: limit on the size of their tiles, which renderers allocate whole."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How long resvg needs to render a drawing, from counts: what decides the size of a picture.
+"""Estimate of resvg's rendering time from counts, which bounds the size of pictures.
 
 The figures behind the counts were measured on documents of one kind each; together they
 are good to about a factor of three, which is enough to keep a hostile drawing from taking

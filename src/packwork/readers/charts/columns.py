@@ -1,4 +1,4 @@
-"""Cells of a column as sizes or as categories; what cannot be shown is told by name."""
+"""Cells of a column as numbers or as categories."""
 
 from __future__ import annotations
 

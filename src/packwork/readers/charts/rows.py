@@ -1,4 +1,4 @@
-"""The table of a chart: its columns there, its numbers read, what is odd about it told."""
+"""Table of a chart: columns checked, numbers read, odd rows collected."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a font file must pass before its words are shaped, and each glyph before it is resolved.
+"""Checks of font files before shaping, and of glyphs before they become regions.
 
 HarfBuzz checks all tables that it reads and is tried against damaged ones all the time. It is
 silent, though: what it cannot read is empty to it. Here a font is refused for that.

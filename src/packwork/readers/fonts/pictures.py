@@ -1,4 +1,4 @@
-"""Glyphs that are pictures, as colour fonts have for emoji: cleaned, and their outline traced."""
+"""Bitmap glyphs of colour fonts, such as emoji: cleaned, and their outline traced."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What was computed of a font's glyphs before, by what the font's file holds.
+"""Cache of what was computed of a font's glyphs, by the content of the font's file.
 
 A typeface is opened anew for each run, so results that were kept by the object would never be
 found again, and would keep its file in memory.

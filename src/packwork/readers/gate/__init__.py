@@ -1,1 +1,1 @@
-"""The one gate for SVG: what comes out is small, plain and refers to nothing outside."""
+"""Sanitising of SVG: what comes out is small, plain and refers to nothing outside."""

@@ -1,4 +1,4 @@
-"""The one gate for SVG: nothing else in the package parses a stranger's drawing."""
+"""Entrance of all SVG files: parsed, sanitised and bounded in size; nothing else parses them."""
 
 from __future__ import annotations
 

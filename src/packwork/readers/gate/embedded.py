@@ -1,4 +1,4 @@
-"""Pictures inside a drawing: which ``data:`` references may stay, and as what.
+"""Embedded pictures: which ``data:`` references may stay, and as what.
 
 Programs disagree about pictures that move and about pictures that a note in their file turns;
 such a picture is written anew: its first frame, upright.

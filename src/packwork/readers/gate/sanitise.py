@@ -1,4 +1,4 @@
-"""An element tree to one that holds plain, harmless SVG and nothing else.
+"""Sanitising of an element tree: allow-lists of elements and attributes, styles as attributes.
 
 What is not on the lists of ``vocabulary`` is dropped, so scripts, event handlers, foreign
 content, animations and metadata need no rule of their own. Tags lose their namespace,

@@ -1,4 +1,4 @@
-"""Bytes to an element tree, bounded while it is being built."""
+"""XML parsing with limits on size, depth and entities."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Layouts back from the files that people use: drawings and cut sheets that we wrote."""
+"""Layouts read back from SVG, DXF and GeoJSON files that Packwork wrote."""

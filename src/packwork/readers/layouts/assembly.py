@@ -1,4 +1,4 @@
-"""Outlines found in a file, put together as a layout."""
+"""Layouts from the outlines found in a file."""
 
 from __future__ import annotations
 

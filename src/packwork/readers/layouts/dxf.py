@@ -1,4 +1,4 @@
-"""DXF files that we wrote, back to layouts: the very lines that a machine would follow."""
+"""Layouts read back from DXF files: the very lines that a machine would follow."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""DXF as text: pairs of a number that says what follows, and a value.
+"""DXF tags: pairs of a group code and a value.
 
 Only what our own files hold is understood, with the standard library: a measure should
 not lean on the program that wrote what is measured.

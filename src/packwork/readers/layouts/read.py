@@ -1,4 +1,4 @@
-"""Any file that holds a whole layout, by its ending."""
+"""Layouts from any file that holds one, by its ending."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a measure cannot see for itself: paint outside the items, and files that lost their groups.
+"""Checks of SVG files that other programs changed: paint outside the items, lost groups.
 
 Programs that make SVGs smaller take names, groups and hidden paths away. What is left is measured
 as it stands, and what is missing is said.

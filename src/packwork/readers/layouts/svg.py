@@ -1,4 +1,4 @@
-"""SVG files that we wrote, back to layouts: the drawings as people will see them.
+"""Layouts read back from SVG files: the drawings as they will be seen.
 
 Every distinct drawing goes through the gate and is followed anew, finer than when it was
 placed, and each copy is put where its transform says. Only of drawings that had to be

@@ -1,4 +1,4 @@
-"""What of a photo is shown: the part that is cut out, and its region."""
+"""Crop of a photo: the part that is shown, and its region."""
 
 from __future__ import annotations
 

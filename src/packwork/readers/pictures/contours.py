@@ -1,4 +1,4 @@
-"""Where a picture of coverages passes one half, to a fraction of a pixel."""
+"""Contours of coverage images at one half, to a fraction of a pixel."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pixel files opened with every limit checked from the header first."""
+"""Decoding of pixel files, every limit checked from the header first."""
 
 from __future__ import annotations
 

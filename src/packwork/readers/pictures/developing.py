@@ -1,4 +1,4 @@
-"""Photographs from disk at the size that is needed, upright and in the colours of screens."""
+"""Photographs decoded at the size that is needed, upright and in sRGB."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether a picture looks like a photograph, which makes blobs of a mask."""
+"""Detection of photographs among masks, by their mid-tones."""
 
 from __future__ import annotations
 

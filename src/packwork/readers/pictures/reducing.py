@@ -1,4 +1,4 @@
-"""Pictures made smaller without ever holding a second copy of them at full size."""
+"""Downscaling of pictures in bands, without a second copy at full size."""
 
 from __future__ import annotations
 

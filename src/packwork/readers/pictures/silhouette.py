@@ -1,4 +1,4 @@
-"""Pictures to items: the silhouette of what stands before the background."""
+"""Pictures to items: background removal, and the silhouette of the object."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Contours of hard-edged masks: the stairs of pixels back to the edges they stand for.
+"""Straight edges fitted to the pixel stairs of hard-edged masks.
 
 A contour is cut where it turns (Douglas-Peucker), a line is fitted to the pixels of each
 stretch, and neighbouring lines are met. Straight edges come back unbiased and corners

@@ -1,4 +1,4 @@
-"""Whether the transparency of a picture says what it shows, or is an accident of it."""
+"""Alpha channels: whether they define the shape of a picture."""
 
 from __future__ import annotations
 

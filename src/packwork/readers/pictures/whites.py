@@ -1,4 +1,4 @@
-"""White patches within a dark shape on clear ground: holes, as they are on paper."""
+"""White patches enclosed by a dark shape on clear ground, as holes."""
 
 from __future__ import annotations
 

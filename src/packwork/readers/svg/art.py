@@ -1,4 +1,4 @@
-"""A clean drawing to a fragment that can stand inside any other document."""
+"""SVG fragments of clean drawings that can be embedded in any other document."""
 
 from __future__ import annotations
 

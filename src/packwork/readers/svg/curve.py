@@ -1,4 +1,4 @@
-"""SVGs to lines: drawn curves as straight pieces, and walls with an opening."""
+"""SVG curves as straight pieces, for forces and for walls with an opening."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Filters that paint beyond the shapes they are on: there, the neighbours are."""
+"""Filters that paint beyond their shapes: detected by rendering, and removed."""
 
 from __future__ import annotations
 

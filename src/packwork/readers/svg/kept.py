@@ -1,4 +1,4 @@
-"""Drawings that were read before are not read again: by their bytes, how, and by what code.
+"""Cache of drawings that were read before, by content, options and version of the code.
 
 What is kept is numbers and text, never code: a header of JSON, then the arrays as they lie in
 memory. It comes back bit for bit.

@@ -1,4 +1,4 @@
-"""Circles, ellipses, rounded corners and arcs in pieces that every program draws alike.
+"""Circles, ellipses, rounded corners and arcs in short pieces, drawn alike by every program.
 
 Most programs draw a quarter of a circle as one cubic, which bulges by 2.7e-4 of the
 radius: far more than the gaps that are checked. Shorter arcs have no such choice.

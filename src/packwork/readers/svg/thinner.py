@@ -1,4 +1,4 @@
-"""Line drawings with thinner lines: the same centre lines, so nothing reaches further out."""
+"""Line drawings with reduced stroke width on the same centre lines."""
 
 from __future__ import annotations
 

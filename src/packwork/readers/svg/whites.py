@@ -1,4 +1,4 @@
-"""White paint of an SVG container: over dark paint it is a hole, as it is in a mask."""
+"""White paint of SVG containers over darker paint, as holes."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What a clean drawing says: numbers, paths, transforms, pages, paints, references."""
+"""Parsing of clean SVG: numbers, paths, transforms, pages, paints, references."""

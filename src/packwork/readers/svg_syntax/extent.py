@@ -1,4 +1,4 @@
-"""Where painted shapes can lie, from their control points: before any curve is followed."""
+"""Bounds of painted shapes, from their control points."""
 
 from __future__ import annotations
 

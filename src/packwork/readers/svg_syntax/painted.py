@@ -1,4 +1,4 @@
-"""What a walk through a drawing finds: painted shapes, what cuts them, and texts."""
+"""Painted shapes, clips and texts, as a walk through a drawing finds them."""
 
 from __future__ import annotations
 

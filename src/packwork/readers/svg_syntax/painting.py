@@ -1,4 +1,4 @@
-"""What an element inherits and whether it leaves any ink."""
+"""Inherited paint properties of SVG, and whether they leave any ink."""
 
 from __future__ import annotations
 

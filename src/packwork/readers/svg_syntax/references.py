@@ -1,4 +1,4 @@
-"""What refers to what inside a clean drawing: lookups, dangling references, unused parts."""
+"""References inside a clean drawing: lookup, dangling ones, unused elements."""
 
 from __future__ import annotations
 

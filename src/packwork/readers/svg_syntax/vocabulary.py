@@ -1,4 +1,4 @@
-"""The part of SVG that is let in: elements, attributes and properties by name."""
+"""Allow-lists of SVG elements, attributes and CSS properties."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How tables of text are written, where that has to be said."""
+"""Options of text tables: delimiter, decimal sign, encoding."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""JSON of tables, never more of it than memory holds."""
+"""JSON files of tables, bounded in size."""
 
 from __future__ import annotations
 

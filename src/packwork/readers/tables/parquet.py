@@ -1,4 +1,4 @@
-"""Parquet files: what their metadata say is looked at before anything is decoded."""
+"""Parquet files, checked by their metadata before anything is decoded."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a Parquet file holds, by its own structures: sizes of columns, page by page.
+"""Decoded sizes of the columns of a Parquet file, from the headers of its pages.
 
 A reader allocates what each page's header states, so that is what has to be bounded; the sums at
 the end of the file may say anything. Arrow's own account of a column ends the whole process where

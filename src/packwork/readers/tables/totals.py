@@ -1,4 +1,4 @@
-"""Rows that are the sum of the others: spreadsheets have them at their ends."""
+"""Detection of total rows: rows that are the sum of the others."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers as people and spreadsheets write them."""
+"""Parsing of numbers as people and spreadsheets write them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Pieces of a line, each with its font, to letters that can be set apart."""
+"""Letters of a shaped line as separate regions."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Words of a text to how often each stands there."""
+"""Word counts of a text: forms, plurals, phrases."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Regular expressions of strangers, matched in a process of their own that can be ended.
+"""Regular expressions given by users, matched in a process of their own that can be ended.
 
 Python's matching tries one way after the other and knows no limit: ``(a+)+$`` takes longer
 than the world is old on forty letters, and no look at a pattern tells all of its kind. What

@@ -1,4 +1,4 @@
-"""Whatever names words, to words with weights, the largest first."""
+"""Words and weights from texts, tables, standard input and dicts, the largest first."""
 
 from __future__ import annotations
 

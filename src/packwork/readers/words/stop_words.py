@@ -1,4 +1,4 @@
-"""Words that every text is full of, by language."""
+"""Stop words by language."""
 
 from __future__ import annotations
 

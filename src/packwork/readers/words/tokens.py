@@ -1,4 +1,4 @@
-"""Texts to words, in any script."""
+"""Tokenisation of texts in any script."""
 
 from __future__ import annotations
 

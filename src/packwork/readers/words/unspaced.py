@@ -1,4 +1,4 @@
-"""Words of Chinese, Japanese and Thai, which are written without spaces."""
+"""Word segmentation of Chinese, Japanese and Thai, which are written without spaces."""
 
 from __future__ import annotations
 

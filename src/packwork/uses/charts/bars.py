@@ -1,4 +1,4 @@
-"""Bars of sediment: each group's marks have fallen into a bar, all at one scale."""
+"""Bar charts of piled marks: each group's marks fallen into a bar, all at one scale."""
 
 from __future__ import annotations
 

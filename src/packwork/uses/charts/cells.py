@@ -1,4 +1,4 @@
-"""Where the groups of a chart go: bars on one line, or copies of a container in rows."""
+"""Places of a chart's groups on the canvas: bars on one line, or copies of a container in rows."""
 
 from __future__ import annotations
 

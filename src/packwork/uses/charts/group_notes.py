@@ -1,4 +1,4 @@
-"""Names of a chart's groups, and how much each comes to."""
+"""Labels of a chart's groups: names, and totals."""
 
 from __future__ import annotations
 

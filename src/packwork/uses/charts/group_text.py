@@ -1,4 +1,4 @@
-"""How large names of groups are written."""
+"""Font size of the names of groups."""
 
 SMALLEST_EM = 0.62
 """Letters of names over those of the legend at least; narrower rooms have every second name, or

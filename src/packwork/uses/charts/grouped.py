@@ -1,4 +1,4 @@
-"""What groups that are filled one after another have in common."""
+"""Common part of charts whose groups are filled one after another."""
 
 from __future__ import annotations
 

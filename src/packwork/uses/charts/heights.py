@@ -1,4 +1,4 @@
-"""How high heaps in bars come out: what the canvas and the scale are chosen by."""
+"""Estimated heights of piles in bars, by which canvas and scale are chosen."""
 
 from __future__ import annotations
 

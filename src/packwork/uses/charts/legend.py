@@ -1,4 +1,4 @@
-"""Title and keys of a chart: what sizes, colours and forms of marks mean."""
+"""Legend of a chart: title, and keys of sizes, colours and forms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers as charts write them."""
+"""Formatting of numbers in charts."""
 
 from __future__ import annotations
 

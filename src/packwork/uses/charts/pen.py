@@ -1,4 +1,4 @@
-"""Letters and shapes beside the marks of a chart, as notes."""
+"""Text and shapes drawn beside the marks of a chart, as notes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Starts that are tried of photographs: the run goes on with the one that promises most."""
+"""Multi-start of photographs: several starts are tried, and the run goes on with the best."""
 
 from __future__ import annotations
 

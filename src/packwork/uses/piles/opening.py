@@ -1,4 +1,4 @@
-"""Containers with a side taken off, and where there is none at all."""
+"""Open containers: a container with a side taken off, or none at all."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a pile lies in: a container, one that is drawn open, or none at all."""
+"""Container of a pile: closed, open, or none at all."""
 
 from __future__ import annotations
 

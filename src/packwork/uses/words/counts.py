@@ -1,4 +1,4 @@
-"""How many words it takes for a container's shape to show."""
+"""Number of words needed for a container's shape to show."""
 
 from __future__ import annotations
 

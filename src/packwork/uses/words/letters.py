@@ -1,4 +1,4 @@
-"""How large the letters of words may be: the largest held down, the too small left out.
+"""Bounds on letter sizes: the largest limited, words with too small ones left out.
 
 Sizes stay in the proportion of the weights. So where the lightest words would come out
 smaller than was asked they are left out, by name, and the others grow into their room.

@@ -1,4 +1,4 @@
-"""What differs between one frame and the next: all that most formats have to hold."""
+"""Changed rectangle between one frame and the next."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A film before it is drawn: whose, how long, and where everything is in each frame."""
+"""Films before they are encoded: layout, length, and the poses of all items in each frame."""
 
 from __future__ import annotations
 

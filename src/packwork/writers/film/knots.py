@@ -1,4 +1,4 @@
-"""Few keyframes for a way of many frames: formats that interpolate need no more."""
+"""Keyframe reduction: few frames between which a motion may be interpolated."""
 
 from __future__ import annotations
 

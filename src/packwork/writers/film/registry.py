@@ -1,4 +1,4 @@
-"""Which ending of a film is written how. A new format is one file and one line of ``FILMS``."""
+"""Formats of films by file ending. A new format is one file and one line of ``FILMS``."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Style sheets to plain declarations on the elements they match."""
+"""CSS style sheets to plain declarations on the elements that they match."""

@@ -1,4 +1,4 @@
-"""The cascade: which declarations count on an element, of style sheets and ``style``."""
+"""CSS cascade: declarations that apply to an element, from style sheets and ``style``."""
 
 from __future__ import annotations
 

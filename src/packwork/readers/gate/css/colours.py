@@ -1,4 +1,4 @@
-"""Colours of CSS 4 and 5 to those that every program knows.
+"""CSS Color 4 and 5 values to sRGB.
 
 Colours outside sRGB are clipped, channel by channel. Spaces: Björn Ottosson, "A perceptual
 color space for image processing" (2020), for Oklab; CSS Color 4 for the others.

@@ -1,4 +1,4 @@
-"""Declarations of a block or a ``style`` attribute: known properties, shorthands parted."""
+"""CSS declarations of a block or a ``style`` attribute, shorthands expanded."""
 
 from __future__ import annotations
 

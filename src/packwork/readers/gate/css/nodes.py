@@ -1,4 +1,4 @@
-"""Elements as selectors see them: as they were in the file, among all their siblings."""
+"""Elements as CSS selectors match them: tag, classes, and position among all siblings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Selectors: which elements a rule means, as browsers read them.
+"""CSS selectors: parsing, specificity and matching.
 
 Types, classes, ids, attributes, the four combinators, ``:not``, ``:is``, ``:where`` and the
 pseudo-classes of an element's place among its siblings. What depends on a reader's mouse or

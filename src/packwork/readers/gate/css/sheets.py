@@ -1,4 +1,4 @@
-"""Style sheets to rules: blocks, nested blocks, media queries.
+"""CSS style sheets to rules: blocks, nested blocks, media queries.
 
 ``@media`` counts as a screen of the drawing's own size, in daylight, shows it; ``@supports``
 and ``@layer`` as if they were not there. Other blocks with an ``@`` are left out.

@@ -1,4 +1,4 @@
-"""Shorthand properties to those that they stand for, and CSS's own ways to say what SVG has."""
+"""CSS shorthand properties to longhands, and CSS notations to those of SVG."""
 
 from __future__ import annotations
 

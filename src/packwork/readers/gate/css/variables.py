@@ -1,4 +1,4 @@
-"""CSS variables to their values: ``var(--ink, black)`` means nothing to older programs."""
+"""CSS variables replaced by their values: ``var(--ink, black)`` means nothing to older programs."""
 
 from __future__ import annotations
 

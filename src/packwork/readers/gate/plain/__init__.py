@@ -1,1 +1,1 @@
-"""What CSS says in ways of its own, in plain SVG: units, transforms, cuts, lines."""
+"""CSS features rewritten as plain SVG attributes: units, transforms, clip shapes, dashes."""

@@ -1,4 +1,4 @@
-"""The box of what an element draws, in its own units, as CSS refers to it."""
+"""Bounding boxes of drawn elements, for CSS lengths and transforms that refer to them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Clip paths that CSS writes as shapes, to ``clipPath`` elements."""
+"""CSS clip shapes (``circle()``, ``polygon()`` ...) to ``clipPath`` elements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Dashes counted in an author's own length of a path, to dashes in user units."""
+"""Dash patterns scaled from the author's ``pathLength`` to user units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Transforms of CSS to the ``transform`` attribute that every program reads alike.
+"""CSS transform properties to the ``transform`` attribute that every program reads alike.
 
 ``translate``, ``rotate``, ``scale``, ``transform-origin`` and ``transform-box``, shares and
 lengths inside, all become one matrix.

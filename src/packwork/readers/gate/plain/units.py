@@ -1,4 +1,4 @@
-"""Lengths in units of a font or a window, and ``calc()``, to plain numbers of user units.
+"""CSS lengths in relative units, and ``calc()``, to plain numbers of user units.
 
 Programs disagree about what such units refer to; once they are numbers, nothing is left to
 disagree about. A window is as large as the drawing's page.

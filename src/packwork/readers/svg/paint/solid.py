@@ -1,4 +1,4 @@
-"""A clean drawing to its solid twin: black wherever it paints at all."""
+"""Opaque black copy of a clean drawing, for rendering what it covers."""
 
 from __future__ import annotations
 

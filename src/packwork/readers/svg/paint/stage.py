@@ -1,4 +1,4 @@
-"""A text by itself, black, on a stage of its own: what is rendered to find its outline."""
+"""A text element by itself and in black, for rendering its outline."""
 
 from __future__ import annotations
 

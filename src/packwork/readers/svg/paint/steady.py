@@ -1,4 +1,4 @@
-"""Lines that keep their width whatever happens to their shapes (``vector-effect``), as plain ones.
+"""Non-scaling strokes (``vector-effect``) as plain strokes.
 
 They are as wide as on the drawing's own page; from then on they scale with the item.
 """

@@ -1,4 +1,4 @@
-"""What a pen paints along pieces of a path: whole pieces, or their dashes.
+"""Stroke regions along pieces of a path, or along their dashes.
 
 Flat and square caps stand across the curve's end. The last chord of a flattened curve is off
 its direction by the root of the tolerance, and a wide pen carries that to the corners; so

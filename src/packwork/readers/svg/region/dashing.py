@@ -1,4 +1,4 @@
-"""A polyline to its dashes."""
+"""Dashes along a polyline."""
 
 from __future__ import annotations
 

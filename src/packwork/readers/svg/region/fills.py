@@ -1,4 +1,4 @@
-"""Closed rings to the region they fill; nearly always they do not even touch each other.
+"""Filled regions of closed rings by fill rule, without set operations where rings do not touch.
 
 Then nothing has to be cut: how often the others go round a ring tells whether it is an
 edge of the region, which makes a compound path some thirty times cheaper.

@@ -1,4 +1,4 @@
-"""One painted shape at a time to the regions that its fill and its stroke cover."""
+"""Regions of single painted shapes: fill and stroke, clipped."""
 
 from __future__ import annotations
 

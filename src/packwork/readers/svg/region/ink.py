@@ -1,4 +1,4 @@
-"""What a drawing covers: all its fills and strokes together."""
+"""Region that a drawing covers: all its fills and strokes together."""
 
 from __future__ import annotations
 

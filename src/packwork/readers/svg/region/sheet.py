@@ -1,4 +1,4 @@
-"""The white page that drawing programs leave behind a drawing: paper, not part of it."""
+"""White background rectangles behind drawings: detection and removal."""
 
 from __future__ import annotations
 

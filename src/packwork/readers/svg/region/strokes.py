@@ -1,4 +1,4 @@
-"""The region a stroke paints: width, caps, joins and mitre limit.
+"""Stroke region of a polyline: width, caps, joins and mitre limit.
 
 GEOS offsets the flattened centre line. It may cut shallow dents of the line by up to 1 %
 of half the width, always outwards, so the region covers the true stroke. Its mitre limit

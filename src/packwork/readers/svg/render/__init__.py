@@ -1,1 +1,1 @@
-"""Drawings to pictures, held against shapes, or traced where shapes do not tell."""
+"""Rendering of drawings by resvg, for comparison and for tracing."""

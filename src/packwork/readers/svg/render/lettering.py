@@ -1,4 +1,4 @@
-"""Texts of a clean drawing to paths: then no viewer's fonts decide how they look.
+"""Text elements of a clean drawing to paths, so that no viewer's fonts decide how they look.
 
 Each text is rendered by itself in its own units, black and large, and its edge followed;
 the path takes the place and the paints of the text. Letters of several paints in one

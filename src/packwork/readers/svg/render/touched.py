@@ -1,4 +1,4 @@
-"""Pixels of a coarse picture that a drawing's lines touch, however thin they are.
+"""Pixels of a coarse picture that edges of shapes pass through, however thin.
 
 Renderers let slivers vanish that are thinner than a sixteenth of a pixel.
 """

@@ -1,4 +1,4 @@
-"""What cannot be computed from shapes alone (masks, patterns, pictures), traced.
+"""Tracing of rendered drawings, for what shapes alone do not tell (masks, patterns, pictures).
 
 The clean drawing is rendered by resvg and the edge of its opacity followed.
 """
