@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 from pathlib import Path
 from random import Random
 
@@ -51,14 +52,42 @@ def test_frequencies_are_relative_to_the_first_and_all_words_are_there(cloud: Wo
 
 
 @pytest.mark.parametrize(
-    ("scaling", "heights"), [(1.0, [8, 4, 2, 1]), (0.5, [1, 0.75, 0.5625, 0.421875]), (0, [1] * 4)]
+    ("scaling", "sizes"), [(1.0, [24, 12, 6, 3]), (0.5, [24, 18, 14, 10]), (0, [24] * 4)]
 )
-def test_sizes_are_what_relative_scaling_says(scaling: float, heights: list[float]) -> None:
+def test_where_there_is_room_sizes_are_what_relative_scaling_says(
+    scaling: float, sizes: list[int]
+) -> None:
     found = WordCloud(
-        width=160, height=100, relative_scaling=scaling, min_font_size=1, random_state=0
+        width=320, height=200, relative_scaling=scaling, min_font_size=1, max_font_size=24
     ).fit_words(WEIGHTS)
-    scales = found.layout.poses.scale
-    assert scales / scales[0] == pytest.approx(np.array(heights) / heights[0], rel=1e-6)
+    assert [size for _, size, *_ in found.layout_] == sizes
+
+
+@pytest.mark.parametrize("scaling", [0, 0.5, 1.0])
+def test_where_there_is_none_sizes_give_way_and_ranks_stay(scaling: float) -> None:
+    weights = {f"word{k}": 1 / (1 + k) for k in range(40)}
+    found = WordCloud(width=160, height=100, relative_scaling=scaling).fit_words(weights)
+    sizes = [size for _, size, *_ in found.layout_]
+    assert sizes == sorted(sizes, reverse=True)
+    assert len(sizes) > 10
+
+
+def test_nothing_overlaps_or_leaves_the_mask() -> None:
+    mask = np.full((100, 160), 255, dtype=np.uint8)
+    mask[10:90, 20:140] = 0
+    weights = {f"word{k}": 1 / (1 + k) for k in range(40)}
+    layout = WordCloud(mask=mask, margin=0, random_state=0).fit_words(weights).layout
+    regions = [outline.region for outline in layout.outlines]
+    room = layout.container.outline.region
+    assert all(room.contains(region) for region in regions)
+    assert not any(one.intersects(other) for one, other in combinations(regions, 2))
+
+
+def test_sizes_are_steps_apart() -> None:
+    weights = {f"word{k}": 1.0 for k in range(30)}
+    options = {"width": 160, "height": 100, "max_font_size": 20, "min_font_size": 5}
+    found = WordCloud(**options, font_step=5, random_state=0).fit_words(weights)
+    assert {size for _, size, *_ in found.layout_} <= {20, 15, 10, 5}
 
 
 def test_pictures_have_the_canvas_size_and_the_background(cloud: WordCloud, tmp_path: Path) -> None:
@@ -228,10 +257,10 @@ def test_words_of_frequency_nought_are_left_out() -> None:
 
 
 def test_arguments_without_effect_are_told_once(fresh_warnings: None) -> None:
-    with pytest.warns(UserWarning, match="font_step has no effect") as caught:
-        WordCloud(font_step=2)
+    with pytest.warns(UserWarning, match="ranks_only has no effect") as caught:
+        WordCloud(ranks_only=True)
     assert len(caught) == 1
-    WordCloud(font_step=2)
+    WordCloud(ranks_only=True)
 
 
 def test_stop_words_are_a_set_that_may_grow() -> None:

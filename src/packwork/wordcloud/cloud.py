@@ -23,7 +23,7 @@ from packwork.readers.words.items import EM_PX
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
 from packwork.wordcloud.colours import ColourFunction, colormap_color_func
-from packwork.wordcloud.setting import Placed, Setting, container_of_mask, placed, relative_heights
+from packwork.wordcloud.setting import Placed, Setting, container_of_mask, placed, relative_steps
 from packwork.wordcloud.words import STOPWORDS, frequencies, tokens, with_bigrams
 from packwork.writers.atomic import write_atomic
 from packwork.writers.options import TextChoice
@@ -42,7 +42,7 @@ FAINT = 4
 """Opacity, of 255, below which a pixel of an edge is left out, so that clouds in other
 colours fill the same pixels. Chosen."""
 
-_WITHOUT_EFFECT = {"font_step": 1, "ranks_only": None}
+_WITHOUT_EFFECT = {"ranks_only": None}
 """Arguments of the other package's search that this engine does not have."""
 
 
@@ -93,7 +93,7 @@ class WordCloud:
         min_word_length: int = 0,
         collocation_threshold: float = 30,
     ) -> None:
-        _warn_of({"font_step": font_step, "ranks_only": ranks_only})
+        _warn_of({"ranks_only": ranks_only})
         if relative_scaling == "auto":
             relative_scaling = 0 if repeat else 0.5
         if not 0 <= relative_scaling <= 1:
@@ -142,10 +142,10 @@ class WordCloud:
         shares = [(word, count / most) for word, count in ranked]
         self.words_ = dict(shares)
         entries = [pair for pair in self._repeated(shares) if pair[1] > 0]
-        heights = relative_heights([share for _, share in entries], float(self.relative_scaling))
+        steps = relative_steps([share for _, share in entries], float(self.relative_scaling))
         largest = max_font_size or self.max_font_size
         random = self.random_state or Random()
-        found = placed(self._setting(largest), [word for word, _ in entries], heights, random)
+        found = placed(self._setting(largest), [word for word, _ in entries], steps, random)
         self._say_what_is_missing(len(entries), found)
         self._layout = found.layout
         self.layout_ = [
@@ -288,6 +288,7 @@ class WordCloud:
             self.prefer_horizontal,
             float(self.min_font_size),
             None if largest is None else float(largest),
+            float(max(self.font_step, 1)),
         )
 
     def _entry(self, pair: tuple[str, float], position: int, random: Random) -> Entry:

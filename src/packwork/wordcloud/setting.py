@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from random import Random
 from typing import Any
@@ -11,32 +11,29 @@ import numpy as np
 import numpy.typing as npt
 import shapely
 
-from packwork import pipeline, uses
-from packwork.errors import RecipeError
+from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_pixels
 from packwork.readers.unfit import UnfitError
-from packwork.readers.words.items import WordsRead, word_item
-from packwork.readers.words.options import WordOptions
+from packwork.readers.words.items import EM_PX, word_item
 from packwork.readers.words.word import Word
-from packwork.recipe import make_recipe
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.uses.words.letters import Letters
-from packwork.uses.words.use import Words
+from packwork.start.first_fit.graded import Candidate, graded_fit
 
 SMALLEST_CANVAS = 4
 """Pixels on a side below which nothing is tried. Chosen."""
 
-TURN_STEPS = 20
-"""Steps in which the share of horizontal words is kept. Chosen."""
+PATIENCE = 10
+"""Words in a row that may find no place before all others are left out. Larger looks longer for
+short words that would still fit. Chosen."""
 
 NO_ROOM = (
-    "Couldn't find space to draw. Either the Canvas size is too small or too much of the image is "
-    "masked out."
+    "Couldn't find space to draw. Either the Canvas size is too small or too much of the "
+    "image is masked out."
 )
 
 
@@ -51,11 +48,14 @@ class Setting:
     fonts
         That set the words.
     margin
-        Least distance of two words, pixels.
+        Twice the least distance of two words, and of a word and the edge, pixels: what the other
+        package leaves round the box of a word.
     horizontal
         Share of words that are not turned.
     smallest, largest
         Bounds of the height of an em, pixels; None for no upper one.
+    step
+        By how much sizes that are tried differ at least, pixels; all are whole pixels.
     """
 
     container: Container
@@ -64,6 +64,7 @@ class Setting:
     horizontal: float
     smallest: float
     largest: float | None
+    step: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,23 +118,20 @@ def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) ->
     return placed_container("mask", "mask", traced.region, canvas, float(max(width, height)))
 
 
-def relative_heights(frequencies: Sequence[float], scaling: float) -> npt.NDArray[np.float64]:
-    """``(n,)`` heights of words, the first as 1: each from the one before it.
+def relative_steps(frequencies: Sequence[float], scaling: float) -> FloatArray:
+    """``(n,)`` how many times as high as the word before each may be; the first 1.
 
     Examples
     --------
-    >>> relative_heights([1.0, 0.5], 1.0).tolist(), relative_heights([1.0, 0.5], 0.5).tolist()
+    >>> relative_steps([1.0, 0.5], 1.0).tolist(), relative_steps([1.0, 0.5], 0.5).tolist()
     ([1.0, 0.5], [1.0, 0.75])
     """
     known = np.array(frequencies, dtype=np.float64)
-    steps = scaling * known[1:] / known[:-1] + 1 - scaling
-    return np.cumprod([1.0, *steps])
+    return np.concatenate([[1.0], scaling * known[1:] / known[:-1] + 1 - scaling])
 
 
-def placed(
-    asked: Setting, words: Sequence[str], heights: npt.NDArray[np.float64], random: Random
-) -> Placed:
-    """Words in the proportion of their heights; fewer where the least would be too small.
+def placed(asked: Setting, words: Sequence[str], steps: FloatArray, random: Random) -> Placed:
+    """Words one after another, each as large as it finds a place, none larger than one before.
 
     Raises
     ------
@@ -145,46 +143,100 @@ def placed(
     >>> from packwork.readers.fonts.fallback import open_fonts
     >>> asked = Setting(container_of_mask(None, 90, 60), open_fonts([]), 1.0, 1.0, 4.0, 20.0)
     >>> found = placed(asked, ["ox", "bee"], np.array([1.0, 0.5]), Random(0))
-    >>> (100 * found.layout.poses.scale).round(6).tolist()
+    >>> (found.layout.poses.scale * EM_PX).tolist()
     [20.0, 10.0]
     """
-    read = _read(words, heights, asked.fonts)
-    if not read.items:
-        raise ValueError(NO_ROOM)
-    upright = round(TURN_STEPS * min(max(asked.horizontal, 0.0), 1.0))
-    turns = ["0"] * upright + ["-90"] * (TURN_STEPS - upright)
-    recipe = make_recipe(
-        container=asked.container.source,
-        items=["-"],
-        sizes="shared",
-        rotate=",".join(turns),
-        padding=asked.margin,
-        effort="draft",
-        seed=random.randrange(2**31),
+    read = _Reading(asked, words, steps, random)
+    largest = asked.largest or _largest_size(asked, read)
+    rng = np.random.default_rng(random.randrange(2**31))
+    found = graded_fit(
+        asked.container,
+        read.candidates(largest),
+        len(words),
+        rng,
+        smallest=asked.smallest / EM_PX,
+        grid=1 / EM_PX,
+        drop=asked.step / EM_PX,
+        margin_cu=asked.margin / 2,
+        patience=PATIENCE,
     )
-    job = uses.read(recipe, read.items, asked.container)
-    use = Words(read, WordOptions(source={}), Letters(asked.smallest, asked.largest))
-    try:
-        layout = pipeline.run(replace(job, weights=read.areas, use=use)).layout
-    except RecipeError:
-        raise ValueError(NO_ROOM) from None
-    return Placed(layout, tuple(int(item.name) for item in layout.items), dict(read.undrawn))
+    if len(found.placed) == 0:
+        raise ValueError(NO_ROOM)
+    entries = tuple(read.numbers[k] for k in found.placed)
+    items = tuple(read.items[number] for number in entries)
+    areas = np.array([item.outline.area for item in items]) * found.poses.scale**2
+    return Placed(Layout(asked.container, items, found.poses, areas), entries, read.undrawn)
 
 
-def _read(words: Sequence[str], heights: npt.NDArray[np.float64], fonts: Fonts) -> WordsRead:
-    """Words as items, each named by its number."""
-    items, kept, undrawn = list[Item](), list[int](), dict[str, str]()
-    for number, text in enumerate(words):
-        try:
-            item = word_item(Word(text.replace("|", " "), 1.0), fonts)
-        except UnfitError as error:
-            undrawn[text] = str(error)
-            continue
-        items.append(replace(item, name=str(number)))
-        kept.append(number)
-    areas = np.array([item.outline.area for item in items]) * heights[kept] ** 2
-    said = tuple(Word(words[k], float(heights[k])) for k in kept)
-    return WordsRead(tuple(items), areas, said, undrawn, len(words))
+class _Reading:
+    """Words that are set when their turn comes: most of a long text finds no room.
+
+    Parameters
+    ----------
+    items
+        By number, those that have been read.
+    numbers
+        Of the candidates that have been given, in their order.
+    undrawn
+        Words that no font could draw, each with the reason.
+    """
+
+    def __init__(
+        self, asked: Setting, words: Sequence[str], steps: FloatArray, random: Random
+    ) -> None:
+        self.items, self.undrawn = dict[int, Item](), dict[str, str]()
+        self.numbers: list[int] = []
+        self._asked, self._words, self._steps = asked, words, steps
+        upright, turned = 0.0, -np.pi / 2
+        self._angles = [
+            (upright, turned) if random.random() < asked.horizontal else (turned, upright)
+            for _ in words
+        ]
+
+    def candidates(self, largest: float, count: int | None = None) -> Iterator[Candidate]:
+        """The first words, the first of an em of ``largest`` pixels at most."""
+        self.numbers = []
+        step = largest / EM_PX
+        for number in range(len(self._words[:count])):
+            step *= self._steps[number]
+            item = self._item(number)
+            if item is None:
+                continue
+            angles = self._angles[number][: 1 if self._asked.horizontal >= 1 else 2]
+            self.numbers.append(number)
+            yield Candidate(item.outline, step, angles)
+            step = 1.0
+
+    def _item(self, number: int) -> Item | None:
+        """The word as an item, its counters open; None if it cannot be drawn."""
+        text = self._words[number]
+        if number not in self.items and text not in self.undrawn:
+            try:
+                word = Word(text.replace("|", " "), 1.0)
+                item = word_item(word, self._asked.fonts, "keep")
+            except UnfitError as error:
+                self.undrawn[text] = str(error)
+            else:
+                self.items[number] = replace(item, name=str(number))
+        return self.items.get(number)
+
+
+def _largest_size(asked: Setting, read: _Reading) -> float:
+    """Size of the largest word, pixels: the harmonic mean of those of the first two alone."""
+    found = graded_fit(
+        asked.container,
+        read.candidates(float(asked.container.height), 2),
+        2,
+        np.random.default_rng(0),
+        smallest=asked.smallest / EM_PX,
+        grid=1 / EM_PX,
+        drop=asked.step / EM_PX,
+        margin_cu=asked.margin / 2,
+    )
+    sizes = found.poses.scale * EM_PX
+    if len(sizes) == 0:
+        raise ValueError(NO_ROOM)
+    return max(float(int(len(sizes) / np.sum(1 / sizes))), asked.smallest)
 
 
 def _is_white(mask: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:

@@ -1,0 +1,260 @@
+"""Sizes that give way in the order of weights: each item as large as it finds a place.
+
+Greedy placement as in tag clouds (Viegas, Wattenberg and Feinberg 2009, "Participatory
+visualization with Wordle", IEEE TVCG 15, 1137-1144, doi:10.1109/TVCG.2009.171), whose words keep
+their sizes; that sizes shrink until there is a place is the way of the ``wordcloud`` package.
+Ours looks at all places at once, on rows of bits, and takes the best: large items where the
+container is wide, all others where they touch most of what is there already.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from scipy import ndimage
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.fields.clearance import distance_inside
+from packwork.geometry.affine import similarity
+from packwork.geometry.outline import Outline
+from packwork.progress import Stop, never
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.start.first_fit.occupancy import Occupancy
+from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all
+from packwork.start.first_poses import container_image
+
+_Pose: TypeAlias = tuple[float, float, float, float]
+"""x, y, angle, scale."""
+
+PIXELS_EACH = 64
+"""Pixels of the image's side for each item of a row of them. More waste less room between items and
+take longer. Tried."""
+
+LEAST_PX, MOST_PX = 600, 1_000
+"""Sides of that image at least and at most. As above."""
+
+REACH = 3
+"""Width of the fringe, pixels, in which taken pixels are counted. As in ``first_fit``."""
+
+CORNERS = math.sqrt(2)
+"""Pixels between the centres of two pixels beyond which the pixels themselves are apart."""
+
+STEP = 1.04
+"""Factor between sizes tried. Smaller finds larger ones and takes longer. Tried."""
+
+LEAST_SHARE = 1e-3
+"""Size, as a share of the first one's, below which an item is left out unless asked. Chosen."""
+
+INWARD = 0.6
+"""Score, beside the touched share of 0 to 1, for lying where the container is widest, of an item
+of the first one's size while nothing lies there; less by as much as an item is smaller, and
+as more is covered. Larger heaps large ones in the middle, smaller puts them at the edge. By eye."""
+
+COVERED = 0.5
+"""Share of the container, margins taken in, from which on nothing is drawn inwards. Chosen."""
+
+DRAWN = 0.1
+"""Such score from which places are judged that touch nothing, too. Smaller takes longer. Chosen."""
+
+NOISE = 0.01
+"""Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """An item that is to be put next.
+
+    Parameters
+    ----------
+    outline
+        Item units.
+    step
+        How many times the scale of the last one placed it may have; of the first, its scale.
+    angles
+        That it may have, radians, the preferred ones first: of those at which it fits in one
+        size, the first is taken.
+    """
+
+    outline: Outline
+    step: float
+    angles: Sequence[float] = (0.0,)
+
+
+@dataclass(frozen=True, eq=False)
+class Graded:
+    """Items that found a place.
+
+    Parameters
+    ----------
+    placed
+        ``(m,)`` which of the candidates they are, in their order.
+    poses
+        Of these.
+    """
+
+    placed: IntArray
+    poses: Poses
+
+
+def graded_fit(
+    container: Container,
+    candidates: Iterable[Candidate],
+    count: int,
+    rng: np.random.Generator,
+    *,
+    smallest: float = 0.0,
+    grid: float = 0.0,
+    drop: float = 0.0,
+    margin_cu: float = 0.0,
+    patience: int | None = None,
+    stop: Stop = never,
+) -> Graded:
+    """Poses at which nothing overlaps, each item at most so much larger than the one before.
+
+    Parameters
+    ----------
+    container
+        The region to fill.
+    candidates
+        The heaviest first; taken one by one, as long as there is room.
+    count
+        About how many there are: the more, the finer the image.
+    rng
+        The only source of randomness.
+    smallest
+        Scale below which an item is left out; 0 for ``LEAST_SHARE`` of the first one's.
+    grid
+        Scales are whole multiples of it; 0 for any.
+    drop
+        By how much, at least, scales that are tried differ.
+    margin_cu
+        Room that every item keeps from others and from the edge, canvas units.
+    patience
+        How many items in a row may find no place before the rest is left out; None for any.
+    stop
+        Asked before each item; True ends with those that are placed.
+
+    Examples
+    --------
+    >>> tile = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> container = Container("", "", tile.mapped(similarity(50, 50, 0.0, 50)), 100.0, 100.0)
+    >>> tiles = [Candidate(tile, step) for step in (24.0, 1.0, 1.0, 1.0, 1.0)]
+    >>> found = graded_fit(container, tiles, 5, np.random.default_rng(0), grid=1.0)
+    >>> found.placed.tolist(), found.poses.scale.tolist()
+    ([0, 1, 2, 3, 4], [24.0, 24.0, 24.0, 24.0, 1.0])
+    """
+    grading = _Grading(container, count, rng, margin_cu)
+    placed, rows, missed = list[int](), list[_Pose](), 0
+    most = 0.0
+    for k, candidate in enumerate(candidates):
+        if stop() or (patience is not None and missed > patience):
+            break
+        most = min(most, _on_grid(most * candidate.step, grid)) if rows else candidate.step
+        least = smallest or LEAST_SHARE * (rows[0][3] if rows else most)
+        pose = grading.put(candidate, sizes_down(most, max(least, grid), grid, drop))
+        if pose is None:
+            missed += 1
+            continue
+        missed = 0
+        most = pose[3]
+        placed.append(k)
+        rows.append(pose)
+    x, y, angle, scale = np.array(rows).reshape(-1, 4).T
+    return Graded(np.array(placed, dtype=np.int64), Poses(x, y, angle, scale))
+
+
+def sizes_down(most: float, least: float, grid: float = 0.0, drop: float = 0.0) -> list[float]:
+    """Sizes tried from the largest to the least, on a grid if there is one; none below the least.
+
+    Examples
+    --------
+    >>> sizes_down(60.0, 50.0, 1.0), [round(size, 2) for size in sizes_down(1.0, 0.9)]
+    ([60.0, 57.0, 54.0, 51.0, 50.0], [1.0, 0.96, 0.92, 0.9])
+    """
+    found = []
+    while most >= least:
+        found.append(most)
+        lower = min(most / STEP, most - drop)
+        most = min(math.floor(lower / grid + 1e-9) * grid, most - grid) if grid else lower
+    if found and found[-1] > least * (1 + 1e-9):
+        found.append(least)
+    return found
+
+
+def _on_grid(size: float, grid: float) -> float:
+    """Nearest multiple of the grid; the size itself without one."""
+    return round(size / grid) * grid if grid else size
+
+
+class _Grading:
+    """The image on which items are put one after another."""
+
+    def __init__(
+        self, container: Container, count: int, rng: np.random.Generator, margin_cu: float
+    ) -> None:
+        side = int(np.clip(round(PIXELS_EACH * math.sqrt(count)), LEAST_PX, MOST_PX))
+        image, self._px_per_cu = container_image(container, side)
+        self._reach = margin_cu * self._px_per_cu + CORNERS
+        clearance = distance_inside(image > 1 - TOUCHED)
+        self._inward: FloatArray = clearance / max(float(clearance.max()), 1.0)
+        self._noise = NOISE * rng.random(image.shape)
+        # The edge needs no pixel of its own: what is inside lies wholly inside.
+        room = clearance > self._reach - CORNERS
+        self._occupancy = Occupancy(room, REACH)
+        self._room, self._left = max(int(room.sum()), 1), int(room.sum())
+        self._first = 0.0
+
+    def put(self, candidate: Candidate, sizes: Sequence[float]) -> _Pose | None:
+        """Pose of an item at the largest size at which it finds a place; None if at none.
+
+        Steps down the sizes double until one fits; the one between is sought by halves.
+        """
+        low, high, found = -1, 0, None
+        while found is None:
+            if high >= len(sizes):
+                return None
+            found = self._place(candidate, sizes[high])
+            if found is None:
+                last = high == len(sizes) - 1
+                low, high = high, len(sizes) if last else min(max(2 * high, 1), len(sizes) - 1)
+        while high - low > 1:
+            middle = (low + high) // 2
+            larger = self._place(candidate, sizes[middle])
+            if larger is None:
+                low = middle
+            else:
+                found, high = larger, middle
+        stencil, row, column, angle = found
+        self._take(stencil, row, column)
+        self._first = self._first or sizes[high]
+        y, x = (np.array([row, column]) + stencil.origin) / self._px_per_cu
+        return float(x), float(y), angle, sizes[high]
+
+    def _place(self, candidate: Candidate, scale: float) -> tuple[Stencil, int, int, float] | None:
+        """Best place of an item of that scale, at the first of its angles that has one."""
+        covered = 1 - self._left / self._room
+        inward = INWARD * min(scale / (self._first or scale), 1.0) * max(1 - covered / COVERED, 0)
+        is_drawn = inward > DRAWN
+        worth = self._noise + inward * self._inward if is_drawn else self._noise
+        for angle in candidate.angles:
+            posed = similarity(0.0, 0.0, angle, scale * self._px_per_cu)
+            stencil = cut_all({0: candidate.outline.mapped(posed)}, REACH)[0]
+            found = self._occupancy.best_place(stencil, worth, is_drawn)
+            if found is not None:
+                return stencil, found[1], found[2], angle
+        return None
+
+    def _take(self, stencil: Stencil, row: int, column: int) -> None:
+        """Take the pixels of a stencil and those round it that are nearer than the margin."""
+        wide = math.ceil(self._reach)
+        free = np.pad(~stencil.mask, wide, constant_values=True)
+        near = ndimage.distance_transform_edt(free) <= self._reach
+        origin = (stencil.origin[0] + wide, stencil.origin[1] + wide)
+        margin = Stencil(near, origin, stencil.runs, stencil.fringe)
+        self._occupancy.take(margin, row - wide, column - wide)
+        self._left -= int(near.sum())

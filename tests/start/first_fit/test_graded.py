@@ -1,0 +1,85 @@
+"""Items as large as they find a place, in the order of their weights."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pytest
+
+from packwork.geometry.outline import Outline
+from packwork.readers.builtin import builtin_container, builtin_item
+from packwork.scene.container import Container
+from packwork.start.first_fit.graded import Candidate, Graded, graded_fit, sizes_down
+
+
+def shapes(count: int) -> list[Outline]:
+    return [builtin_item(("star", "heart", "square")[k % 3]).outline for k in range(count)]
+
+
+def put(count: int = 40, name: str = "heart", **options: float) -> tuple[Container, Graded]:
+    container = builtin_container(name)
+    asked = [Candidate(one, 0.97 if k else 4.0, (0.0, 0.5)) for k, one in enumerate(shapes(count))]
+    return container, graded_fit(container, asked, count, np.random.default_rng(1), **options)
+
+
+@pytest.mark.parametrize("margin", [0.0, 4.0])
+def test_nothing_overlaps_or_sticks_out(margin: float) -> None:
+    container, found = put(margin_cu=margin)
+    every = shapes(40)
+    placed = [
+        every[k].mapped(found.poses.matrix(position)).region
+        for position, k in enumerate(found.placed)
+    ]
+    assert len(placed) > 30
+    assert all(container.outline.region.contains(one) for one in placed)
+    wall = container.outline.region.boundary
+    assert all(one.distance(wall) >= margin for one in placed)
+    assert all(one.distance(other) > margin for one, other in combinations(placed, 2))
+
+
+def test_ranks_never_cross() -> None:
+    _, found = put()
+    assert (np.diff(found.poses.scale) <= 0).all()
+    assert (found.poses.scale[1:] <= 0.97 * found.poses.scale[:-1] * (1 + 1e-12)).all()
+
+
+def test_a_grid_and_a_least_size_hold() -> None:
+    _, found = put(smallest=0.3, grid=0.1)
+    assert found.poses.scale.min() >= 0.3 - 1e-9
+    assert found.poses.scale / 0.1 == pytest.approx(np.round(found.poses.scale / 0.1))
+
+
+def test_what_finds_no_place_is_left_out() -> None:
+    _, found = put(count=60, smallest=1.0)
+    assert 0 < len(found.placed) < 60
+    assert len(found.poses) == len(found.placed)
+
+
+def test_patience_ends_the_search() -> None:
+    container = builtin_container("heart")
+    read = []
+
+    def asked() -> object:
+        for k, one in enumerate(shapes(500)):
+            read.append(k)
+            yield Candidate(one, 1.0 if k else 3.0)
+
+    graded_fit(container, asked(), 500, np.random.default_rng(1), smallest=2.9, patience=3)
+    assert len(read) < 40
+
+
+def test_one_seed_gives_one_answer() -> None:
+    first, second = put()[1].poses, put()[1].poses
+    assert np.array_equal(first.x, second.x)
+    assert np.array_equal(first.scale, second.scale)
+
+
+def test_a_container_too_small_for_any_size_holds_nothing() -> None:
+    assert len(put(smallest=100.0)[1].placed) == 0
+
+
+def test_sizes_end_at_the_least() -> None:
+    assert sizes_down(1.0, 2.0) == []
+    assert sizes_down(2.0, 2.0) == [2.0]
+    assert min(sizes_down(3.0, 1.1)) == 1.1
