@@ -49,11 +49,11 @@ _WITHOUT_EFFECT = {"ranks_only": None}
 class WordCloud:
     """Words in the proportion of their frequencies, none over another.
 
-    Arguments, methods, attributes and defaults are those of the ``wordcloud`` package. What
-    differs: all words come in the sizes that ``relative_scaling`` says, to the last digit,
-    and nothing overlaps, which exact geometry certifies. Where the smallest would be less
-    than ``min_font_size`` the rarest are left out, and the log says how many.
-    ``font_step`` has no meaning here.
+    Arguments, methods, attributes and defaults are those of the ``wordcloud`` package. In the
+    order of frequencies each word takes the largest size at which it finds a place, at most
+    that of the word before by ``relative_scaling``. What differs: places are the best of all
+    instead of any, letters lie in each other's bays and counters, and no two overlap. Where a
+    word would be less than ``min_font_size`` it is left out, and the log says how many.
 
     Examples
     --------
