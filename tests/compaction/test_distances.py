@@ -5,7 +5,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 
-from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.arrangement import LEAST_STRIDE, Arrangement
 from packwork.compaction.kernels.distances import pairs_of
 from packwork.geometry.outline import Outline
 from scenes import box
@@ -50,6 +50,29 @@ def test_distances_are_those_of_geos(rng: np.random.Generator) -> None:
             expected = shapely.distance(wall.region.boundary, placed[i].region)
         else:
             expected = 0.0
+        assert found == pytest.approx(min(expected, 3.0), abs=1e-9)
+
+
+def wavy(points: int) -> Outline:
+    """Container of many edges, with a hole."""
+    turns = 2 * np.pi * np.arange(points) / points
+    spokes = np.column_stack([np.cos(turns), np.sin(turns)])
+    rings = [5 + (4 + np.cos(9 * turns))[:, None] * spokes, (5 + 0.8 * spokes)[::-1]]
+    return Outline.from_rings(rings)
+
+
+@given(generators())
+@settings(deadline=None, max_examples=40)
+def test_distances_from_a_container_of_many_edges(rng: np.random.Generator) -> None:
+    wall, outlines = wavy(10 * LEAST_STRIDE - 7), [blob(rng) for _ in range(8)]
+    places = np.column_stack([rng.uniform(0, 10, (8, 2)), np.zeros(8), rng.normal(-1.5, 0.5, 8)])
+    arrangement = Arrangement(outlines, wall, places)
+    pairs = np.column_stack([np.arange(8), np.full(8, 8)])
+    for (i, _), found in zip(pairs, arrangement.distances(pairs, 3.0), strict=True):
+        points = arrangement.board.points[slice(*arrangement.board.starts[i : i + 2])]
+        region = Outline(points, outlines[i].starts).region
+        is_inside = wall.region.covers(region)
+        expected = shapely.distance(wall.region.boundary, region) if is_inside else 0.0
         assert found == pytest.approx(min(expected, 3.0), abs=1e-9)
 
 

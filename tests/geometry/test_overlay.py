@@ -16,7 +16,8 @@ import packwork
 from packwork.errors import ShapeError
 from packwork.geometry import overlay
 from packwork.geometry.outline import Outline
-from strategies import ring_sets
+from packwork.geometry.overlay import difference, intersection, part_about
+from strategies import generators, ring_sets
 
 _OPERATIONS = (
     "union_all|unary_union|intersection|difference|symmetric_difference|buffer|make_valid|simplify"
@@ -88,3 +89,16 @@ def test_rings_that_cross_make_a_region() -> None:
     around = np.array([[0, 0], [4, 0], [4, 4], [0, 4.0]])
     hole = np.array([[1, 1], [1, 3], [5, 3], [5, 1.0]])
     assert Outline.from_rings([hole, around]).region.is_valid
+
+
+@given(generators())
+@settings(deadline=None, max_examples=40)
+def test_the_part_about_a_shape_serves_as_well_as_the_whole(rng: np.random.Generator) -> None:
+    turns = 2 * np.pi * np.arange(400) / 400
+    star = (4 + np.cos(9 * turns))[:, None] * np.column_stack([np.cos(turns), np.sin(turns)])
+    whole = shapely.Polygon(star, [0.3 * star])
+    shape = shapely.box(*np.sort(rng.uniform(-6, 6, (2, 2)), axis=0).ravel())
+    near = part_about(whole, shape, 0.1)
+    for operation in (difference, intersection):
+        expected = operation(shape, whole).area
+        assert operation(shape, near).area == pytest.approx(expected, abs=1e-12)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -9,6 +10,11 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.kernels import distances
 from packwork.geometry.outline import Outline
+
+LEAST_STRIDE = 32
+"""Successive edges of the container that share a box, at least; of many, their square root, so that
+there are as many boxes as edges in each. Larger looks at more edges, smaller at more boxes.
+Tried."""
 
 PAIRS_PER_ITEM = 16
 """Room for near pairs at first; more are counted and then looked for again."""
@@ -41,9 +47,12 @@ class Arrangement:
         lengths = np.hypot(own[:, 0], own[:, 1])
         arms = np.maximum.reduceat(lengths, starts[:-1])[:-1]
         boxes = np.tile(np.array(container.bounds), (len(parts), 1))
+        edges = own[starts[-2] :], own[after[starts[-2] :]]
+        stride = max(LEAST_STRIDE, math.isqrt(len(edges[0])))
         self.board = distances.Board(
-            own, starts, after, before, own.copy(), boxes, np.zeros((self.count, 4)), arms
-        )
+            own, starts, after, before, own.copy(), boxes, _spans(*edges, stride), stride,
+            np.zeros((self.count, 4)), arms,
+        )  # fmt: skip
         self.put(np.arange(self.count), places)
 
     @property
@@ -105,6 +114,14 @@ class Arrangement:
         [[0, 1]]
         """
         return np.asarray(pairs[self.distances(pairs, gap) < gap])
+
+
+def _spans(begins: FloatArray, ends: FloatArray, stride: int) -> FloatArray:
+    """``(m, 4)`` boxes about every ``stride`` successive edges, given by their ends ``(p, 2)``."""
+    firsts = np.arange(0, len(begins), stride)
+    least = np.minimum.reduceat(np.minimum(begins, ends), firsts)
+    most = np.maximum.reduceat(np.maximum(begins, ends), firsts)
+    return np.column_stack([least, most])
 
 
 def _neighbours(outlines: Sequence[Outline]) -> tuple[IntArray, IntArray]:

@@ -10,7 +10,7 @@ import numpy as np
 from packwork.compaction.detail import Detail
 from packwork.geometry.distance import distance
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import difference, intersection
+from packwork.geometry.overlay import difference, intersection, part_about
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
@@ -59,17 +59,18 @@ def find_conflicts(
     places = np.column_stack([poses.x, poses.y, zero, zero])
     arrangement = Detail(outlines, container.outline, poses).arrangement(places)
     bad = arrangement.conflicts(arrangement.pairs(gap), gap * (1 - ROUNDING))
-    return tuple(_conflict(container, outlines, poses, int(i), int(j)) for i, j in bad)
+    return tuple(_conflict(container, outlines, poses, int(i), int(j), gap) for i, j in bad)
 
 
 def _conflict(
-    container: Container, outlines: Sequence[Outline], poses: Poses, i: int, j: int
+    container: Container, outlines: Sequence[Outline], poses: Poses, i: int, j: int, gap: float
 ) -> Conflict:
     first = outlines[i].mapped(poses.matrix(i)).region
     if j == len(outlines):
-        whole = container.outline.region
-        outside = float(difference(first, whole).area)
-        return Conflict(i, None, outside, distance(whole.boundary, first))
+        # What is nearer than asked lies within that gap.
+        near = part_about(container.outline.region, first, gap)
+        outside = float(difference(first, near).area)
+        return Conflict(i, None, outside, 0.0 if outside > 0 else distance(near.boundary, first))
     second = outlines[j].mapped(poses.matrix(j)).region
     shared = float(intersection(first, second).area)
     return Conflict(i, j, shared, distance(first, second))

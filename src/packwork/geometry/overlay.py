@@ -25,6 +25,8 @@ GRIDS = (0.0, 1e-12, 1e-10, 1e-8)
 is none. Coarser ones answer more and are less exact. Chosen: the last is still a hundred times
 finer than what readers follow curves to."""
 
+_ROOM = 0.01
+
 
 def polygon_parts(shape: Region) -> list[Polygon]:
     """Polygons of a region, whatever mixture of geometries an operation left.
@@ -86,6 +88,28 @@ def difference(first: Region, second: Region) -> Region:
     2.0
     """
     return _answered(shapely.difference, first, second)
+
+
+def part_about(whole: Region, shape: Region, reach: float = 0.0) -> Region:
+    """What a region has within the box about a shape, grown by ``reach``; of arrays, one by one.
+
+    A set operation with a shape takes as long as the region has vertices: five seconds with a
+    spiral of 270,000, a millisecond with the part of it.
+
+    Examples
+    --------
+    >>> part_about(shapely.box(0, 0, 9, 9), shapely.box(8, 8, 10, 10), 1.0).bounds
+    (7.0, 7.0, 9.0, 9.0)
+    """
+    if isinstance(shape, np.ndarray):
+        found = np.empty(len(shape), dtype=object)
+        found[:] = [part_about(whole, one, reach) for one in shape]
+        return found
+    left, top, right, bottom = shape.bounds
+    # Away from the shape's own edges, or its box and the region's would share one.
+    reach = max(reach, _ROOM * max(right - left, bottom - top))
+    box = (left - reach, top - reach, right + reach, bottom + reach)
+    return valid(_answered(lambda one: shapely.clip_by_rect(one, *box), whole))
 
 
 def symmetric_difference(first: Region, second: Region) -> Region:

@@ -19,6 +19,7 @@ from packwork.geometry.overlay import (
     Region,
     difference,
     intersection,
+    part_about,
     polygon_parts,
     union,
     valid,
@@ -180,8 +181,9 @@ def _covered_and_outside(merged: _Regions, whole: Region) -> tuple[float, float]
     within = shapely.covers(whole, merged)
     crossing = merged[~within]
     # Both are computed, not one taken off the other: a sliver would drown in rounding.
-    covered = shapely.area(merged[within]).sum() + _total(intersection(crossing, whole))
-    return float(covered), _total(difference(crossing, whole))
+    near = part_about(whole, crossing)
+    covered = shapely.area(merged[within]).sum() + _total(intersection(crossing, near))
+    return float(covered), _total(difference(crossing, near))
 
 
 def _overlap_area(regions: _Regions, pairs: IntArray) -> float:

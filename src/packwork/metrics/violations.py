@@ -10,7 +10,7 @@ import shapely
 
 from packwork.geometry.distance import distance
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import Region, difference, intersection, valid
+from packwork.geometry.overlay import Region, difference, intersection, part_about, valid
 
 
 @dataclass(frozen=True)
@@ -56,7 +56,7 @@ def violations(
     shapely.prepare(edge)
     near = ~shapely.covers(whole, regions) | shapely.dwithin(edge, regions, gap)
     found = [_violation(i, j, regions[i], regions[j]) for i, j in pairs]
-    found += [_sticking_out(int(k), regions[k], whole, edge) for k in np.flatnonzero(near)]
+    found += [_sticking_out(int(k), regions[k], whole, gap) for k in np.flatnonzero(near)]
     return tuple(
         one for one in sorted(found, key=lambda one: one.item)
         if one.overlap_cu2 > 0 or one.gap_cu < gap
@@ -68,6 +68,8 @@ def _violation(i: int, j: int, first: Region, second: Region) -> Violation:
     return Violation(i, j, shared, distance(first, second))
 
 
-def _sticking_out(k: int, one: Region, whole: Region, edge: Region) -> Violation:
-    outside = float(difference(one, whole).area)
-    return Violation(k, None, outside, distance(edge, one))
+def _sticking_out(k: int, one: Region, whole: Region, gap: float) -> Violation:
+    # What is nearer than asked lies within that gap.
+    near = part_about(whole, one, gap)
+    outside = float(difference(one, near).area)
+    return Violation(k, None, outside, 0.0 if outside > 0 else distance(near.boundary, one))

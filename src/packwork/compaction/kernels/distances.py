@@ -20,8 +20,9 @@ class Board(NamedTuple):
 
     ``own``: points of all solids about their own origins; ``starts``: first point of each
     solid; ``after``, ``before``: neighbours of each point in its ring; ``points``: in
-    place; ``boxes``: left, top, right, bottom of each; ``places``: x, y, turn, logarithm
-    of growth of each item; ``arms``: farthest point of each item at growth 0.
+    place; ``boxes``: left, top, right, bottom of each; ``spans``: the same of every
+    ``stride`` successive edges of the container, which stands still; ``places``: x, y, turn,
+    logarithm of growth of each item; ``arms``: farthest point of each item at growth 0.
     """
 
     own: np.ndarray
@@ -30,6 +31,8 @@ class Board(NamedTuple):
     before: np.ndarray
     points: np.ndarray
     boxes: np.ndarray
+    spans: np.ndarray
+    stride: int
     places: np.ndarray
     arms: np.ndarray
 
@@ -182,19 +185,26 @@ def cull(board, i, box, reach, kept):
     """Write the edges of a solid (by their first vertex) within ``reach`` of a box."""
     points = board.points
     left, top, right, bottom = box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach
+    first, last = board.starts[i], board.starts[i + 1]
+    is_container = i == board.starts.shape[0] - 2
     count = 0
-    for v in range(board.starts[i], board.starts[i + 1]):
-        w = board.after[v]
-        if points[v, 0] < left and points[w, 0] < left:
-            continue
-        if points[v, 0] > right and points[w, 0] > right:
-            continue
-        if points[v, 1] < top and points[w, 1] < top:
-            continue
-        if points[v, 1] > bottom and points[w, 1] > bottom:
-            continue
-        kept[count] = v
-        count += 1
+    for begin in range(first, last, board.stride):
+        if is_container:
+            span = board.spans[(begin - first) // board.stride]
+            if span[0] > right or span[2] < left or span[1] > bottom or span[3] < top:
+                continue
+        for v in range(begin, min(begin + board.stride, last)):
+            w = board.after[v]
+            if points[v, 0] < left and points[w, 0] < left:
+                continue
+            if points[v, 0] > right and points[w, 0] > right:
+                continue
+            if points[v, 1] < top and points[w, 1] < top:
+                continue
+            if points[v, 1] > bottom and points[w, 1] > bottom:
+                continue
+            kept[count] = v
+            count += 1
     return count
 
 
@@ -250,17 +260,25 @@ def _edges_squared(points, v, w, s, t, least):
 def _winding(x, y, board, j):
     """How often the rings of a solid go round a point."""
     points, turns = board.points, 0
-    for v in range(board.starts[j], board.starts[j + 1]):
-        w = board.after[v]
-        if (points[v, 1] <= y) == (points[w, 1] <= y):
-            continue
-        side = (points[w, 0] - points[v, 0]) * (y - points[v, 1]) - (x - points[v, 0]) * (
-            points[w, 1] - points[v, 1]
-        )
-        if points[v, 1] <= y:
-            turns += side > 0.0
-        else:
-            turns -= side < 0.0
+    first, last = board.starts[j], board.starts[j + 1]
+    is_container = j == board.starts.shape[0] - 2
+    for begin in range(first, last, board.stride):
+        if is_container:
+            # What counts crosses the line from the point to the right.
+            span = board.spans[(begin - first) // board.stride]
+            if span[2] < x or span[1] > y or span[3] <= y:
+                continue
+        for v in range(begin, min(begin + board.stride, last)):
+            w = board.after[v]
+            if (points[v, 1] <= y) == (points[w, 1] <= y):
+                continue
+            side = (points[w, 0] - points[v, 0]) * (y - points[v, 1]) - (x - points[v, 0]) * (
+                points[w, 1] - points[v, 1]
+            )
+            if points[v, 1] <= y:
+                turns += side > 0.0
+            else:
+                turns -= side < 0.0
     return turns
 
 
