@@ -18,6 +18,7 @@ from packwork.forces.forces import Forces
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, union
+from packwork.phrasing import number_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.result import Unplaced
@@ -46,9 +47,10 @@ Measured in decision 0022."""
 TRIALS_SHARE = 0.6
 """Share of the time left, where one was given, after which no more is tried. Chosen."""
 
-DWARF = 1.5
-"""How many times smaller than free sizes go an item may be and still count as placed. Larger
-leaves specks unsaid. Chosen by eye."""
+DWARF = 3.0
+"""How many times smaller than free sizes go an item may be and still count as placed: one line
+tells of such. Larger passes specks, smaller fails runs of a thousand icons for one long wordmark
+that can well be seen. Chosen by eye."""
 
 LEAST_KEPT = 0.9
 """Share of its scale that an item keeps where a clean layout is to grow. Larger leaves large ones
@@ -135,18 +137,19 @@ def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished
 
     That range is a default, not an option that was given; a notice names them.
     """
-    real = []
+    real: list[int] = []
+    small: list[int] = []
+    short = smallest / result.poses.scale
     for k in result.undersized:
-        short = float(smallest[k] / result.poses.scale[k])
-        if short <= 1:
-            continue
-        if short > DWARF or "scale" in job.asked[k].values or "size" in job.asked[k].pin:
-            real.append(k)
-            continue
-        share = 100 * (1 - 1 / short)
+        is_asked = "scale" in job.asked[k].values or "size" in job.asked[k].pin
+        if short[k] > 1:
+            (real if is_asked or short[k] > DWARF else small).append(k)
+    if small:
+        worst = max(small, key=lambda k: short[k])
+        many = number_of(len(small), "item is", "items are")
         _LOG.warning(
-            "%s (item %d) is %.1f %% smaller than --size-ratio allows",
-            job.items[k].name, k + 1, share,
+            "%s smaller than --size-ratio %g allows, %s by %.0f %%",
+            many, job.plan.size_ratio, job.items[worst].name, 100 * (1 - 1 / short[worst]),
         )  # fmt: skip
     return replace(result, undersized=tuple(real))
 

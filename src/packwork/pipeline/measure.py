@@ -25,6 +25,7 @@ from packwork.pipeline.result import (
     find_unplaced,
     manifest,
 )
+from packwork.pipeline.shortfalls import specks
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -113,7 +114,7 @@ def measured(job: Job, found: Unmeasured) -> Run:
         if not is_exact:
             known = find_unplaced(layout, limits)
         unplaced = known + job.use.missing(total)
-        faults = seen.faults + found.faults + resolution_faults(job, layout)
+        faults = seen.faults + found.faults + resolution_faults(job, layout) + specks(layout)
         kinds = None if limits is None else limits.kinds
         kinds = kinds if kinds is None or kept is None else kinds[kept]
         beside = None if limits is None else same_kind_beside(layout, kinds)

@@ -2,16 +2,25 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from packwork.arrays import FloatArray
 from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.finish.finish import Finished
+from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import pinned_scales
 from packwork.pipeline.widest import widest_cu
+from packwork.scene.layout import Layout
 
 WIDEST_TOLERANCE = 0.01
 """How exactly a container's widest place is found, as a share of its extent. Smaller takes
 longer and is not seen. Chosen."""
+
+SPECK = 3e-4
+"""Square root of an item's area, as a share of the canvas's side, below which it counts as not to
+be seen: 0.3 mm on a poster of a metre. Larger blames the smallest of a hundred thousand, smaller
+passes letters that nobody can read. Chosen."""
 
 
 def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...]:
@@ -48,9 +57,25 @@ def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...
             short = float(nominal[k] / scales[k])
             said.append(
                 f"{item.name} (item {k + 1}) came out {short:.2g} times smaller than the typical "
-                f"item, --size-ratio {job.plan.size_ratio:g} allows that much"
+                f"item, --size-ratio {job.plan.size_ratio:g} allows less; use fewer items"
             )
     return tuple(said)
+
+
+def specks(layout: Layout) -> tuple[str, ...]:
+    """Items too small to be seen at any scale, in a sentence; or nothing."""
+    sizes = np.sqrt(layout.areas)
+    small = np.flatnonzero(sizes < SPECK * layout.container.side)
+    if len(small) == 0:
+        return ()
+    order = small[np.argsort(sizes[small], kind="stable")]
+    names = enumerated(list(dict.fromkeys(layout.items[k].name for k in order)))
+    unit = layout.container.unit
+    many = number_of(len(small), "item is", "items are")
+    return (
+        f"{many} too small to be seen ({names}: {sizes[order[0]]:.2g} {unit} wide); "
+        "weights that differ less, fewer items or --smallest for words would do",
+    )
 
 
 def _percent(share: float) -> str:

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.phrasing import number_of
 from packwork.pipeline.plan.counts import items_needed
 
 if TYPE_CHECKING:
@@ -122,7 +123,7 @@ class Use(ABC):
             return ()
         width = items_needed(job.container, job.plan.sizes, job.plan.size_ratio).width_cu
         unit = job.container.unit
-        chosen = f"auto chose {len(job.items)} items"
+        chosen = f"auto chose {number_of(len(job.items), 'item')}"
         return (f"{chosen}, to reach into parts {width:.3g} {unit} wide",)
 
     @property

@@ -193,7 +193,7 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     round by round, until it is reached or nothing more fits."""
 
     max_items: Annotated[Annotated[int, Field(ge=1, le=MAX_COUNT)] | None, _VOIDS] = None
-    """Most items in all once smaller copies have been put into the voids. Default: 1000."""
+    """Put smaller copies into the voids until there are so many items in all (default 1000)."""
 
     smallest: Annotated[str | float | None, length_of("smallest"), _VOIDS] = None
     """Put smaller copies into the voids, down to this longer side, a length as for the padding

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import final
 
 from packwork.arrays import IntArray
+from packwork.phrasing import number_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.result import Run, Unplaced, WordsFound
 from packwork.pipeline.use import Use
@@ -88,4 +89,4 @@ class Pile(Use):
 
     def remarks(self, job: Job) -> tuple[str, ...]:
         """How many items the run chose."""
-        return (f"auto chose {len(job.items)} items",) if job.is_counted else ()
+        return (f"auto chose {number_of(len(job.items), 'item')}",) if job.is_counted else ()

@@ -1,0 +1,58 @@
+"""Items that came out too small: one line tells of them, or the run is not as asked."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from packwork.finish.finish import Finished
+from packwork.pipeline.exact import DWARF, _without_dwarfs_that_may_be
+from packwork.pipeline.job import Job
+from packwork.pipeline.shortfalls import SPECK
+from packwork.recipe import make_recipe
+from packwork.scene.pose import Poses
+from packwork.uses import fill, read
+
+QUICK = {"levels": "50", "epochs": 20, "effort": "draft"}
+
+
+def job_of(count: int, **options: object) -> Job:
+    return read(make_recipe(container="circle", items=["star"], count=count, **QUICK, **options))
+
+
+def finished(scales: list[float]) -> Finished:
+    count = len(scales)
+    poses = Poses(np.zeros(count), np.zeros(count), np.zeros(count), np.array(scales))
+    return Finished(poses, True, (), tuple(range(count)), 0, 0.0)
+
+
+def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    found = _without_dwarfs_that_may_be(job_of(3), np.ones(3), finished([0.5, 0.8, 1.0]))
+    assert found.undersized == ()
+    assert [record.getMessage() for record in caplog.records] == [
+        "2 items are smaller than --size-ratio 2 allows, star by 50 %"
+    ]
+
+
+def test_specks_and_sizes_that_were_asked_for_count(caplog: pytest.LogCaptureFixture) -> None:
+    speck = 0.9 / DWARF
+    assert _without_dwarfs_that_may_be(
+        job_of(2), np.ones(2), finished([speck, 1.0])
+    ).undersized == (0,)
+    asked = job_of(2, rules=[{"items": "star", "scale": [0.9, 1.1]}])
+    assert _without_dwarfs_that_may_be(asked, np.ones(2), finished([0.9, 1.0])).undersized == (0,)
+    assert not caplog.records
+
+
+def test_what_nobody_can_see_is_not_as_asked() -> None:
+    rules = [{"items": "circle", "weight": 1e-6}]
+    options = {"sizes": "shared", "rules": rules, "count": 20, **QUICK}
+    run = fill(make_recipe(container="circle", items=["star", "circle"], **options))
+    assert run.certified
+    assert not run.is_as_asked
+    (said,) = run.broken
+    assert said.startswith("10 items are too small to be seen (circle: ")
+    is_speck = np.sqrt(run.layout.areas) < SPECK * run.layout.container.side
+    assert is_speck.tolist() == [False, True] * 10
