@@ -43,7 +43,7 @@ def as_points(points: npt.ArrayLike) -> FloatArray:
 
 
 def as_starts(starts: npt.ArrayLike, point_count: int) -> IntArray:
-    """Ring starts: increasing indices from 0 to ``point_count``, one more than rings.
+    """Ring starts ``(rings + 1,)``: increasing indices from 0 to ``point_count``.
 
     Raises
     ------
@@ -67,7 +67,7 @@ def as_starts(starts: npt.ArrayLike, point_count: int) -> IntArray:
 
 
 def as_image(image: npt.ArrayLike) -> Image:
-    """Contiguous float image; float32 stays float32, all else becomes float64.
+    """Contiguous float image ``(rows, columns)``; float32 stays, all else becomes float64.
 
     Raises
     ------

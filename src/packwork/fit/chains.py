@@ -61,7 +61,7 @@ class Chains:
         return np.asarray(np.matmul(self._basis, curves).reshape(-1, 2))
 
     def gather(self, by_points: FloatArray) -> FloatArray:
-        """Transpose of :meth:`points`: derivatives by vertices to those by controls."""
+        """Transpose of :meth:`points`: derivatives ``(n, 2)`` by vertices to those by controls."""
         by_vertex = by_points.reshape(len(self._next), -1, 2)
         by_curve = np.matmul(self._basis.T, by_vertex)
         by_controls: FloatArray = by_curve[:, :3].copy()
@@ -88,7 +88,7 @@ def flattened(chain: FloatArray, tolerance: float) -> list[FloatArray]:
 
 
 def straight_chain(ring: FloatArray) -> FloatArray:
-    """Chain whose curves are the edges of a polygon.
+    """Chain whose curves are the edges of a polygon ``(n, 2)``.
 
     Examples
     --------

@@ -71,7 +71,7 @@ def crossings(curves: list[FloatArray]) -> list[Crossing]:
     Parameters
     ----------
     curves
-        As :func:`flattened` gives them.
+        ``(n, 2)`` points of each, as :func:`flattened` gives them.
     """
     ends = np.concatenate(curves)
     begins = np.roll(ends, 1, axis=0)

@@ -64,11 +64,11 @@ class Mismatch:
         return float(self._target.mean())
 
     def to_px(self, points: FloatArray) -> FloatArray:
-        """Points in this image's pixels."""
+        """Points ``(n, 2)`` in this image's pixels."""
         return np.asarray((points - self._corner) * self._px_per_unit + MARGIN_PX)
 
     def to_units(self, points_px: FloatArray) -> FloatArray:
-        """Inverse of :meth:`to_px`."""
+        """Inverse of :meth:`to_px`, of points ``(n, 2)``."""
         return np.asarray((points_px - MARGIN_PX) / self._px_per_unit + self._corner)
 
     def __call__(self, controls_px: FloatArray) -> tuple[float, FloatArray]:

@@ -13,7 +13,7 @@ FEWEST = 4
 
 
 def shared_curves(rings: Sequence[FloatArray], curves: int) -> IntArray:
-    """Curves for each ring: at least ``FEWEST``, the rest by length, zero for the tiny.
+    """Curves for each ring ``(n, 2)``: at least ``FEWEST``, the rest by length, zero for the tiny.
 
     Where the curves do not suffice for all, the shortest rings get none.
 

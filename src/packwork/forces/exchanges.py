@@ -1,4 +1,8 @@
-"""Exchanges of items that lower the cost of forces: a 2-opt of places."""
+"""Exchanges of items that lower the cost of forces: 2-opt, on places.
+
+G. Croes, "A method for solving traveling-salesman problems", Operations Research 6 (1958),
+791-812, exchanges edges of a tour; ours exchanges the places of two items.
+"""
 
 from __future__ import annotations
 

@@ -128,7 +128,7 @@ class Job:
         _ = self.forces
 
     def some(self, kept: Sequence[int] | IntArray) -> Job:
-        """The same job of some of its items."""
+        """The same job of some of its items, by their indices ``(m,)``."""
         rows = np.asarray(kept, dtype=np.int64)
         return replace(
             self,

@@ -50,7 +50,7 @@ def without_some(job: Job, gone: Sequence[int]) -> tuple[Job, IntArray]:
 
 
 def named(reasons: dict[int, str], layout: Layout, numbers: IntArray) -> tuple[Unplaced, ...]:
-    """The items that were left out, by the numbers that they were asked for under."""
+    """The items that were left out, ``numbers`` ``(n,)`` being those that they were asked under."""
     return tuple(
         Unplaced(layout.items[k].name, int(numbers[k]), reasons[k]) for k in sorted(reasons)
     )

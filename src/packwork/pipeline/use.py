@@ -47,7 +47,7 @@ class Use(ABC):
         return ()
 
     def some(self, kept: IntArray) -> Use:
-        """The same of some of the items."""
+        """The same of some of the items, by their indices ``(m,)``."""
         del kept
         return self
 

@@ -2,7 +2,8 @@
 
 A renderer of vectors takes ten times as long for the same frame. Each drawing is rendered
 once, twice as fine as it is ever shown, and blurred by as much as a pixel of the frame, with
-coarser copies of it beside; a frame takes one sample a pixel of the one that fits.
+coarser copies of it beside; a frame takes one sample a pixel of the one that fits: mipmaps
+(L. Williams, "Pyramidal parametrics", SIGGRAPH 1983, doi:10.1145/800059.801126).
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ class Texture:
         Parameters
         ----------
         image
-            C-contiguous.
+            ``(rows, columns, 4)``, C-contiguous.
         place
             2 x 3 map from the drawing's units to the image's pixels; one that makes nothing
             of it draws nothing.

@@ -86,7 +86,7 @@ class _Table:
         return int(self.same.sum()) // 2
 
     def best_exchange(self, place: int, allowed: BoolArray) -> int | None:
-        """The place with which an exchange takes most conflicts away, if any does."""
+        """Place, of those allowed ``(n,)``, whose exchange removes most conflicts, if any does."""
         label = self.labels[place]
         around = self._around(place)
         here = np.bincount(self.labels[around], minlength=int(self.labels.max()) + 1)

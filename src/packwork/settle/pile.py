@@ -192,7 +192,7 @@ class _Pile:
         self._kinds = self._kinds.ravel()
 
     def gather(self, room: Outline, known: IntArray) -> None:
-        """Give all items a first place without conflicts."""
+        """Give all items a first place without conflicts; those ``known`` ``(m,)`` keep theirs."""
         all_items = self._items
         standing = known
         self._is_given = len(known) > 0

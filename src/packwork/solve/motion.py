@@ -1,4 +1,4 @@
-"""Poses under optimisation: bounded steps of Adam."""
+"""Poses under optimisation: bounded steps of Adam (Kingma and Ba 2015, see ``solve.adam``)."""
 
 from __future__ import annotations
 

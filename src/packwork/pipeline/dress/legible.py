@@ -79,7 +79,7 @@ def ground_luminance(container: Container, behind: Backdrop) -> FloatArray:
 
 
 def luminances_under(layout: Layout, ground: FloatArray) -> list[tuple[float, float]]:
-    """Luminance of the darkest and the brightest that lies under each item."""
+    """Least and greatest luminance of ``ground`` ``(rows, columns)`` under each item."""
     scale = GROUND_PX / layout.container.side
     found = []
     for ink in layout.inks:

@@ -16,7 +16,7 @@ def beside(layout: Layout) -> IntArray:
 
 
 def same_kind_beside(layout: Layout, kinds: IntArray | None) -> int | None:
-    """How many pairs of one kind lie side by side; None if kinds do not matter."""
+    """Number of neighbouring pairs of one kind, of kinds ``(n,)``; None if these do not matter."""
     if kinds is None:
         return None
     pairs = beside(layout)

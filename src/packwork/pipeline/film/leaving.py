@@ -28,7 +28,7 @@ def left_behind(job: Job, placed: IntArray) -> Leaving | None:
     job
         What was asked for.
     placed
-        Which of its items there are in the new layout.
+        ``(m,)`` indices of its items in the new layout.
 
     Returns
     -------

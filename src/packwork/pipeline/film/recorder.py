@@ -76,7 +76,7 @@ class Recorder:
         poses
             Where they are at the end: the last keyframe.
         ids
-            What they are called by.
+            ``(n,)`` what they are called by.
         items
             By whose sizes the time is given out; None gives all steps as much.
         """

@@ -49,7 +49,7 @@ class Allowance:
         self._spent = 0.0
 
     def spend(self, rings: Sequence[FloatArray]) -> None:
-        """Take off what closed rings need, by estimate.
+        """Take off what closed rings ``(n, 2)`` need, by estimate.
 
         Raises
         ------
@@ -66,7 +66,7 @@ class Allowance:
 
 
 def estimated_crossings(rings: Sequence[FloatArray]) -> float:
-    """Number of crossings of closed rings with themselves and each other.
+    """Number of crossings of closed rings ``(n, 2)`` with themselves and each other.
 
     Examples
     --------

@@ -98,7 +98,7 @@ def _counted(
 
 
 def marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], FloatArray]:
-    """Row of each mark, and its share of a whole one.
+    """Row of each mark, and its share of a whole one, of amounts ``(n,)`` of rows.
 
     Raises
     ------

@@ -96,7 +96,7 @@ class ChartRead:
         )
 
     def some(self, marks: IntArray) -> ChartRead:
-        """The same chart with some of its marks."""
+        """The same chart with some of its marks, by their indices ``(m,)``."""
         colours = None if self.colour_of is None else tuple(self.colour_of[k] for k in marks)
         return replace(
             self,

@@ -59,7 +59,7 @@ def decides(solid: FloatArray, least_clear: float) -> bool:
 
 
 def raised(solid: FloatArray, threshold: float) -> FloatArray:
-    """Opacities with the threshold brought to one half, where contours run.
+    """Opacities ``[row, col]`` with the threshold brought to one half, where contours run.
 
     Examples
     --------
@@ -72,7 +72,7 @@ def raised(solid: FloatArray, threshold: float) -> FloatArray:
 
 
 def tell_what_is_faint(solid: FloatArray, threshold: float) -> None:
-    """Notice that a real share of what is painted is fainter than the threshold."""
+    """Notice that a real share of opacities ``[row, col]`` is fainter than the threshold."""
     from scipy.ndimage import binary_dilation
 
     inside = solid >= threshold

@@ -106,7 +106,7 @@ def is_inside(window: Region, box: Box) -> bool:
 
 
 def stretch(matrix: FloatArray) -> float:
-    """Largest factor by which a map lengthens anything: its greater singular value.
+    """Greater singular value of a 2 x 3 map: the largest factor by which it lengthens.
 
     Examples
     --------

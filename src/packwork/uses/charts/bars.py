@@ -156,7 +156,7 @@ class _Heaps:
         return poses, np.sort(kept)
 
     def highest(self, poses: Poses, kept: IntArray) -> float:
-        """Height of the highest heap, over that of the bars."""
+        """Height of the highest heap of marks ``kept`` ``(m,)``, over that of the bars."""
         return self._over(kept, poses.some(kept))
 
     def _over(self, items: IntArray, poses: Poses) -> float:

@@ -49,5 +49,5 @@ class Chart:
         return [np.flatnonzero(self.read.group_of == k) for k in range(len(self.cells))]
 
     def some(self, kept: IntArray) -> Chart:
-        """The same of some of the marks."""
+        """The same of some of the marks, by their indices ``(m,)``."""
         return replace(self, read=self.read.some(kept))

@@ -214,7 +214,7 @@ def cropped(asked: Job, placed: Job, poses: Poses, largest: FloatArray, depth: f
 
 
 def followed(track: Track, found: Cropped, which: IntArray, depth: float) -> Track:
-    """The way of whole items as that of what is seen of them; ``which`` of those kept."""
+    """Track of whole items as that of what is seen of them; ``which`` ``(m,)`` of those kept."""
     numbers = track.numbers.copy()
     numbers[:, :, :2] -= depth
     return Track(track.times, _recentred(numbers, found.centres[which]))

@@ -107,7 +107,7 @@ def nowhere(size: CanvasSize | None, radii_cu: FloatArray) -> Container:
     Parameters
     ----------
     size
-        Of the sheet; None for one on which discs of these radii lie in its middle.
+        Of the sheet; None for one on which discs of radii ``(n,)`` lie in its middle.
     """
     width = math.sqrt(math.pi * float((radii_cu**2).sum()) / AROUND)
     width = max(

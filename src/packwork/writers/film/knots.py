@@ -1,4 +1,8 @@
-"""Keyframe reduction: few frames between which a motion may be interpolated."""
+"""Keyframe reduction: few frames between which a motion may be interpolated.
+
+By the split of Douglas and Peucker (1973, see ``geometry.simplify``), with the largest difference
+of any number at the same time for a distance.
+"""
 
 from __future__ import annotations
 
