@@ -76,7 +76,7 @@ def test_a_track_of_other_items_is_refused(leaping: Layout) -> None:
 
 
 def test_a_background_is_a_colour(leaping: Layout) -> None:
-    with pytest.raises(RecipeError, match="background: 'no colour' is not a colour"):
+    with pytest.raises(RecipeError, match="background: 'no colour' is no colour"):
         Film(leaping, background="no colour")
 
 

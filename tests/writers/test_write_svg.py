@@ -92,7 +92,7 @@ def test_colours_beyond_our_grammar_pass_through(three: Layout, ring_item: Item)
 
 
 def test_bad_background_is_refused() -> None:
-    with pytest.raises(RecipeError, match="background: 'vermilionish' is not a colour"):
+    with pytest.raises(RecipeError, match="background: 'vermilionish' is no colour"):
         SvgOptions(background="vermilionish")
 
 

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from packwork.errors import RecipeError
-
 
 def check_colour(key: str, text: str) -> str:
     """The same text, if it is a colour as CSS has them.
@@ -22,12 +20,7 @@ def check_colour(key: str, text: str) -> str:
     packwork.errors.RecipeError: paper: 'x' is no colour; use one such as ivory or #102030
     """
     # Loads the picture library, which the command line's help can do without.
-    from packwork.scene.colour import css_colour
+    from packwork.scene.colour import parse_colour
 
-    try:
-        css_colour(text)
-    except ValueError:
-        raise RecipeError(
-            key, f"{text[:40]!r} is no colour; use one such as ivory or #102030"
-        ) from None
+    parse_colour(key, text)
     return text

@@ -9,6 +9,8 @@ from typing import TypeAlias
 
 from PIL import ImageColor
 
+from packwork.errors import RecipeError
+
 Colour: TypeAlias = tuple[int, int, int, int]
 """Red, green, blue and opacity, 0 to 255."""
 
@@ -51,6 +53,27 @@ def css_colour(text: str) -> Colour:
         raise ValueError("no known function")
     channels = ImageColor.getrgb(word)
     return (*channels[:3], channels[3] if len(channels) == 4 else 255)
+
+
+def parse_colour(key: str, text: str) -> Colour:
+    """Colour that an option names, as :func:`css_colour` reads it.
+
+    Raises
+    ------
+    RecipeError
+        About the option ``key``, if the text is no colour.
+
+    Examples
+    --------
+    >>> parse_colour("background", "rgba(255, 0, 0, 1)")
+    (255, 0, 0, 255)
+    """
+    try:
+        return css_colour(text)
+    except ValueError:
+        raise RecipeError(
+            key, f"{text[:40]!r} is no colour; use one such as ivory or #102030"
+        ) from None
 
 
 def hex_colour(channels: tuple[int, ...]) -> str:

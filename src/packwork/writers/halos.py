@@ -12,12 +12,11 @@ from scipy import ndimage
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.phrasing import number_of
-from packwork.scene.colour import hex_colour
+from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.contrast import oklabs
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import small_png
-from packwork.writers.colours import parse_colour
 from packwork.writers.marks import shape_key
 from packwork.writers.options import HaloChoice
 

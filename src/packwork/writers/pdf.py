@@ -11,12 +11,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 from packwork.errors import RecipeError, WriteError
+from packwork.scene.colour import parse_colour
 from packwork.scene.container import Container
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.notation import sound_text
 from packwork.units import convert, parse_length
-from packwork.writers.colours import parse_colour
 from packwork.writers.cutting import cut_rings
 from packwork.writers.picturing import pictured
 from packwork.writers.spot import Press, prepared

@@ -15,7 +15,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from packwork.geometry import affine
-from packwork.scene.colour import hex_colour
+from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.layout import Layout
@@ -31,7 +31,6 @@ from packwork.scene.notation import (
 )
 from packwork.scene.note import Note
 from packwork.units import Unit
-from packwork.writers.colours import parse_colour
 from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.frame import Frame
 from packwork.writers.labels import item_ids, labelled

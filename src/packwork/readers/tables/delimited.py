@@ -194,32 +194,21 @@ def lines_of_cells(text: str, file: str, separator: str) -> Iterator[tuple[int, 
             row = [cell.strip() for cell in cells]
             if any(row):
                 found, held = found + 1, held + len(row)
-                check_rows(found - 1, file)
-                check_cells(held, file)
+                check_size(file, found - 1, held)
                 yield reader.line_num, row
     except csv.Error as error:
         raise ReadError(file, f"line {reader.line_num}: is not CSV ({error})") from None
 
 
-def check_rows(count: int, file: str) -> None:
-    """Refuse more rows than ``MOST_ROWS``.
+def check_size(file: str, rows: int, cells: int = 0) -> None:
+    """Refuse more rows than ``MOST_ROWS``, and more cells than ``MOST_CELLS``.
 
     Raises
     ------
     ReadError
         Saying how many there may be.
     """
-    if count > MOST_ROWS:
+    if rows > MOST_ROWS:
         raise ReadError(file, f"has more than {MOST_ROWS:,} rows; give fewer")
-
-
-def check_cells(count: int, file: str) -> None:
-    """Refuse more cells than ``MOST_CELLS``.
-
-    Raises
-    ------
-    ReadError
-        Saying how many there may be.
-    """
-    if count > MOST_CELLS:
+    if cells > MOST_CELLS:
         raise ReadError(file, f"has more than {MOST_CELLS:,} cells; give fewer rows or columns")

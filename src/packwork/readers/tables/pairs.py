@@ -10,7 +10,7 @@ from typing import Any
 
 from packwork.errors import ReadError
 from packwork.readers.files import read_bytes
-from packwork.readers.tables.delimited import Sheet, check_rows, read_sheet
+from packwork.readers.tables.delimited import Sheet, check_size, read_sheet
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.json_rows import read_json
 from packwork.readers.tables.written import is_number_like, written_numbers
@@ -127,7 +127,7 @@ def _entries(data: Any, file: str) -> list[tuple[str, Mapping[str, Any]]]:
     if isinstance(data, dict):
         data = list(data.items())
     if isinstance(data, list):
-        check_rows(len(data), file)
+        check_size(file, len(data))
         if all(isinstance(entry, dict) for entry in data):
             return [(f"entry {k}", entry) for k, entry in enumerate(data, start=1)]
         if all(isinstance(entry, list | tuple) and len(entry) == 2 for entry in data):

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import Any
 
 from packwork.errors import ReadError
-from packwork.readers.tables.delimited import check_cells, check_rows
+from packwork.readers.tables.delimited import check_size
 from packwork.readers.tables.parquet_pages import Piece, pieces_of
 
 MOST_DECODED_BYTES = 100_000_000
@@ -56,7 +56,7 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
     try:
         opened = parquet.ParquetFile(io.BytesIO(data))
         metadata = opened.metadata
-        check_rows(metadata.num_rows, file)
+        check_size(file, metadata.num_rows)
         names = _columns(metadata, opened.schema_arrow.names, set(needed))
         pieces = [piece for piece in pieces_of(data) if piece.name in names]
         _check_size(file, pieces)
@@ -89,7 +89,7 @@ def _check_size(file: str, pieces: Sequence[Piece]) -> None:
         Saying how much there may be.
     """
     # Lists have more values than rows.
-    check_cells(sum(max(one.values, one.rows, one.found) for one in pieces), file)
+    check_size(file, 0, sum(max(one.values, one.rows, one.found) for one in pieces))
     _check_bytes(file, sum(max(one.size, one.stated) for one in pieces))
 
 

@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes
-from packwork.readers.tables.delimited import ENDINGS, Sheet, check_rows, read_sheet
+from packwork.readers.tables.delimited import ENDINGS, Sheet, check_size, read_sheet
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.frames import plain_row
 from packwork.readers.tables.json_rows import read_json
@@ -189,7 +189,7 @@ def _rows_of_json(data: Any, file: str) -> list[Row]:
     if isinstance(data, dict) and data and all(isinstance(v, list) for v in data.values()):
         lengths = {len(values) for values in data.values()}
         if len(lengths) == 1:
-            check_rows(lengths.pop(), file)
+            check_size(file, lengths.pop())
             return [
                 dict(zip(data, cells, strict=True)) for cells in zip(*data.values(), strict=True)
             ]
@@ -199,7 +199,7 @@ def _rows_of_json(data: Any, file: str) -> list[Row]:
 
 
 def _table(name: str, rows: Sequence[Row]) -> Table:
-    check_rows(len(rows), name)
+    check_size(name, len(rows))
     if not rows:
         raise ReadError(name, "has no rows; give a line of column names, then one for each row")
     columns = tuple(dict.fromkeys(key for row in rows for key in row))

@@ -11,10 +11,10 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import WriteError
+from packwork.scene.colour import parse_colour
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.track import Track
-from packwork.writers.colours import parse_colour
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.svg import SvgOptions
 

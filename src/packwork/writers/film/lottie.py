@@ -18,10 +18,9 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import WriteError
 from packwork.geometry import affine
 from packwork.raster.overlay import FINENESS
-from packwork.scene.colour import Colour, css_colour, hex_colour
+from packwork.scene.colour import Colour, css_colour, hex_colour, parse_colour
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.track import poses_of
-from packwork.writers.colours import parse_colour
 from packwork.writers.film.animated_svg import TOLERANCE
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.film.knots import item_knots
