@@ -18,6 +18,7 @@ from packwork.readers.slits import closed_slits
 from packwork.readers.svg.walls import walled_container
 from packwork.recipe import make_recipe
 from packwork.recipe.reading import Interpreted
+from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.writers.svg import svg_text
 
@@ -196,7 +197,7 @@ def test_seams_of_a_mask_are_closed(painted):
 @pytest.mark.parametrize("text", ["wide", "-1", ""])
 def test_widths_that_are_none(text):
     with pytest.raises(RecipeError, match=r"close_gaps"):
-        Interpreted(close_gaps=text)
+        validated(Interpreted, {"close_gaps": text})
 
 
 # Pages behind items

@@ -12,13 +12,14 @@ from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.table import read_table
+from packwork.recipe.refusals import validated
 from packwork.uses import chart_recipe
 
 LANDS = ({"land": "Peru", "kg": 25, "kind": "Red"}, {"land": "Kenya", "kg": 10, "kind": "blue"})
 
 
 def chart(rows: Any = LANDS, **options: Any) -> ChartRead:
-    return read_chart(ChartOptions(data=rows, **options))
+    return read_chart(validated(ChartOptions, {"data": rows, **options}))
 
 
 @pytest.mark.parametrize(

@@ -19,10 +19,11 @@ from packwork.readers.words.source import ranked_words, read_words
 from packwork.readers.words.stop_words import guess_language, stop_words
 from packwork.readers.words.tokens import sentences
 from packwork.readers.words.unspaced import segments
+from packwork.recipe.refusals import validated
 
 
 def counted(text: str, **options) -> dict[str, float]:
-    read = read_words(WordOptions(source=text, **options))
+    read = read_words(validated(WordOptions, {"source": text, **options}))
     return {word.text: word.weight for word in read}
 
 
@@ -170,7 +171,7 @@ def test_sources_without_words_are_one_clear_line(source, problem: str) -> None:
 @pytest.mark.parametrize("weight", [0, -1, float("nan"), float("inf"), "many", None])
 def test_weights_of_a_dict_must_be_positive(weight) -> None:
     with pytest.raises(RecipeError, match="the weight of 'bear' must be a positive number"):
-        WordOptions(source={"bear": weight})
+        validated(WordOptions, {"source": {"bear": weight}})
 
 
 def test_an_unknown_language_says_which_there_are() -> None:
