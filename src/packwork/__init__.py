@@ -22,12 +22,15 @@ if TYPE_CHECKING:
     from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.geometry.outline import Outline
     from packwork.losses.term import ImageLoss, Term
+    from packwork.metrics.measure import Metrics
     from packwork.progress import Step
     from packwork.raster.coverage import coverage as render
     from packwork.raster.coverage import coverage_pullback as render_pullback
     from packwork.scene.container import Container
     from packwork.scene.item import FlatArt, Item
     from packwork.scene.pose import Poses
+
+    __version__: str
 
 __all__ = [
     "Container",
@@ -36,6 +39,7 @@ __all__ = [
     "ImageLoss",
     "Item",
     "Layout",
+    "Metrics",
     "Outline",
     "PackworkError",
     "Poses",
@@ -45,6 +49,7 @@ __all__ = [
     "Step",
     "Term",
     "WriteError",
+    "__version__",
     "chart",
     "fill",
     "fit_outline",
@@ -64,6 +69,7 @@ _HOMES = {
     "ImageLoss": "packwork.losses.term:ImageLoss",
     "Item": "packwork.scene.item:Item",
     "Layout": "packwork.api.layout:Layout",
+    "Metrics": "packwork.metrics.measure:Metrics",
     "Outline": "packwork.geometry.outline:Outline",
     "PackworkError": "packwork.errors:PackworkError",
     "Poses": "packwork.scene.pose:Poses",
@@ -86,12 +92,17 @@ _HOMES = {
 }
 
 
-def __getattr__(name: str) -> Any:
-    """Load a public name when it is first used, so that importing stays cheap."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'packwork' has no attribute {name!r}")
-    module, attribute = _HOMES[name].split(":")
-    return getattr(importlib.import_module(module), attribute)
+# A checker that saw it would take any name for one of ours.
+if not TYPE_CHECKING:
+
+    def __getattr__(name: str) -> Any:
+        """Load a public name when it is first used, so that importing stays cheap."""
+        if name == "__version__":
+            return importlib.import_module("importlib.metadata").version("packwork")
+        if name not in _HOMES:
+            raise AttributeError(f"module 'packwork' has no attribute {name!r}")
+        module, attribute = _HOMES[name].split(":")
+        return getattr(importlib.import_module(module), attribute)
 
 
 def __dir__() -> list[str]:

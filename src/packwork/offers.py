@@ -62,6 +62,9 @@ class Offer:
     after
         Name of the option that it is listed after, if the model has that; None keeps the order
         of the fields.
+    takes
+        Type that Python takes, where a validator makes the field's of more than that; None
+        derives it from the field's.
     """
 
     group: Group | None = None
@@ -71,6 +74,7 @@ class Offer:
     typed: Any = None
     help: str | None = None
     after: str | None = None
+    takes: Any = None
 
 
 NOT_OFFERED = Offer(verbs=Verbs(0))

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import Unpack
 
 from packwork.api.handing import handed_over, with_names
+from packwork.api.keywords import PhotosKeywords
 from packwork.api.layout import Layout
 from packwork.api.signatures import of_verb
 from packwork.api.verbs import fill
@@ -25,7 +26,7 @@ def photos(
     observer: Observer | None = None,
     stop: Stop = never,
     progress: bool | None = None,
-    **options: Any,
+    **options: Unpack[PhotosKeywords],
 ) -> Layout:
     """Fill a container with photographs.
 

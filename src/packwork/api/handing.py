@@ -10,8 +10,11 @@ from packwork.readers.memory.shapes import Columns
 from packwork.readers.memory.values import Handed
 from packwork.shelf import shelf_in_use
 
-_ITEMS = ("filler", "mark")
-_CONTAINERS = ("shape", "region")
+ITEMS = ("filler", "mark")
+"""Options that are items: what is in memory may stand for them."""
+
+CONTAINERS = ("shape", "region")
+"""Options that are containers."""
 
 
 @contextmanager
@@ -43,9 +46,9 @@ def with_names(options: Mapping[str, Any], handed: Handed) -> dict[str, Any]:
 def _named(key: str, value: Any, handed: Handed) -> Any:
     if value is None:
         return None
-    if key in _CONTAINERS or (key in _ITEMS and isinstance(value, str)):
+    if key in CONTAINERS or (key in ITEMS and isinstance(value, str)):
         return handed.name_of(value, key)
-    if key in _ITEMS:
+    if key in ITEMS:
         return handed.names_of(value, key)
     if key == "rules" and isinstance(value, list | tuple):
         return [with_names(rule, handed) if isinstance(rule, Mapping) else rule for rule in value]

@@ -2,27 +2,31 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property, partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Unpack
 
 from pydantic import ValidationError
 
 from packwork import writers
+from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.signatures import of_model
 from packwork.display.axes import drawn_on
 from packwork.display.bar import bar_for, shown
 from packwork.display.frame import data_frame
 from packwork.display.picture import notebook_png, notebook_svg
-from packwork.metrics.measure import measure
+from packwork.metrics.measure import Metrics, measure
 from packwork.readers.layouts.geojson import read_layout
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import refusal
 from packwork.scene import layout as scene
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from pandas import DataFrame
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -90,7 +94,7 @@ class Layout(scene.Layout):
     def save(
         self,
         path: str | Path,
-        **options: Any,
+        **options: Unpack[SaveKeywords],
     ) -> None:
         """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
 
@@ -130,7 +134,7 @@ class Layout(scene.Layout):
         background: str = "white",
         show_container: bool = False,
         progress: bool | None = None,
-        **options: Any,
+        **options: Unpack[FilmKeywords],
     ) -> None:
         """Write a film of how the items came here, if the layout was made with ``record=True``.
 
@@ -163,7 +167,7 @@ class Layout(scene.Layout):
             told = writers.tell_nobody if bar is None else partial(bar.tell, text="film")
             writers.write_atomic(path, writers.film_bytes(film, path, told))
 
-    def to_dataframe(self) -> Any:
+    def to_dataframe(self) -> DataFrame:
         """Pandas data frame: one row per item, in the layout's order.
 
         Of a chart, first the columns of its table, then ``value`` (what the mark stands for),
@@ -188,7 +192,7 @@ class Layout(scene.Layout):
         """
         return data_frame(self)
 
-    def plot(self, ax: Any = None) -> Any:
+    def plot(self, ax: Axes | None = None) -> Axes:
         """Draw the items on Matplotlib axes, true to scale, y down; the axes.
 
         Each item is a ``PathPatch`` of what is drawn of it, holes and all, in its colour;
@@ -212,10 +216,11 @@ class Layout(scene.Layout):
         >>> len(layout.plot().patches)
         3
         """
-        return drawn_on(self, ax)
+        axes: Axes = drawn_on(self, ax)
+        return axes
 
     @cached_property
-    def metrics(self) -> Mapping[str, Any]:
+    def metrics(self) -> Metrics:
         """Measures by name: LC, LC_ratio, OO, EA, LnU, LC_ink and a table ``exact``.
 
         Shares are of the container's area; docs/conventions.md says what each means.

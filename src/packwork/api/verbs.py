@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Unpack
 
 from packwork import uses
 from packwork.api.handing import handed_over, with_names
+from packwork.api.keywords import ChartKeywords, FillKeywords, PileKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
 from packwork.api.signatures import of_verb
 from packwork.display.bar import bar_for, shown
@@ -39,7 +40,7 @@ def fill(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
-    **options: Any,
+    **options: Unpack[FillKeywords],
 ) -> Layout:
     """Fill a container with items.
 
@@ -101,7 +102,7 @@ def words(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
-    **options: Any,
+    **options: Unpack[WordsKeywords],
 ) -> Layout:
     """Fill a container with words.
 
@@ -158,7 +159,7 @@ def pile(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
-    **options: Any,
+    **options: Unpack[PileKeywords],
 ) -> Layout:
     """Heap items of given sizes, under forces, until they are at rest.
 
@@ -204,7 +205,7 @@ def chart(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
-    **options: Any,
+    **options: Unpack[ChartKeywords],
 ) -> Layout:
     """Show a table's rows, a mark for each, sizes in proportion to numbers.
 

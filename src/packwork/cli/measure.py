@@ -55,12 +55,11 @@ def measure(
         for path in outputs:
             check_no_input(path)
         measured = measure_layout(found)
-        metrics = measured.as_dict()
+        # A saved layout holds outlines, not what was drawn in them.
+        metrics = {key: said for key, said in measured.as_dict().items() if key != "LC_ink"}
         promise = Promise.of(found.manifest)
         on_trust = taken_on_trust(found.manifest)
         faults = () if promise is None else broken(promise, found, measured.exact)
-        # A saved layout holds outlines, not what was drawn in them.
-        del metrics["LC_ink"]
         picture = None if diagnose is None else writers.diagnose_png(found, pixels)
         if report is not None:
             writers.write_atomic(

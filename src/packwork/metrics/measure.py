@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
+from typing import TypedDict
 
 import numpy as np
 
@@ -12,6 +12,50 @@ from packwork.metrics.pixel import PixelMetrics, pixel_metrics
 from packwork.metrics.shape import ShapeMetrics, shape_metrics
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+
+
+class ExactShares(TypedDict):
+    """Measures in exact geometry, by the names of the report."""
+
+    LC: float
+    """Share of the container that is covered."""
+    OO: float
+    """Share that is covered twice."""
+    EA: float
+    """Area outside the container, as a share of it."""
+    overlap_area: float
+    """The same in squared canvas units."""
+    outside_area: float
+    """The same in squared canvas units."""
+    min_gap: float
+    """Smallest distance of two items, canvas units."""
+
+
+class Metrics(TypedDict):
+    """Measures of a layout by the names of the report, as docs/conventions.md explains them."""
+
+    LC: float
+    """Share of the container that is covered."""
+    LC_ratio: float
+    """Covered over uncovered."""
+    OO: float
+    """Share that is covered twice."""
+    EA: float
+    """Area outside the container, as a share of it."""
+    LnU: float
+    """Mean squared distance from uncovered points to the nearest item, px of 600."""
+    LC_ink: float
+    """Share of the container that is really drawn on, exact."""
+    bare: float
+    """Share of the container that is far from any item."""
+    shape: float
+    """How far the container's shape shows."""
+    parts: int
+    """Parts of the container that are large enough to be seen."""
+    bare_parts: int
+    """How many of these hold nothing."""
+    exact: ExactShares
+    """The same in exact geometry."""
 
 
 @dataclass(frozen=True)
@@ -36,22 +80,29 @@ class LayoutMetrics:
     ink: float
     seen: ShapeMetrics
 
-    def as_dict(self) -> dict[str, Any]:
+    def as_dict(self) -> Metrics:
         """Plain numbers under the names of the report."""
-        exact = self.exact
-        return {
-            **asdict(self.pixel),
-            "LC_ink": self.ink,
-            **asdict(self.seen),
-            "exact": {
-                "LC": exact.coverage,
-                "OO": exact.overlap,
-                "EA": exact.exceeding,
-                "overlap_area": exact.overlap_area,
-                "outside_area": exact.outside_area,
-                "min_gap": exact.min_gap,
-            },
-        }
+        pixel, exact, seen = self.pixel, self.exact, self.seen
+        return Metrics(
+            LC=pixel.LC,
+            LC_ratio=pixel.LC_ratio,
+            OO=pixel.OO,
+            EA=pixel.EA,
+            LnU=pixel.LnU,
+            LC_ink=self.ink,
+            bare=seen.bare,
+            shape=seen.shape,
+            parts=seen.parts,
+            bare_parts=seen.bare_parts,
+            exact=ExactShares(
+                LC=exact.coverage,
+                OO=exact.overlap,
+                EA=exact.exceeding,
+                overlap_area=exact.overlap_area,
+                outside_area=exact.outside_area,
+                min_gap=exact.min_gap,
+            ),
+        )
 
 
 def measure(layout: Layout) -> LayoutMetrics:

@@ -101,18 +101,26 @@ class Pictured(Options):
         float,
         Field(ge=0.02, le=0.98),
         BeforeValidator(parse_share),
-        Offer(metavar="SHARE", after="canvas"),
+        Offer(metavar="SHARE", after="canvas", takes=float | str),
     ] = 0.4
     """Of a container around:IMAGE: the share of the picture that is filled, as 0.4 or 40%: that
     in which least is to be seen."""
 
-    keep_clear: Annotated[tuple[str, ...] | None, Offer(after="quiet_share")] = None
+    keep_clear: Annotated[
+        tuple[str, ...] | None,
+        Offer(after="quiet_share", takes=str | tuple[str, ...] | None),
+    ] = None
     """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or
     a box left,top,width,height such as 10%,20%,30%,30%."""
 
     share: Annotated[
         dict[str, float] | None,
-        Offer(verbs=Verbs.WORDS | Verbs.PHOTOS, typed=str, after="photos"),
+        Offer(
+            verbs=Verbs.WORDS | Verbs.PHOTOS,
+            typed=str,
+            after="photos",
+            takes=str | dict[str, float | str] | None,
+        ),
     ] = None
     """Shares of the area where words, photos and other items are mixed:
     words=50%,photos=30%,items=20%."""

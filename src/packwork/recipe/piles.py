@@ -81,7 +81,9 @@ class PileOptions(Options):
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.PILE)
 
-    open: Annotated[tuple[Side, ...], BeforeValidator(_one_or_more)] = ()
+    open: Annotated[
+        tuple[Side, ...], BeforeValidator(_one_or_more), Offer(takes=Side | tuple[Side, ...])
+    ] = ()
     """Take the lid off on that side (top, bottom, left or right): items come in through it and
     may heap up beyond it, to the canvas' edge. May be given several times."""
 
@@ -122,7 +124,12 @@ class Moving(Options):
     offers = Offer(group=Group.PLACED)
 
     force: Annotated[
-        ForceTexts, Offer(verbs=Verbs.FILL | Verbs.WORDS | Verbs.PILE, after="hero")
+        ForceTexts,
+        Offer(
+            verbs=Verbs.FILL | Verbs.WORDS | Verbs.PILE,
+            after="hero",
+            takes=str | tuple[str, ...] | None,
+        ),
     ] = None
     """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
     balance or together; docs/forces.md has all. May be given several times."""

@@ -28,7 +28,7 @@ class Interpreted(Options):
     part of it. Default: left out where it looks like a page (nothing on it touches its edges, and
     most files of the same folder do not fill theirs)."""
 
-    close_gaps: str = GAPS_AUTO
+    close_gaps: Annotated[str, Offer(takes=str | float)] = GAPS_AUTO
     """Slits of a container that are closed, as between the states of a map: auto (up to 0.2% of
     its extent), none, or their width, a length as for the padding."""
 

@@ -31,6 +31,7 @@ from packwork.recipe.rules import (
     ItemCount,
     Rotation,
     Rule,
+    Turns,
     as_text,
     known_hero,
     known_rotation,
@@ -91,7 +92,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     """What to fill: a mask (PNG, JPEG), SVG, text:WORD, around:IMAGE, a built-in name or page."""
 
     font: Annotated[
-        str | None, Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE, after="share")
+        str | None,
+        Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE, after="share", takes=str | Path | None),
     ] = None
     """Font file (TTF, OTF, TTC) or installed family, for a container text:WORD or for words;
     for these also several in turn. Default: a bundled bold sans, others for what it lacks."""
@@ -133,7 +135,7 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     """1.5 lets each item become up to 1.5 times as wide for its height as it was drawn, or
     as high for its width, at the same area. 1 keeps all proportions."""
 
-    rotate: Annotated[str, BeforeValidator(known_rotation)] = "free"
+    rotate: Annotated[str, BeforeValidator(known_rotation), Offer(takes=Turns)] = "free"
     """free (words: within 90 degrees, never upside down), none, 30 (within 30 degrees of upright;
     upright is the same) or 0,90 (only these angles); also horizontal, vertical (read upwards),
     mixed (one in four vertical)."""
@@ -187,7 +189,7 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
 
     target_coverage: Annotated[
         Annotated[float, Field(gt=0, lt=1), BeforeValidator(parse_share)] | None,
-        replace(_VOIDS, metavar="SHARE"),
+        replace(_VOIDS, metavar="SHARE", takes=float | str | None),
     ] = None
     """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids,
     round by round, until it is reached or nothing more fits."""
@@ -218,7 +220,10 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
 
     levels: Annotated[
-        str | None, BeforeValidator(as_text), AfterValidator(checked_levels), _LEVELS
+        str | None,
+        BeforeValidator(as_text),
+        AfterValidator(checked_levels),
+        replace(_LEVELS, takes=str | int | tuple[int, ...] | None),
     ] = None
     """Resolutions from coarse to fine, pixels on the longer side, each with its share of
     the epochs, as 50:9,200:23,600:68 (the default); without shares, as 50,200,600 (the

@@ -15,6 +15,7 @@ from pydantic import (
 )
 
 from packwork.errors import RecipeError
+from packwork.offers import Offer
 from packwork.options import Options, number_or_auto
 from packwork.scene.label import Label
 from packwork.units import parse_length
@@ -71,6 +72,10 @@ def checked_length(value: object) -> object:
 
 Length: TypeAlias = Annotated[str | float, BeforeValidator(checked_length)]
 """A length as people write it."""
+
+
+Turns: TypeAlias = str | float | tuple[float, ...]
+"""How far items may turn, as Python may say it: in words, a limit, or the only angles."""
 
 
 class Rotation(Options):
@@ -208,7 +213,7 @@ class Pin(Options):
 class Rule(Options):
     """What is asked of the items of some names; every key but ``items`` may be left out."""
 
-    items: tuple[str, ...]
+    items: Annotated[tuple[str, ...], Offer(takes=str | tuple[str, ...])]
     """Names of items, or patterns such as ``b*``."""
 
     count: Annotated[int, Field(ge=0, le=MAX_COUNT)] | None = None
@@ -217,7 +222,7 @@ class Rule(Options):
     scale: tuple[float, float] | None = None
     """Smallest and largest size, 1 being the typical item's. With free sizes."""
 
-    rotate: str | None = None
+    rotate: Annotated[str | None, Offer(takes=Turns | None)] = None
     """How far they may turn, in the words of the option ``rotate``."""
 
     weight: Annotated[float, Field(gt=0, allow_inf_nan=False)] | None = None

@@ -39,7 +39,7 @@ class ChartOptions(Options):
     """Column that colours come from: of numbers, from small to large along the palette; of
     anything else, a colour for each value."""
 
-    mark: tuple[str, ...] = ()
+    mark: Annotated[tuple[str, ...], Offer(takes=str | Path | tuple[str | Path, ...])] = ()
     """What stands for a row: an SVG, a picture, a folder or a built-in name. May be given
     several times, with --mark-by. Default: circle."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Set
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -56,7 +56,9 @@ class WordOptions(Options):
     """Whose function words are left out: auto (the language of the text), codes such as en
     or en,de, or none."""
 
-    stopwords: str | tuple[str, ...] | None = None
+    stopwords: Annotated[
+        str | tuple[str, ...] | None, Offer(takes=str | Path | tuple[str, ...] | Set[str] | None)
+    ] = None
     """File of further words to leave out (in Python also a list of them)."""
 
     min_word_length: Annotated[int, Field(ge=1)] = 2
@@ -77,7 +79,10 @@ class WordOptions(Options):
     case: Annotated[Literal["common", "lower", "upper"], _TYPE] = "common"
     """How words are written: as they mostly stand in the text, lower or upper."""
 
-    fonts: Annotated[tuple[str, ...], Offer(group=Group.TYPE, flags="--font")] = ()
+    fonts: Annotated[
+        tuple[str, ...],
+        Offer(group=Group.TYPE, flags="--font", takes=str | Path | tuple[str | Path, ...]),
+    ] = ()
     """Font file or installed family; the next ones set what the first cannot. Default: a
     bundled black sans, then whatever is installed and has the letters."""
 

@@ -1,0 +1,557 @@
+"""Options of the verbs as type checkers and editors know them.
+
+Written by ``tools/write_keywords.py`` from the fields of the options: not to be changed by hand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Set as AbstractSet
+from pathlib import Path
+from typing import Any, Literal, Required, TypedDict
+
+from packwork.readers.memory.values import Value
+from packwork.readers.words.word import Word
+
+
+class PinTable(TypedDict, total=False):
+    """What of one item's pose is given."""
+
+    x: str | float | None
+    """Where its centroid lies, from the canvas' left edge; % are of the canvas' width."""
+
+    y: str | float | None
+    """The same from the canvas' top edge; % are of its height."""
+
+    angle: float | None
+    """Turn from upright, degrees clockwise."""
+
+    size: str | float | None
+    """Longer side of the item as drawn; % are of the canvas' longer side."""
+
+
+class RuleTable(TypedDict, total=False):
+    """What is asked of the items of some names."""
+
+    items: Required[str | Sequence[str]]
+    """Names of items, or patterns such as ``b*``."""
+
+    count: int | None
+    """How many copies of each of them there are."""
+
+    scale: list[float] | tuple[float, float] | None
+    """Smallest and largest size, 1 being the typical item's. With free sizes."""
+
+    rotate: str | float | Sequence[float] | None
+    """How far they may turn, in the words of the option ``rotate``."""
+
+    weight: float | None
+    """Share of area, as in ``weights``."""
+
+    pin: PinTable | None
+    """What of the pose is given. With both x and y the rule is for one copy only."""
+
+    region: Value | Sequence[str | float] | None
+    """Part of the canvas to stay in: a container, or left, top, width and height."""
+
+    color: str | Sequence[str] | None
+    """One colour, or a palette: items of several colours become silhouettes; or ``own``, where
+    another rule or the recipe gives colours that these items shall not have."""
+
+    name: str | None
+    """What it is called in the file that is written."""
+
+    link: str | None
+    """Where a click on it leads: http(s), mailto or a relative address."""
+
+    title: str | None
+    """What is shown when a pointer rests on it."""
+
+
+class _FillWordsPhotosPile(TypedDict, total=False):
+    """Options of fill, words, photos, pile."""
+
+    count: int | Literal["auto"] | None
+    """How many items in all; the given ones are repeated in turn. Default: one of each. Of words:
+    how many at most, those of the largest weights; default 100. auto: as many as it takes for the
+    container's shape to show."""
+
+
+class _FillPhotosPile(TypedDict, total=False):
+    """Options of fill, photos, pile."""
+
+    font: str | Path | None
+    """Font file (TTF, OTF, TTC) or installed family, for a container text:WORD or for words; for
+    these also several in turn. Default: a bundled bold sans, others for what it lacks."""
+
+    weights: str | Mapping[str, float] | None
+    """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
+
+    strict: bool
+    """Refuse a folder with an unusable file instead of leaving that file out. Default: False."""
+
+
+class _Every(TypedDict, total=False):
+    """Options of fill, words, photos, chart, pile."""
+
+    canvas: str | float | None
+    """Longer side of the canvas, as 600 (px, 96 to the inch), 200mm or 8in, or a sheet, as
+    200x150mm, A4 (A0 to A6, letter) or A4-landscape. Its unit is that of all results. Default: an
+    SVG container in mm, cm, in or pt keeps its size; any other becomes 600 px."""
+
+    rotate: str | float | Sequence[float]
+    """free (words: within 90 degrees, never upside down), none, 30 (within 30 degrees of upright;
+    upright is the same) or 0,90 (only these angles); also horizontal, vertical (read upwards),
+    mixed (one in four vertical). Default: 'free' (fill, pile), 'horizontal' (words), '15' (photos),
+    'none' (chart)."""
+
+    padding: str | float
+    """Gap between items and to the container's edge: 4 (in the canvas' unit), 1mm, 3pt, 0.5cm,
+    0.1in, or 1% of the canvas' longer side. Default: '0' (fill, photos, pile), '0.3%' (words),
+    '0.2%' (chart)."""
+
+    trim: bool | None
+    """Leave out the page round a container's drawing (an SVG or a mask), or keep it. Default: left
+    out where the drawing takes less than a third of it across and down, but a page in mm, cm, in or
+    pt is kept. Items are their drawings in any case."""
+
+    keep_page: bool | None
+    """Whether the white page behind an item's drawing, or the plain background of a picture, is
+    part of it. Default: left out where it looks like a page (nothing on it touches its edges, and
+    most files of the same folder do not fill theirs)."""
+
+    close_gaps: str | float
+    """Slits of a container that are closed, as between the states of a map: auto (up to 0.2% of its
+    extent), none, or their width, a length as for the padding. Default: 'auto'."""
+
+    alpha_threshold: float
+    """Opacity from which the paint of a picture belongs to its outline, as a share of its most
+    opaque pixel: smaller takes soft shadows in, larger leaves more of soft edges out. Default:
+    0.5."""
+
+    delimiter: str | None
+    """What parts the cells of a table: one character, such as ; or tab. Default: what parts all of
+    its lines alike."""
+
+    decimal: Literal[".", ","] | None
+    """What parts the whole of a number from its fraction in tables and texts of cells: . or , (the
+    other one, spaces and apostrophes then group thousands). Default: as the numbers of the column
+    show."""
+
+    encoding: str | None
+    """How the letters of a table or a text are stored, such as utf-8, cp1252 or cp1251. Default:
+    UTF-8, UTF-16, or the Windows encoding that its letters show."""
+
+    seed: int
+    """Same seed, same machine, same versions: same layout. Default: 0."""
+
+    start: str | None
+    """How the first places are found: distance-field (into the largest room), medial-axis (along
+    the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;
+    for words and shared sizes), or a layout (.geojson, .svg, .dxf; edited ones too). Default: what
+    suits the sizes, of photos the best of distance-field, medial-axis and scatter."""
+
+    rules: Sequence[RuleTable]
+    """What is asked of single items (in Python and recipe files)."""
+
+
+class _FillWordsPhotos(TypedDict, total=False):
+    """Options of fill, words, photos."""
+
+    quiet_share: float | str
+    """Of a container around:IMAGE: the share of the picture that is filled, as 0.4 or 40%: that in
+    which least is to be seen. Default: 0.4."""
+
+    keep_clear: str | Sequence[str] | None
+    """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or a
+    box left,top,width,height such as 10%,20%,30%,30%."""
+
+    sizes: Literal["free", "shared", "fixed"]
+    """free: each item finds its size; shared: all have equal areas, or areas in the shares of the
+    weights; fixed: as large as in their files. Default: 'free' (fill, photos), 'shared' (words)."""
+
+    size_ratio: float
+    """With free sizes: 2 lets an item be half to twice as large as the typical one. Default:
+    2.0."""
+
+    hero: str | None
+    """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
+    NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
+
+    target_coverage: float | str | None
+    """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round
+    by round, until it is reached or nothing more fits."""
+
+    max_items: int | None
+    """Most items in all once smaller copies have been put into the voids. Default: 1000."""
+
+    smallest: str | float | None
+    """Put smaller copies into the voids, down to this longer side, a length as for the padding
+    (default 0.5%). Of words: the least font size; smaller ones are left out and named."""
+
+    filler: Value | Iterable[Value] | None
+    """Items to put into the voids, in place of smaller copies of the items."""
+
+
+class _FillWordsPile(TypedDict, total=False):
+    """Options of fill, words, pile."""
+
+    force: str | Sequence[str] | None
+    """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
+    balance or together; docs/forces.md has all. May be given several times."""
+
+    stroke_width: Literal["scaled", "even"]
+    """Lines of items that are drawn in lines, as line icons: scaled (as wide as their sizes make
+    them) or even (alike on all of them: of larger ones thinner, before items grow together).
+    Default: 'scaled'."""
+
+
+class _FillWordsChartPile(TypedDict, total=False):
+    """Options of fill, words, chart, pile."""
+
+    palette: str | Sequence[str] | None
+    """New colours for items, neighbours unlike: #e63946,#457b9d or okabe-ito, tol-bright,
+    tol-vibrant, tol-muted, tol-high-contrast. Photographs keep theirs."""
+
+    holes: Literal["fill", "keep"]
+    """keep: the holes of items stay free, so that small items may sit in them. Default: 'fill'."""
+
+
+class _FillPile(TypedDict, total=False):
+    """Options of fill, pile."""
+
+    shades: Literal["tint", "nearest", "keep"]
+    """What --palette does to drawings of several colours: tint (each in the tints and shades of one
+    colour, by lightness), nearest (each of their colours becomes the palette's nearest) or keep
+    (they keep their own, as among words). Default: 'tint'."""
+
+
+class _FillPhotos(TypedDict, total=False):
+    """Options of fill, photos."""
+
+    apart: bool
+    """Keep copies of one item from lying side by side, as far as that goes. Default: False."""
+
+
+class _FillWords(TypedDict, total=False):
+    """Options of fill, words."""
+
+    outline: Literal["exact", "hull"]
+    """What an item is taken for while it is placed: exact (its true outline) or hull (no item in
+    another's bays). What is measured and written is the true outline. Default: 'exact'."""
+
+    stay: bool
+    """With --start LAYOUT: items stay as near to where they were as the result allows. They are
+    told by their names; new ones go into voids, and those no longer asked for leave. Default:
+    False."""
+
+
+class _FillWordsPhotosChart(TypedDict, total=False):
+    """Options of fill, words, photos, chart."""
+
+    finish: Literal["exact", "none"]
+    """exact: after the levels, items are moved, turned and sized in exact geometry until nothing
+    overlaps and nothing sticks out; none: what the levels gave, not certified. Default: 'exact'."""
+
+    effort: Literal["draft", "normal", "best"]
+    """How many iterations: draft, normal or best. Default: 'normal'."""
+
+    epochs: int | None
+    """Iterations in all, instead of an effort."""
+
+    time: float | None
+    """Seconds for the whole run, instead of a number of iterations: results then depend on the
+    machine."""
+
+    levels: str | int | Sequence[int] | None
+    """Resolutions from coarse to fine, pixels on the longer side, each with its share of the
+    epochs, as 50:9,200:23,600:68 (the default); without shares, as 50,200,600 (the paper's), they
+    are even."""
+
+    losses: Mapping[Any, float]
+    """Weights of losses, by name, module:function or (in Python) as functions: in place of the
+    preset's, or beside them; 0 switches one off."""
+
+
+class _WordsPhotos(TypedDict, total=False):
+    """Options of words, photos."""
+
+    share: str | Mapping[str, float | str] | None
+    """Shares of the area where words, photos and other items are mixed:
+    words=50%,photos=30%,items=20%."""
+
+
+class _WordsChart(TypedDict, total=False):
+    """Options of words, chart."""
+
+    background: str | None
+    """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
+
+
+class FillKeywords(
+    _FillWordsPhotosPile,
+    _FillPhotosPile,
+    _Every,
+    _FillWordsPhotos,
+    _FillWordsPile,
+    _FillWordsChartPile,
+    _FillPile,
+    _FillPhotos,
+    _FillWords,
+    _FillWordsPhotosChart,
+    total=False,
+):
+    """Options of :func:`packwork.fill`."""
+
+    stretch: float
+    """1.5 lets each item become up to 1.5 times as wide for its height as it was drawn, or as high
+    for its width, at the same area. 1 keeps all proportions. Default: 1.0."""
+
+    preset: Literal["default", "paper"]
+    """Losses, weights and steps: default, or paper (as published by Wang and Lu, 2025)."""
+
+
+class WordsKeywords(
+    _FillWordsPhotosPile,
+    _Every,
+    _FillWordsPhotos,
+    _FillWordsPile,
+    _FillWordsChartPile,
+    _FillWords,
+    _FillWordsPhotosChart,
+    _WordsPhotos,
+    _WordsChart,
+    total=False,
+):
+    """Options of :func:`packwork.words`."""
+
+    min_count: int
+    """How often a word must stand in the text. Default: 1."""
+
+    language: str
+    """Whose function words are left out: auto (the language of the text), codes such as en or
+    en,de, or none. Default: 'auto'."""
+
+    stopwords: str | Path | Sequence[str] | AbstractSet[str] | None
+    """File of further words to leave out (in Python also a list of them)."""
+
+    min_word_length: int
+    """Letters that a word of a text has at least; one syllable of Korean is a word anyway. Default:
+    2."""
+
+    include_numbers: bool
+    """Numbers that stand alone count as words too. Default: False."""
+
+    regexp: str | None
+    """What counts as a word of a text, as a regular expression of Python such as [#@]\\w+."""
+
+    phrases: int
+    """2 also counts pairs of words that often stand together, 3 triples too. Default: 1."""
+
+    plurals: Literal["merge", "keep"]
+    """merge: English plurals count as their singular, if that stands in the text too. Default:
+    'merge'."""
+
+    photos: Mapping[str, Any] | None
+    """Photographs to place: which, and what becomes of their edges (``packwork photos``)."""
+
+    case: Literal["common", "lower", "upper"]
+    """How words are written: as they mostly stand in the text, lower or upper. Default:
+    'common'."""
+
+    fonts: str | Path | Sequence[str | Path]
+    """Font file or installed family; the next ones set what the first cannot. Default: a bundled
+    black sans, then whatever is installed and has the letters."""
+
+    font_weight: int
+    """Weight of a family or a variable font: 400 is regular, 700 bold. Default: 700."""
+
+    weight_is: Literal["height", "area", "ink"]
+    """What is in the proportion of the weights: height (of the letters), area (of the letters:
+    their height by the root) or ink (of the whole word: long ones are lower). Default: 'height'."""
+
+    largest: str | float | None
+    """Font size of the largest word at most, a length as for the padding, such as 48pt or 10%; all
+    others stay in proportion."""
+
+    color_by: str | Callable[[Word], str | None] | None
+    """weight (the palette from small to large), a column of the table, or a picture under the
+    words; in Python also a function of a word. Default: neighbours unlike."""
+
+    contrast: float
+    """Least contrast of words and background, as WCAG counts it; 1 leaves colours alone. Default:
+    3.0."""
+
+
+class PhotosKeywords(
+    _FillWordsPhotosPile,
+    _FillPhotosPile,
+    _Every,
+    _FillWordsPhotos,
+    _FillPhotos,
+    _FillWordsPhotosChart,
+    _WordsPhotos,
+    total=False,
+):
+    """Options of :func:`packwork.photos`."""
+
+    least_dpi: float | None
+    """Enlarge no photo beyond so many of its own pixels to the inch: those of few pixels stay
+    small. Default: photos are as large as suits the layout."""
+
+    shape: Value | None
+    """Cut photos to a shape: rounded, rounded:20% (radius as a share of the shorter side), or
+    whatever can be a container, such as circle, heart or a mask. Default: none."""
+
+    border: str
+    """Width of a border around each photo, as a share of its shorter side, such as 4%: it lies
+    outside the photo and hides nothing of it. Default: '0%'."""
+
+    border_color: str
+    """Colour of the border. Default: 'white'."""
+
+    edge: Literal["inside", "crop"]
+    """What becomes of photos at the container's edge: inside (all of each photo is seen) or crop
+    (they cover the edge and are cut at its line, for a clean rim). Default: 'inside'."""
+
+
+class ChartKeywords(_Every, _FillWordsChartPile, _FillWordsPhotosChart, _WordsChart, total=False):
+    """Options of :func:`packwork.chart`."""
+
+    size_by: str | None
+    """Column of numbers that sizes are in proportion to. Default: all marks are alike."""
+
+    size_is: Literal["area", "height", "width"]
+    """What of a mark is in that proportion: its area, height or width. Default: 'area'."""
+
+    unit: float | None
+    """One mark for each so many of --size-by (without it: so many rows that are alike in what is
+    shown of them); what is left over is a part of a mark."""
+
+    color_by: str | None
+    """Column that colours come from: of numbers, from small to large along the palette; of anything
+    else, a colour for each value."""
+
+    mark: Value | Iterable[Value] | None
+    """What stands for a row: an SVG, a picture, a folder or a built-in name. May be given several
+    times, with --mark-by. Default: circle."""
+
+    mark_by: str | None
+    """Column whose values have marks of their own: that of the same name, else in turn."""
+
+    label_by: str | None
+    """Column that names marks: in files, tooltips and messages, and on marks that have room."""
+
+    by: str | None
+    """Column that parts marks into groups: each has a container of its own or, in container none,
+    is a bar that its marks have fallen into. All marks have one scale."""
+
+    by_step: float | None
+    """With --by and a column of numbers: groups of so many, as 10 for decades."""
+
+    title: str | None
+    """Line over the chart."""
+
+    legend: bool
+    """Keys to sizes, colours and marks under the chart. Default: True."""
+
+
+class PileKeywords(
+    _FillWordsPhotosPile,
+    _FillPhotosPile,
+    _Every,
+    _FillWordsPile,
+    _FillWordsChartPile,
+    _FillPile,
+    total=False,
+):
+    """Options of :func:`packwork.pile`."""
+
+    open: (
+        Literal["top", "bottom", "left", "right"]
+        | Sequence[Literal["top", "bottom", "left", "right"]]
+    )
+    """Take the lid off on that side (top, bottom, left or right): items come in through it and may
+    heap up beyond it, to the canvas' edge. May be given several times."""
+
+    size: str | float | None
+    """Longer side of each item, a length as for the padding; with weights, of one of weight 1.
+    Default: in the proportions of their files, and so large that all find room and the pile is
+    about two thirds high; without a container as large as in their files."""
+
+    emit: str | None
+    """Where items come from: top, bottom, left, right (that edge of the canvas), X,Y (a point), X,Y
+    X,Y (a line), FILE.svg (a drawn curve) or in NAME (a region: a file or a built-in name).
+    Default: each begins at its lowest free place."""
+
+    release: int
+    """With --emit: rounds between one item and the next, so that they pour; 0 lets all begin at
+    once. Default: 0."""
+
+    compact: bool
+    """Report how tight the pile is: shares of its hull, its smallest circle and its box. Default:
+    False."""
+
+
+class SaveKeywords(TypedDict, total=False):
+    """How a layout is drawn."""
+
+    pixels: int
+    """Longer side of a PNG or JPEG. Default: 1600."""
+
+    dpi: float | None
+    """Pixels to the inch of paper: of photos (default 300), and of a PNG or JPEG in place of
+    --pixels."""
+
+    background: str | None
+    """Any CSS colour, or none. Default: none in SVG and PDF, white in PNG."""
+
+    halo: Literal["none", "faint", "all"]
+    """A rim that makes items stand out from the background, in SVG, PNG, JPEG and PDF: faint (of
+    those that are hardly to be seen on it) or all. Default: 'none'."""
+
+    show_container: bool
+    """Draw the container's line. Default: False."""
+
+    flatten: bool
+    """In SVG, repeat each drawing in place, for tools that choke on <use>. Default: False."""
+
+    text: Literal["outlines", "live"]
+    """Words in SVG: outlines, or live text that can be selected and found, in parts of their fonts
+    that the file carries. Default: 'outlines'."""
+
+    cut: Literal["outlines", "silhouette"] | None
+    """Lines for a cutter in SVG and PDF (there in the spot colour CutContour) too: outlines, or
+    silhouette: one closed line round each item. Default: outlines in DXF only."""
+
+    kiss_cut: str | float | None
+    """Cut at this distance round each item, a length such as 2mm, in DXF, SVG and PDF; the padding
+    is at least twice that."""
+
+    bleed: str | float | None
+    """Let a PDF's background reach beyond the sheet on each side, a length such as 3mm; its boxes
+    say where it is trimmed."""
+
+
+class FilmKeywords(TypedDict, total=False):
+    """How a film is made."""
+
+    fps: float
+    """Pictures a second of a film. Any number: they are drawn between what was recorded. Default:
+    30.0."""
+
+    seconds: float
+    """How long the items of a film move. Default: 5.0."""
+
+    hold: float
+    """Seconds for which the last picture of a film stays after that. Default: 1.0."""
+
+    loop: bool
+    """Whether a film begins again at its end; in MP4 and WebM the player decides. Default: True."""
+
+    easing: Literal["smooth", "linear"]
+    """smooth: items of a film set off and stop softly; linear: straight from one recorded place to
+    the next. Default: 'smooth'."""
+
+    film_pixels: int
+    """Longer side of a film; MP4 and WebM need an even one. Default: 800."""
