@@ -183,7 +183,7 @@ class _FillWordsPhotos(TypedDict, total=False):
     by round, until it is reached or nothing more fits."""
 
     max_items: int | None
-    """Most items in all once smaller copies have been put into the voids. Default: 1000."""
+    """Put smaller copies into the voids until there are so many items in all (default 1000)."""
 
     smallest: str | float | None
     """Put smaller copies into the voids, down to this longer side, a length as for the padding
