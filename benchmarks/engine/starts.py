@@ -22,8 +22,8 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.metrics.pixel import pixel_metrics
+from packwork.pipeline.beginning import NOMINAL_COVERAGE
 from packwork.pipeline.plan.plan import Plan
-from packwork.pipeline.start import NOMINAL_COVERAGE
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container

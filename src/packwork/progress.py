@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from math import gcd
+from math import factorial, gcd
 from typing import Protocol, TypeAlias
 
 from packwork.arrays import IntArray
@@ -87,6 +87,20 @@ class Observer(Protocol):
         ...
 
 
+class _Nobody:
+    """Hears nothing."""
+
+    every = factorial(20)
+
+    def on_step(self, step: Step) -> None:
+        """Forget it."""
+
+
+NOBODY: Observer = _Nobody()
+"""Observer of runs that nobody follows. Its ``every`` is a multiple of all others', so that an
+audience that it is in is told no more often for it."""
+
+
 class Audience:
     """Several observers as one, each told as often as it wants to be.
 
@@ -116,16 +130,16 @@ class Audience:
                 observer.on_step(step)
 
 
-def together(*observers: Observer | None) -> Observer | None:
-    """One observer for those that are there; None if none is.
+def together(*observers: Observer) -> Observer:
+    """One observer for several, without those that are nobody.
 
     Examples
     --------
-    >>> together(None) is None
+    >>> together(NOBODY, NOBODY) is NOBODY
     True
     """
-    there = [observer for observer in observers if observer is not None]
-    return Audience(there) if len(there) > 1 else (there[0] if there else None)
+    there = [observer for observer in observers if observer is not NOBODY]
+    return Audience(there) if len(there) > 1 else (there[0] if there else NOBODY)
 
 
 Stop: TypeAlias = Callable[[], bool]

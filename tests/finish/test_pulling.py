@@ -10,7 +10,7 @@ from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.finish.pulling import YIELDING, pulling_of
 from packwork.forces.bonds import Alignment
-from packwork.forces.forces import BondForce, Forces
+from packwork.forces.forces import NO_FORCES, BondForce, Forces
 from scenes import disc, poses, square, square_container, star
 
 COUNT = 12
@@ -30,7 +30,7 @@ def test_the_row_gets_closer(sizes: str, most: float) -> None:
     outlines, start = _begun()
     options = FinishOptions(sizes=sizes, trials=60, rounds=8)  # type: ignore[arg-type]
     spreads = []
-    for forces in (None, ROW):
+    for forces in (NO_FORCES, ROW):
         done = finish(square_container(), outlines, start, options, forces=forces)
         assert done.clean
         spreads.append(float(done.poses.y[KINDS == 1].std()))
@@ -60,7 +60,7 @@ def test_where_sizes_are_free_pushes_are_as_strong_as_they_are() -> None:
     slopes = pulling.forces.cost(arrangement.places[:, :2], sizing.areas).slopes
     np.testing.assert_allclose(push, -slopes)
     assert pulling.gains(arrangement.places, 0, np.array([1])).tolist() == [0.0]
-    assert pulling_of(None, sizing) is None
+    assert pulling_of(NO_FORCES, sizing) is None
 
 
 def _two():

@@ -15,9 +15,8 @@ from packwork import pipeline, uses
 from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.errors import ReadError, RecipeError
 from packwork.pipeline.dress.neighbours import beside, same_kind_beside
-from packwork.pipeline.plan.cast import kinds
 from packwork.pipeline.plan.limits import LEAD
-from packwork.progress import Step
+from packwork.progress import NOBODY, Step
 from packwork.recipe import make_recipe
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
@@ -27,7 +26,7 @@ QUICK = {"container": "square", "epochs": 60, "levels": "40,120", "seed": 4}
 NAMES = ["star", "circle", "heart"]
 
 
-def run(*rules: dict[str, Any], observer: Any = None, **options: Any) -> pipeline.Run:
+def run(*rules: dict[str, Any], observer: Any = NOBODY, **options: Any) -> pipeline.Run:
     given = {"items": NAMES, "count": 15, "finish": "none"} | QUICK | options
     return uses.fill(make_recipe(rules=rules, **given), observer=observer)
 
@@ -105,10 +104,10 @@ def test_ranges_of_sizes_are_kept_and_used(finish: str) -> None:
     plain = run()
     stars, hearts = only(met.layout, "star"), only(met.layout, "heart")
     # The typical size is the same in both runs: that of unruled items.
-    from packwork.pipeline.start import begin
+    from packwork.pipeline.beginning import begin
 
     job = uses.read(make_recipe(items=NAMES, count=15, **QUICK))
-    nominal = begin(job, job.container, [item.outline for item in job.items]).nominal
+    nominal = begin(job).nominal
     small = [one.index for one in met.unplaced]
     # The last steps of a finish end a little off their bounds.
     off = 1e-9 if finish == "none" else SIZE_TOLERANCE
@@ -228,7 +227,7 @@ def test_apart_leaves_fewer_side_by_side(items: list[str]) -> None:
     for seed in (4, 5):
         mixed = run(**options, seed=seed)
         parted = run(**options, seed=seed, apart=True)
-        before += same_kind_beside(mixed.layout, kinds(mixed.layout.items)) or 0
+        before += same_kind_beside(mixed.layout)
         after += parted.beside or 0
     assert after < 0.6 * before
     assert (mixed.beside, mixed.report()["beside"]) == (None, None)

@@ -21,9 +21,9 @@ def test_lengths_are_those_of_the_canvas() -> None:
     found = plan(padding="2%", target_coverage=0.9, smallest="5%")
     side = round_container(50.0).side
     assert found.gap == pytest.approx(0.02 * side)
-    assert found.voids is not None
+    assert found.voids.fills
     assert found.voids.smallest == pytest.approx(0.05 * side)
-    assert plan().voids is None
+    assert not plan().voids.fills
 
 
 def test_stage_options_follow_a_changed_field() -> None:

@@ -41,6 +41,21 @@ def test_items_of_one_zone_may_change_places_and_held_ones_never() -> None:
     assert four().groups.tolist() == [0, 1, -1, -1]
 
 
+def test_only_limits_that_limit_nothing_need_not_be_heeded() -> None:
+    free = Limits.free(2)
+    assert not free.binds
+    assert not free.joined_by(3).binds
+    assert replace(free, x=np.zeros(2)).binds
+    assert four().binds
+
+
+def test_kinds_are_apart_where_two_are_of_one() -> None:
+    assert not four().keeps_kinds_apart
+    alike = replace(four(), kinds=np.array([0, 1, 1, 2]))
+    assert alike.keeps_kinds_apart
+    assert alike.joined_by(2).kinds.tolist() == [0, 1, 1, 2, 3, 4]
+
+
 def test_zones_grow_by_the_margin_that_items_have() -> None:
     (zone,) = four().widened(2.0).zones
     assert zone.outline.bounds == pytest.approx((-2, -2, 12, 12))

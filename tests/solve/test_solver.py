@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from packwork.geometry.outline import Outline
-from packwork.progress import Step
+from packwork.progress import NOBODY, Step
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
@@ -213,7 +213,7 @@ def test_observing_changes_nothing(crowd: Scene, quick: Options) -> None:
     outlines, start = crowd
     alone, watched = (
         solve(round_container(), outlines, start, start.scale, quick(), observer)
-        for observer in (None, Log())
+        for observer in (NOBODY, Log())
     )
     assert_same(watched.poses, alone.poses)
 

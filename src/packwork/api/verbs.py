@@ -14,7 +14,7 @@ from packwork.api.signatures import of_verb
 from packwork.display.bar import bar_for, shown
 from packwork.offers import Verbs
 from packwork.options import offered
-from packwork.progress import Observer, Stop, never
+from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
 from packwork.readers.memory.shapes import Columns
@@ -354,7 +354,7 @@ def _run(
     bar = bar_for(progress, observer)
     whole = container if isinstance(container, Container) else None
     with shown(bar):
-        run = uses.fill(recipe, None, whole, bar or observer, stop, record)
+        run = uses.fill(recipe, None, whole, bar or observer or NOBODY, stop, record)
     layout = public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = run.metrics.as_dict()

@@ -39,6 +39,7 @@ from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
 from packwork.phrasing import number_of
+from packwork.progress import NOBODY
 from packwork.recipe import Recipe
 from packwork.recipe.film import film_options
 from packwork.uses.room import NO_CONTAINER
@@ -212,7 +213,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     interrupt = Interrupt()
     with interrupt.listening():
         with bar.showing():
-            run = pipeline.run(job, None if quiet else bar, interrupt, bool(outputs.films))
+            run = pipeline.run(job, NOBODY if quiet else bar, interrupt, bool(outputs.films))
             was_cut_short = interrupt.pressed
             began = time.perf_counter()
             films = _filmed(run, outputs, bar, interrupt)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from packwork.arrays import IntArray
 from packwork.compaction.detail import Detail
 from packwork.geometry.distance import distance
 from packwork.geometry.outline import Outline
@@ -37,6 +38,11 @@ class Conflict:
     other: int | None
     overlap_cu2: float
     gap_cu: float
+
+    def numbered(self, items: IntArray) -> Conflict:
+        """The same where items are called by the numbers ``(n,)`` given."""
+        other = None if self.other is None else int(items[self.other])
+        return replace(self, item=int(items[self.item]), other=other)
 
 
 def find_conflicts(

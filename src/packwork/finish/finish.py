@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -12,7 +12,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.compaction.blocks import blocks
 from packwork.compaction.compact import compact
-from packwork.compaction.conflicts import Conflict, find_conflicts
+from packwork.compaction.conflicts import find_conflicts
 from packwork.compaction.detail import COARSE, COARSE_OF_GAP, FINE, FINE_OF_GAP, Detail
 from packwork.compaction.kernels.steps import MOST_GROWTH, Objective
 from packwork.compaction.objective import SharedSize, turn_ranges
@@ -21,12 +21,13 @@ from packwork.compaction.relocate import relocate
 from packwork.compaction.separate import relocate_stuck, separate, separate_evenly
 from packwork.finish import bottlenecks
 from packwork.finish.anneal import Lengths, anneal
+from packwork.finish.finished import Finished
 from packwork.finish.options import FinishOptions
 from packwork.finish.pulling import pulling_of
 from packwork.finish.sizing import sizing_of
-from packwork.forces.forces import Forces
+from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
-from packwork.progress import Observer, Step, Stop, never
+from packwork.progress import NOBODY, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 
@@ -81,43 +82,15 @@ TOLD = 10
 then seen on its way. More take longer to tell. Chosen."""
 
 
-@dataclass(frozen=True, eq=False)
-class Finished:
-    """Result of a finish.
-
-    Parameters
-    ----------
-    poses
-        Where the items are now.
-    clean
-        Whether no two items, and no item and the edge, are nearer than was asked.
-    conflicts
-        What is still in conflict; empty if clean.
-    undersized
-        Items that found no room at the size that they should have at least.
-    rounds
-        Linear programmes for each item.
-    seconds
-        Time taken.
-    """
-
-    poses: Poses
-    clean: bool
-    conflicts: tuple[Conflict, ...]
-    undersized: tuple[int, ...]
-    rounds: int
-    seconds: float
-
-
 def finish(
     container: Container,
     outlines: Sequence[Outline],
     poses: Poses,
     options: FinishOptions,
-    observer: Observer | None = None,
+    observer: Observer = NOBODY,
     stop: Stop = never,
     is_enough: Stop = never,
-    forces: Forces | None = None,
+    forces: Forces = NO_FORCES,
 ) -> Finished:
     """Poses near the given ones at which nothing meets, grown into the room that is left.
 
@@ -140,7 +113,7 @@ def finish(
     is_enough
         Asked before each trial; True ends the trials, so that the last rounds have time.
     forces
-        What pulls items about, weighed against area as in the levels; None for nothing.
+        What pulls items about, weighed against area as in the levels.
 
     Examples
     --------
@@ -180,10 +153,10 @@ class _Finish:
         outlines: Sequence[Outline],
         poses: Poses,
         options: FinishOptions,
-        observer: Observer | None,
+        observer: Observer,
         stop: Stop,
         is_enough: Stop,
-        forces: Forces | None,
+        forces: Forces,
     ) -> None:
         self._poses, self._options, self._observer, self._stop = poses, options, observer, stop
         self._is_enough = is_enough
@@ -386,7 +359,7 @@ class _Finish:
 
     def _tell(self, done: float) -> None:
         # What is only tried may be undone, and is not told.
-        if self._observer is None or self._is_trying:
+        if self._is_trying:
             return
         growth = self.arrangement.places[:, 3]
         covered = float((self._sizing.areas * np.exp(2 * growth)).sum() / self._area)

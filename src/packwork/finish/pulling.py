@@ -66,9 +66,9 @@ class Pulling:
         return np.asarray(-self.unit * np.where(differs, there + here, 0.0))
 
 
-def pulling_of(forces: Forces | None, sizing: Sizing) -> Pulling | None:
+def pulling_of(forces: Forces, sizing: Sizing) -> Pulling | None:
     """Forces in the unit of a size mode's worths; None if there are none."""
-    if forces is None:
+    if not forces.acts:
         return None
     # Growth is worth twice the area; where sizes are common, one for the typical item.
     is_free = isinstance(sizing, FreeSizes)

@@ -105,6 +105,11 @@ class Forces:
     kinds: IntArray
     side: float
 
+    @property
+    def acts(self) -> bool:
+        """Whether anything pulls."""
+        return bool(self.fields or self.bonds)
+
     def __call__(self, points: FloatArray, areas: FloatArray) -> Pull:
         """Height and slopes of items at points ``(n, 2)`` with areas ``(n,)``."""
         parts, slopes = np.zeros(len(points)), np.zeros((len(points), 2))
@@ -217,3 +222,7 @@ class Forces:
                 if bond.strengths[item]:
                     total += bond.strengths[item] * bond.bond.alone(points, anchor, self.side)
         return total
+
+
+NO_FORCES = Forces((), (), np.arange(0), 1.0)
+"""Forces of stages that were given none: nothing pulls, however many items there are."""

@@ -57,7 +57,7 @@ def _remedy(job: Job, count: int) -> str:
     return smaller_copies(plan.voids, ITEMS_REACH)
 
 
-def smaller_copies(voids: VoidPlan | None, reach: float) -> str:
+def smaller_copies(voids: VoidPlan, reach: float) -> str:
     """Advice about what fills voids.
 
     Parameters
@@ -65,7 +65,7 @@ def smaller_copies(voids: VoidPlan | None, reach: float) -> str:
     reach
         Share of the container that such copies come to cover.
     """
-    if voids is None or voids.target is None:
+    if voids.target is None:
         return f"--target-coverage {reach:g}, smaller copies in the voids, would show it"
     if voids.most is not None:
         return f"--max-items {np.ceil(2 * voids.most):.0f} would show more of it"

@@ -11,20 +11,26 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.options import HAIR
 from packwork.errors import ShapeError
-from packwork.finish.finish import Finished, finish
+from packwork.finish.finish import finish
+from packwork.finish.finished import Finished
 from packwork.finish.options import FinishOptions
 from packwork.finish.pinned import separate_pinned
-from packwork.forces.forces import Forces
+from packwork.forces.forces import NO_FORCES
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, union
 from packwork.phrasing import number_of
+from packwork.pipeline.beginning import Beginning
+from packwork.pipeline.dress.line_weights import evened
 from packwork.pipeline.job import Job
+from packwork.pipeline.left_out import reason
+from packwork.pipeline.placed import Placed
 from packwork.pipeline.plan.leaning import job_leanings
+from packwork.pipeline.plan.padding import check_found
 from packwork.pipeline.result import Unplaced
-from packwork.pipeline.start import Beginning
 from packwork.pipeline.staying import needs_no_levels
-from packwork.progress import Observer, Step, Stop, until_over
+from packwork.pipeline.watch import Watch
+from packwork.progress import Observer, Step, until_over
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.solver import scale_bounds
@@ -72,15 +78,38 @@ PRESSING = frozenset(
 """Losses that have no say in which room stays free."""
 
 
+def finish_exactly(solved: Placed, watch: Watch, *, may_fail: bool = False) -> Placed:
+    """Exact poses near those of the levels; what the levels found if no more is asked.
+
+    Parameters
+    ----------
+    may_fail
+        Whether a padding that most items find no room with is no error.
+
+    Raises
+    ------
+    RecipeError
+        If the padding is so large.
+    """
+    job, start, stop = solved.job, solved.start, watch.stop
+    if not job.plan.is_exact:
+        return solved
+    watch = watch.heard_by(solved.recorder)
+    with job.clock.time("finish"):
+        exact = finished(job, start, solved.poses, watch)
+        if not (may_fail or job.plan.stays or stop()):
+            check_found(job.container, job.plan.gap, exact)
+        thinner = job if stop() else evened(job, exact.poses, tells=False)
+        if thinner is not job:
+            # Thinner lines leave room to grow into.
+            job = thinner
+            exact = finished(job, start, exact.poses, watch, grows=True)
+        exact = job.use.bounded(job, start, exact, watch)
+    return replace(solved, job=job, exact=exact, asked_for=job)
+
+
 def finished(
-    job: Job,
-    start: Beginning,
-    poses: Poses,
-    observer: Observer | None,
-    stop: Stop,
-    forces: Forces | None = None,
-    *,
-    grows: bool = False,
+    job: Job, start: Beginning, poses: Poses, watch: Watch, *, grows: bool = False
 ) -> Finished:
     """Exact poses near the solver's, of the true outlines.
 
@@ -93,41 +122,39 @@ def finished(
     grows
         Whether the poses are clean, and are to be larger: none gets much smaller then.
     """
-    outlines = job.solid_outlines
-    until = until_over(stop, job.seconds_left(1.0))
-    is_enough = until_over(stop, job.seconds_left(TRIALS_SHARE))
+    outlines, limits, whole = job.solid_outlines, start.limits, job.container.outline
+    # What is to stay where it was is not pushed on.
+    forces = NO_FORCES if job.plan.stays else start.forces
+    until = until_over(watch.stop, job.seconds_left(1.0))
+    is_enough = until_over(watch.stop, job.seconds_left(TRIALS_SHARE))
     allowed, largest = scale_ranges(job, start, poses)
     smallest = np.maximum(allowed, LEAST_KEPT * poses.scale) if grows else allowed
-    limits = start.limits
-    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
     results, before = [], poses
-    done = np.flatnonzero(groups < 0)
-    if limits is not None and len(done):
+    done = np.flatnonzero(limits.groups < 0)
+    if len(done):
         gap = gap_with_bulge(job, done, largest[done]) + HAIR * job.container.side
         kept = replace(limits, smallest=smallest, largest=largest)
         poses = separate_pinned(job.container, outlines, poses, kept, done, gap)
-    for group in [*range(1, groups.max(initial=0) + 1), 0]:
-        items = np.flatnonzero(groups == group)
+    for group in [*range(1, limits.groups.max(initial=0) + 1), 0]:
+        items = np.flatnonzero(limits.groups == group)
         if len(items) == 0:
             continue
-        whole = job.container.outline if group == 0 or limits is None else (
-            limits.zones[group - 1].outline
-        )  # fmt: skip
-        room = without(whole, [outlines[k].mapped(poses.matrix(int(k))) for k in done])
+        region = limits.zones[group - 1].outline if group else whole
+        room = without(region, [outlines[k].mapped(poses.matrix(int(k))) for k in done])
         result = finish(
             replace(job.container, outline=room),
             [outlines[k] for k in items],
             poses.some(items),
             _options(job, start, items, smallest[items], largest[items]),
-            None if observer is None else Closing(observer, poses, items),
+            Closing(watch.observer, poses, items),
             until,
             is_enough,
-            None if forces is None else forces.some(items),
+            forces.some(items) if forces.acts else NO_FORCES,
         )
         poses = poses.with_some(items, result.poses)
         results.append((items, result))
         done = np.append(done, items)
-    if limits is not None and job.plan.sizes == "shared":
+    if limits.binds and job.plan.sizes == "shared":
         poses = _one_factor(before, poses, limits)
     return _without_dwarfs_that_may_be(job, allowed, _together(poses, results))
 
@@ -168,11 +195,10 @@ def scale_ranges(job: Job, start: Beginning, poses: Poses) -> tuple[FloatArray, 
     if any(loss not in PRESSING for loss in job.plan.losses):
         # Room that a loss of one's own keeps free must not be grown into.
         largest = np.minimum(largest, poses.scale)
-    if start.limits is not None:
-        # Items of a zone come first: they may not grow over those that come later.
-        early = start.limits.groups > 0
-        largest = np.where(early, np.minimum(largest, np.maximum(poses.scale, smallest)), largest)
-    return smallest, largest
+    # Items of a zone come first: they may not grow over those that come later.
+    early = start.limits.groups > 0
+    least = np.minimum(largest, np.maximum(poses.scale, smallest))
+    return smallest, np.where(early, least, largest)
 
 
 def _options(
@@ -181,7 +207,7 @@ def _options(
     plan, rotation = job.plan, job.plan.rotation
     turning, limit = not rotation.is_still, rotation.limit
     leans = job_leanings(job)
-    if start.limits is not None:
+    if start.limits.binds:
         # One bound for all of a group: the narrowest that a rule gives.
         turning = turning and bool(np.isnan(start.limits.angle[items]).all())
         narrowest = float(start.limits.turn_limit[items].min())
@@ -195,7 +221,7 @@ def _options(
         largest=tuple(largest.tolist()),
         turning=turning,
         turn_limit=limit if turning else None,
-        leans=None if leans is None or not turning else tuple(leans[items].tolist()),
+        leans=tuple(leans[items].tolist()) if turning and leans.any() else None,
         trials=0 if plan.stays or is_settled else trials_for(job, len(items)),
         relieving=not is_settled,
         refining=needs_no_levels(job),
@@ -232,13 +258,7 @@ def without(whole: Outline, walls: Sequence[Outline]) -> Outline:
 def _together(poses: Poses, results: Sequence[tuple[IntArray, Finished]]) -> Finished:
     """One result of all groups, items numbered as in the run."""
     offenders = tuple(
-        replace(
-            found,
-            item=int(items[found.item]),
-            other=None if found.other is None else int(items[found.other]),
-        )
-        for items, result in results
-        for found in result.conflicts
+        found.numbered(items) for items, result in results for found in result.conflicts
     )
     undersized = tuple(int(items[k]) for items, result in results for k in result.undersized)
     return Finished(
@@ -270,17 +290,9 @@ def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
 
 def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
     """Items that are still in conflict, or smaller than they may be, and why."""
-    unit = job.container.unit
     found: dict[int, str] = {}
-    for offender in result.conflicts:
-        partner = None if offender.other is None else job.items[offender.other].name
-        neighbour = "the container's edge" if partner is None else f"{partner}"
-        if offender.overlap_cu2 > 0:
-            how = "sticks out of the container" if partner is None else f"overlaps {partner}"
-            reason = f"{how} by {offender.overlap_cu2:.3g} {unit}²"
-        else:
-            reason = f"is {offender.gap_cu:.3g} {unit} from {neighbour}, nearer than asked"
-        found.setdefault(offender.item, reason)
+    for conflict in result.conflicts:
+        found.setdefault(conflict.item, reason(conflict, job.items, job.container.unit))
     for k in result.undersized:
         found.setdefault(k, "is smaller than it may be: there was no room at its smallest size")
     return tuple(Unplaced(job.items[k].name, k, found[k]) for k in sorted(found))

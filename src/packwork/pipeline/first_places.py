@@ -39,9 +39,9 @@ def first_places(
     outlines: Sequence[Outline],
     scales: FloatArray,
     angles: FloatArray,
-    limits: Limits | None,
+    limits: Limits,
     rng: np.random.Generator,
-    forces: Forces | None = None,
+    forces: Forces,
     stop: Stop = never,
 ) -> FirstPoses:
     """Poses by the method asked for, or else by the one that suits.
@@ -58,7 +58,7 @@ def first_places(
             "start",
             f"first-fit seeks one size for all; use it with sizes shared, not {plan.sizes}",
         )
-    if asked or (plan.method is None and _suits(job, forces)):
+    if asked or (not plan.method and _suits(job, forces)):
         is_over = until_over(stop, job.seconds_left(TIME_SHARE))
         poses = first_fit(
             container,
@@ -79,37 +79,34 @@ def first_places(
     return first_poses(container, outlines, scales, angles, plan.start_options(), rng, limits)
 
 
-def needs_levels(job: Job, forces: Forces | None) -> bool:
+def needs_levels(job: Job, forces: Forces) -> bool:
     """Whether something is asked that only the levels know."""
     plan = job.plan
-    has_bonds = forces is not None and bool(forces.bonds)
     return (
         bool(plan.levels or plan.epochs or plan.losses)
         or not plan.is_default
         or not plan.is_exact
         or plan.stretch > 1.0
         or plan.keeps_apart
-        or has_bonds
+        or bool(forces.bonds)
     )
 
 
-def _suits(job: Job, forces: Forces | None) -> bool:
+def _suits(job: Job, forces: Forces) -> bool:
     """Whether putting items one after another leaves less room than the levels would.
 
     So it does where all have one size.
     """
-    turns = job.plan.rotation
-    is_turning = turns.limit is None and turns.choices is None
     return (
         job.plan.sizes == "shared"
         and not needs_levels(job, forces)
-        and job.use.suits_first_fit(len(job.items), is_turning)
+        and job.use.suits_first_fit(len(job.items), job.plan.rotation.is_free)
     )
 
 
 def _kinds(job: Job) -> IntArray | None:
     """Numbers of words, photos and items where they have shares; None if nothing is to be mixed."""
-    if job.plan.share is None:
+    if not job.plan.share:
         return None
     return np.unique(kinds_of(job.items, job.use.words), return_inverse=True)[1].astype(np.int64)
 
@@ -120,31 +117,28 @@ def _fields(job: Job) -> Sequence[FieldForce]:
     That would only press them together. No item is pushed the other way, as in the levels: those
     drawn least would fill the far ends first, and leave the near ones to the smallest.
     """
-    forces = job.forces
-    if forces is None:
-        return ()
     found = []
-    for force in forces.fields:
+    for force in job.forces.fields:
         pull = force.strengths
         least = pull[np.argmin(np.abs(pull))]
         found.append(FieldForce(force.field, pull - (1 - PRESSURE) * least))
     return found
 
 
-def _angles(job: Job, first: FloatArray, limits: Limits | None) -> list[FloatArray]:
+def _angles(job: Job, first: FloatArray, limits: Limits) -> list[FloatArray]:
     """For each item the angles to try; the first alone where it must be kept."""
     rng = np.random.default_rng(job.plan.seed)
     leans = job_leanings(job)
     found = []
     for k, one in enumerate(job.asked):
         rotation = one.rotation or job.plan.rotation
-        is_given = limits is not None and bool(limits.held[k, 2])
-        if is_given or rotation.is_still or rotation.choices is not None:
+        if limits.held[k, 2] or rotation.is_still or rotation.choices:
             found.append(first[k : k + 1])
         else:
-            number = ANY_ANGLES if rotation.limit is None else ANGLES
+            number = ANY_ANGLES if rotation.is_free else ANGLES
             spread = spread_angles(number, rotation.limit, rng)
-            if leans is not None and leans[k] and rotation.limit is not None:
-                spread = np.clip(spread, *turn_sides(rotation.limit, np.full(number, leans[k])))
+            if leans[k]:
+                sides = turn_sides(rotation.farthest, np.full(number, leans[k]))
+                spread = np.clip(spread, *sides)
             found.append(spread)
     return found

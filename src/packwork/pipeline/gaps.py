@@ -11,7 +11,7 @@ import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.finish.admission import admitted
-from packwork.finish.finish import Finished, finish
+from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.pipeline.exact import (
@@ -22,10 +22,8 @@ from packwork.pipeline.exact import (
 )
 from packwork.pipeline.placed import Placed
 from packwork.pipeline.plan.asked import Asked
-from packwork.pipeline.plan.cast import kinds
-from packwork.pipeline.plan.plan import VoidPlan
-from packwork.pipeline.progress import stretch
 from packwork.pipeline.result import Filling
+from packwork.pipeline.watch import Watch
 from packwork.progress import Observer, Stop, until_over
 from packwork.scene.pose import Poses
 from packwork.solve.stand_ins import stand_ins
@@ -73,37 +71,31 @@ class GapEnding(Enum):
     NO_VOID = "no void holds an item of {smallest:.3g} {unit}"
 
 
-def fill_gaps(placed: Placed, exact: Finished, observer: Observer | None, stop: Stop) -> Placed:
+def fill_gaps(placed: Placed, watch: Watch) -> Placed:
     """Put smaller copies into voids until the coverage asked for is reached or nothing fits.
+
+    What was placed stays as it is where voids are not to be filled, or nothing is exact.
 
     Each round finds the voids in an image, puts copies where they fit, and lets all items
     that may yield grow and make room in exact geometry. Where sizes are data or rules
     hold items, only the fillers move.
     """
     job = placed.job
-    if job.plan.voids is None:
+    if not (job.plan.voids.fills and job.plan.is_exact):
         return placed
-    filling = _Filling(
-        placed, job.plan.voids, exact, observer, until_over(stop, job.seconds_left(1.0))
-    )
-    ending = None if exact.clean else GapEnding.NOT_CLEAN
-    while ending is None:
-        ending = filling.round()
-    return filling.result(ending)
+    watch = watch.heard_by(placed.recorder)
+    with job.clock.time("gaps"):
+        stop = until_over(watch.stop, job.seconds_left(1.0))
+        filling = _Filling(placed, watch.observer, stop)
+        ending = filling.filled() if placed.exact.clean else GapEnding.NOT_CLEAN
+        return filling.result(ending)
 
 
 class _Filling:
     """State of one gap filling between its rounds."""
 
-    def __init__(
-        self,
-        placed: Placed,
-        voids: VoidPlan,
-        exact: Finished,
-        observer: Observer | None,
-        stop: Stop,
-    ) -> None:
-        job, start = placed.job, placed.start
+    def __init__(self, placed: Placed, observer: Observer, stop: Stop) -> None:
+        job, start, exact, voids = placed.job, placed.start, placed.exact, placed.job.plan.voids
         self._placed, self._voids = placed, voids
         self._job, self._start, self._exact = job, start, exact
         self._observer, self._stop, self._rounds = observer, stop, 0
@@ -114,7 +106,7 @@ class _Filling:
         self.poses, self.added = exact.poses, list[int]()
         self._ids, self._tried = np.arange(self._first), self._first
         self._originals = job.solid_outlines
-        self._yields = job.plan.sizes == "free" and start.limits is None
+        self._yields = job.plan.sizes == "free" and not start.limits.binds
         self._ranges = scale_ranges(job, start, exact.poses)
         own = np.array([outline.area for outline in self._shapes])
         extents = np.array([outline.extent for outline in self._shapes])
@@ -126,23 +118,22 @@ class _Filling:
         self._gap = gap_with_bulge(job, np.arange(self._first), self._ranges[1])
         self._work = 0.0
 
-    def round(self) -> GapEnding | None:
-        """One round of fillers; why the last one was the last, or None."""
-        voids, effort, before = self._voids, self._job.plan.effort, self.coverage()
-        if voids.target is not None and before >= voids.target:
-            return GapEnding.COVERED
-        room = (voids.most or MOST_ITEMS) - len(self.poses)
-        if room <= 0:
-            return GapEnding.MOST
-        if self._stop():
-            return GapEnding.STOPPED
-        if self._work > MOST_WORK[effort]:
-            return GapEnding.TOO_LONG
-        self._work += IMAGE_WORK
-        count = min(max(AT_LEAST, round(MORE * len(self.poses))), room)
-        if self._let_in(count) == 0 or self._grow() - before < WORTHWHILE:
-            return GapEnding.NO_VOID
-        return None
+    def filled(self) -> GapEnding:
+        """Fill voids round by round; why the last round was the last."""
+        voids, effort = self._voids, self._job.plan.effort
+        while (before := self.coverage()) < voids.enough:
+            room = (voids.most or MOST_ITEMS) - len(self.poses)
+            if room <= 0:
+                return GapEnding.MOST
+            if self._stop():
+                return GapEnding.STOPPED
+            if self._work > MOST_WORK[effort]:
+                return GapEnding.TOO_LONG
+            self._work += IMAGE_WORK
+            count = min(max(AT_LEAST, round(MORE * len(self.poses))), room)
+            if self._let_in(count) == 0 or self._grow() - before < WORTHWHILE:
+                return GapEnding.NO_VOID
+        return GapEnding.COVERED
 
     def coverage(self) -> float:
         """Share of the container that the items cover; none overlap."""
@@ -160,21 +151,15 @@ class _Filling:
             items=(*job.items, *new),
             asked=(
                 *job.asked,
-                *(_styled(own.get(id(i)) or by_name.get(i.name)) for i in new),
+                *(_styled(own.get(id(i)) or by_name.get(i.name, Asked())) for i in new),
             ),
             weights=np.append(job.weights, np.zeros(len(new))),
         )
-        limits = None
-        if start.limits is not None:
-            limits = start.limits.joined_by(len(new))
-            if start.limits.kinds is not None:
-                limits = replace(limits, kinds=kinds(grown.items))
         nominal = np.append(start.nominal, self.poses.scale[self._first :])
         return replace(
             self._placed,
             job=grown,
-            before=job,
-            start=replace(start, nominal=nominal, limits=limits),
+            start=replace(start, nominal=nominal, limits=start.limits.joined_by(len(new))),
             exact=replace(self._exact, poses=self.poses),
             filling=Filling(len(new), self._said(ending), self.coverage(), self._voids.target),
             numbers=self._ids,
@@ -252,11 +237,11 @@ class _Filling:
             self.poses = self.poses.with_some(movers, result.poses)
         return self.coverage()
 
-    def _closing(self, movers: IntArray) -> Closing | None:
+    def _closing(self, movers: IntArray) -> Closing:
         # The number of rounds is not known beforehand: each takes half of the bar that is left.
         begun, self._rounds = 1.0 - 0.5**self._rounds, self._rounds + 1
-        observer = stretch(self._observer, begun, 1.0 - 0.5**self._rounds)
-        return None if observer is None else Closing(observer, self.poses, movers, self._ids)
+        watch = Watch(self._observer).part(begun, 1.0 - 0.5**self._rounds)
+        return Closing(watch.observer, self.poses, movers, self._ids)
 
     def _all_outlines(self) -> list[Outline]:
         return [*self._originals, *(self._shapes[k] for k in self.added)]
@@ -286,7 +271,6 @@ def corner_pairs(outlines: Sequence[Outline], poses: Poses) -> float:
     return float((corners[first] * corners[second])[first < second].sum())
 
 
-def _styled(asked: Asked | None) -> Asked:
+def _styled(asked: Asked) -> Asked:
     """What rules say of how an item looks and where it leads."""
-    said = {} if asked is None else asked.values
-    return Asked(values={key: value for key, value in said.items() if key in STYLE})
+    return Asked(values={key: value for key, value in asked.values.items() if key in STYLE})

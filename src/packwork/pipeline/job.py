@@ -104,8 +104,8 @@ class Job:
         )
 
     @cached_property
-    def forces(self) -> Forces | None:
-        """What pulls these items about on this canvas; None if nothing.
+    def forces(self) -> Forces:
+        """What pulls these items about on this canvas.
 
         Raises
         ------
@@ -114,8 +114,6 @@ class Job:
         RecipeError
             If a force names no item, or a length has no meaning.
         """
-        if not self.plan.forces:
-            return None
         return forces_of(self.plan.forces, self.items, self.weights, self.container)
 
     @property

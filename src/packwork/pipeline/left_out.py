@@ -7,9 +7,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import IntArray
+from packwork.compaction.conflicts import Conflict
 from packwork.metrics.violations import Violation, violations
 from packwork.pipeline.job import Job
 from packwork.pipeline.result import Unplaced
+from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 
 
@@ -27,10 +29,8 @@ def left_out(layout: Layout, held: Sequence[bool], gap: float) -> dict[int, str]
         What the rest has to keep, canvas units.
     """
     wrong = violations(layout.outlines, layout.container.outline, gap)
-    reasons: dict[int, str] = {}
-    for one in wrong:
-        if one.other is None:
-            reasons[one.item] = _said(one, layout, None)
+    unit = layout.container.unit
+    reasons = {one.item: reason(one, layout.items, unit) for one in wrong if one.other is None}
     areas = layout.areas
     pairs = [one for one in wrong if one.other is not None]
     while pairs := [one for one in pairs if not {one.item, one.other} & reasons.keys()]:
@@ -38,8 +38,7 @@ def left_out(layout: Layout, held: Sequence[bool], gap: float) -> dict[int, str]
         met = np.bincount(ends.ravel(), minlength=len(areas))
         worst = min(np.unique(ends).tolist(), key=lambda k: (held[k], -met[k], areas[k], k))
         met_by = next(one for one in pairs if worst in (one.item, one.other))
-        other = met_by.other if met_by.item == worst else met_by.item
-        reasons[worst] = _said(met_by, layout, other)
+        reasons[worst] = reason(met_by, layout.items, unit, worst)
     return reasons
 
 
@@ -56,10 +55,22 @@ def named(reasons: dict[int, str], layout: Layout, numbers: IntArray) -> tuple[U
     )
 
 
-def _said(one: Violation, layout: Layout, other: int | None) -> str:
-    unit = layout.container.unit
-    neighbour = "the container's edge" if other is None else layout.items[other].name
+def reason(
+    one: Conflict | Violation, items: Sequence[Item], unit: str, item: int | None = None
+) -> str:
+    """How an item and another one, or the container's edge, are in each other's way.
+
+    Parameters
+    ----------
+    item
+        Of which of the two it is said; None for the first.
+    """
+    other = one.other if item in {None, one.item} else one.item
+    if other is None:
+        neighbour, how = "the container's edge", "sticks out of the container"
+    else:
+        neighbour = items[other].name
+        how = f"overlaps {neighbour}"
     if one.overlap_cu2 > 0:
-        how = "sticks out of the container" if other is None else f"overlaps {neighbour}"
         return f"{how} by {one.overlap_cu2:.3g} {unit}²"
     return f"is {one.gap_cu:.3g} {unit} from {neighbour}, nearer than asked"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -15,8 +15,11 @@ from packwork.pipeline.advice import advice
 from packwork.pipeline.dress.colours import dressed
 from packwork.pipeline.dress.line_weights import evened
 from packwork.pipeline.dress.neighbours import same_kind_beside
+from packwork.pipeline.film.recorder import Recorder
+from packwork.pipeline.film.with_track import with_track
 from packwork.pipeline.job import Job
 from packwork.pipeline.left_out import left_out, named, without_some
+from packwork.pipeline.placed import Placed
 from packwork.pipeline.plan.resolution import resolution_faults
 from packwork.pipeline.result import (
     Filling,
@@ -24,52 +27,85 @@ from packwork.pipeline.result import (
     Unplaced,
     find_unplaced,
     manifest,
+    plain,
 )
-from packwork.pipeline.shortfalls import specks
+from packwork.pipeline.shortfalls import shortfalls, specks
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.solver import Outcome
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, kw_only=True)
 class Unmeasured:
     """A layout before it is measured, and what is known of it.
 
     Parameters
     ----------
+    job
+        Its items are those that are in the layout.
     poses
-        Of the job's items.
+        Of these.
     method
         How the first places were found.
-    limits
-        What rules ask of single items; None if nothing.
     outcome
         Of the levels.
+    numbers
+        ``(n,)`` what these items are called by, in steps and in ``unplaced``.
+    asked_for
+        The job of those that were asked for.
+    recorder
+        Recorded the way of the items.
+    limits
+        What rules ask of single items.
     unplaced
-        Items that the exact finish could not place; None if there was none.
+        Items that the exact finish could not place.
     filling
         How voids were filled, if they were.
     left_out
         Of the unplaced ones, how many are no longer among the job's items.
     pile
-        How the items lie, if they were heaped.
+        How the items lie; empty unless they were heaped.
     faults
         What else was asked and does not hold, a sentence each.
-    numbers
-        What the job's items are called by in ``unplaced``; None if by their places.
     """
 
+    job: Job
     poses: Poses
     method: str
-    limits: Limits | None
     outcome: Outcome
-    unplaced: tuple[Unplaced, ...] | None
+    numbers: IntArray
+    asked_for: Job
+    recorder: Recorder
+    limits: Limits
+    unplaced: tuple[Unplaced, ...] = ()
     filling: Filling | None = None
     left_out: int = 0
-    pile: Mapping[str, Any] | None = None
+    pile: Mapping[str, Any] = field(default_factory=dict)
     faults: tuple[str, ...] = ()
-    numbers: IntArray | None = None
+
+    @property
+    def keeps_apart(self) -> bool:
+        """Whether items of one kind were not to lie side by side."""
+        return self.limits.binds and self.job.plan.keeps_apart
+
+    @classmethod
+    def of(cls, placed: Placed) -> Unmeasured:
+        """What was placed along the common road."""
+        job, start = placed.job, placed.start
+        short = shortfalls(job, start.nominal, placed.exact) if job.plan.is_exact else ()
+        return cls(
+            job=job,
+            poses=placed.poses,
+            method=start.method,
+            outcome=placed.outcome,
+            numbers=placed.numbers,
+            asked_for=placed.asked_for,
+            recorder=placed.recorder,
+            limits=start.limits,
+            filling=placed.filling,
+            faults=short,
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,62 +117,52 @@ class _Measured:
     faults: tuple[str, ...]
 
     @classmethod
-    def of(cls, job: Job, poses: Poses, promise: Promise | None) -> _Measured:
+    def of(cls, job: Job, poses: Poses, promise: Promise) -> _Measured:
         layout = Layout(job.container, job.items, poses, job.weights)
         metrics = measure(layout)
-        faults = () if promise is None else broken(promise, layout, metrics.exact)
+        faults = broken(promise, layout, metrics.exact) if job.plan.is_exact else ()
         return cls(layout, metrics, faults)
 
 
-def measured(job: Job, found: Unmeasured) -> Run:
+def measured(found: Unmeasured) -> Run:
     """The run's result: of what cannot be certified, without it."""
-    clock, limits = job.clock, found.limits
-    is_exact = found.unplaced is not None
-    placed_items = job.items
+    job, is_exact, clock = found.job, found.job.plan.is_exact, found.job.clock
+    total, kept = len(job.items), np.arange(len(job.items))
     with clock.time("finish"):
         job = evened(job, found.poses)
     # Areas of drawings whose lines are thinner are in shares no more.
-    shares = job.plan.sizes == "shared" and limits is None and job.items is placed_items
-    promise = Promise(job.plan.gap, shares) if is_exact else None
-    total, numbers = len(job.items), found.numbers
+    is_as_weighed = job.items is found.job.items and not found.limits.binds
+    promise = Promise(job.plan.gap, job.plan.sizes == "shared" and is_as_weighed)
     with clock.time("measure"):
-        seen = _Measured.of(job, found.poses, promise)
-        known = found.unplaced or ()
-        kept: IntArray | None = None
-        if promise is not None and seen.faults:
-            names = np.arange(total) if numbers is None else numbers
+        seen, known = _Measured.of(job, found.poses, promise), found.unplaced
+        if seen.faults:
             held = [one.is_placed for one in job.asked]
             gone = left_out(seen.layout, held, promise.least_gap(job.container.side))
-            known += named(gone, seen.layout, names)
+            known += named(gone, seen.layout, found.numbers)
             job, kept = without_some(job, list(gone))
             seen = _Measured.of(job, found.poses.some(kept), promise)
         layout, metrics = seen.layout, seen.metrics
         if not is_exact:
-            known = find_unplaced(layout, limits)
+            known = find_unplaced(layout, found.limits)
         unplaced = known + job.use.missing(total)
         faults = seen.faults + found.faults + resolution_faults(job, layout) + specks(layout)
-        kinds = None if limits is None else limits.kinds
-        kinds = kinds if kinds is None or kept is None else kinds[kept]
-        beside = None if limits is None else same_kind_beside(layout, kinds)
-    certified = promise is not None and not seen.faults and len(layout.items) > 0
-    said = manifest(job, found.method, found.outcome, metrics, unplaced, beside)
-    said |= {
-        "certified": certified,
-        "promised": None if promise is None else asdict(promise),
-        "filling": None if found.filling is None else asdict(found.filling),
-    }
+        beside = same_kind_beside(layout) if found.keeps_apart else None
+    certified = is_exact and not seen.faults and len(layout.items) > 0
     words = job.use.words_found()
-    said["words"] = None if words is None else asdict(words)
-    if found.pile is not None:
+    said = manifest(job, found.method, found.outcome, metrics, unplaced, beside)
+    said |= {"certified": certified, "promised": asdict(promise) if is_exact else None}
+    said |= {"filling": plain(found.filling), "words": plain(words)}
+    if found.pile:
         said["pile"] = dict(found.pile)
     worn = dressed(job, layout)
-    notes = job.use.notes(job, layout, worn)
+    whole = replace(worn, manifest=said, notes=job.use.notes(job, layout, worn))
     return Run(
-        layout=replace(worn, manifest=said, notes=notes),
+        layout=with_track(whole, found.recorder, found.numbers[kept], found.asked_for),
         metrics=metrics,
         seconds=clock.seconds,
         ending=found.outcome.ending,
         unplaced=unplaced,
+        kept=kept,
         skipped=job.skipped,
         beside=beside,
         certified=certified,
@@ -144,7 +170,6 @@ def measured(job: Job, found: Unmeasured) -> Run:
         filling=found.filling,
         words=words,
         left_out=found.left_out + total - len(job.items),
-        kept=kept,
         pile=found.pile,
         remarks=job.use.remarks(job),
         advice=advice(job, layout, metrics.seen),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field
 from importlib import metadata
 from typing import Any
 
@@ -15,7 +15,7 @@ from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.resolution import photo_pixels
 from packwork.scene.layout import Layout
-from packwork.scene.limits import Limits
+from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.solve.level import Level
 from packwork.solve.relocate import violation_shares
 from packwork.solve.shaped import seen_posed
@@ -91,6 +91,8 @@ class Run:
         Whether all epochs were run.
     unplaced
         Items without a place of their own.
+    kept
+        Which of the items that were placed are in the layout.
     skipped
         Files that were left out, with the reason.
     beside
@@ -109,13 +111,11 @@ class Run:
     left_out
         Unplaced items that are not in the layout.
     pile
-        How the items lie, if they were heaped.
+        How the items lie; empty unless they were heaped.
     remarks
         What the run chose by itself, a sentence each.
     advice
         What is poor although all that was asked holds, and what would do, a sentence each.
-    kept
-        Which of the items that were placed are in the layout; None if all.
     """
 
     layout: Layout
@@ -123,6 +123,7 @@ class Run:
     seconds: Mapping[str, float]
     ending: Ending
     unplaced: tuple[Unplaced, ...]
+    kept: IntArray
     skipped: tuple[PackworkError, ...]
     beside: int | None = None
     certified: bool = False
@@ -130,10 +131,9 @@ class Run:
     filling: Filling | None = None
     words: WordsFound | None = None
     left_out: int = 0
-    pile: Mapping[str, Any] | None = None
+    pile: Mapping[str, Any] = field(default_factory=dict)
     remarks: tuple[str, ...] = ()
     advice: tuple[str, ...] = ()
-    kept: IntArray | None = None
 
     @property
     def is_as_asked(self) -> bool:
@@ -171,9 +171,9 @@ class Run:
             "certified": self.certified,
             "promised": self.layout.manifest["promised"] is not None,
             "broken": list(self.broken),
-            "filling": None if self.filling is None else asdict(self.filling),
-            "words": None if self.words is None else asdict(self.words),
-            "pile": None if self.pile is None else dict(self.pile),
+            "filling": plain(self.filling),
+            "words": plain(self.words),
+            "pile": dict(self.pile) or None,
             "photos": [asdict(photo) for photo in photo_pixels(self.layout)],
             "remarks": list(self.remarks),
             "advice": list(self.advice),
@@ -182,7 +182,12 @@ class Run:
         }
 
 
-def find_unplaced(layout: Layout, limits: Limits | None = None) -> tuple[Unplaced, ...]:
+def plain(one: Filling | WordsFound | None) -> dict[str, Any] | None:
+    """Plain values of a part of a result, for JSON; None if there is no such part."""
+    return None if one is None else asdict(one)
+
+
+def find_unplaced(layout: Layout, limits: Limits = NO_LIMITS) -> tuple[Unplaced, ...]:
     """Items of which most is overlapped or outside the container or their zone."""
     outlines = [item.outline for item in layout.items]
     px_per_cu = CHECK_RESOLUTION / layout.container.side

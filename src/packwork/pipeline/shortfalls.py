@@ -6,7 +6,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.compaction.objective import SIZE_TOLERANCE
-from packwork.finish.finish import Finished
+from packwork.finish.finished import Finished
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import pinned_scales

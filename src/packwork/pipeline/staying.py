@@ -7,10 +7,10 @@ import numpy as np
 from packwork.forces.bonds import Home
 from packwork.forces.forces import BondForce, Forces
 from packwork.geometry.overlay import symmetric_difference
+from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.earlier import new_items, who_is_who
 from packwork.pipeline.job import Job
 from packwork.scene.canvas import brought_over
-from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
 
@@ -39,16 +39,15 @@ def needs_no_levels(job: Job) -> bool:
     return bool(changed < SAME * now.outline.area)
 
 
-def with_homes(job: Job, forces: Forces | None, poses: Poses, container: Container) -> Forces:
-    """The forces, and one that holds each item near where it begins."""
+def with_homes(begun: Beginning) -> Forces:
+    """The forces of a beginning, and one that holds each item near where it begins."""
+    poses, forces = begun.poses, begun.forces
     homes = np.column_stack([poses.x, poses.y])
-    homes[new_items(job)] = np.nan
-    strengths = np.full(len(poses), HOME_STRENGTH)
-    held = BondForce(Home(homes), strengths)
-    if forces is None:
-        kinds = np.zeros(len(poses), dtype=np.int64)
-        return Forces([], [held], kinds, container.side)
-    return Forces(forces.fields, [*forces.bonds, held], forces.kinds, forces.side)
+    homes[new_items(begun.job)] = np.nan
+    held = BondForce(Home(homes), np.full(len(poses), HOME_STRENGTH))
+    # Held by nothing but their homes, no two items have anything to exchange.
+    kinds = forces.kinds if forces.acts else np.zeros(len(poses), dtype=np.int64)
+    return Forces(forces.fields, [*forces.bonds, held], kinds, forces.side)
 
 
 def as_it_was(job: Job, poses: Poses) -> Poses:

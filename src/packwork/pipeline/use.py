@@ -11,12 +11,11 @@ from packwork.phrasing import number_of
 from packwork.pipeline.plan.counts import items_needed
 
 if TYPE_CHECKING:
-    from packwork.finish.finish import Finished
-    from packwork.forces.forces import Forces
+    from packwork.finish.finished import Finished
+    from packwork.pipeline.beginning import Beginning
     from packwork.pipeline.job import Job
     from packwork.pipeline.result import Run, Unplaced, WordsFound
-    from packwork.pipeline.start import Beginning
-    from packwork.progress import Observer, Stop
+    from packwork.pipeline.watch import Watch
     from packwork.scene.item import Item
     from packwork.scene.layout import Layout
     from packwork.scene.note import Note
@@ -38,7 +37,7 @@ class Use(ABC):
     """
 
     @abstractmethod
-    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    def run(self, job: Job, watch: Watch) -> Run:
         """The whole run of a job that was read."""
 
     @property
@@ -68,17 +67,9 @@ class Use(ABC):
         """Jobs that differ in their starts, of which the best is gone on with."""
         return [job]
 
-    def bounded(
-        self,
-        job: Job,
-        start: Beginning,
-        exact: Finished,
-        observer: Observer | None,
-        stop: Stop,
-        forces: Forces | None,
-    ) -> Finished:
+    def bounded(self, job: Job, start: Beginning, exact: Finished, watch: Watch) -> Finished:
         """Exact poses at which sizes are as the use bounds them."""
-        del job, start, observer, stop, forces
+        del job, start, watch
         return exact
 
     def filler_scales(

@@ -123,8 +123,17 @@ class Rotation(Options):
         >>> [Rotation.parse(text).of_words.limit for text in ("free", "0,90")]
         [1.57..., None]
         """
-        is_free = self.limit is None and self.choices is None
-        return Rotation(limit=math.pi / 2) if is_free else self
+        return Rotation(limit=math.pi / 2) if self.is_free else self
+
+    @property
+    def is_free(self) -> bool:
+        """Whether items may have any angle."""
+        return self.limit is None and self.choices is None
+
+    @property
+    def farthest(self) -> float:
+        """Largest turn from upright; infinite for any."""
+        return math.inf if self.limit is None else self.limit
 
     @property
     def is_still(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -48,13 +48,13 @@ class Limits:
     zones
         Parts of the container that items stay in; an item is in one at most.
     kinds
-        ``(n,)`` items of one number are not to lie side by side; None if all may.
+        ``(n,)`` items of one number are not to lie side by side; a number each if all may.
 
     Examples
     --------
     >>> limits = Limits.free(2)
-    >>> limits.held.any(), limits.largest.tolist()
-    (np.False_, [inf, inf])
+    >>> limits.binds, limits.held.any(), limits.largest.tolist()
+    (False, np.False_, [inf, inf])
     """
 
     x: FloatArray
@@ -64,14 +64,25 @@ class Limits:
     smallest: FloatArray
     largest: FloatArray
     rigid: BoolArray
+    kinds: IntArray
     zones: tuple[Zone, ...] = ()
-    kinds: IntArray | None = None
+    binds: bool = field(default=True, init=False)
+    """Whether stages have to heed these; False of :meth:`free` ones alone."""
 
     @classmethod
     def free(cls, count: int) -> Limits:
         """Limits of items that may do anything."""
         nan, inf = np.full(count, np.nan), np.full(count, np.inf)
-        return cls(nan, nan, nan, inf, np.zeros(count), inf, np.zeros(count, dtype=bool))
+        rigid = np.zeros(count, dtype=bool)
+        limits = cls(nan, nan, nan, inf, np.zeros(count), inf, rigid, np.arange(count))
+        # What is made of them by ``replace`` binds.
+        object.__setattr__(limits, "binds", False)
+        return limits
+
+    @property
+    def keeps_kinds_apart(self) -> bool:
+        """Whether some items are not to lie side by side."""
+        return len(np.unique(self.kinds)) < len(self.kinds)
 
     @cached_property
     def held(self) -> BoolArray:
@@ -101,13 +112,15 @@ class Limits:
         return replace(self, zones=zones)
 
     def joined_by(self, count: int) -> Limits:
-        """The same with as many more items, which may do anything and are of no kind.
+        """The same with as many more items, which may do anything, each of a kind of its own.
 
         Examples
         --------
         >>> len(Limits.free(2).joined_by(3).x)
         5
         """
+        if not self.binds:
+            return Limits.free(len(self.x) + count)
         more = Limits.free(count)
         return replace(
             self,
@@ -118,5 +131,9 @@ class Limits:
             smallest=np.append(self.smallest, more.smallest),
             largest=np.append(self.largest, more.largest),
             rigid=np.append(self.rigid, more.rigid),
-            kinds=None,
+            kinds=np.append(self.kinds, self.kinds.max(initial=-1) + 1 + more.kinds),
         )
+
+
+NO_LIMITS = Limits.free(0)
+"""Limits of stages that were given none: of however many items, for none of them binds."""

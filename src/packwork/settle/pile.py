@@ -18,7 +18,7 @@ from packwork.compaction.options import HAIR
 from packwork.forces.distance import Distance
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
-from packwork.progress import Observer, Step, Stop, never
+from packwork.progress import NOBODY, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.bottom_left import bottom_left
@@ -75,7 +75,7 @@ def pile(
     forces: Forces,
     options: SettleOptions,
     basin: Outline | None = None,
-    observer: Observer | None = None,
+    observer: Observer = NOBODY,
     stop: Stop = never,
     known: IntArray | None = None,
     shuffle: float = 0.0,
@@ -165,7 +165,7 @@ class _Pile:
         poses: Poses,
         forces: Forces,
         options: SettleOptions,
-        observer: Observer | None,
+        observer: Observer,
         stop: Stop,
         shuffle: float,
     ) -> None:
@@ -358,8 +358,6 @@ class _Pile:
 
     def _tell(self, items: IntArray, places: FloatArray) -> None:
         """Tell of the items that are there: those that wait lie anywhere."""
-        if self._observer is None:
-            return
         covered = float(self._areas[items].sum() / self._container.outline.area)
         now = _moved(self._poses, items, places).some(items)
         self._told += 1

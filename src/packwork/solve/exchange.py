@@ -10,7 +10,7 @@ import shapely
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.forces.exchanges import exchanged
-from packwork.forces.forces import Forces
+from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.scene.balance import balanced, parts_of
@@ -32,10 +32,10 @@ def exchange(
     container: Outline,
     outlines: Sequence[Outline],
     poses: Poses,
-    limits: Limits | None,
+    limits: Limits,
     smallest: FloatArray,
     largest: FloatArray,
-    forces: Forces | None = None,
+    forces: Forces = NO_FORCES,
 ) -> tuple[Poses, list[int]]:
     """Poses in which items have changed places, and the indices of those that were moved.
 
@@ -46,7 +46,7 @@ def exchange(
     their kind. An item takes the place and, within its bounds, the size of hull of the one
     that lay there.
     """
-    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
+    groups = limits.groups if limits.binds else np.zeros(len(poses), dtype=np.int64)
     hulls = hull_areas(outlines)
     moved: set[int] = set()
 
@@ -57,9 +57,9 @@ def exchange(
 
     if shapely.get_num_geometries(container.region) > 1 and (smallest < largest).any():
         poses = change(_order_among_parts(container, outlines, poses, groups))
-    if forces is not None:
+    if forces.acts:
         poses = change(_order_by_forces(forces, outlines, poses, groups, smallest, largest))
-    if limits is not None and limits.kinds is not None:
+    if limits.keeps_kinds_apart:
         poses = change(_order_apart(outlines, poses, limits.kinds, groups))
     return poses, sorted(moved)
 

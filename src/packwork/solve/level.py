@@ -7,7 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
-from packwork.forces.forces import Forces
+from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
 from packwork.losses.recall import Recall
@@ -16,7 +16,7 @@ from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, chec
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
-from packwork.scene.limits import Limits
+from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.solve.ensemble import Ensemble
 from packwork.solve.zones import ZonePull
@@ -42,9 +42,9 @@ class Level:
     nominal
         ``(n,)`` scales that were asked for; all ones if None.
     limits
-        Zones that items stay in and kinds to keep apart; None for none.
+        Zones that items stay in and kinds to keep apart.
     forces
-        What pulls items about; None for nothing.
+        What pulls items about.
     """
 
     def __init__(
@@ -54,8 +54,8 @@ class Level:
         resolution: int,
         losses: Iterable[str | ImageLoss] = FUSED,
         nominal: FloatArray | None = None,
-        limits: Limits | None = None,
-        forces: Forces | None = None,
+        limits: Limits = NO_LIMITS,
+        forces: Forces = NO_FORCES,
     ) -> None:
         self._forces = forces
         self.resolution = resolution
@@ -70,9 +70,8 @@ class Level:
         self._container_area = container.outline.area
         self._recall = _recall(container, min(resolution, RECALL_PX))
         self._nominal = np.ones(len(outlines)) if nominal is None else nominal
-        zones = () if limits is None else limits.zones
-        self._kinds = None if limits is None else limits.kinds
-        self.zones = [ZonePull(zone, outlines, shape, self.px_per_cu) for zone in zones]
+        self._kinds = limits.kinds if limits.binds else np.arange(len(outlines))
+        self.zones = [ZonePull(zone, outlines, shape, self.px_per_cu) for zone in limits.zones]
         self._further: dict[str | ImageLoss, ImageLoss] = {}
         self._of_poses: dict[str, PoseLoss] = {}
         for loss in losses:
@@ -115,7 +114,7 @@ class Level:
         _add(by_pose, called, recall * self.px_per_cu / self.resolution)
         for zone in self.zones:
             zone.add(by_pose, poses, recall)
-        if self._forces is not None:
+        if self._forces.acts:
             centres = np.column_stack([poses.x, poses.y])
             cost = self._forces.cost(centres, self.areas * poses.scale**2)
             by_pose[:, :2] += force * cost.slopes

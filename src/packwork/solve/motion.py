@@ -6,7 +6,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.scene.leaning import turn_sides
-from packwork.scene.limits import Limits
+from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.solve.adam import Adam
 from packwork.solve.options import SolveOptions
@@ -26,7 +26,7 @@ class Motion:
     options
         Modes, rates and bounds.
     limits
-        Bounds of single items, in place of those of the options; None for none.
+        Bounds of single items, in place of those of the options.
     """
 
     def __init__(
@@ -35,7 +35,7 @@ class Motion:
         nominal: FloatArray,
         side: float,
         options: SolveOptions,
-        limits: Limits | None = None,
+        limits: Limits = NO_LIMITS,
     ) -> None:
         self._options = options
         self._side = side
@@ -53,7 +53,7 @@ class Motion:
         self._free: FloatArray | None = None
         self.floor: FloatArray | None = None
         """``(n,)`` logarithms of growth that shared sizes do not fall below; None for any."""
-        if limits is not None:
+        if limits.binds:
             self._bound_items(limits)
         decay = (options.momentum, options.memory)
         self._moves, self._turns = Adam((n, 2), decay), Adam((n, 1), decay)

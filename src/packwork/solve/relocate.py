@@ -13,7 +13,7 @@ import numpy as np
 from packwork.arrays import FloatArray, Image
 from packwork.fields.clearance import Clearance
 from packwork.fields.voids import largest_voids
-from packwork.scene.limits import Limits
+from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
 
@@ -64,7 +64,7 @@ def relocate_trapped(
     areas: FloatArray,
     smallest: FloatArray,
     largest: FloatArray,
-    limits: Limits | None = None,
+    limits: Limits = NO_LIMITS,
 ) -> tuple[Poses, list[Relocation]]:
     """Relocate the worst trapped items to the largest voids.
 
@@ -83,7 +83,7 @@ def relocate_trapped(
     """
     density = level.density(poses)
     shares = violation_shares(level, poses, density)
-    if limits is not None:
+    if limits.binds:
         shares = shares * limits.is_movable
     homes = {int(k): np.flatnonzero(zone.room) for zone in level.zones for k in zone.items}
     worst = np.argsort(-shares, kind="stable")[: max(1, int(MOST_AT_ONCE * len(poses)))]

@@ -16,11 +16,11 @@ from enum import Enum
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.forces.forces import Forces
+from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
-from packwork.progress import Observer, Step, Stop, never
+from packwork.progress import NOBODY, Observer, Step, Stop, never
 from packwork.scene.container import Container
-from packwork.scene.limits import Limits
+from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.solve.exchange import exchange
 from packwork.solve.level import Level
@@ -79,10 +79,10 @@ def solve(
     start: Poses,
     nominal: FloatArray,
     options: SolveOptions,
-    observer: Observer | None = None,
+    observer: Observer = NOBODY,
     stop: Stop = never,
-    limits: Limits | None = None,
-    forces: Forces | None = None,
+    limits: Limits = NO_LIMITS,
+    forces: Forces = NO_FORCES,
 ) -> Outcome:
     """Move, turn and size items so that they fill the container and do not overlap.
 
@@ -106,9 +106,9 @@ def solve(
     stop
         Asked before every epoch; True ends the run.
     limits
-        Bounds of single items, which the start has to keep; None for none.
+        Bounds of single items, which the start has to keep.
     forces
-        What pulls items about; None for nothing.
+        What pulls items about.
     """
     run = _Solve(container, outlines, start, nominal, options, observer, stop, limits, forces)
     reports = []
@@ -130,23 +130,23 @@ class _Solve:
         start: Poses,
         nominal: FloatArray,
         options: SolveOptions,
-        observer: Observer | None,
+        observer: Observer,
         stop: Stop,
-        limits: Limits | None,
-        forces: Forces | None,
+        limits: Limits,
+        forces: Forces,
     ) -> None:
         self._forces = forces
         self.motion = Motion(start, nominal, container.side, options, limits)
-        if forces is not None:
+        if forces.acts:
             self.motion.floor = np.log(start.scale / nominal) - SHRINKING
         self.pace = pace_of(options)
         self.is_stopped = False
         self._container, self._outlines, self._nominal = container, outlines, nominal
         self._areas = np.array([o.area for o in outlines])
         self._options, self._observer, self._stop = options, observer, stop
-        self._limits = None if limits is None else limits.widened(options.margin)
+        self._limits = limits.widened(options.margin)
         self._done = 0
-        self._exchanges = list(EXCHANGES if forces is None else FORCED_EXCHANGES)
+        self._exchanges = list(FORCED_EXCHANGES if forces.acts else EXCHANGES)
 
     def level(self, index: int) -> LevelReport:
         """Run one level, and relocations when they are due."""
@@ -191,7 +191,7 @@ class _Solve:
         bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
         moved, relocations = relocate_trapped(level, poses, self._areas, *bounds, self._limits)
         self.motion.replace(moved, [relocation.item for relocation in relocations])
-        if self._forces is not None and relocations:
+        if self._forces.acts and relocations:
             # The largest void may be where forces would not have them.
             self._exchange()
         return relocations
@@ -210,7 +210,7 @@ class _Solve:
     def _tell(self, level: Level, index: int) -> None:
         observer = self._observer
         is_end = self.pace.has_reached(index, 1.0)
-        if observer is None or ((self._done - 1) % observer.every and not is_end):
+        if (self._done - 1) % observer.every and not is_end:
             return
         poses = self.motion.poses
         observer.on_step(
@@ -223,10 +223,10 @@ class _Solve:
 
 
 def scale_bounds(
-    nominal: FloatArray, scale: FloatArray, options: SolveOptions, limits: Limits | None = None
+    nominal: FloatArray, scale: FloatArray, options: SolveOptions, limits: Limits = NO_LIMITS
 ) -> tuple[FloatArray, FloatArray]:
     """Smallest and largest scale of each item, ``(n,)`` each."""
-    if options.sizes == "free" and limits is not None:
+    if options.sizes == "free" and limits.binds:
         return limits.smallest, limits.largest
     if options.sizes == "free":
         return nominal / options.size_ratio, nominal * options.size_ratio

@@ -14,7 +14,7 @@ from packwork.geometry.simplify import hull_areas
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
-from packwork.scene.limits import Limits
+from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import AllowedPixels, allowed_pixels, around
 from packwork.start.choice import suitable
@@ -58,7 +58,7 @@ def first_poses(
     angles: FloatArray,
     options: StartOptions,
     rng: np.random.Generator,
-    limits: Limits | None = None,
+    limits: Limits = NO_LIMITS,
 ) -> FirstPoses:
     """Poses of items of given scales and angles, by the method asked for.
 
@@ -76,10 +76,10 @@ def first_poses(
     rng
         The only source of randomness.
     limits
-        Which items have to lie where; None if all may lie anywhere.
+        Which items have to lie where.
     """
     image, px_per_cu = container_image(container, start_resolution(len(outlines)))
-    if limits is not None:
+    if limits.binds:
         return _round_given(image, px_per_cu, outlines, scales, angles, options, rng, limits)
     x, y, method = _places(image, px_per_cu, disc_radii(outlines, scales), options, rng)
     return FirstPoses(Poses(x, y, angles, scales), method)

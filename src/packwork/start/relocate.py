@@ -11,7 +11,7 @@ from packwork.arrays import IntArray
 from packwork.fields.clearance import Clearance
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
-from packwork.scene.limits import Limits
+from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import allowed_pixels
 from packwork.start.distance_field import elbow_room
@@ -25,7 +25,7 @@ def relocated(
     poses: Poses,
     buried: IntArray,
     rng: np.random.Generator,
-    limits: Limits | None = None,
+    limits: Limits = NO_LIMITS,
 ) -> Poses:
     """Poses with buried items relocated to where the others leave most room, the largest first.
 
@@ -60,7 +60,7 @@ def relocated(
     """
     image, px_per_cu = container_image(container, start_resolution(len(outlines)))
     own = None
-    if limits is not None:
+    if limits.binds:
         buried = buried[limits.is_movable[buried]]
         of_all = allowed_pixels(limits, image, px_per_cu)
         own = [of_all[k] for k in buried]

@@ -13,7 +13,7 @@ from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.read import Material, job_of, read_room
 from packwork.pipeline.result import Run
 from packwork.pipeline.run import run
-from packwork.progress import Observer, Stop, never
+from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -44,7 +44,7 @@ def fill(
     recipe: Recipe,
     items: Sequence[Item] | None = None,
     container: Container | None = None,
-    observer: Observer | None = None,
+    observer: Observer = NOBODY,
     stop: Stop = never,
     record: bool = False,
 ) -> Run:

@@ -6,12 +6,13 @@ from collections.abc import Sequence
 from typing import final
 
 from packwork.pipeline.job import Job
+from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.cast import cast
 from packwork.pipeline.read import Material, read_named
 from packwork.pipeline.result import Run
-from packwork.pipeline.run import run_along
+from packwork.pipeline.run import along
 from packwork.pipeline.use import Use
-from packwork.progress import Observer, Stop
+from packwork.pipeline.watch import Watch
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
 from packwork.uses.room import Room
@@ -21,9 +22,9 @@ from packwork.uses.room import Room
 class Icons(Use):
     """Items whose files say all about them."""
 
-    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    def run(self, job: Job, watch: Watch) -> Run:
         """The common road."""
-        return run_along(job, observer, stop, record)
+        return measured(Unmeasured.of(along(job, watch)))
 
 
 def read_icons(recipe: Recipe, room: Room, given: Sequence[Item] | None) -> Material:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import IntArray
+from packwork.pipeline.plan.cast import kinds
 from packwork.scene.layout import Layout
 from packwork.scene.neighbours import side_by_side
 
@@ -15,9 +16,7 @@ def beside(layout: Layout) -> IntArray:
     return side_by_side(placed, layout.poses.x, layout.poses.y)
 
 
-def same_kind_beside(layout: Layout, kinds: IntArray | None) -> int | None:
-    """Number of neighbouring pairs of one kind, of kinds ``(n,)``; None if these do not matter."""
-    if kinds is None:
-        return None
-    pairs = beside(layout)
-    return int(np.count_nonzero(kinds[pairs[:, 0]] == kinds[pairs[:, 1]]))
+def same_kind_beside(layout: Layout) -> int:
+    """Number of neighbouring pairs of one kind."""
+    first, second = kinds(layout.items)[beside(layout)].T
+    return int(np.count_nonzero(first == second))

@@ -12,24 +12,21 @@ from packwork.scene.item import PhotoArt
 from packwork.scene.leaning import leanings
 
 
-def job_leanings(job: Job) -> FloatArray | None:
+def job_leanings(job: Job) -> FloatArray:
     """``(n,)`` least tilts of photos that may turn within a limit, 0 of all others.
 
-    None where nothing is held: icons balance by themselves, since no common angle makes them
-    fit better.
+    Icons are not held: they balance by themselves, since no common angle makes them fit better.
     """
-    plan = job.plan
-    rotation = plan.rotation
-    if not plan.leans or rotation.choices is not None:
-        return None
-    if rotation.is_still or rotation.limit is None or rotation.limit >= math.pi / 2:
-        return None
+    rotation = job.plan.rotation
+    found = np.zeros(len(job.items))
+    is_narrow = rotation.farthest < math.pi / 2 and not rotation.choices
+    if not (job.plan.leans and is_narrow) or rotation.is_still:
+        return found
     is_leaning = np.array(
         [
             isinstance(item.art, PhotoArt) and one.rotation is None and "angle" not in one.pin
             for item, one in zip(job.items, job.asked, strict=True)
         ]
     )
-    found = np.zeros(len(job.items))
-    found[is_leaning] = leanings(int(is_leaning.sum()), rotation.limit)
+    found[is_leaning] = leanings(int(is_leaning.sum()), rotation.farthest)
     return found

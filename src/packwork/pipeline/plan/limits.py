@@ -56,7 +56,7 @@ def item_limits(job: Job, nominal: FloatArray, scales: FloatArray, angles: Float
     smallest, largest = _scale_ranges(job, nominal, scales)
     rotations = [one.rotation or job.plan.rotation for one in job.asked]
     still = [r.is_still or "angle" in one.pin for r, one in zip(rotations, job.asked, strict=True)]
-    turns = np.array([np.inf if r.limit is None else r.limit for r in rotations])
+    turns = np.array([rotation.farthest for rotation in rotations])
     return Limits(
         x=_places(job, "x", container.width),
         y=_places(job, "y", container.height),
@@ -65,8 +65,8 @@ def item_limits(job: Job, nominal: FloatArray, scales: FloatArray, angles: Float
         smallest=smallest,
         largest=largest,
         rigid=np.array(["size" in one.pin for one in job.asked]),
+        kinds=kinds(job.items) if job.plan.keeps_apart else np.arange(len(job.items)),
         zones=tuple(region.zone for region in job.regions),
-        kinds=kinds(job.items) if job.plan.keeps_apart else None,
     )
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.errors import RecipeError
-from packwork.finish.finish import Finished
+from packwork.finish.finished import Finished
 from packwork.geometry.simplify import grown
 from packwork.phrasing import number_of
 from packwork.scene.container import Container

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from enum import IntEnum
@@ -52,12 +53,24 @@ class VoidPlan:
         Longer side of the smallest copy, canvas units.
     has_own
         Whether other items than copies of the placed ones go into voids.
+    fills
+        Whether voids are filled at all.
     """
 
     target: float | None
     most: int | None
     smallest: float
     has_own: bool
+    fills: bool = True
+
+    @property
+    def enough(self) -> float:
+        """Share of the container from which no more is put into voids."""
+        return math.inf if self.target is None else self.target
+
+
+NO_VOIDS = VoidPlan(None, None, math.inf, has_own=False, fills=False)
+"""Plan of runs that leave voids as they are."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -102,7 +115,7 @@ class Plan:
     least_dpi
         Pixels to the inch that photographs keep; None for any.
     voids
-        How voids are filled; None if they are not.
+        How voids are filled, if they are.
     palette, shades
         Colours that items take on, none to keep their own; what drawings of several do.
     has_even_lines, holes
@@ -145,7 +158,7 @@ class Plan:
     forces: tuple[str, ...]
     share: Mapping[str, float] | None
     least_dpi: float | None
-    voids: VoidPlan | None
+    voids: VoidPlan
     palette: tuple[str, ...]
     shades: Shades
     has_even_lines: bool
@@ -276,10 +289,10 @@ _FIRST: Mapping[str, Stage] = {
 """Stages that are the first to read a field; the start for all others."""
 
 
-def void_plan(recipe: Recipe, container: Container) -> VoidPlan | None:
-    """How a recipe fills voids of a container on its canvas; None if it does not."""
+def void_plan(recipe: Recipe, container: Container) -> VoidPlan:
+    """How a recipe fills voids of a container on its canvas, if it does."""
     if not recipe.fills_gaps:
-        return None
+        return NO_VOIDS
     return VoidPlan(
         recipe.target_coverage, recipe.max_items, recipe.smallest_cu(container), bool(recipe.filler)
     )

@@ -22,7 +22,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import grown
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
-from packwork.scene.limits import Limits
+from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import allowed_pixels
 from packwork.start.first_fit.kind_penalty import KindPenalty
@@ -81,7 +81,7 @@ def first_fit(
     margin_cu: float = 0.0,
     slack: float = 0.0,
     attempts: int = 1,
-    limits: Limits | None = None,
+    limits: Limits = NO_LIMITS,
     fields: Sequence[FieldForce] = (),
     kinds: IntArray | None = None,
     stop: Stop = never,
@@ -108,7 +108,7 @@ def first_fit(
     attempts
         Orders tried for each size: the item that found no place comes earlier the next time.
     limits
-        Which items have to lie where; None if all may lie anywhere.
+        Which items have to lie where.
     fields
         Forces that say where an item had better lie.
     kinds
@@ -147,7 +147,7 @@ class _Fitting:
         rng: np.random.Generator,
         margin_cu: float,
         slack: float,
-        limits: Limits | None,
+        limits: Limits,
         fields: Sequence[FieldForce],
         kinds: IntArray | None,
     ) -> None:
@@ -161,7 +161,7 @@ class _Fitting:
         self._areas = np.array([outline.area for outline in outlines]) * scales**2
         self._urgency, self._kinds = self._areas, kinds
         self._penalty: KindPenalty | None = None
-        limits = Limits.free(count) if limits is None else limits
+        limits = limits if limits.binds else Limits.free(count)
         self._is_sized = limits.held[:, 3]
         self._pins = np.column_stack([limits.x, limits.y])
         self._noise = NOISE * rng.random(image.shape)

@@ -13,11 +13,12 @@ from packwork.errors import RecipeError
 from packwork.forces.direction import Direction
 from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
+from packwork.pipeline.beginning import first_angles
 from packwork.pipeline.exact import gap_with_bulge
 from packwork.pipeline.job import Job
 from packwork.pipeline.result import Unplaced
-from packwork.pipeline.start import first_angles
-from packwork.progress import Observer, Stop
+from packwork.pipeline.watch import Watch
+from packwork.progress import NOBODY, Observer, Stop
 from packwork.readers.charts.chart import ChartRead
 from packwork.readers.charts.columns import as_number
 from packwork.scene.container import Container
@@ -54,18 +55,18 @@ it looks on a grid of 16 to their diameter. Derived, and tried."""
 DOWN = np.pi / 2
 
 
-def fill_bars(job: Job, chart: Chart, observer: Observer | None, stop: Stop) -> Grouped:
+def fill_bars(job: Job, chart: Chart, watch: Watch) -> Grouped:
     """Heaps side by side, at the largest scale at which the highest has room.
 
     Marks of one colour lie together, the most frequent one at the bottom; colours that are
     numbers ascend.
     """
-    heaps = _Heaps(job, chart, stop)
+    heaps = _Heaps(job, chart, watch.stop)
     scale = heaps.scale_of_the_largest()
     for _ in range(TRIALS):
-        poses, kept = heaps.all_at(scale, observer)
+        poses, kept = heaps.all_at(scale, watch.observer)
         over = heaps.highest(poses, kept)
-        if over <= 1 or stop():
+        if over <= 1 or watch.stop():
             break
         scale *= BACK / np.sqrt(over)
     heaped = [own[np.isin(own, kept)] for own in heaps.members]
@@ -100,7 +101,7 @@ class _Heaps:
         self.cells, self.members = chart.cells, chart.members
         self._units = unit_scales(job)
         self._outlines = job.solid_outlines
-        self._angles = first_angles(job, np.random.default_rng(job.plan.seed), None)
+        self._angles = first_angles(job, np.random.default_rng(job.plan.seed))
         self._ranks = _ranks(job, chart)
         self._measured()
         self.cells, self._snug = _snug(job, chart.read, self.cells, self.members)
@@ -131,7 +132,7 @@ class _Heaps:
         scale = min(np.sqrt(COVER * self._width * self._height / sums[largest]), widest)
         best = 0.0
         for _ in range(TRIALS):
-            poses, kept = self._heap(largest, scale, None)
+            poses, kept = self._heap(largest, scale, NOBODY)
             over = self._over(self.members[largest][kept], poses.some(kept))
             if over <= 1:
                 best = max(best, scale)
@@ -140,16 +141,14 @@ class _Heaps:
             scale = min(scale * BACK / np.sqrt(over), widest)
         return best or scale
 
-    def all_at(self, scale: float, observer: Observer | None) -> tuple[Poses, IntArray]:
+    def all_at(self, scale: float, observer: Observer) -> tuple[Poses, IntArray]:
         """Poses of all marks, and which of them have a place."""
         zero = np.zeros(len(self._units))
         poses, kept = Poses(zero, zero, self._angles, self._units * scale), np.arange(0)
         for k, own in enumerate(self.members):
             if len(own) == 0:
                 continue
-            steps = None
-            if observer is not None:
-                steps = GroupSteps(observer, poses, kept, own, np.zeros(2))
+            steps = GroupSteps(observer, poses, kept, own, np.zeros(2))
             heap, placed = self._heap(k, scale, steps)
             poses = poses.with_some(own, self._centred(k, heap, placed))
             kept = np.concatenate([kept, own[placed]])
@@ -167,7 +166,7 @@ class _Heaps:
         foot = self.cells[0].room.bounds[3]
         return (foot - min(tops, default=foot)) / self._height
 
-    def _heap(self, group: int, scale: float, steps: Observer | None) -> tuple[Poses, IntArray]:
+    def _heap(self, group: int, scale: float, steps: Observer) -> tuple[Poses, IntArray]:
         """One group at rest in its bar, and which of its marks have a place."""
         own = self.members[group]
         left, top, right, foot = self.cells[group].room.bounds

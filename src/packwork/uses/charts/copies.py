@@ -14,10 +14,11 @@ from packwork.geometry import affine
 from packwork.pipeline.exact import finished, unfinished
 from packwork.pipeline.job import Job
 from packwork.pipeline.placed import Placed
-from packwork.pipeline.placing import placed_as_asked
 from packwork.pipeline.plan.padding import check_padding
 from packwork.pipeline.result import Unplaced
-from packwork.progress import Observer, Step, Stop
+from packwork.pipeline.run import along
+from packwork.pipeline.watch import Watch
+from packwork.progress import Step, Stop
 from packwork.recipe import Effort
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -42,9 +43,7 @@ class _Filled:
     scale: float
 
 
-def fill_copies(
-    job: Job, chart: Chart, pattern: Container, observer: Observer | None, stop: Stop
-) -> Grouped:
+def fill_copies(job: Job, chart: Chart, pattern: Container, watch: Watch) -> Grouped:
     """Marks of each group in its copy, at the largest scale at which all groups fit.
 
     Each group is packed as tightly as it goes; the tightest gives the scale, and marks of all
@@ -63,11 +62,11 @@ def fill_copies(
     # The fullest first: its scale tells when others need no more effort.
     fullest = int(np.argmax([job.weights[own].sum() for _, own in pairs]))
     for offset, own in [pairs[fullest], *pairs[:fullest], *pairs[fullest + 1 :]]:
-        steps = None if observer is None else GroupSteps(observer, poses, before, own, offset)
+        steps = GroupSteps(watch.observer, poses, before, own, offset)
         part = _part(job, single, own, len(job.items) - len(before))
         found_before = known.get(_alike(part))
         if found_before is None:
-            group = _filled(part, own, offset, groups, steps, stop)
+            group = _filled(part, own, offset, groups, Watch(steps, watch.stop))
         else:
             group = _as_before(part, own, offset, found_before, steps)
         groups.append(group)
@@ -77,13 +76,12 @@ def fill_copies(
     common = min(group.scale for group in groups)
     unplaced: list[Unplaced] = []
     for group in groups:
-        at_scale, faults = _at_scale(group, common, stop)
+        at_scale, faults = _at_scale(group, common, watch.stop)
         poses = poses.with_some(group.own, moved(at_scale, group.offset))
         unplaced += faults
-    is_exact = job.plan.is_exact
     method = groups[0].placed.start.method
     all_marks = np.arange(len(job.items))
-    return Grouped(poses, all_marks, job.container, method, tuple(unplaced) if is_exact else None)
+    return Grouped(poses, all_marks, job.container, method, tuple(unplaced))
 
 
 def _filled(
@@ -91,8 +89,7 @@ def _filled(
     own: IntArray,
     offset: FloatArray,
     before: Sequence[_Filled],
-    steps: GroupSteps | None,
-    stop: Stop,
+    watch: Watch,
 ) -> _Filled:
     """One group, filled as hard as it takes to be no tighter than those before."""
     efforts: list[Effort] = [part.plan.effort]
@@ -100,11 +97,11 @@ def _filled(
         efforts = ["draft", part.plan.effort]
     for effort in efforts:
         tried = replace(part, plan=replace(part.plan, effort=effort))
-        placed = placed_as_asked(tried, steps, stop, record=False)
+        placed = along(tried, watch)
         scale = float(np.median(placed.poses.scale / unit_scales(part)))
-        is_clean = placed.exact is None or placed.exact.clean
+        is_clean = placed.exact.clean or not part.plan.is_exact
         least = ALMOST * min((one.scale for one in before), default=np.inf)
-        if stop() or (is_clean and scale >= least):
+        if watch.stop() or (is_clean and scale >= least):
             break
     return _Filled(own, offset, placed, scale)
 
@@ -116,13 +113,12 @@ def _alike(part: Job) -> tuple[tuple[int, float], ...]:
 
 
 def _as_before(
-    part: Job, own: IntArray, offset: FloatArray, before: Placed, steps: GroupSteps | None
+    part: Job, own: IntArray, offset: FloatArray, before: Placed, steps: GroupSteps
 ) -> _Filled:
     """A group whose marks lie as those of another, which are alike."""
     placed = replace(before, job=part)
-    if steps is not None:
-        nothing = (0.0, 0.0, 0.0)
-        steps.on_step(Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True))
+    nothing = (0.0, 0.0, 0.0)
+    steps.on_step(Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True))
     scale = float(np.median(placed.poses.scale / unit_scales(part)))
     return _Filled(own, offset, placed, scale)
 
@@ -160,13 +156,13 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
     poses = replace(placed.poses, scale=unit_scales(job) * common)
     exact = placed.exact
     # What was in conflict at its own size is told, and not tried again.
-    if exact is not None and exact.clean:
+    if exact.clean:
         # Smaller ones stay clear of each other, but for those that lay in others' bays.
         outlines = job.solid_outlines
         gap = job.plan.gap
         if find_conflicts(job.container, outlines, poses, gap):
             fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
-            exact = finished(fixed, placed.start, poses, None, stop)
+            exact = finished(fixed, placed.start, poses, Watch(stop=stop))
             poses = exact.poses
-    faults = [] if exact is None else unfinished(job, exact)
-    return poses, [replace(fault, index=int(group.own[fault.index])) for fault in faults]
+    faults = [replace(one, index=int(group.own[one.index])) for one in unfinished(job, exact)]
+    return poses, faults

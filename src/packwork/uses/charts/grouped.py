@@ -29,14 +29,14 @@ class Grouped:
     method
         How first places were found.
     unplaced
-        Marks without a place, numbered as in the job; None if nothing is promised.
+        Marks without a place, numbered as in the job.
     """
 
     poses: Poses
     kept: IntArray
     container: Container
     method: str
-    unplaced: tuple[Unplaced, ...] | None
+    unplaced: tuple[Unplaced, ...]
 
 
 class GroupSteps:

@@ -9,11 +9,12 @@ from typing import final
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
+from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.read import Material
 from packwork.pipeline.result import Run
-from packwork.pipeline.run import run_along
+from packwork.pipeline.run import along
 from packwork.pipeline.use import Use
-from packwork.progress import Observer, Stop
+from packwork.pipeline.watch import Watch
 from packwork.readers.charts.chart import read_chart
 from packwork.readers.charts.options import ChartOptions
 from packwork.recipe import Recipe
@@ -36,11 +37,11 @@ class Marks(Use):
 
     chart: Chart
 
-    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    def run(self, job: Job, watch: Watch) -> Run:
         """The common road, or that of groups placed one after another."""
         if self.chart.cells:
-            return run_groups(job, self.chart, observer, stop, record)
-        return run_along(job, observer, stop, record)
+            return run_groups(job, self.chart, watch)
+        return measured(Unmeasured.of(along(job, watch)))
 
     def some(self, kept: IntArray) -> Marks:
         """The same of some of the marks."""

@@ -12,16 +12,17 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.metrics.certificate import HAIR
+from packwork.pipeline.film.recorder import Recorder
 from packwork.pipeline.job import Job
 from packwork.pipeline.left_out import without_some
-from packwork.pipeline.measure import measured
+from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.plan.padding import check_padding
 from packwork.pipeline.plan.plan import void_plan
-from packwork.pipeline.progress import stretch
 from packwork.pipeline.result import Filling, Run, Unplaced
-from packwork.pipeline.run import placed_and_filled, unmeasured
-from packwork.progress import Observer, Step, Stop
+from packwork.pipeline.run import along
+from packwork.pipeline.watch import Watch
+from packwork.progress import Observer, Step
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -223,8 +224,8 @@ def followed(track: Track, found: Cropped, which: IntArray, depth: float) -> Tra
 def _recentred(numbers: FloatArray, centres: FloatArray) -> FloatArray:
     """Numbers of poses of items whose origin has moved to ``centres``, which stay in place."""
     x, y, angle, scale, stretch = np.moveaxis(numbers, -1, 0)
-    along, across = scale * np.sqrt(stretch), scale / np.sqrt(stretch)
-    right, down = along * centres[:, 0], across * centres[:, 1]
+    wide, high = scale * np.sqrt(stretch), scale / np.sqrt(stretch)
+    right, down = wide * centres[:, 0], high * centres[:, 1]
     moved = numbers.copy()
     moved[:, :, 0] = x + np.cos(angle) * right - np.sin(angle) * down
     moved[:, :, 1] = y + np.sin(angle) * right + np.cos(angle) * down
@@ -232,41 +233,42 @@ def _recentred(numbers: FloatArray, centres: FloatArray) -> FloatArray:
     return moved
 
 
-def run_cropped(job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+def run_cropped(job: Job, watch: Watch) -> Run:
     """Items that cover the container's edge, cut at its line; none is lost if that can be."""
     tries = []
     for number, share in enumerate(DEPTHS):
         room, depth = with_room(job, share)
         # The number of tries is not known beforehand.
-        turn = stretch(observer, 1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
-        solved = placed_and_filled(room, turn and Back(turn, depth), stop, record)
+        turn = watch.part(1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
+        solved = along(room, replace(turn, observer=Back(turn.observer, depth)))
         placed, given = solved.job, len(solved.asked_for.items)
         # Photos were placed at more even sizes than they may have: the rest is for the edge.
-        may_grow = solved.start.limits is None
-        spare = job.plan.size_ratio / room.plan.size_ratio if may_grow else 1.0
-        ids = np.arange(len(placed.items)) if solved.numbers is None else solved.numbers
+        is_bound = solved.start.limits.binds
+        spare = 1.0 if is_bound else job.plan.size_ratio / room.plan.size_ratio
         found = cropped(job, placed, solved.poses, solved.largest * spare, depth)
-        tries.append((lost(found, placed, ids, given), solved, found, ids, depth))
-        if not tries[-1][0] or stop() or job.plan.seconds is not None:
+        tries.append((lost(found, placed, solved.numbers, given), solved, found, depth))
+        if not tries[-1][0] or watch.stop() or job.plan.seconds is not None:
             break
-    gone, solved, found, ids, depth = min(tries, key=lambda one: len(one[0]))
-    limits, kept = solved.start.limits, found.kept
-    if limits is not None and limits.kinds is not None:
-        limits = replace(limits, kinds=limits.kinds[kept])
-    filling = refilled(solved.filling, found, len(solved.asked_for.items), ids)
+    gone, solved, found, depth = min(tries, key=lambda one: len(one[0]))
+    ids, recorder = solved.numbers, solved.recorder
     done = measured(
-        found.job,
         replace(
-            unmeasured(solved), poses=found.poses, limits=limits, unplaced=gone, filling=filling,
-            left_out=len(gone), numbers=ids[kept],
-        ),
-    )  # fmt: skip
-    if solved.recorder is None:
+            Unmeasured.of(solved),
+            job=found.job,
+            poses=found.poses,
+            unplaced=gone,
+            filling=refilled(solved.filling, found, len(solved.asked_for.items), ids),
+            left_out=len(gone),
+            numbers=ids[found.kept],
+            recorder=Recorder.off(),
+        )
+    )
+    if not recorder.is_on:
         return done
-    which = np.arange(len(kept)) if done.kept is None else done.kept
-    whole = found.whole.some(kept[which])
-    track = solved.recorder.track(whole, ids[kept[which]], done.layout.items)
-    return replace(done, layout=replace(done.layout, track=followed(track, found, which, depth)))
+    rows = found.kept[done.kept]
+    track = recorder.track(found.whole.some(rows), ids[rows], done.layout.items)
+    whole = replace(done.layout, track=followed(track, found, done.kept, depth))
+    return replace(done, layout=whole)
 
 
 def lost(found: Cropped, placed: Job, ids: IntArray, given: int) -> tuple[Unplaced, ...]:

@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from typing import final
 
 from packwork.pipeline.job import Job
+from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.read import Material
 from packwork.pipeline.result import Run
-from packwork.pipeline.run import run_along
+from packwork.pipeline.run import along
 from packwork.pipeline.use import Use
-from packwork.progress import Observer, Stop
+from packwork.pipeline.watch import Watch
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
 from packwork.uses.icons import material_of
@@ -27,10 +28,11 @@ class Photos(Use):
 
     is_cut: bool
 
-    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    def run(self, job: Job, watch: Watch) -> Run:
         """The common road, or that of photos cut at the container's line."""
-        along = run_cropped if self.is_cut else run_along
-        return along(job, observer, stop, record)
+        if self.is_cut:
+            return run_cropped(job, watch)
+        return measured(Unmeasured.of(along(job, watch)))
 
     def suits_first_fit(self, count: int, is_turning: bool) -> bool:
         """Never: photos by themselves fill more by the levels, three points."""

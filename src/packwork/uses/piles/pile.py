@@ -12,6 +12,7 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.metrics.compactness import compactness
+from packwork.pipeline.beginning import first_angles
 from packwork.pipeline.dress.line_weights import evened
 from packwork.pipeline.earlier import matched
 from packwork.pipeline.exact import gap_with_bulge
@@ -21,12 +22,11 @@ from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.sizes import given_scales
 from packwork.pipeline.result import Run, Unplaced
-from packwork.pipeline.run import with_track
-from packwork.pipeline.start import first_angles
-from packwork.progress import Observer, Stop, together
+from packwork.pipeline.watch import Watch
 from packwork.recipe.piles import PileOptions
 from packwork.scene.canvas import brought_over
 from packwork.scene.layout import Layout
+from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
 from packwork.settle.pile import Piled, pile
@@ -65,33 +65,28 @@ class Heap:
     mouths: FloatArray | None = None
 
 
-def run_pile(job: Job, heap: Heap, observer: Observer | None, stop: Stop, record: bool) -> Run:
+def run_pile(job: Job, heap: Heap, watch: Watch) -> Run:
     """Heap and measure what was read, and keep the way of those that found room."""
     _check(job)
-    recorder = Recorder() if record else None
-    observer = together(observer, recorder)
-    done = _heaped_to_fit(job, heap, observer, stop)
-    left = [one.index for one in done.unplaced]
-    ids = np.setdiff1d(np.arange(len(job.items)), left)
-    return with_track(replace(done, kept=None), recorder, ids, job)
+    recorder = watch.recorder()
+    done, piled = _heaped_to_fit(job, heap, watch.heard_by(recorder))
+    return measured(_unmeasured(heap.options, done, piled, job, recorder))
 
 
-def _heaped_to_fit(job: Job, heap: Heap, observer: Observer | None, stop: Stop) -> Run:
+def _heaped_to_fit(job: Job, heap: Heap, watch: Watch) -> tuple[Job, Piled]:
     """The heap, of sizes at which all find room unless sizes were given."""
     if not is_size_open(job, heap.options):
-        return _measured(heap.options, *_heaped(job, heap, 1.0, observer, stop))
+        return _heaped(job, heap, 1.0, watch)
     factor = fitting_factor(job)
     for _ in range(TRIES):
-        done, piled = _heaped(job, heap, factor, observer, stop)
-        if len(piled.placed) == len(job.items) or stop():
+        done, piled = _heaped(job, heap, factor, watch)
+        if len(piled.placed) == len(job.items) or watch.stop():
             break
         factor *= SMALLER
-    return _measured(heap.options, done, piled)
+    return done, piled
 
 
-def _heaped(
-    job: Job, heap: Heap, factor: float, observer: Observer | None, stop: Stop
-) -> tuple[Job, Piled]:
+def _heaped(job: Job, heap: Heap, factor: float, watch: Watch) -> tuple[Job, Piled]:
     """The heap of items whose sizes are multiplied by a factor, and the job in its container."""
     clock, asked = job.clock, heap.options
     with clock.time("start"):
@@ -110,7 +105,8 @@ def _heaped(
         options = _options(job, poses)
         is_alone = room.container.name == NO_CONTAINER
         piled = pile(
-            room.container, outlines, poses, forces, options, room.basin, observer, stop,
+            room.container, outlines, poses, forces, options, room.basin,
+            watch.observer, watch.stop,
             known=known if len(known) else None,
             source=source,
             shuffle=SHUFFLE_ALONE if is_alone else SHUFFLE,
@@ -126,7 +122,7 @@ def _check(job: Job) -> None:
         raise RecipeError("sizes", f"items of a pile keep their sizes; use fixed, not {plan.sizes}")
     for one in job.asked:
         one.refuse(("pin", "region", "scale"), "a pile")
-    if plan.voids is not None or not plan.is_exact:
+    if plan.voids.fills or not plan.is_exact:
         raise RecipeError("pile", "is settled in exact geometry, and its voids stay as they are")
 
 
@@ -144,7 +140,7 @@ def _first_poses(job: Job, asked: PileOptions, factor: float) -> tuple[Poses, In
     scales = factor * own
     middle = np.array(container.outline.bounds).reshape(2, 2).mean(axis=0)
     x, y = np.tile(middle, (len(scales), 1)).T
-    poses = Poses(x, y, first_angles(job, rng, None), scales)
+    poses = Poses(x, y, first_angles(job, rng), scales)
     if job.earlier is None:
         return poses, np.arange(0)
     then = brought_over(job.earlier.poses, job.earlier.container, container)
@@ -168,8 +164,10 @@ def _options(job: Job, poses: Poses) -> SettleOptions:
     )
 
 
-def _measured(asked: PileOptions, job: Job, heap: Piled) -> Run:
-    """The result with those items that found room."""
+def _unmeasured(
+    asked: PileOptions, job: Job, heap: Piled, asked_for: Job, recorder: Recorder
+) -> Unmeasured:
+    """Those items that found room, and what is known of the others."""
     kept = heap.placed
     total = len(job.items)
     left = np.setdiff1d(np.arange(total), kept)
@@ -189,13 +187,20 @@ def _measured(asked: PileOptions, job: Job, heap: Piled) -> Run:
     if asked.compact:
         lies["compact"] = compactness(layout.outlines)
     _tell_who_is_held_by_the_edge(layout)
-    return measured(
-        smaller,
-        Unmeasured(
-            poses, "lowest" if job.earlier is None else "layout", None,
-            Outcome(poses, Ending.DONE), unplaced, None, len(left), lies, faults, kept,
-        ),
-    )  # fmt: skip
+    return Unmeasured(
+        job=smaller,
+        poses=poses,
+        method="lowest" if job.earlier is None else "layout",
+        outcome=Outcome(poses, Ending.DONE),
+        numbers=kept,
+        asked_for=asked_for,
+        recorder=recorder,
+        limits=Limits.free(len(kept)),
+        unplaced=unplaced,
+        left_out=len(left),
+        pile=lies,
+        faults=faults,
+    )
 
 
 def _tell_who_is_held_by_the_edge(layout: Layout) -> None:

@@ -11,7 +11,7 @@ from packwork.phrasing import number_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.result import Run, Unplaced, WordsFound
 from packwork.pipeline.use import Use
-from packwork.progress import Observer, Stop
+from packwork.pipeline.watch import Watch
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.note import Note
@@ -34,9 +34,9 @@ class Pile(Use):
     heap: Heap
     content: Use
 
-    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    def run(self, job: Job, watch: Watch) -> Run:
         """Items fall and settle; there are no levels."""
-        return run_pile(job, self.heap, observer, stop, record)
+        return run_pile(job, self.heap, watch)
 
     @property
     def words(self) -> Sequence[Item]:

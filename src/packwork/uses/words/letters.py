@@ -13,12 +13,11 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
-from packwork.finish.finish import Finished
-from packwork.forces.forces import Forces
+from packwork.finish.finished import Finished
+from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.exact import finished
 from packwork.pipeline.job import Job
-from packwork.pipeline.start import Beginning
-from packwork.progress import Observer, Stop
+from packwork.pipeline.watch import Watch
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead
 from packwork.readers.words.options import WordOptions
 from packwork.recipe.refusals import length_asked
@@ -119,9 +118,7 @@ def held_down(
     exact: Finished,
     count: int,
     largest: float | None,
-    observer: Observer | None,
-    stop: Stop,
-    forces: Forces | None = None,
+    watch: Watch,
 ) -> Finished:
     """Exact poses whose largest letters are as large as they may be, all others in proportion.
 
@@ -140,7 +137,7 @@ def held_down(
     smaller = replace(exact.poses, scale=exact.poses.scale * (largest / most))
     # A smaller copy may meet others, where letters stand in each other's bays.
     fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
-    return finished(fixed, start, smaller, observer, stop, forces)
+    return finished(fixed, start, smaller, watch)
 
 
 def letters_of(poses: Poses, count: int) -> FloatArray:

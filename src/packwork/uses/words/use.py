@@ -10,19 +10,19 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
-from packwork.finish.finish import Finished
-from packwork.forces.forces import Forces
+from packwork.finish.finished import Finished
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.advice import smaller_copies
+from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.job import Job
+from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
 from packwork.pipeline.read import AUTO, Material, read_named
 from packwork.pipeline.result import Run, Unplaced, WordsFound
-from packwork.pipeline.run import run_along
-from packwork.pipeline.start import Beginning
+from packwork.pipeline.run import along
 from packwork.pipeline.use import MOST_FIRST_FIT, Use
-from packwork.progress import Observer, Stop
+from packwork.pipeline.watch import Watch
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
@@ -71,9 +71,9 @@ class Words(Use):
     options: WordOptions
     letters: Letters
 
-    def run(self, job: Job, observer: Observer | None, stop: Stop, record: bool) -> Run:
+    def run(self, job: Job, watch: Watch) -> Run:
         """The common road."""
-        return run_along(job, observer, stop, record)
+        return measured(Unmeasured.of(along(job, watch)))
 
     @property
     def words(self) -> Sequence[Item]:
@@ -103,24 +103,16 @@ class Words(Use):
         count = readable_count(self.read, smallest, sizes, attempt)
         return self._with_heaviest(job, count, sizes, smallest)
 
-    def bounded(
-        self,
-        job: Job,
-        start: Beginning,
-        exact: Finished,
-        observer: Observer | None,
-        stop: Stop,
-        forces: Forces | None,
-    ) -> Finished:
+    def bounded(self, job: Job, start: Beginning, exact: Finished, watch: Watch) -> Finished:
         """Exact poses whose letters are no larger than asked."""
         count, largest = len(self.read.items), self.letters.largest
-        return held_down(job, start, exact, count, largest, observer, stop, forces)
+        return held_down(job, start, exact, count, largest, watch)
 
     def filler_scales(
         self, job: Job, exact: Finished, smallest: FloatArray, largest: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Copies of words are to be read, and smaller than the words themselves."""
-        if job.plan.voids is not None and job.plan.voids.has_own:
+        if job.plan.voids.has_own:
             return smallest, largest
         if self.letters.smallest:
             smallest = np.full(len(smallest), self.letters.smallest / EM_PX)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,6 +18,7 @@ from packwork.pipeline.first_places import first_places, needs_levels
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.limits import check_poses, held_to, item_limits, pinned_scales
+from packwork.pipeline.plan.padding import check_padding, padded
 from packwork.pipeline.plan.sizes import given_scales
 from packwork.progress import Stop, never
 from packwork.recipe.rules import Rotation
@@ -59,10 +60,18 @@ large or too small there the levels still mend. Larger leaves them more to mend.
 
 @dataclass(frozen=True, eq=False)
 class Beginning:
-    """All that a solve begins from.
+    """All that the levels begin from, and what stays the same until all is finished.
 
     Parameters
     ----------
+    job
+        What is placed.
+    region
+        The container, drawn in by half the gap.
+    outlines
+        What items are taken for.
+    forces
+        What pulls them about, with what makes room for the heavy.
     poses
         First poses, which keep the limits.
     nominal
@@ -70,59 +79,91 @@ class Beginning:
     method
         How places were found.
     limits
-        What rules ask of single items; None if nothing.
+        What rules ask of single items.
     is_tight
         Whether nothing overlaps, and the levels have nothing to add.
     """
 
+    job: Job
+    region: Container
+    outlines: Sequence[Outline]
+    forces: Forces
     poses: Poses
     nominal: FloatArray
     method: str
-    limits: Limits | None
+    limits: Limits
     is_tight: bool = False
 
 
-def begin(
-    job: Job,
-    container: Container,
-    outlines: Sequence[Outline],
-    forces: Forces | None = None,
-    stop: Stop = never,
-) -> Beginning:
-    """First poses in the padded container, of the outlines that the solver will see.
+def begin(job: Job, stop: Stop = never) -> Beginning:
+    """First poses of the outlines that the solver will see, in the padded container.
 
     Raises
     ------
     RecipeError
-        If what is asked of single items cannot be.
+        If what is asked of single items cannot be, or the padding leaves no room.
     """
-    plan = job.plan
-    rng = np.random.default_rng(plan.seed)
-    nominal, scales = _scales(job, container, outlines)
-    earlier = None if job.earlier is None else _earlier_poses(job, job.earlier, nominal)
-    angles = first_angles(job, rng, earlier)
-    limits = item_limits(job, nominal, scales, angles) if job.is_limited else None
-    if limits is not None:
-        scales = np.clip(scales, limits.smallest, limits.largest)
-    is_tight = False
-    if earlier is not None:
-        poses, method = replace(earlier, angle=angles), "layout"
-        poses = poses if limits is None else held_to(limits, poses)
-    else:
-        first = first_places(job, container, outlines, scales, angles, limits, rng, forces, stop)
-        poses, method = first.poses, str(first.method)
-        is_tight = method == "first-fit" and not needs_levels(job, forces)
-        if forces is not None and not is_tight:
+    with job.clock.time("start"):
+        outlines = job.solid_outlines
+        check_padding(job.container, job.plan.gap, len(job.items))
+        start = _Start(job, padded(job.container, job.plan.gap), outlines)
+        return start.anew(stop) if job.earlier is None else start.from_layout(job.earlier)
+
+
+class _Start:
+    """What comes before first poses: sizes, forces and random numbers."""
+
+    def __init__(self, job: Job, region: Container, outlines: Sequence[Outline]) -> None:
+        self._job, self._region, self._outlines = job, region, outlines
+        self._forces = job.forces.buoyant(job.weights)
+        self._rng = np.random.default_rng(job.plan.seed)
+        self._nominal, self._scales = _scales(job, region, outlines)
+
+    def anew(self, stop: Stop) -> Beginning:
+        """First poses by the method asked for, or else by the one that suits."""
+        job, forces, outlines = self._job, self._forces, self._outlines
+        angles = first_angles(job, self._rng)
+        limits, scales = self._limits(angles)
+        first = first_places(
+            job, self._region, outlines, scales, angles, limits, self._rng, forces, stop
+        )
+        is_tight = first.method == "first-fit" and not needs_levels(job, forces)
+        poses = first.poses
+        if forces.acts and not is_tight:
             poses = _by_forces(outlines, poses, limits, forces)
-    if limits is not None:
-        check_poses(job, container, poses, limits)
-    if plan.stays:
-        poses = relocated(container, outlines, poses, new_items(job), rng, limits)
-    elif method in {"layout", "scatter"}:
-        poses = _unburied(container, outlines, poses, rng, limits)
-    if limits is not None and limits.kinds is not None:
-        poses = _kinds_apart(outlines, poses, limits, limits.kinds)
-    return Beginning(poses, nominal, method, limits, is_tight)
+        return self._beginning(poses, str(first.method), limits, is_tight=is_tight)
+
+    def from_layout(self, earlier: Layout) -> Beginning:
+        """The poses of an earlier layout, as near as what is asked now allows."""
+        poses = _earlier_poses(self._job, earlier, self._nominal)
+        angles = _kept_angles(self._job, poses.angle)
+        limits, _ = self._limits(angles)
+        return self._beginning(held_to(limits, replace(poses, angle=angles)), "layout", limits)
+
+    def _limits(self, angles: FloatArray) -> tuple[Limits, FloatArray]:
+        """What rules ask of single items, and first scales that keep it."""
+        limits = Limits.free(len(angles))
+        if self._job.is_limited:
+            limits = item_limits(self._job, self._nominal, self._scales, angles)
+        return limits, np.clip(self._scales, limits.smallest, limits.largest)
+
+    def _beginning(
+        self, poses: Poses, method: str, limits: Limits, *, is_tight: bool = False
+    ) -> Beginning:
+        """The beginning from these poses, once they are checked and nothing lies buried."""
+        job, outlines = self._job, self._outlines
+        check_poses(job, self._region, poses, limits)
+        if job.plan.stays:
+            buried = new_items(job)
+            poses = relocated(self._region, outlines, poses, buried, self._rng, limits)
+        elif method in {"layout", "scatter"}:
+            poses = _unburied(self._region, outlines, poses, self._rng, limits)
+        if limits.keeps_kinds_apart:
+            poses = _kinds_apart(outlines, poses, limits)
+        return Beginning(
+            job, self._region, outlines, self._forces, poses, self._nominal, method, limits,
+            is_tight,
+        )  # fmt: skip
 
 
 def _scales(
@@ -159,24 +200,36 @@ def _scales(
     return nominal, scales
 
 
-def first_angles(job: Job, rng: np.random.Generator, earlier: Poses | None) -> FloatArray:
-    """First angles, or those of an earlier layout: as the recipe, rules and pins allow."""
+def first_angles(job: Job, rng: np.random.Generator) -> FloatArray:
+    """``(n,)`` first angles, as the recipe, rules and pins allow."""
 
-    def allowed(rotation: Rotation, items: IntArray) -> FloatArray:
-        bounds = rotation.limit, rotation.choices
-        if earlier is None:
-            return start_angles(len(items), *bounds, rng)
-        return nearest_allowed(earlier.angle[items], *bounds)
+    def some(items: IntArray, rotation: Rotation) -> FloatArray:
+        return start_angles(len(items), rotation.limit, rotation.choices, rng)
 
-    angles = allowed(job.plan.rotation, np.arange(len(job.items))).copy()
+    return _angles(job, some)
+
+
+def _kept_angles(job: Job, angles: FloatArray) -> FloatArray:
+    """``(n,)`` angles of an earlier layout, as near as the recipe, rules and pins allow."""
+
+    def nearest(items: IntArray, rotation: Rotation) -> FloatArray:
+        return nearest_allowed(angles[items], rotation.limit, rotation.choices)
+
+    return _angles(job, nearest)
+
+
+def _angles(job: Job, allowed: Callable[[IntArray, Rotation], FloatArray]) -> FloatArray:
+    """Angles of all items, ``allowed`` for some of them within a rotation."""
+    rotation = job.plan.rotation
+    angles = allowed(np.arange(len(job.items)), rotation).copy()
     leans = job_leanings(job)
-    if leans is not None and job.plan.rotation.limit is not None:
+    if leans.any():
         # As far beyond its least tilt as any other turn from upright, but to its own side.
-        rest = np.abs(angles) * (1 - np.abs(leans) / job.plan.rotation.limit)
+        rest = np.abs(angles) * (1 - np.abs(leans) / rotation.farthest)
         angles = np.where(leans == 0, angles, leans + np.sign(leans) * rest)
     for k, one in enumerate(job.asked):
-        if one.rotation is not None:
-            angles[k] = allowed(one.rotation, np.array([k]))[0]
+        if one.rotation:
+            angles[k] = allowed(np.array([k]), one.rotation)[0]
         if "angle" in one.pin:
             angles[k] = np.radians(one.pin["angle"])
     return angles
@@ -200,7 +253,7 @@ def _unburied(
     outlines: Sequence[Outline],
     poses: Poses,
     rng: np.random.Generator,
-    limits: Limits | None,
+    limits: Limits,
 ) -> Poses:
     """Poses in which items that lie mostly under others or outside have been moved."""
     seen = seen_posed(outlines, poses, BURIED_RESOLUTION / container.side)
@@ -209,24 +262,20 @@ def _unburied(
     return relocated(container, outlines, poses, buried, rng, limits) if len(buried) else poses
 
 
-def _kinds_apart(
-    outlines: Sequence[Outline], poses: Poses, limits: Limits, kinds: IntArray
-) -> Poses:
+def _kinds_apart(outlines: Sequence[Outline], poses: Poses, limits: Limits) -> Poses:
     """Poses in which items of about one size have changed places, away from their kind."""
     sizes = np.log(disc_radii(outlines, poses.scale)) / np.log(ALIKE)
-    return _exchanged(poses, mixed(kinds, neighbour_pairs(poses.x, poses.y), limits.groups, sizes))
+    pairs = neighbour_pairs(poses.x, poses.y)
+    return _exchanged(poses, mixed(limits.kinds, pairs, limits.groups, sizes))
 
 
-def _by_forces(
-    outlines: Sequence[Outline], poses: Poses, limits: Limits | None, forces: Forces
-) -> Poses:
+def _by_forces(outlines: Sequence[Outline], poses: Poses, limits: Limits, forces: Forces) -> Poses:
     """Poses in which items have changed places to where forces would have them."""
     radii = disc_radii(outlines, poses.scale)
-    groups = np.zeros(len(poses), dtype=np.int64) if limits is None else limits.groups
     places = np.column_stack([poses.x, poses.y])
     areas = np.array([outline.area for outline in outlines]) * poses.scale**2
     sizes = np.log(radii) / np.log(FORCED_ALIKE)
-    return _exchanged(poses, exchanged(forces, places, areas, sizes, groups))
+    return _exchanged(poses, exchanged(forces, places, areas, sizes, limits.groups))
 
 
 def _exchanged(poses: Poses, order: IntArray) -> Poses:

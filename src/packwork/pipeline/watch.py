@@ -1,0 +1,96 @@
+"""What a run tells and asks: progress of all stages as one, from 0 to 1, and whether to stop."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import TypeVar
+
+from packwork.pipeline.film.recorder import Recorder
+from packwork.progress import NOBODY, Observer, Step, Stop, never, together
+
+LEVELS = 0.4
+"""How far a run is when its levels are done, where an exact finish follows. Tried."""
+
+BEFORE_VOIDS = 0.5
+"""How far it is when voids begin to be filled. Tried."""
+
+Tried = TypeVar("Tried")
+
+
+@dataclass(frozen=True, eq=False)
+class Watch:
+    """What a run, or a part of it, tells and asks.
+
+    Parameters
+    ----------
+    observer
+        Told of progress.
+    stop
+        Asked before every epoch; True ends the run with what it has.
+    records
+        Whether the way of the items is kept.
+
+    Examples
+    --------
+    >>> [part.observer.every for part, _ in Watch().turns("ab")] == [NOBODY.every] * 2
+    True
+    """
+
+    observer: Observer = NOBODY
+    stop: Stop = never
+    records: bool = False
+
+    def part(self, begin: float, end: float) -> Watch:
+        """Watch of one stage of several, which goes from ``begin`` to ``end``."""
+        return replace(self, observer=_Part(self.observer, begin, end))
+
+    def turns(self, tried: Sequence[Tried]) -> Iterator[tuple[Watch, Tried]]:
+        """A part for each of several that are tried in turn; the first alone after a stop."""
+        count = len(tried)
+        for number, one in enumerate(tried):
+            if number and self.stop():
+                return
+            yield self.part(number / count, (number + 1) / count), one
+
+    def recorder(self) -> Recorder:
+        """Recorder of the way that begins now; one that keeps nothing unless that is asked."""
+        return Recorder() if self.records else Recorder.off()
+
+    def heard_by(self, recorder: Recorder) -> Watch:
+        """The same, told to a recorder, too."""
+        if not recorder.is_on:
+            return self
+        return replace(self, observer=together(self.observer, recorder))
+
+
+class Onward:
+    """Passes steps of all stages on as those of one run, whose progress never goes back.
+
+    Parameters
+    ----------
+    observer
+        Told of progress.
+    """
+
+    def __init__(self, observer: Observer) -> None:
+        self.every = observer.every
+        self._observer, self._most = observer, 0.0
+
+    def on_step(self, step: Step) -> None:
+        """Tell of a step, as far on as any before it."""
+        self._most = max(self._most, min(step.progress, 1.0))
+        self._observer.on_step(replace(step, progress=self._most))
+
+
+class _Part:
+    """Passes steps of a stage on, whose progress is a part of that of another."""
+
+    def __init__(self, observer: Observer, begin: float, end: float) -> None:
+        self.every = observer.every
+        self._observer, self._begin, self._end = observer, begin, end
+
+    def on_step(self, step: Step) -> None:
+        """Tell of a step."""
+        progress = self._begin + (self._end - self._begin) * min(step.progress, 1.0)
+        self._observer.on_step(replace(step, progress=progress))
