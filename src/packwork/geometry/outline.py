@@ -58,6 +58,18 @@ class Outline:
         return cls(np.concatenate(rings), starts)
 
     @classmethod
+    def box(cls, left: float, top: float, right: float, bottom: float) -> Outline:
+        """Outline of an upright rectangle.
+
+        Examples
+        --------
+        >>> Outline.box(1, 2, 4, 4).area
+        6.0
+        """
+        corners = [[left, top], [right, top], [right, bottom], [left, bottom]]
+        return cls.from_rings([np.array(corners, dtype=np.float64)])
+
+    @classmethod
     def from_region(cls, shape: Region) -> Outline:
         """Outline of a valid Shapely polygon or multipolygon.
 

@@ -174,8 +174,7 @@ def _mark() -> str | None:
 
 
 def _square(half: float) -> Outline:
-    corners = [[-half, -half], [half, -half], [half, half], [-half, half]]
-    return Outline.from_rings([np.array(corners)])
+    return Outline.box(-half, -half, half, half)
 
 
 def _container() -> Container:

@@ -21,9 +21,7 @@ def sheet(name: str, width: float, height: float, unit: Unit = "px") -> Containe
     >>> sheet("page", 200.0, 150.0, "mm").outline.bounds
     (0.0, 0.0, 200.0, 150.0)
     """
-    corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    outline = Outline.from_rings([corners * (width, height)])
-    return Container(name, name, outline, width, height, unit)
+    return Container(name, name, Outline.box(0.0, 0.0, width, height), width, height, unit)
 
 
 def blank(width: float = 4.0, height: float = 4.0, unit: Unit = "px") -> Layout:

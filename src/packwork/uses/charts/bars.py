@@ -25,7 +25,7 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
 from packwork.settle.pile import pile
-from packwork.uses.charts.cells import SNUG_SHARE, Cell, box_outline, joined_rooms
+from packwork.uses.charts.cells import SNUG_SHARE, Cell, joined_rooms
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.colours import chart_colours
 from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
@@ -171,7 +171,7 @@ class _Heaps:
         own = self.members[group]
         left, top, right, foot = self.cells[group].room.bounds
         job = self._job
-        room = box_outline(left, foot - ABOVE * (foot - top), right, foot)
+        room = Outline.box(left, foot - ABOVE * (foot - top), right, foot)
         container = Container("bar", "none", room, job.container.width, job.container.height)
         middle = np.full(len(own), (left + right) / 2)
         begin = Poses(middle, np.full(len(own), foot), self._angles[own], self._units[own] * scale)
@@ -224,7 +224,7 @@ def _snug(
     across, distance = rows_in_hollows(most, SNUG_SHARE * cells[0].width, foot - top, gap)
     half = (distance * (across + 0.5) + gap) * (1 + SLACK) / 2
     fitted = tuple(
-        replace(cell, room=box_outline(cell.middle - half, top, cell.middle + half, foot))
+        replace(cell, room=Outline.box(cell.middle - half, top, cell.middle + half, foot))
         for cell in cells
     )
     unit = float(unit_scales(job)[0]) * job.items[0].outline.radius
@@ -249,4 +249,4 @@ def _cut(cell: Cell, outlines: list[Outline], gap: float) -> Cell | None:
         return None
     left, _, right, foot = cell.room.bounds
     top = min(outline.bounds[1] for outline in outlines) - 1.5 * gap
-    return replace(cell, room=box_outline(left, top, right, foot))
+    return replace(cell, room=Outline.box(left, top, right, foot))

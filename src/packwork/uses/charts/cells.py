@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
@@ -37,6 +36,16 @@ OVER_BARS_EM, UNDER_BARS_EM, OVER_COPY_EM = 1.6, 3.2, 2.2
 
 LINE_UNDER_EM, LINE_OVER_EM = 1.25, 0.7
 """From a bar's foot to the line its name stands on; from that of a copy to its top. By eye."""
+
+SMALLEST_EM = 0.62
+"""Letters of names over those of the legend at least; narrower rooms have every second name, or
+shorter ones. Smaller cannot be read. Chosen by eye."""
+
+FULL = 0.94
+"""Share of a cell's width that its name may take. Chosen by eye."""
+
+TURNED_EM, MOST_TURNED_EM = 0.72, 6.0
+"""Letters of names that are read upwards, and their length at most, in ems. Chosen by eye."""
 
 EMPTY_PRICE = 0.6
 """What a share of cells that stay empty counts, against the logarithm of an aspect that is off.
@@ -118,7 +127,7 @@ def bars(
     cells = []
     for k, name in enumerate(names):
         middle = 0.5 + (k - (len(names) - 1) / 2) * pitch
-        room = box_outline(middle - width / 2, top, middle + width / 2, foot)
+        room = Outline.box(middle - width / 2, top, middle + width / 2, foot)
         line = foot + (LINE_UNDER_EM + turned) * em_share
         cells.append(Cell(name, room, pitch, line, turned > 0))
     return Container("bars", "none", joined_rooms(cells), 1.0, height_share, unit), tuple(cells)
@@ -149,7 +158,7 @@ def copies(
 
     Examples
     --------
-    >>> tile = Container("tile", "tile", box_outline(0, 0, 4, 4), 4.0, 4.0)
+    >>> tile = Container("tile", "tile", Outline.box(0, 0, 4, 4), 4.0, 4.0)
     >>> whole, cells = copies(tile, ["a", "b", "c"], 1.0, 0.03)
     >>> len(whole.outline.rings), [round(cell.room.area, 9) for cell in cells]
     (3, [16.0, 16.0, 16.0])
@@ -190,15 +199,3 @@ def _columns(count: int, aspect: float, width: float, height: float, em_share: f
         return abs(math.log(high / aspect)) + EMPTY_PRICE * empty
 
     return min(range(1, count + 1), key=price)
-
-
-def box_outline(left: float, top: float, right: float, bottom: float) -> Outline:
-    """Upright rectangle.
-
-    Examples
-    --------
-    >>> box_outline(1, 2, 4, 4).area
-    6.0
-    """
-    corners = [[left, top], [right, top], [right, bottom], [left, bottom]]
-    return Outline.from_rings([np.array(corners, dtype=np.float64)])

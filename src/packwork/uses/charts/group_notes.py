@@ -9,10 +9,15 @@ import numpy as np
 from packwork.geometry.outline import Outline
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout
-from packwork.uses.charts.cells import Cell
+from packwork.uses.charts.cells import (
+    FULL,
+    MOST_TURNED_EM,
+    SMALLEST_EM,
+    TURNED_EM,
+    Cell,
+)
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.framing import Frame
-from packwork.uses.charts.group_text import FULL, MOST_TURNED_EM, SMALLEST_EM, TURNED_EM
 from packwork.uses.charts.numbers import spoken
 from packwork.uses.charts.pen import Pen, shortened
 
@@ -51,8 +56,7 @@ def write_groups(pen: Pen, chart: Chart, layout: Layout) -> None:
     foot = cells[0].room.bounds[3]
     _under_bars(pen, cells, frame, chart.read.is_ordered)
     low, high = frame.left, frame.left + frame.width
-    corners = np.array([[low, 0.0], [high, 0.0], [high, 1.0], [low, 1.0]])
-    line = Outline.from_rings([corners * [1.0, LINE_EM * frame.em]])
+    line = Outline.box(low, 0.0, high, LINE_EM * frame.em)
     pen.shape(line, 0.0, foot, 1.0, pale)
     middle = frame.left + frame.width / 2
     pen.write_about(options.by or "", middle, cells[0].line + 1.5 * frame.em, 0.85 * frame.em, pale)

@@ -12,9 +12,13 @@ from packwork.units import DEFAULT_SIDE, CanvasSize, Unit
 from packwork.uses.charts.cells import (
     BAR_SHARE,
     BARS_ASPECT,
+    FULL,
+    MOST_TURNED_EM,
     OVER_BARS_EM,
     ROWS_ASPECT,
+    SMALLEST_EM,
     SNUG_SHARE,
+    TURNED_EM,
     UNDER_BARS_EM,
     Cell,
     bar_pitch,
@@ -22,7 +26,6 @@ from packwork.uses.charts.cells import (
     copies,
 )
 from packwork.uses.charts.framing import EM_SHARE, Frame, frame_ems, framed
-from packwork.uses.charts.group_text import FULL, MOST_TURNED_EM, SMALLEST_EM, TURNED_EM
 from packwork.uses.charts.heights import is_alike_and_round, needed_height
 from packwork.uses.charts.pen import Pen
 

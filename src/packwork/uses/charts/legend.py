@@ -155,8 +155,7 @@ def _ramp(
     em, low, high = frame.em, *colours.ends
     pen.write(column, frame.left, y + 1.2 * em, em)
     step = min(frame.width, 16 * em) / STRIPES
-    corners = [[0.0, 0.0], [step, 0.0], [step, 0.8 * em], [0.0, 0.8 * em]]
-    tile = Outline.from_rings([np.array(corners)])
+    tile = Outline.box(0.0, 0.0, step, 0.8 * em)
     for k in range(STRIPES):
         fill = between(colours.ramp, k / (STRIPES - 1))
         pen.shape(tile, frame.left + k * step, y + 1.8 * em, 1.0, fill)

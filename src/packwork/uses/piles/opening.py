@@ -15,6 +15,7 @@ from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, oriented_rings, polygon_parts
 from packwork.geometry.snapping import sound
 from packwork.recipe.piles import Side
+from packwork.scene.blank import sheet
 from packwork.scene.container import Container
 from packwork.units import CanvasSize
 
@@ -116,9 +117,7 @@ def nowhere(size: CanvasSize | None, radii_cu: FloatArray) -> Container:
     if size is not None:
         width = size.width
     height = width if size is None or size.height is None else size.height
-    corners = np.array([[0.0, 0.0], [width, 0.0], [width, height], [0.0, height]])
-    unit = "px" if size is None else size.unit
-    return Container("none", "none", Outline.from_rings([corners]), width, height, unit)
+    return sheet("none", width, height, "px" if size is None else size.unit)
 
 
 def _walls(
