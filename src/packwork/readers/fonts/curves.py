@@ -1,4 +1,4 @@
-"""A glyph's curves: as points, as flattened rings, as SVG path data."""
+"""A glyph's curves: as points, as flattened rings."""
 
 from __future__ import annotations
 
@@ -20,21 +20,6 @@ def points_of(segment: Segment) -> FloatArray:
     [[1.0, 2.0]]
     """
     return np.array(segment[1], dtype=np.float64).reshape(-1, 2)
-
-
-def path_data(segments: Sequence[Segment]) -> str:
-    """SVG path data of segments, as exact as they are.
-
-    Examples
-    --------
-    >>> path_data([("M", (0.0, -1.5)), ("L", (2.0, 1.0)), ("Z", ())])
-    'M0-1.5L2 1Z'
-    """
-    pieces = []
-    for letter, values in segments:
-        numbers = " ".join(f"{value:.10g}" for value in values)
-        pieces.append(letter + numbers.replace(" -", "-"))
-    return "".join(pieces)
 
 
 def rings_of(segments: Sequence[Segment], tolerance: float) -> list[FloatArray]:

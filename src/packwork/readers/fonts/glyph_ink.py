@@ -63,11 +63,47 @@ class ClearInk:
     clearance: float
 
 
+@dataclass(frozen=True, eq=False)
+class GlyphPath:
+    """A glyph's curves about its origin, in its font's units.
+
+    Parameters
+    ----------
+    template
+        SVG path data with a place for each number.
+    points
+        ``(n, 2)`` curves' ends and handles: the numbers.
+    """
+
+    template: str
+    points: FloatArray
+
+    @property
+    def box(self) -> FloatArray:
+        """``(2, 2)`` least and largest x, y; ``(0, 2)`` of a space."""
+        if len(self.points) == 0:
+            return self.points
+        return np.array([self.points.min(axis=0), self.points.max(axis=0)])
+
+    def moved(self, x: float, y: float, size: float) -> str:
+        """SVG path data with the origin at a place, as exact as the numbers are.
+
+        Examples
+        --------
+        >>> GlyphPath("M{:.10g} {:.10g}Z", np.array([[1.0, -2.5]])).moved(1.0, 1.0, 2.0)
+        'M3-4Z'
+        """
+        moved = self.points * size + (x, y)
+        return self.template.format(*moved.ravel().tolist()).replace(" -", "-")
+
+
 @remembered_by_font(MOST_KNOWN)
-def glyph_ends(face: Typeface, number: int) -> tuple[float, ...]:
-    """Leftmost and rightmost of a glyph's curves and handles; none of a space."""
-    across = [x for _, values in face.drawing(number) for x in values[::2]]
-    return (min(across), max(across)) if across else ()
+def glyph_path(face: Typeface, number: int) -> GlyphPath:
+    """Curves of a glyph."""
+    segments = face.drawing(number)
+    values = [value for _, numbers in segments for value in numbers]
+    pieces = [letter + " ".join(["{:.10g}"] * len(numbers)) for letter, numbers in segments]
+    return GlyphPath("".join(pieces), np.array(values, dtype=np.float64).reshape(-1, 2))
 
 
 @remembered_by_font(MOST_KNOWN)
@@ -108,28 +144,39 @@ def clear_ink(glyphs: Sequence[GlyphInk], places: FloatArray, sizes: FloatArray)
     sizes
         ``(n,)`` factors on their own units.
     """
-    maps = [
-        similarity(place[0], place[1], 0.0, size) for place, size in zip(places, sizes, strict=True)
-    ]
-    drawn = list(zip(glyphs, maps, strict=True))
-    inks = [glyph.ink.mapped(one) for glyph, one in drawn if glyph.ink is not None]
-    filled = [glyph.silhouette.mapped(one) for glyph, one in drawn if glyph.silhouette is not None]
-    if not inks:
+    drawn = [k for k, glyph in enumerate(glyphs) if glyph.ink is not None]
+    if not drawn:
         return None
-    least = min(float(glyph.clearance * size) for glyph, size in zip(glyphs, sizes, strict=True))
-    boxes = np.array([ink.bounds for ink in inks])
+    # Sizes and places as one column for each corner of a box, one row for each glyph.
+    size, place = sizes[drawn, None], places[drawn]
+    inks = [glyph.ink for glyph in glyphs if glyph.ink is not None]
+    boxes = np.array([ink.bounds for ink in inks]) * size + np.tile(place, 2)
     extent = float(np.max(boxes[:, 2:].max(axis=0) - boxes[:, :2].min(axis=0)))
-    for k, ink in enumerate(inks):
-        low = np.maximum(boxes[k + 1 :, :2], boxes[k, :2])
-        high = np.minimum(boxes[k + 1 :, 2:], boxes[k, 2:])
-        # Boxes that are farther apart than that tell no more.
-        for other in np.flatnonzero((low - high < least).all(axis=1)) + k + 1:
-            if _is_within(boxes[k], boxes[other]) or _is_within(boxes[other], boxes[k]):
-                return None
-            least = min(least, distance(ink.region, inks[other].region))
+    least = float(np.min([glyphs[k].clearance for k in drawn] * sizes[drawn]))
+    low = np.maximum(boxes[:, None, :2], boxes[None, :, :2])
+    high = np.minimum(boxes[:, None, 2:], boxes[None, :, 2:])
+    # Boxes that are farther apart than that tell no more.
+    near = (low - high < least).all(axis=2)
+    for k, other in np.argwhere(np.triu(near, 1)):
+        if _is_within(boxes[k], boxes[other]) or _is_within(boxes[other], boxes[k]):
+            return None
+        one, two = (
+            inks[m].mapped(similarity(place[m, 0], place[m, 1], 0.0, size[m, 0])).region
+            for m in (k, other)
+        )
+        least = min(least, distance(one, two))
     if not least > 0:
         return None
-    return ClearInk(Outline(*joined(inks)), Outline(*joined(filled)), least / extent)
+    filled = [glyph.silhouette for glyph in glyphs if glyph.silhouette is not None]
+    return ClearInk(_moved(inks, place, size), _moved(filled, place, size), least / extent)
+
+
+def _moved(outlines: Sequence[Outline], places: FloatArray, sizes: FloatArray) -> Outline:
+    """Outlines at their places, as one."""
+    points, starts = joined(outlines)
+    counts = [len(outline.points) for outline in outlines]
+    moved = points * np.repeat(sizes, counts, axis=0) + np.repeat(places, counts, axis=0)
+    return Outline(moved, starts)
 
 
 def _is_within(inner: FloatArray, outer: FloatArray) -> bool:

@@ -13,9 +13,15 @@ from shapely import affinity
 from packwork.arrays import FloatArray
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.polygon import Region, united
-from packwork.readers.fonts.curves import path_data, points_of
-from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Segment, Shaped, Typeface
-from packwork.readers.fonts.glyph_ink import ClearInk, GlyphInk, clear_ink, glyph_ends, glyph_ink
+from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Shaped, Typeface
+from packwork.readers.fonts.glyph_ink import (
+    ClearInk,
+    GlyphInk,
+    GlyphPath,
+    clear_ink,
+    glyph_ink,
+    glyph_path,
+)
 from packwork.readers.fonts.itemise import Piece, visual_order
 from packwork.readers.fonts.pictures import Picture, picture_of
 from packwork.readers.unfit import UnfitError
@@ -90,15 +96,14 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
     units = lines[0][0].face.units
     shaped = [_line(line, k, units, language) for k, line in enumerate(lines)]
     runs = [run for line in shaped for run in line]
-    contours = [contour for run in runs for contour in run.contours()]
     pictures = tuple(picture for run in runs for picture in run.pictures())
-    corners = [points_of(s) for contour in contours for s in contour if s[0] != "Z"]
-    if not corners and not pictures:
+    boxes = [box for run in runs for box in run.boxes()]
+    if not boxes and not pictures:
         raise UnfitError("has no outlines to draw it with")
-    tolerance = _tolerance(corners)
+    tolerance = _tolerance(boxes)
     return Lettering(
         _covered(runs, pictures, tolerance, 1 / units),
-        "".join(path_data(contour) for contour in contours),
+        "".join(run.path() for run in runs),
         units,
         tuple(run.text for run in runs),
         pictures,
@@ -151,9 +156,17 @@ class _Run:
             piece.is_leftward,
         )
 
-    def contours(self) -> list[list[Segment]]:
-        drawn = ((self.setting.face.drawing(glyph.number), glyph) for glyph in self.glyphs)
-        return [self._moved(segments, glyph) for segments, glyph in drawn if segments]
+    def path(self) -> str:
+        """SVG path data of all glyphs."""
+        return "".join(path.moved(*place, self.scale) for path, place in self._curves())
+
+    def boxes(self) -> list[FloatArray]:
+        """``(2, 2)`` least and largest x, y of the curves of each glyph that has some."""
+        return [path.box * self.scale + place for path, place in self._curves() if len(path.points)]
+
+    def _curves(self) -> list[tuple[GlyphPath, tuple[float, float]]]:
+        face = self.setting.face
+        return [(glyph_path(face, glyph.number), self._place(glyph)) for glyph in self.glyphs]
 
     def inks(self, tolerance: float) -> list[GlyphInk]:
         """What the glyphs cover about their origins, curves followed to ``tolerance``."""
@@ -175,21 +188,12 @@ class _Run:
 
     def ends(self) -> list[float]:
         """Leftmost and rightmost of what is drawn."""
-        face = self.setting.face
-        drawn = [(self._place(glyph)[0], glyph_ends(face, glyph.number)) for glyph in self.glyphs]
-        across = [x + end * self.scale for x, ends in drawn for end in ends]
+        across = [float(end) for box in self.boxes() for end in box[:, 0]]
         across += [end for picture in self.pictures() for end in picture.region.bounds[::2]]
         return [min(across), max(across)] if across else []
 
     def _place(self, glyph: Glyph) -> tuple[float, float]:
         return self.x + glyph.x * self.scale, self.y + glyph.y * self.scale
-
-    def _moved(self, segments: Sequence[Segment], glyph: Glyph) -> list[Segment]:
-        steps = self._place(glyph)
-        return [
-            (letter, tuple(value * self.scale + steps[k % 2] for k, value in enumerate(values)))
-            for letter, values in segments
-        ]
 
 
 def _line(line: Sequence[Setting], number: int, units: float, language: str) -> list[_Run]:
@@ -206,10 +210,10 @@ def _line(line: Sequence[Setting], number: int, units: float, language: str) -> 
     return [replace(runs[k], x=runs[k].x - middle) for k in range(len(line))]
 
 
-def _tolerance(corners: Sequence[FloatArray]) -> float:
+def _tolerance(boxes: Sequence[FloatArray]) -> float:
     """How far chords may lie from curves, in the word's units."""
-    if not corners:
+    if not boxes:
         return 1.0
-    extent = float(np.ptp(np.concatenate(corners), axis=0).max())
+    extent = float(np.ptp(np.concatenate(boxes), axis=0).max())
     # Words of about one length share their glyphs.
     return _MARGIN * FLATTENING * 2.0 ** math.floor(math.log2(max(extent, 1e-9)))
