@@ -11,6 +11,7 @@ from types import FrameType
 import typer
 
 from packwork.cli.terminal import say
+from packwork.cli.watch import INTERRUPTED as INTERRUPTED
 from packwork.cli.watch import WATCH
 from packwork.errors import PackworkError, RecipeError
 
@@ -18,8 +19,6 @@ SHORTFALL = 1
 """Ran and wrote what it has, but something asked was not met."""
 BAD_INPUT = 2
 """One clear line was printed; nothing was written."""
-INTERRUPTED = 130
-"""Ctrl-C; the best so far was written."""
 
 
 @contextmanager

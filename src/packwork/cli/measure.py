@@ -38,7 +38,6 @@ def measure(
     """
     with clear_errors():
         from packwork import writers
-        from packwork.cli.existing import check_new
         from packwork.cli.show import Paper, certificate_line, metrics_table, printing
         from packwork.inputs import check_no_input
         from packwork.metrics.certificate import Promise, broken, taken_on_trust
@@ -50,7 +49,7 @@ def measure(
             writers.check_writable(path)
         writers.check_outputs(outputs)
         if no_clobber:
-            check_new(outputs)
+            writers.check_new(outputs)
         found = read_written(layout)
         for path in outputs:
             check_no_input(path)

@@ -18,7 +18,6 @@ from rich.console import Console
 
 from packwork import pipeline, uses, writers
 from packwork.cli.cutting import check_bleed, check_room, with_room
-from packwork.cli.existing import check_new
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.notices import NOTICES, joined
 from packwork.cli.saliency import write_saliency
@@ -116,7 +115,7 @@ class Outputs:
         writers.check_outputs(self.every)
         check_bleed(self.files, self.options.bleed)
         if self.keeps_files:
-            check_new(self.every)
+            writers.check_new(self.every)
 
     def saved_recipe(self, recipe: Recipe) -> list[tuple[Path, bytes]]:
         """The recipe's file, if one is asked for, and its bytes."""

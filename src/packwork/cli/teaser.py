@@ -80,14 +80,13 @@ def make_teaser(
 ) -> int:
     """Fill all letters, write each, and all of them beside each other; the exit code."""
     from packwork import writers
-    from packwork.cli.existing import check_new
     from packwork.cli.failure import INTERRUPTED
     from packwork.cli.running import Outputs, run_and_write
 
     sheet = folder / "teaser.png"
     writers.check_output(sheet)
     if no_clobber:
-        check_new([sheet])
+        writers.check_new([sheet])
     options = writers.write_options(pixels=2 * LETTER_PX, background=PAPER)
     pictures, codes = [], [0]
     for place, letter in enumerate(letters, start=1):

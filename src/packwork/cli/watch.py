@@ -23,6 +23,7 @@ what would have ended cleanly. Chosen."""
 STOPPING = "stopping with the best so far; Ctrl-C again ends it at once"
 ENDED = "stopped; nothing was written"
 INTERRUPTED = 130
+"""Exit code after Ctrl-C."""
 
 
 class Watch:

@@ -10,7 +10,13 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from packwork.writers.atomic import check_outputs, check_writable, write_all, write_atomic
+    from packwork.writers.atomic import (
+        check_new,
+        check_outputs,
+        check_writable,
+        write_all,
+        write_atomic,
+    )
     from packwork.writers.diagnose import diagnose_png
     from packwork.writers.film.film import Film, tell_nobody
     from packwork.writers.film.registry import FILMS, check_film, film_bytes
@@ -37,6 +43,7 @@ __all__ = [
     "SvgOptions",
     "WriteOptions",
     "check_film",
+    "check_new",
     "check_output",
     "check_outputs",
     "check_picture_size",
@@ -58,7 +65,7 @@ __all__ = [
 ]
 
 _HOMES = {
-    "atomic": ("check_outputs", "check_writable", "write_all", "write_atomic"),
+    "atomic": ("check_new", "check_outputs", "check_writable", "write_all", "write_atomic"),
     "diagnose": ("diagnose_png",),
     "film.film": ("Film", "tell_nobody"),
     "film.registry": ("FILMS", "check_film", "film_bytes"),

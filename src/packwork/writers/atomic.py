@@ -93,6 +93,19 @@ def check_outputs(paths: Iterable[str | Path]) -> None:
                 )
 
 
+def check_new(paths: Iterable[str | Path]) -> None:
+    """Refuse files that are there already.
+
+    Raises
+    ------
+    WriteError
+        About the first.
+    """
+    for path in paths:
+        if os.path.lexists(path):
+            raise WriteError(path, "is there already, and --no-clobber keeps it; use another name")
+
+
 def write_atomic(path: str | Path, data: bytes) -> None:
     """Put ``data`` under ``path`` in one step; an older file stays whole until then.
 

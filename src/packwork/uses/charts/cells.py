@@ -87,7 +87,7 @@ class Cell:
 
         Examples
         --------
-        >>> tile = Outline.from_rings([np.array([[0.0, 0], [1, 0], [1, 1]])])
+        >>> tile = Outline.box(0, 0, 1, 1)
         >>> cell = Cell("a", tile, 1.0, 2.0).mapped(affine.similarity(1.0, 0.0, 0.0, 3.0))
         >>> cell.middle, cell.width, cell.line
         (2.5, 3.0, 6.0)
