@@ -97,10 +97,9 @@ def test_every_field_of_a_recipe_is_offered_or_said_not_to_be() -> None:
 )
 def test_help_and_default_of_an_option_are_its_fields(name: str, option: Offered) -> None:
     (flag,) = (p for p in COMMANDS[name].params if p.name == option.name)
-    verb, is_open = VERBS[VERB_OF[name]], flag.multiple or option.name in FilmOptions.model_fields
-    default = verb.typed_defaults.get(option.name, default_of(VERB_OF[name], option))
+    is_open = flag.multiple or option.name in FilmOptions.model_fields
     assert flag.help == option.help
-    assert flag.default == (None if is_open else default)
+    assert flag.default == (None if is_open else default_of(VERB_OF[name], option))
     assert flag.rich_help_panel == option.offer.group
 
 

@@ -24,7 +24,7 @@ FILES: tuple[type[Options], ...] = (LayoutFiles, SideFiles, Terminal)
 
 def of_verb(verb: Verbs) -> Callable[[Command], Command]:
     """Replace a command's ``**asked`` by all options of a verb, with the verb's defaults."""
-    chosen = {**VERBS[verb].defaults, **VERBS[verb].typed_defaults}
+    chosen = VERBS[verb].defaults
     before, after = offered(LayoutFiles), (*offered(SideFiles), *offered(Terminal))
     listed = (*before, *options_of(verb), *after)
     return _with(

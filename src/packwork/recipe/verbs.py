@@ -33,13 +33,10 @@ class Verb:
         Options that only this verb has; None if it has none.
     defaults
         Defaults that differ from the recipe's.
-    typed_defaults
-        Further ones of the command line; in Python the recipe's hold.
     """
 
     part: type[Options] | None = None
     defaults: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
-    typed_defaults: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
 
 
 VERBS: Mapping[Verbs, Verb] = MappingProxyType(
@@ -57,9 +54,8 @@ VERBS: Mapping[Verbs, Verb] = MappingProxyType(
         Verbs.CHART: Verb(
             part=ChartOptions,
             defaults={"sizes": "shared", "rotate": "none", "padding": "0.2%"},
-            typed_defaults={"start": "distance-field"},
         ),
-        Verbs.PILE: Verb(part=PileOptions, typed_defaults={"start": "distance-field"}),
+        Verbs.PILE: Verb(part=PileOptions),
     }
 )
 """All verbs, in the order of :class:`packwork.offers.Verbs`."""
@@ -114,7 +110,7 @@ def with_defaults(verb: Verbs, options: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def default_of(verb: Verbs, option: Offered) -> Any:
-    """Default of an option for a verb, in Python and, but for ``typed_defaults``, when typed.
+    """Default of an option for a verb, in Python and on command lines.
 
     Examples
     --------
