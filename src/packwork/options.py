@@ -15,12 +15,15 @@ import sys
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from functools import cache
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Literal, TypeAlias
 
 from pydantic import BaseModel, ConfigDict
 from pydantic.fields import FieldInfo
 
 from packwork.offers import NOT_OFFERED, Offer, Offered
+
+SizeMode: TypeAlias = Literal["free", "shared", "fixed"]
+"""How sizes of items may vary: each within bounds, all by one factor, or not at all."""
 
 
 class Options(BaseModel):

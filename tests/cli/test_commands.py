@@ -272,8 +272,10 @@ def test_the_teaser_lays_letters_beside_each_other(
 
     few = {"count": 3, "seed": 1}
     letters = (
-        teaser.Letter("I-plain", ["star"], {**few, "epochs": 20, "levels": "32"}),
-        teaser.Letter("L-heaped", ["circle"], {**few, "size": "8%", "open": "top"}, is_pile=True),
+        teaser.TeaserLetter("I-plain", ["star"], {**few, "epochs": 20, "levels": "32"}),
+        teaser.TeaserLetter(
+            "L-heaped", ["circle"], {**few, "size": "8%", "open": "top"}, is_pile=True
+        ),
     )
     monkeypatch.setattr(teaser.make_teaser, "__defaults__", (letters,))
     assert packwork("demo teaser --folder pictures -q").exit_code == 0

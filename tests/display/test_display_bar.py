@@ -12,7 +12,7 @@ import pytest
 
 from packwork.api.verbs import fill
 from packwork.display import bar as bars
-from packwork.display.bar import Bar, NotebookBar, TerminalBar, Together, bar_for, shown
+from packwork.display.bar import Bar, BarAndObserver, NotebookBar, TerminalBar, bar_for, shown
 from packwork.progress import Step
 from packwork.scene.pose import Poses
 
@@ -124,7 +124,7 @@ def test_an_observer_is_told_as_often_as_without_a_bar(page: Page) -> None:
 
 def test_together_is_a_bar() -> None:
     diary = Diary()
-    both: Bar = Together(TerminalBar(), diary)
+    both: Bar = BarAndObserver(TerminalBar(), diary)
     with shown(both):
         both.on_step(HALF_WAY)
     assert diary.steps == [HALF_WAY]

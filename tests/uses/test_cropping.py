@@ -19,7 +19,7 @@ from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
 from packwork.uses.photos import rim
 from packwork.writers.png import png_bytes
-from packwork.writers.svg import Sheet, SvgOptions, svg_document
+from packwork.writers.svg import SheetSize, SvgOptions, svg_document
 from scenes import square
 
 QUICK = {"effort": "draft", "levels": "50", "edge": "crop"}
@@ -57,7 +57,7 @@ def test_photos_cover_the_edge_and_stay_inside(run: Run, album: Path) -> None:
 def test_files_hold_what_is_seen(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "a.svg"
     size = (run.layout.container.width, run.layout.container.height)
-    sheet = Sheet(size=size, unit="px", view=size)
+    sheet = SheetSize(size=size, unit="px", view=size)
     path.write_text(svg_document(run.layout, SvgOptions(), sheet), encoding="utf-8")
     read = read_written(str(path))
     assert np.allclose(np.sort(read.areas), np.sort(run.layout.areas), rtol=1e-4)

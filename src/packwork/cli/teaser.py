@@ -22,7 +22,7 @@ SPACE_PX = 30
 
 
 @dataclass(frozen=True)
-class Letter:
+class TeaserLetter:
     """A letter and how it is filled.
 
     Parameters
@@ -54,29 +54,33 @@ class Letter:
 AXIS: Mapping[str, object] = {"count": 60, "start": "medial-axis", "size_ratio": 1.7, "seed": 1}
 
 LETTERS = (
-    Letter("S-plain", GARDEN, {"count": 70, "seed": 1}),
-    Letter("I-padded", SWEETS, {"count": 40, "padding": "6", "seed": 1}),
-    Letter("G-axis", ("icons",), {**AXIS, "count": 20, "size_ratio": 1.2}),
-    Letter("G-filled", ("icons",), AXIS),
-    Letter(
+    TeaserLetter("S-plain", GARDEN, {"count": 70, "seed": 1}),
+    TeaserLetter("I-padded", SWEETS, {"count": 40, "padding": "6", "seed": 1}),
+    TeaserLetter("G-axis", ("icons",), {**AXIS, "count": 20, "size_ratio": 1.2}),
+    TeaserLetter("G-filled", ("icons",), AXIS),
+    TeaserLetter(
         "R-blocks",
         ("square",),
         {"count": 84, "stretch": 2, "size_ratio": 1.5, "padding": "2", "palette": ",".join(EARTH)},
     ),
-    Letter("A-forced", ("icons",), {"count": 50, "force": "down", "seed": 1}),
-    Letter(
+    TeaserLetter("A-forced", ("icons",), {"count": 50, "force": "down", "seed": 1}),
+    TeaserLetter(
         "P-poured",
         ("apple", "pear", "donut", "cherry"),
         {"count": 70, "size": "8%", "open": "top", "emit": "top", "release": 1, "seed": 1},
         is_pile=True,
     ),
-    Letter("H-heaped", ("icons",), {"count": 105, "size": "8%", "open": "top"}, is_pile=True),
+    TeaserLetter("H-heaped", ("icons",), {"count": 105, "size": "8%", "open": "top"}, is_pile=True),
 )
 """What the word is made of, from left to right."""
 
 
 def make_teaser(
-    folder: Path, quiet: bool, letters: Sequence[Letter] = LETTERS, *, no_clobber: bool = False
+    folder: Path,
+    quiet: bool,
+    letters: Sequence[TeaserLetter] = LETTERS,
+    *,
+    no_clobber: bool = False,
 ) -> int:
     """Fill all letters, write each, and all of them beside each other; the exit code."""
     from packwork import writers

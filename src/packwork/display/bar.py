@@ -60,7 +60,7 @@ def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None
     if not (notebook if wanted is None else wanted):
         return None
     bar: Bar = NotebookBar() if notebook else TerminalBar()
-    return bar if observer is None else Together(bar, observer)
+    return bar if observer is None else BarAndObserver(bar, observer)
 
 
 def in_notebook() -> bool:
@@ -76,7 +76,7 @@ def in_notebook() -> bool:
     return getattr(shell, "kernel", None) is not None
 
 
-class Together:
+class BarAndObserver:
     """A bar and an observer of one's own, each told as often as it wants to be."""
 
     def __init__(self, bar: Bar, observer: Observer) -> None:

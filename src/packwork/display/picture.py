@@ -9,7 +9,7 @@ from packwork.scene.item import Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.writers.marks import shape_key
 from packwork.writers.png import png_bytes
-from packwork.writers.svg import Sheet, SvgOptions, svg_document
+from packwork.writers.svg import SheetSize, SvgOptions, svg_document
 
 SIDE_PX = 600
 """Longer side of the picture on screen, whatever the canvas: fits a notebook's column.
@@ -45,7 +45,7 @@ def notebook_svg(layout: Layout) -> str | None:
         return None
     container = layout.container
     width, height = _size(layout)
-    sheet = Sheet(size=(width, height), unit="px", view=(container.width, container.height))
+    sheet = SheetSize(size=(width, height), unit="px", view=(container.width, container.height))
     text = svg_document(layout, SvgOptions(background=PAPER), sheet)
     digest = hashlib.sha256(text.encode()).hexdigest()[:10]
     return _SHAPE_ID.sub(rf'\1\2-{digest}"', text)

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal, TypeAlias
+from typing import Annotated
 
 from pydantic import Field
 
 from packwork.compaction.options import HOPELESS, MoveOptions
-
-SizeMode: TypeAlias = Literal["free", "shared", "fixed"]
+from packwork.options import SizeMode
 
 HOPELESS_AT_HOME = 1.0
 """The same as :data:`HOPELESS` of items that are to stay near where they were: they may grow

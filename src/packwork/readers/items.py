@@ -62,7 +62,7 @@ class _Asked:
         return _READERS[Path(file).suffix.lower()](file, self.holes, self.reading)
 
 
-_Found: TypeAlias = tuple[list[Read], list[ReadError]]
+_ReadAndRefused: TypeAlias = tuple[list[Read], list[ReadError]]
 
 
 def read_items(
@@ -112,7 +112,7 @@ def read_items(
     return ItemsRead(tuple(agreed(reads)), tuple(skipped))
 
 
-def _read_source(source: str, asked: _Asked) -> _Found:
+def _read_source(source: str, asked: _Asked) -> _ReadAndRefused:
     if not source.strip():
         # As a path it would stand for the whole of the working folder.
         raise ReadError("items", "an empty name stands for nothing; give a file or a folder")
@@ -134,12 +134,12 @@ def _read_source(source: str, asked: _Asked) -> _Found:
     return _built_in(source, asked)
 
 
-def _built_in(name: str, asked: _Asked) -> _Found:
+def _built_in(name: str, asked: _Asked) -> _ReadAndRefused:
     names = icon_names() if name == ALL_ICONS else [name]
     return [Read(builtin_item(n, asked.holes)) for n in names], []
 
 
-def _read_many(source: str, listing: Listing, asked: _Asked) -> _Found:
+def _read_many(source: str, listing: Listing, asked: _Asked) -> _ReadAndRefused:
     if asked.strict and listing.unread:
         raise listing.unread[0]
     reads: list[Read] = []

@@ -18,6 +18,7 @@ from pydantic import (
 
 from packwork.errors import RecipeError
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
+from packwork.options import SizeMode
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
@@ -42,7 +43,6 @@ from packwork.solve.options import (
     MAX_STRETCH,
     ImageLossFunction,
     OutlineChoice,
-    SizeMode,
 )
 from packwork.start.options import LAYOUTS
 from packwork.units import CanvasSize, canvas_size, known_canvas, parse_share

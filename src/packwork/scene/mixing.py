@@ -51,7 +51,7 @@ def mixed(
     order = np.arange(len(labels))
     if len(pairs) == 0:
         return order
-    table = _Table(labels, pairs)
+    table = _ConflictTable(labels, pairs)
     for _ in range(SWEEPS):
         before = table.conflicts
         for place in np.flatnonzero(table.same > 0):
@@ -70,7 +70,7 @@ def mixed(
     return order
 
 
-class _Table:
+class _ConflictTable:
     """Label of each place, and how many of its neighbours have the same."""
 
     def __init__(self, labels: IntArray, pairs: IntArray) -> None:

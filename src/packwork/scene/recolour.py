@@ -40,7 +40,7 @@ _SAME = 24
 """How far channels of pixels of one colour may lie apart: what JPEG-born pictures and soft
 edges leave. Larger takes shaded drawings for flat ones. Chosen."""
 
-_Channels: TypeAlias = tuple[int, ...]
+_Rgb: TypeAlias = tuple[int, ...]
 
 
 def has_one_colour(art: Art) -> bool:
@@ -131,7 +131,7 @@ def tree_of(markup: str) -> ET.Element:
 
 def _channels(
     element: ET.Element, inherited: Mapping[str, str], named: Mapping[str | None, ET.Element]
-) -> Iterator[_Channels]:
+) -> Iterator[_Rgb]:
     """Colours of all that an element draws; what ``use`` shows inherits from there."""
     own = {
         paint: value if (value := element.get(paint, "inherit")) != "inherit" else inherited[paint]

@@ -7,9 +7,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 
 from pydantic import Field
 
-from packwork.options import Options
-
-SizeMode: TypeAlias = Literal["free", "shared", "fixed"]
+from packwork.options import Options, SizeMode
 
 OutlineChoice: TypeAlias = Literal["exact", "hull"]
 

@@ -23,7 +23,13 @@ from packwork.readers.words.items import EM_PX
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
 from packwork.wordcloud.colours import ColourFunction, colormap_color_func
-from packwork.wordcloud.setting import Placed, Setting, container_of_mask, placed, relative_steps
+from packwork.wordcloud.setting import (
+    CloudSettings,
+    PlacedWords,
+    container_of_mask,
+    placed,
+    relative_steps,
+)
 from packwork.wordcloud.words import STOPWORDS, frequencies, tokens, with_bigrams
 from packwork.writers.atomic import write_atomic
 from packwork.writers.options import TextChoice
@@ -280,8 +286,8 @@ class WordCloud:
         least = shares[-1][1]
         return [(word, share * least**turn) for turn in range(rounds) for word, share in shares]
 
-    def _setting(self, largest: float | None) -> Setting:
-        return Setting(
+    def _setting(self, largest: float | None) -> CloudSettings:
+        return CloudSettings(
             container_of_mask(self.mask, self.width, self.height),
             open_fonts([self.font_path]),
             float(self.margin),
@@ -319,7 +325,7 @@ class WordCloud:
             font_path=self.font_path,
         )
 
-    def _say_what_is_missing(self, asked: int, found: Placed) -> None:
+    def _say_what_is_missing(self, asked: int, found: PlacedWords) -> None:
         for word, reason in found.undrawn.items():
             _LOG.warning("not placed: %s: %s", word[:40], reason)
         small = asked - len(found.entries) - len(found.undrawn)

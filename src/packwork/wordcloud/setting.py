@@ -38,7 +38,7 @@ NO_ROOM = (
 
 
 @dataclass(frozen=True, eq=False)
-class Setting:
+class CloudSettings:
     """What a cloud asks of the engine.
 
     Parameters
@@ -68,7 +68,7 @@ class Setting:
 
 
 @dataclass(frozen=True, eq=False)
-class Placed:
+class PlacedWords:
     """A layout of words.
 
     Parameters
@@ -130,7 +130,9 @@ def relative_steps(frequencies: Sequence[float], scaling: float) -> FloatArray:
     return np.concatenate([[1.0], scaling * known[1:] / known[:-1] + 1 - scaling])
 
 
-def placed(asked: Setting, words: Sequence[str], steps: FloatArray, random: Random) -> Placed:
+def placed(
+    asked: CloudSettings, words: Sequence[str], steps: FloatArray, random: Random
+) -> PlacedWords:
     """Words one after another, each as large as it finds a place, none larger than one before.
 
     Raises
@@ -141,7 +143,7 @@ def placed(asked: Setting, words: Sequence[str], steps: FloatArray, random: Rand
     Examples
     --------
     >>> from packwork.readers.fonts.fallback import open_fonts
-    >>> asked = Setting(container_of_mask(None, 90, 60), open_fonts([]), 1.0, 1.0, 4.0, 20.0)
+    >>> asked = CloudSettings(container_of_mask(None, 90, 60), open_fonts([]), 1.0, 1.0, 4.0, 20.0)
     >>> found = placed(asked, ["ox", "bee"], np.array([1.0, 0.5]), Random(0))
     >>> (found.layout.poses.scale * EM_PX).tolist()
     [20.0, 10.0]
@@ -165,7 +167,7 @@ def placed(asked: Setting, words: Sequence[str], steps: FloatArray, random: Rand
     entries = tuple(read.numbers[k] for k in found.placed)
     items = tuple(read.items[number] for number in entries)
     areas = np.array([item.outline.area for item in items]) * found.poses.scale**2
-    return Placed(Layout(asked.container, items, found.poses, areas), entries, read.undrawn)
+    return PlacedWords(Layout(asked.container, items, found.poses, areas), entries, read.undrawn)
 
 
 class _Reading:
@@ -182,7 +184,7 @@ class _Reading:
     """
 
     def __init__(
-        self, asked: Setting, words: Sequence[str], steps: FloatArray, random: Random
+        self, asked: CloudSettings, words: Sequence[str], steps: FloatArray, random: Random
     ) -> None:
         self.items, self.undrawn = dict[int, Item](), dict[str, str]()
         self.numbers: list[int] = []
@@ -221,7 +223,7 @@ class _Reading:
         return self.items.get(number)
 
 
-def _largest_size(asked: Setting, read: _Reading) -> float:
+def _largest_size(asked: CloudSettings, read: _Reading) -> float:
     """Size of the largest word, pixels: the harmonic mean of those of the first two alone."""
     found = graded_fit(
         asked.container,

@@ -197,7 +197,7 @@ def _text(file: str) -> str:
     return Path(file).read_text(encoding="utf-8")
 
 
-class _Picture(io.BytesIO):
+class _PictureFile(io.BytesIO):
     """A file that comes to be as a whole, once all of it is there; until then an older stays."""
 
     def __init__(self, path: str) -> None:
@@ -214,7 +214,7 @@ class _Picture(io.BytesIO):
 
 def _opened(file: str) -> IO[bytes]:
     try:
-        return sys.stdout.buffer if file == STANDARD else _Picture(file)
+        return sys.stdout.buffer if file == STANDARD else _PictureFile(file)
     except WriteError as error:
         raise OSError(str(error)) from None
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from typing import TypeAlias
 
-from packwork.scene.colour import hex_colour
+from packwork.scene.colour import Colour, hex_colour
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.live_text import FontFile, LiveText, TextRun
 from packwork.scene.notation import attributes, matrix_text, xml_text
@@ -14,8 +13,6 @@ from packwork.scene.recolour import one_colour
 from packwork.writers.embedding import Embedded, embedded_fonts
 
 _LOG = logging.getLogger("packwork")
-
-Channels: TypeAlias = tuple[int, int, int, int]
 
 _SETTING = "font-kerning:normal;white-space:pre"
 """As HarfBuzz sets words. Not ``geometricPrecision``: with it Chromium places small letters
@@ -42,7 +39,7 @@ class LiveWords:
     def __init__(self, items: Sequence[Item]) -> None:
         texts = {id(item.text): item.text for item in items if item.text is not None}
         self._fonts, refused = embedded_fonts(texts.values())
-        self._colours: dict[int, Channels | None] = {}
+        self._colours: dict[int, Colour | None] = {}
         for name, reason in refused.items():
             _LOG.warning("%s: its words are outlines, not text: %s", name, reason)
 
@@ -87,7 +84,7 @@ class LiveWords:
         }
         return f"<g{attributes(head)}>{text_element(text, self._fonts)}</g>"
 
-    def _colour(self, art: VectorArt) -> Channels | None:
+    def _colour(self, art: VectorArt) -> Colour | None:
         """Its one colour, read once; arts live as long as the items."""
         if id(art) not in self._colours:
             self._colours[id(art)] = one_colour(art)

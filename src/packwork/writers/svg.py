@@ -104,7 +104,7 @@ class SvgOptions:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Sheet:
+class SheetSize:
     """What a document's root states.
 
     Parameters
@@ -122,11 +122,11 @@ class Sheet:
     view: tuple[float, float]
 
 
-def sheet_of(frame: Frame) -> Sheet:
+def sheet_of(frame: Frame) -> SheetSize:
     """Sheet of whole pixels both ways: renderers fit a fractional canvas with soft edges."""
     size = (float(frame.columns), float(frame.rows))
     view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)
-    return Sheet(size=size, unit="px", view=view)
+    return SheetSize(size=size, unit="px", view=view)
 
 
 def svg_text(layout: Layout, options: SvgOptions | None = None) -> str:
@@ -152,17 +152,17 @@ def svg_text(layout: Layout, options: SvgOptions | None = None) -> str:
     """
     container = layout.container
     size = (container.width, container.height)
-    sheet = Sheet(size=size, unit=container.unit, view=size)
+    sheet = SheetSize(size=size, unit=container.unit, view=size)
     return svg_document(layout, options or SvgOptions(), sheet)
 
 
-def svg_document(layout: Layout, options: SvgOptions, sheet: Sheet) -> str:
+def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
     """SVG document of a layout on a sheet of any size: :func:`svg_text`, and rendering.
 
     Examples
     --------
     >>> from packwork.scene.blank import blank
-    >>> sheet = Sheet(size=(64.0, 64.0), unit="mm", view=(4.0, 4.0))
+    >>> sheet = SheetSize(size=(64.0, 64.0), unit="mm", view=(4.0, 4.0))
     >>> text = svg_document(blank(), SvgOptions(), sheet)
     >>> 'width="64mm" height="64mm" viewBox="0 0 4 4"' in text
     True
@@ -229,7 +229,7 @@ def _shape(name: str, item: Item, scale: float, step: float) -> _Shape:
     )
 
 
-def _root(sheet: Sheet) -> str:
+def _root(sheet: SheetSize) -> str:
     width, height, view_width, view_height = (f"{v:.12g}" for v in (*sheet.size, *sheet.view))
     unit = "" if sheet.unit == "px" else sheet.unit
     return (

@@ -13,7 +13,7 @@ from packwork.readers.gate.css.colours import plain_colour
 from packwork.readers.gate.css.declarations import parse_declarations
 from packwork.readers.gate.css.nodes import Node
 from packwork.readers.gate.css.selectors import UnknownSelectorError, parse_selector
-from packwork.readers.gate.css.sheets import Sheet
+from packwork.readers.gate.css.sheets import StyleSheet
 from packwork.readers.gate.door import admit
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
@@ -75,11 +75,11 @@ def test_unknown_selectors_are_left_out(selector):
 @settings(deadline=None, max_examples=100)
 @given(st.text("ab.#:[]()>+~*,='\"- \\{};@!/", max_size=40))
 def test_any_sheet_is_read(text):
-    Sheet(100.0, 100.0).add(text)
+    StyleSheet(100.0, 100.0).add(text)
 
 
 def test_media_queries_are_asked_of_the_page():
-    sheet = Sheet(100.0, 50.0)
+    sheet = StyleSheet(100.0, 50.0)
     sheet.add(
         "@media print{a{fill:red}}@media screen and (min-width:90px){b{fill:red}}"
         "@media (max-width:90px){c{fill:red}}@media not print{d{fill:red}}"

@@ -10,9 +10,9 @@ import numpy as np
 from packwork.errors import RecipeError
 from packwork.fields.thickness import Thickness, thickness
 from packwork.metrics.shape import REACH
+from packwork.options import SizeMode
 from packwork.raster.membership import centre_count
 from packwork.scene.container import Container
-from packwork.solve.options import SizeMode
 
 RESOLUTION = 300
 """Pixels on the container's longer side where its thickness is told. Larger is slower and

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 from enum import IntEnum
 from typing import Any
 
+from packwork.options import SizeMode
 from packwork.readers.regions import Holes
 from packwork.recipe import APART, EPOCHS, Effort, Recipe
 from packwork.recipe.levels import parse_levels
@@ -17,7 +18,7 @@ from packwork.recipe.refusals import validated
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container
 from packwork.scene.palette import palette_colours
-from packwork.solve.options import ImageLossFunction, OutlineChoice, SizeMode, SolveOptions
+from packwork.solve.options import ImageLossFunction, OutlineChoice, SolveOptions
 from packwork.start.options import StartOptions
 
 PHOTO_TRIALS = 6

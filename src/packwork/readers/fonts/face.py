@@ -220,7 +220,7 @@ class Typeface:
             If it has more than ``MAX_SEGMENTS``, reaches too far, or is damaged.
         """
         if number not in self._known:
-            pen = _Pen()
+            pen = _CurveRecorder()
             self._font.draw_glyph(number, _draw_functions(), pen)
             check_drawing(pen.count, np.array(pen.values), self.units)
             self._check_whole(number, pen.segments)
@@ -252,7 +252,7 @@ def bundled_typeface() -> Typeface:
     return Typeface(Path(bundled_file()).read_bytes(), "Inter Display")
 
 
-class _Pen:
+class _CurveRecorder:
     """Collects a glyph's segments, y turned down, and counts those that are too many.
 
     HarfBuzz calls it, and would pass over an exception; nothing may be raised here.

@@ -23,7 +23,7 @@ from packwork.readers.fonts.glyph_ink import (
     glyph_path,
 )
 from packwork.readers.fonts.itemise import Piece, visual_order
-from packwork.readers.fonts.pictures import Picture, picture_of
+from packwork.readers.fonts.pictures import GlyphPicture, picture_of
 from packwork.readers.unfit import UnfitError
 from packwork.scene.live_text import TextRun
 
@@ -57,7 +57,7 @@ class Lettering:
     path: str
     units: float
     runs: tuple[TextRun, ...] = ()
-    pictures: tuple[Picture, ...] = ()
+    pictures: tuple[GlyphPicture, ...] = ()
 
     @cached_property
     def region(self) -> Region:
@@ -111,7 +111,7 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
 
 
 def _covered(
-    runs: Sequence[_Run], pictures: Sequence[Picture], tolerance: float, size: float
+    runs: Sequence[_FontRun], pictures: Sequence[GlyphPicture], tolerance: float, size: float
 ) -> ClearInk | Region:
     """What glyphs and pictures cover, ``size`` times as large; curves followed to ``tolerance``."""
     glyphs = [glyph for run in runs for glyph in run.inks(tolerance)]
@@ -129,7 +129,7 @@ def _covered(
 
 
 @dataclass(frozen=True)
-class _Run:
+class _FontRun:
     """A shaped piece at its place, in the word's units."""
 
     setting: Setting
@@ -177,7 +177,7 @@ class _Run:
         """Origins of the glyphs."""
         return [self._place(glyph) for glyph in self.glyphs]
 
-    def pictures(self) -> list[Picture]:
+    def pictures(self) -> list[GlyphPicture]:
         face = self.setting.face
         found = []
         for glyph in self.glyphs:
@@ -196,14 +196,14 @@ class _Run:
         return self.x + glyph.x * self.scale, self.y + glyph.y * self.scale
 
 
-def _line(line: Sequence[Setting], number: int, units: float, language: str) -> list[_Run]:
+def _line(line: Sequence[Setting], number: int, units: float, language: str) -> list[_FontRun]:
     """Runs of one line beside each other, centred about 0 by what they draw."""
-    runs: dict[int, _Run] = {}
+    runs: dict[int, _FontRun] = {}
     x = 0.0
     for k in visual_order([setting.piece for setting in line]):
         piece, face = line[k].piece, line[k].face
         shaped = face.shaped(piece.text, is_leftward=piece.is_leftward, language=language)
-        runs[k] = _Run(line[k], shaped, x, number * LINE_STEP * units, units / face.units)
+        runs[k] = _FontRun(line[k], shaped, x, number * LINE_STEP * units, units / face.units)
         x += shaped.advance * runs[k].scale
     ends = [end for run in runs.values() for end in run.ends()]
     middle = float(np.round((min(ends) + max(ends)) / 2)) if ends else 0.0

@@ -21,7 +21,7 @@ MOST_PX = 1_024
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
+class GlyphPicture:
     """A glyph's picture in place.
 
     Parameters
@@ -43,7 +43,7 @@ class Picture:
     region: Region
 
 
-def picture_of(bitmap: Bitmap, origin: tuple[float, float], scale: float) -> Picture:
+def picture_of(bitmap: Bitmap, origin: tuple[float, float], scale: float) -> GlyphPicture:
     """Picture of a glyph whose origin stands there, its font's units that large.
 
     Raises
@@ -66,7 +66,7 @@ def picture_of(bitmap: Bitmap, origin: tuple[float, float], scale: float) -> Pic
     left, top = origin[0] + scale * bitmap.left, origin[1] + scale * bitmap.top
     matrix = np.array([[wide, 0.0, left], [0.0, high, top]])
     outline = outline_of_cut_out(pixels)
-    return Picture(
+    return GlyphPicture(
         _png(pixels),
         width,
         height,

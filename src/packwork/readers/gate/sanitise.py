@@ -20,7 +20,7 @@ from packwork.readers.gate.css.cascade import Cascade
 from packwork.readers.gate.css.colours import plain_colour
 from packwork.readers.gate.css.declarations import parse_declarations
 from packwork.readers.gate.css.nodes import Node
-from packwork.readers.gate.css.sheets import Sheet
+from packwork.readers.gate.css.sheets import StyleSheet
 from packwork.readers.gate.css.variables import filled_in, with_variables
 from packwork.readers.gate.embedded import one_picture
 from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
@@ -98,7 +98,7 @@ def sanitised(raw: ET.Element) -> ET.Element:
     if name != "svg" or space not in _SVG_SPACES:
         raise UnfitError(f"is XML but not SVG: its root is <{name[:40]}>, not <svg>")
     sheet = _sheet(raw)
-    found = _Found(Cascade(sheet.rules), lost=set(sheet.lost))
+    found = _Context(Cascade(sheet.rules), lost=set(sheet.lost))
     root = _admitted(Node(raw, None, None), found, {})
     if found.lost:
         named = sorted(found.lost)
@@ -134,14 +134,14 @@ def _calls_known(text: str) -> bool:
 
 
 @dataclass
-class _Found:
+class _Context:
     """The style rules, and what was met on the way and left out."""
 
     cascade: Cascade
     lost: set[str] = field(default_factory=set)
 
 
-def _sheet(raw: ET.Element) -> Sheet:
+def _sheet(raw: ET.Element) -> StyleSheet:
     """Rules of all style elements, wherever they stand."""
     attributes = {key: value for key, value in raw.attrib.items() if key in {"width", "height"}}
     view = parse_numbers(raw.get("viewBox"))
@@ -152,7 +152,7 @@ def _sheet(raw: ET.Element) -> Sheet:
         else None
         for name in ("width", "height")
     )
-    sheet = Sheet(width or sides[0], height or sides[1])
+    sheet = StyleSheet(width or sides[0], height or sides[1])
     for element in raw.iter():
         if _split(element.tag) in {(space, "style") for space in _SVG_SPACES}:
             # A style for paper or the like is none for the screen.
@@ -164,7 +164,7 @@ def _sheet(raw: ET.Element) -> Sheet:
     return sheet
 
 
-def _admitted(node: Node, found: _Found, outer: Mapping[str, str]) -> ET.Element:
+def _admitted(node: Node, found: _Context, outer: Mapping[str, str]) -> ET.Element:
     """Copy with only known elements and attributes, its styles attributes."""
     spend(_ELEMENT_NS, "has too many elements")
     raw, name = node.element, node.tag
@@ -180,7 +180,7 @@ def _admitted(node: Node, found: _Found, outer: Mapping[str, str]) -> ET.Element
     return element
 
 
-def _children(node: Node, found: _Found) -> list[Node]:
+def _children(node: Node, found: _Context) -> list[Node]:
     """Children that are known elements; of a ``switch`` only the one that shows."""
     known = [child for child in node.children if _is_known(child.element) and child.tag != "style"]
     if node.tag == "switch":
@@ -206,7 +206,7 @@ def _is_english(child: Node) -> bool:
     return languages is None or "en" in languages.lower()
 
 
-def _plain_attributes(node: Node, found: _Found, variables: Mapping[str, str]) -> dict[str, str]:
+def _plain_attributes(node: Node, found: _Context, variables: Mapping[str, str]) -> dict[str, str]:
     """Attributes that may stay."""
     plain: dict[str, str] = {}
     for key, value in node.element.attrib.items():
@@ -227,7 +227,7 @@ def _plain_attributes(node: Node, found: _Found, variables: Mapping[str, str]) -
     return plain
 
 
-def _reference(node: Node, value: str, found: _Found) -> str | None:
+def _reference(node: Node, value: str, found: _Context) -> str | None:
     """What an element refers to, if that lies inside the file."""
     target = value.strip()
     if node.tag == "image":
@@ -243,7 +243,7 @@ def _reference(node: Node, value: str, found: _Found) -> str | None:
 
 
 def _apply(
-    element: ET.Element, declared: Mapping[str, str], variables: Mapping[str, str], found: _Found
+    element: ET.Element, declared: Mapping[str, str], variables: Mapping[str, str], found: _Context
 ) -> None:
     """Set every declared property as an attribute."""
     kept: list[str] = []

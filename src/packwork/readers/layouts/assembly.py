@@ -25,7 +25,7 @@ MAX_POINTS = 400_000
 
 
 @dataclass(frozen=True, eq=False)
-class Found:
+class FoundItem:
     """One item as a file shows it.
 
     Parameters
@@ -44,7 +44,7 @@ class Found:
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Sheet:
+class FoundSheet:
     """What a file says of all its items together.
 
     Parameters
@@ -69,12 +69,12 @@ class Sheet:
     container: Region
     gap: float | None = None
     areas_in_shares: bool = False
-    items: Sequence[Found] = field(default_factory=tuple)
+    items: Sequence[FoundItem] = field(default_factory=tuple)
     on_trust: tuple[str, ...] = ()
     walls: tuple[FloatArray, ...] | None = None
 
 
-def assembled(sheet: Sheet, name: str) -> Layout:
+def assembled(sheet: FoundSheet, name: str) -> Layout:
     """Layout of what was found: every item a plain shape, unturned and as large as it is.
 
     Raises
@@ -85,8 +85,8 @@ def assembled(sheet: Sheet, name: str) -> Layout:
     Examples
     --------
     >>> import shapely
-    >>> tile = Found("tile", shapely.box(1, 1, 3, 2))
-    >>> sheet = Sheet(
+    >>> tile = FoundItem("tile", shapely.box(1, 1, 3, 2))
+    >>> sheet = FoundSheet(
     ...     width=9, height=9, unit="mm", container=shapely.box(0, 0, 9, 9), gap=0.5, items=[tile]
     ... )
     >>> layout = assembled(sheet, "sheet.dxf")

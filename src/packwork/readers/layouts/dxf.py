@@ -8,8 +8,14 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry.polygon import Region, region
-from packwork.readers.layouts.assembly import Found, Sheet, assembled, sound_gap, sound_weight
-from packwork.readers.layouts.dxf_tags import Line, header_of, lines_of, tags_of
+from packwork.readers.layouts.assembly import (
+    FoundItem,
+    FoundSheet,
+    assembled,
+    sound_gap,
+    sound_weight,
+)
+from packwork.readers.layouts.dxf_tags import DxfLine, header_of, lines_of, tags_of
 from packwork.readers.unfit import UnfitError
 from packwork.scene.layout import Layout
 from packwork.units import Unit
@@ -42,7 +48,7 @@ def layout_of_dxf(text: str, name: str) -> Layout:
     if not walls:
         raise UnfitError(f"has no line on the layer container, {_NOT_OURS}")
     gap, shares = _promise(walls[0])
-    sheet = Sheet(
+    sheet = FoundSheet(
         width=width,
         height=height,
         unit=unit,
@@ -55,7 +61,7 @@ def layout_of_dxf(text: str, name: str) -> Layout:
     return assembled(sheet, name)
 
 
-def _outlines(lines: Sequence[Line]) -> list[Line]:
+def _outlines(lines: Sequence[DxfLine]) -> list[DxfLine]:
     """Lines of items: on a layer of their own where others are cut."""
     layers = {line.layer for line in lines}
     return [line for line in lines if line.layer == ("items" if "items" in layers else "cut")]
@@ -69,27 +75,27 @@ def _canvas(header: dict[str, list[float]]) -> tuple[float, float, Unit]:
     return sizes[0], sizes[1], unit
 
 
-def _promise(wall: Line) -> tuple[float | None, bool]:
+def _promise(wall: DxfLine) -> tuple[float | None, bool]:
     """Gap and whether areas are in shares, as the container's first line says them."""
     if not wall.said:
         return None, False
     return sound_gap(wall.said[0]), wall.said[1:] == ("1",)
 
 
-def _items(lines: Sequence[Line], height: float) -> list[Found]:
+def _items(lines: Sequence[DxfLine], height: float) -> list[FoundItem]:
     """Items in the order of their numbers; each may have several lines."""
-    together: dict[str, list[Line]] = {}
+    together: dict[str, list[DxfLine]] = {}
     for line in lines:
         if len(line.said) != 3:
             raise UnfitError(f"has lines on the layer cut that name no item, {_NOT_OURS}")
         together.setdefault(line.said[0], []).append(line)
     return [
-        Found(own[0].said[1], _region(own, height), sound_weight(own[0].said[2]))
+        FoundItem(own[0].said[1], _region(own, height), sound_weight(own[0].said[2]))
         for own in together.values()
     ]
 
 
-def _region(lines: Sequence[Line], height: float) -> Region:
+def _region(lines: Sequence[DxfLine], height: float) -> Region:
     return region([_down(line.points, height) for line in lines], "evenodd")
 
 

@@ -30,7 +30,7 @@ _FIRST_EXTENDED = 1_000
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class DxfLine:
     """One polyline.
 
     Parameters
@@ -94,7 +94,7 @@ def header_of(tags: Sequence[Tag]) -> dict[str, list[float]]:
     return found
 
 
-def lines_of(tags: Sequence[Tag]) -> list[Line]:
+def lines_of(tags: Sequence[Tag]) -> list[DxfLine]:
     """Polylines of the drawing, in their order.
 
     Raises
@@ -128,7 +128,7 @@ def _entities(tags: Sequence[Tag]) -> Iterator[tuple[str, list[Tag]]]:
         kind, own = value, []
 
 
-def _line(tags: Sequence[Tag]) -> Line:
+def _line(tags: Sequence[Tag]) -> DxfLine:
     plain = [tag for tag in tags if tag[0] < _FIRST_EXTENDED]
     layer = next((value for code, value in plain if code == 8), "")
     flags = next((_number(value) for code, value in plain if code == 70), 0.0)
@@ -139,7 +139,7 @@ def _line(tags: Sequence[Tag]) -> Line:
         raise UnfitError(f"holds a line on layer {layer[:20]!r} that is open or bent")
     if len(x) != len(y) or len(x) < (3 if is_closed else 2) or not _is_sane([*x, *y]):
         raise UnfitError(f"holds a line on layer {layer[:20]!r} whose points are none")
-    return Line(layer, np.column_stack([x, y]), tuple(_said(tags)), is_closed)
+    return DxfLine(layer, np.column_stack([x, y]), tuple(_said(tags)), is_closed)
 
 
 def _said(tags: Sequence[Tag]) -> Iterator[str]:

@@ -121,17 +121,17 @@ def _refuse_constant(name: str) -> NoReturn:
     raise UnfitError(f"holds the number {name}; give finite numbers")
 
 
-_Placed = tuple[str, Mapping[str, Any]]
+_Posed = tuple[str, Mapping[str, Any]]
 
 
-def _split_by_role(collection: Mapping[str, Any]) -> tuple[list[_Placed], list[_Placed]]:
+def _split_by_role(collection: Mapping[str, Any]) -> tuple[list[_Posed], list[_Posed]]:
     """Container features and item features, each with words that say where it stands."""
     features = collection.get("features")
     if not isinstance(features, list):
         raise UnfitError("features: must be a list")
     if len(features) > MAX_ITEMS + 1:
         raise UnfitError(f"features: holds {len(features):,}, more than {MAX_ITEMS:,} items")
-    by_role: dict[str, list[_Placed]] = {"container": [], "item": []}
+    by_role: dict[str, list[_Posed]] = {"container": [], "item": []}
     for k, feature in enumerate(features):
         where = f"features[{k}]"
         role = _properties(feature, where).get("role")
@@ -148,7 +148,7 @@ def _properties(feature: Any, where: str) -> Mapping[str, Any]:
     return properties
 
 
-def _container(found: list[_Placed], collection: Mapping[str, Any]) -> Container:
+def _container(found: list[_Posed], collection: Mapping[str, Any]) -> Container:
     if len(found) != 1:
         raise UnfitError(f"must have one feature of role container, not {len(found)}")
     where, feature = found[0]

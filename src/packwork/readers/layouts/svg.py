@@ -23,7 +23,13 @@ from packwork.geometry.overlay import union
 from packwork.geometry.polygon import Region, silhouette
 from packwork.phrasing import number_of
 from packwork.readers.gate.xml_tree import parse_xml
-from packwork.readers.layouts.assembly import Found, Sheet, assembled, sound_gap, sound_weight
+from packwork.readers.layouts.assembly import (
+    FoundItem,
+    FoundSheet,
+    assembled,
+    sound_gap,
+    sound_weight,
+)
 from packwork.readers.layouts.strangers import group_named, loose_items, tag, unmeasured
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
@@ -96,7 +102,7 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
     said = items.attrib if items is not None and walls is not None else {}
     gap, is_kept = said.get("data-gap"), said.get("data-holes") == "keep"
     found = [_found(drawings, one, affine.compose(to_canvas, place), is_kept) for one in drawn]
-    sheet = Sheet(
+    sheet = FoundSheet(
         width=width,
         height=height,
         unit=unit,
@@ -209,11 +215,11 @@ class _Drawings:
 
 def _found(
     drawings: _Drawings, drawn: ET.Element, to_canvas: FloatArray, keeps_holes: bool
-) -> Found:
+) -> FoundItem:
     ink = drawings.item(drawn)
     placed = _placed(ink, affine.compose(to_canvas, _place(drawn)))
     name, weight = drawn.get("data-name", "item"), drawn.get("data-weight", "1")
-    return Found(name, placed if keeps_holes else silhouette(placed), sound_weight(weight))
+    return FoundItem(name, placed if keeps_holes else silhouette(placed), sound_weight(weight))
 
 
 def _walls(group: ET.Element, place: FloatArray) -> tuple[FloatArray, ...] | None:

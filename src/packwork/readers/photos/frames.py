@@ -30,7 +30,7 @@ right angle, so that prints keep their corners."""
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class PhotoCrop:
     """What of a photo is shown, in its upright pixels.
 
     Parameters
@@ -57,7 +57,7 @@ def framed(
     options: PhotoOptions,
     threshold: float = HALF,
     shape: Region | None = None,
-) -> Frame:
+) -> PhotoCrop:
     """Frame of a photo: its rectangle, its cut-out, or the largest shape in its middle.
 
     Parameters
@@ -84,7 +84,7 @@ def framed(
     else:
         window, picture = full, shapely.box(*full)
     is_cut = picture.area < (1 - 1e-9) * shapely.box(*window).area
-    return Frame(window, picture, _bordered(picture, options.border_share * shorter), is_cut)
+    return PhotoCrop(window, picture, _bordered(picture, options.border_share * shorter), is_cut)
 
 
 def _rounded(full: Window, radius: float) -> Region:

@@ -100,7 +100,7 @@ def picture_size(data: bytes) -> tuple[int, int] | None:
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
+class DecodedPicture:
     """Decoded pixels.
 
     Parameters
@@ -115,7 +115,7 @@ class Picture:
     unit: float
 
 
-def decode_picture(data: bytes, longest_px: int) -> Picture:
+def decode_picture(data: bytes, longest_px: int) -> DecodedPicture:
     """Picture of a file's bytes, shrunk to ``longest_px`` at most.
 
     The first frame of an animation is taken.
@@ -144,7 +144,7 @@ def decode_picture(data: bytes, longest_px: int) -> Picture:
                 image.draft(None, size)
                 small = shrunk(image, size, averageable)
             pixels = np.asarray(upright(small, lies).convert("RGBA"))
-            return Picture(pixels, max(whole) / max(size))
+            return DecodedPicture(pixels, max(whole) / max(size))
 
 
 @contextmanager

@@ -21,7 +21,7 @@ CLOSED = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class PathLine:
     """One connected piece of a path.
 
     Parameters
@@ -36,7 +36,7 @@ class Line:
     is_closed: bool
 
 
-def lines_of(drawing: Drawing, extent: float) -> list[Line]:
+def lines_of(drawing: Drawing, extent: float) -> list[PathLine]:
     """Every piece of every path that a drawing shows.
 
     Parameters
@@ -55,7 +55,7 @@ def lines_of(drawing: Drawing, extent: float) -> list[Line]:
             is_closed = piece.is_closed or ends_meet
             if is_closed and not ends_meet:
                 placed = np.vstack([placed, placed[:1]])
-            found.append(Line(placed, is_closed))
+            found.append(PathLine(placed, is_closed))
     return found
 
 

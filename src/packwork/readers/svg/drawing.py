@@ -24,7 +24,7 @@ from packwork.readers.svg.region.ink import Ink, painted_ink
 from packwork.readers.svg.region.sheet import drop_sheet
 from packwork.readers.svg.render.compare import LEAST_AGREEMENT, Comparison
 from packwork.readers.svg.render.lettering import set_in_outlines
-from packwork.readers.svg.render.resvg import Part
+from packwork.readers.svg.render.resvg import View
 from packwork.readers.svg.render.trace import (
     MAX_POINTS,
     MAX_RINGS,
@@ -195,7 +195,7 @@ def _traced(
     return Drawing(root, page, traced_ink(root, page, part, work, threshold, known), shapes)
 
 
-def _shown_part(shapes: Sequence[Painted], page: Page) -> Part | None:
+def _shown_part(shapes: Sequence[Painted], page: Page) -> View | None:
     """Box of all shapes on the page, with a margin; None if there are none."""
     box = drawing_box(shapes)
     if box is None:

@@ -15,7 +15,7 @@ from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.regions import clean_union
 from packwork.readers.svg.container import stated_unit
-from packwork.readers.svg.curve import Line, lines_of
+from packwork.readers.svg.curve import PathLine, lines_of
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import UnfitError, naming
@@ -74,6 +74,6 @@ def walled_container(
     return placed if unit is None else replace(placed, unit=unit), openings
 
 
-def _inside(line: Line) -> Region:
+def _inside(line: PathLine) -> Region:
     points = line.points
     return valid(shapely.Polygon(points)) if len(points) > 2 else shapely.Polygon()

@@ -28,7 +28,7 @@ _WORDS = {
 
 
 @dataclass(frozen=True)
-class Pen:
+class StrokeStyle:
     """What a line is drawn with, in the units of the line.
 
     Parameters
@@ -75,7 +75,7 @@ class Painting:
     stroke_opacity: float = 1.0
     fill_rule: FillRule = "nonzero"
     clip_rule: FillRule = "nonzero"
-    pen: Pen = field(default_factory=Pen)
+    pen: StrokeStyle = field(default_factory=StrokeStyle)
     is_visible: bool = True
 
     @property
@@ -152,12 +152,12 @@ def _fill_rule(word: str | None, otherwise: FillRule) -> FillRule:
     return rules.get(word, otherwise)
 
 
-def _pen(attributes: Mapping[str, str], pen: Pen, diagonal: float) -> Pen:
+def _pen(attributes: Mapping[str, str], pen: StrokeStyle, diagonal: float) -> StrokeStyle:
     width = parse_length(attributes.get("stroke-width"), diagonal)
     limit = parse_length(attributes.get("stroke-miterlimit"), 1.0)
     offset = parse_length(attributes.get("stroke-dashoffset"), diagonal)
     dashes = attributes.get("stroke-dasharray")
-    return Pen(
+    return StrokeStyle(
         width=pen.width if width is None else max(width, 0.0),
         cap=_word(attributes, "stroke-linecap", pen.cap),
         join=_word(attributes, "stroke-linejoin", pen.join),

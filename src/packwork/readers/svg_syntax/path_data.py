@@ -11,7 +11,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.account import spend
-from packwork.readers.svg_syntax.arcs import arc_cubics
+from packwork.readers.svg_syntax.arcs import Point, arc_cubics
 from packwork.readers.svg_syntax.lengths import (
     MAX_COORDINATE,
     NUMBER,
@@ -38,7 +38,6 @@ _ARC = re.compile(
 )
 _ARITY = {"m": 2, "l": 2, "h": 1, "v": 1, "c": 6, "s": 4, "q": 4, "t": 2, "a": 7, "z": 0}
 
-Point = tuple[float, float]
 Cubic = tuple[Point, Point, Point, Point]
 
 

@@ -36,7 +36,7 @@ _DECLARED = re.compile(r'"?sep=(.)"?[ \t]*\r?(?:\n|$)', re.IGNORECASE)
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class TextTable:
     """A file of lines of cells, its letters and its delimiter known.
 
     Parameters
@@ -65,7 +65,7 @@ class Sheet:
             yield number + self.skipped, cells
 
 
-def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> Sheet:
+def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> TextTable:
     r"""A file's lines of cells; its first line may be ``sep=;``, as Excel has it.
 
     Raises
@@ -86,7 +86,7 @@ def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> Sheet
         text, skipped = text[declared.end() :], 1
         said = said or declared[1]
     delimiter = said or delimiter_of(text, file, ENDINGS.get(ending, ","))
-    return Sheet(file, text, delimiter, skipped, read.notice)
+    return TextTable(file, text, delimiter, skipped, read.notice)
 
 
 def delimiter_of(text: str, file: str, usual: str) -> str:

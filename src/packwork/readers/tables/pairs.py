@@ -10,7 +10,7 @@ from typing import Any
 
 from packwork.errors import ReadError
 from packwork.readers.files import read_bytes
-from packwork.readers.tables.delimited import Sheet, check_size, read_sheet
+from packwork.readers.tables.delimited import TextTable, check_size, read_sheet
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.json_rows import read_json
 from packwork.readers.tables.written import is_number_like, written_numbers
@@ -102,7 +102,7 @@ def read_pairs(file: str, most_bytes: int, asked: TableFormat) -> Pairs:
     return Pairs(found.rows, (sheet.notice,) if sheet.notice else ())
 
 
-def _rows(sheet: Sheet) -> list[tuple[str, Mapping[str, Any]]]:
+def _rows(sheet: TextTable) -> list[tuple[str, Mapping[str, Any]]]:
     """Place and cells of each line, by column."""
     lines = list(sheet.lines())
     if not lines:

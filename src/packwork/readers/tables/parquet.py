@@ -9,7 +9,7 @@ from typing import Any
 
 from packwork.errors import ReadError
 from packwork.readers.tables.delimited import check_size
-from packwork.readers.tables.parquet_pages import Piece, pieces_of
+from packwork.readers.tables.parquet_pages import ColumnChunk, pieces_of
 
 MOST_DECODED_BYTES = 100_000_000
 """Bytes of the columns that are read, once unpacked, by their pages' own headers; Python's values
@@ -80,7 +80,7 @@ def _columns(metadata: Any, names: Sequence[str], needed: set[str]) -> list[str]
     return [name for name in own if name in needed] or own
 
 
-def _check_size(file: str, pieces: Sequence[Piece]) -> None:
+def _check_size(file: str, pieces: Sequence[ColumnChunk]) -> None:
     """Refuse what would not fit into memory, by the headers of its pages.
 
     Raises
@@ -103,7 +103,11 @@ def _check_bytes(file: str, size: int) -> None:
 
 
 def _read(
-    file: str, data: bytes, names: Sequence[str], pieces: Sequence[Piece], texts: Sequence[str]
+    file: str,
+    data: bytes,
+    names: Sequence[str],
+    pieces: Sequence[ColumnChunk],
+    texts: Sequence[str],
 ) -> Any:
     """The columns, those of texts with each different one once.
 

@@ -34,7 +34,7 @@ Fields: TypeAlias = dict[int, Any]
 
 
 @dataclass(frozen=True)
-class Piece:
+class ColumnChunk:
     """One column of one group of rows.
 
     Parameters
@@ -61,7 +61,7 @@ class Piece:
     is_delta: bool
 
 
-def pieces_of(data: bytes) -> list[Piece]:
+def pieces_of(data: bytes) -> list[ColumnChunk]:
     """All columns of all groups of rows.
 
     Raises
@@ -81,7 +81,7 @@ def pieces_of(data: bytes) -> list[Piece]:
         raise ValueError("the file's account of itself is spoilt") from None
 
 
-def _piece(data: bytes, told: Fields, rows: int) -> Piece:
+def _piece(data: bytes, told: Fields, rows: int) -> ColumnChunk:
     size = found = 0
     for number, header in enumerate(_headers(data, told)):
         if number == MOST_PAGES:
@@ -92,7 +92,7 @@ def _piece(data: bytes, told: Fields, rows: int) -> Piece:
     name = told[3][0].decode("utf-8", errors="replace")
     is_shared = DELTA_BYTE_ARRAY in told[2]
     is_delta = is_shared or DELTA_LENGTH_BYTE_ARRAY in told[2]
-    return Piece(name, rows, told[5], told[6], size, found, is_shared, is_delta)
+    return ColumnChunk(name, rows, told[5], told[6], size, found, is_shared, is_delta)
 
 
 def _headers(data: bytes, told: Fields) -> Iterator[Fields]:

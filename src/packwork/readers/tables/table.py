@@ -9,7 +9,7 @@ from typing import Any, TypeAlias
 
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes
-from packwork.readers.tables.delimited import ENDINGS, Sheet, check_size, read_sheet
+from packwork.readers.tables.delimited import ENDINGS, TextTable, check_size, read_sheet
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.frames import plain_row
 from packwork.readers.tables.json_rows import read_json
@@ -159,7 +159,7 @@ def read_table(
     raise ReadError(data, f"is no table; give a file that ends in {known}")
 
 
-def _rows_of_sheet(sheet: Sheet) -> list[Row]:
+def _rows_of_sheet(sheet: TextTable) -> list[Row]:
     """Rows by the columns that the first line names; empty cells at the ends are none."""
     lines = iter(sheet.lines())
     first, cells = next(lines, (1, []))

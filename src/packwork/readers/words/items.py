@@ -18,7 +18,7 @@ from packwork.geometry.snapping import CLEFT
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.glyph_ink import ClearInk
 from packwork.readers.fonts.lettering import Lettering
-from packwork.readers.fonts.pictures import Picture
+from packwork.readers.fonts.pictures import GlyphPicture
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.unfit import UnfitError, naming
@@ -205,7 +205,7 @@ def _art(drawn: Lettering, place: FloatArray) -> VectorArt:
     return VectorArt(markup, affine.compose(place, scale), is_traced=bool(drawn.pictures))
 
 
-def _image(picture: Picture) -> str:
+def _image(picture: GlyphPicture) -> str:
     data = base64.b64encode(picture.png).decode("ascii")
     place = " ".join(f"{value:.10g}" for value in picture.matrix.T.ravel())
     return (

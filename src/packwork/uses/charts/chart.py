@@ -11,7 +11,7 @@ from packwork.readers.charts.chart import ChartRead
 from packwork.readers.charts.options import ChartOptions
 from packwork.scene.container import Container
 from packwork.uses.charts.cells import Cell
-from packwork.uses.charts.framing import Frame
+from packwork.uses.charts.framing import LegendFrame
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,7 +34,7 @@ class Chart:
 
     options: ChartOptions
     read: ChartRead
-    frame: Frame
+    frame: LegendFrame
     cells: tuple[Cell, ...]
     single: Container | None
 

@@ -44,7 +44,7 @@ LONGEST_NAME = 40
 
 
 @dataclass(frozen=True)
-class Frame:
+class LegendFrame:
     """Where what goes, canvas units.
 
     Parameters
@@ -81,7 +81,7 @@ class Framed:
     """
 
     container: Container
-    frame: Frame
+    frame: LegendFrame
     place: FloatArray
 
 
@@ -104,7 +104,7 @@ def framed(
     left = (placed.width - container.width * scale) / 2
     top = (placed.height - moved.height * scale) / 2
     bottom = top + (above + container.height) * scale
-    frame = Frame(left, container.width * scale, top, bottom, em * scale)
+    frame = LegendFrame(left, container.width * scale, top, bottom, em * scale)
     onto = affine.similarity((placed.width - moved.width * scale) / 2, top, 0.0, scale)
     return Framed(placed, frame, affine.compose(onto, into))
 

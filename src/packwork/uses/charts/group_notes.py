@@ -17,7 +17,7 @@ from packwork.uses.charts.cells import (
     Cell,
 )
 from packwork.uses.charts.chart import Chart
-from packwork.uses.charts.framing import Frame
+from packwork.uses.charts.framing import LegendFrame
 from packwork.uses.charts.numbers import spoken
 from packwork.uses.charts.pen import Pen, shortened
 
@@ -87,7 +87,7 @@ def _over_copies(
         pen.write(numbers[cell.name], end + GAP_EM * em, cell.line, NUMBER_EM * em, pale)
 
 
-def _under_bars(pen: Pen, cells: Sequence[Cell], frame: Frame, is_ordered: bool) -> None:
+def _under_bars(pen: Pen, cells: Sequence[Cell], frame: LegendFrame, is_ordered: bool) -> None:
     """Names of bars, all of one size; of a scale only as many as there is room for."""
     largest_em = frame.em
     if cells[0].is_turned:

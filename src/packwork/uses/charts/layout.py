@@ -25,7 +25,7 @@ from packwork.uses.charts.cells import (
     bars,
     copies,
 )
-from packwork.uses.charts.framing import EM_SHARE, Frame, frame_ems, framed
+from packwork.uses.charts.framing import EM_SHARE, LegendFrame, frame_ems, framed
 from packwork.uses.charts.heights import is_alike_and_round, needed_height
 from packwork.uses.charts.pen import Pen
 
@@ -50,7 +50,7 @@ class Spread:
     """
 
     container: Container
-    frame: Frame
+    frame: LegendFrame
     cells: tuple[Cell, ...] = ()
     single: Container | None = None
 

@@ -23,7 +23,7 @@ from packwork.uses.charts.framing import (
     TITLE_EM,
     TRAIL_EM,
     UNIT_EM,
-    Frame,
+    LegendFrame,
     has_sizes,
     in_lines,
     key_names,
@@ -150,7 +150,7 @@ def _end(value: float, decimal: str) -> str:
 
 
 def _ramp(
-    pen: Pen, colours: ChartColours, column: str, frame: Frame, y: float, decimal: str
+    pen: Pen, colours: ChartColours, column: str, frame: LegendFrame, y: float, decimal: str
 ) -> None:
     em, low, high = frame.em, *colours.ends
     pen.write(column, frame.left, y + 1.2 * em, em)

@@ -14,6 +14,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.finish.finished import Finished
+from packwork.options import SizeMode
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.exact import finished
 from packwork.pipeline.job import Job
@@ -23,7 +24,6 @@ from packwork.readers.words.options import WordOptions
 from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.solve.options import SizeMode
 from packwork.units import Unit
 
 DENSEST = 0.6

@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image
 
 from packwork.raster.overlay import Picture
-from packwork.writers.film.changes import Part, changed_part
+from packwork.writers.film.changes import Rectangle, changed_part
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
 from packwork.writers.film.projector import Projector
 
@@ -48,12 +48,12 @@ def apng_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     return out.getvalue()
 
 
-def _parts(frames: Iterator[Picture], is_opaque: bool) -> Iterator[tuple[Part, Picture]]:
+def _parts(frames: Iterator[Picture], is_opaque: bool) -> Iterator[tuple[Rectangle, Picture]]:
     """Of each frame what is to be drawn over the one before, clear where nothing changed."""
     before: Picture | None = None
     for picture in frames:
         if before is None:
-            part, pixels = Part(0, 0, *picture.shape[:2]), picture
+            part, pixels = Rectangle(0, 0, *picture.shape[:2]), picture
         else:
             changed = (picture != before).any(axis=2)
             part = changed_part(changed)
@@ -64,7 +64,7 @@ def _parts(frames: Iterator[Picture], is_opaque: bool) -> Iterator[tuple[Part, P
         yield part, pixels
 
 
-def _control(part: Part, delay: int, blend: int) -> bytes:
+def _control(part: Rectangle, delay: int, blend: int) -> bytes:
     size = part.right - part.left, part.bottom - part.top
     times = struct.pack(">HH", min(delay, 65_535), _MILLISECONDS)
     return struct.pack(">IIII", *size, part.left, part.top) + times + bytes([0, blend])

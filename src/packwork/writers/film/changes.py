@@ -9,7 +9,7 @@ import numpy.typing as npt
 
 
 @dataclass(frozen=True)
-class Part:
+class Rectangle:
     """A rectangle of a frame, in whole pixels."""
 
     top: int
@@ -28,7 +28,7 @@ class Part:
         return slice(self.left, self.right)
 
 
-def changed_part(changed: npt.NDArray[np.bool_]) -> Part:
+def changed_part(changed: npt.NDArray[np.bool_]) -> Rectangle:
     """Smallest rectangle that holds all that changed; one pixel if nothing did.
 
     Examples
@@ -40,5 +40,5 @@ def changed_part(changed: npt.NDArray[np.bool_]) -> Part:
     """
     rows, columns = np.flatnonzero(changed.any(axis=1)), np.flatnonzero(changed.any(axis=0))
     if len(rows) == 0:
-        return Part(0, 0, 1, 1)
-    return Part(int(rows[0]), int(columns[0]), int(rows[-1]) + 1, int(columns[-1]) + 1)
+        return Rectangle(0, 0, 1, 1)
+    return Rectangle(int(rows[0]), int(columns[0]), int(rows[-1]) + 1, int(columns[-1]) + 1)

@@ -17,7 +17,7 @@ from PIL import Image
 from scipy.spatial import KDTree
 
 from packwork.raster.overlay import Picture
-from packwork.writers.film.changes import Part, changed_part
+from packwork.writers.film.changes import Rectangle, changed_part
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
 from packwork.writers.film.projector import Projector
 
@@ -111,12 +111,12 @@ def _indices(picture: Picture, lookup: _Indices) -> _Indices:
     return indices
 
 
-def _parts(frames: Iterator[_Indices], is_opaque: bool) -> Iterator[tuple[Part, _Indices]]:
+def _parts(frames: Iterator[_Indices], is_opaque: bool) -> Iterator[tuple[Rectangle, _Indices]]:
     """Of each frame what is to be drawn over the one before; all where that is cleared."""
     before: _Indices | None = None
     for indices in frames:
         if before is None or not is_opaque:
-            part, pixels = Part(0, 0, *indices.shape), indices
+            part, pixels = Rectangle(0, 0, *indices.shape), indices
         else:
             changed = indices != before
             part = changed_part(changed)
@@ -136,7 +136,7 @@ def _control(delay: int, disposal: int) -> bytes:
     return b"!\xf9\x04" + struct.pack("<BHB", disposal << 2 | 1, delay, CLEAR) + b"\0"
 
 
-def _image(part: Part, pixels: _Indices) -> bytes:
+def _image(part: Rectangle, pixels: _Indices) -> bytes:
     """Image block, its pixels compressed."""
     size = part.right - part.left, part.bottom - part.top
     return b"," + struct.pack("<HHHHB", part.left, part.top, *size, 0) + _compressed(pixels)

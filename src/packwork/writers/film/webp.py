@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image
 
 from packwork.raster.overlay import Picture
-from packwork.writers.film.changes import Part, changed_part
+from packwork.writers.film.changes import Rectangle, changed_part
 from packwork.writers.film.film import Film, Tell, delays, tell_nobody
 from packwork.writers.film.projector import Projector
 
@@ -44,19 +44,19 @@ def webp_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
     return b"RIFF" + struct.pack("<I", len(body)) + body
 
 
-def _parts(frames: Iterator[Picture]) -> Iterator[tuple[Part, Picture]]:
+def _parts(frames: Iterator[Picture]) -> Iterator[tuple[Rectangle, Picture]]:
     """Of each frame the rectangle that changed, from even coordinates on."""
     before: Picture | None = None
     for picture in frames:
-        part = Part(0, 0, *picture.shape[:2])
+        part = Rectangle(0, 0, *picture.shape[:2])
         if before is not None:
             found = changed_part((picture != before).any(axis=2))
-            part = Part(found.top & ~1, found.left & ~1, found.bottom, found.right)
+            part = Rectangle(found.top & ~1, found.left & ~1, found.bottom, found.right)
         before = picture
         yield part, picture[part.rows, part.columns]
 
 
-def _frame(part: Part, pixels: Picture, delay: int, is_opaque: bool) -> bytes:
+def _frame(part: Rectangle, pixels: Picture, delay: int, is_opaque: bool) -> bytes:
     size = _three(part.right - part.left - 1) + _three(part.bottom - part.top - 1)
     place = _three(part.left // 2) + _three(part.top // 2)
     head = place + size + _three(min(delay, _LONGEST_MS)) + bytes([_REPLACES])

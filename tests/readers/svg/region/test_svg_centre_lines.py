@@ -9,7 +9,7 @@ import shapely
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.region.centre_lines import FinePoints, open_stroke, piece_strokes
 from packwork.readers.svg.region.strokes import stroke_region
-from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.painting import StrokeStyle
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.readers.svg_syntax.shapes import flattened
 
@@ -42,7 +42,7 @@ def test_the_same_dashes_at_any_tolerance() -> None:
 @pytest.mark.parametrize("data", [f"M0 0L20 5{ARC.replace('M', 'L')}", "M0 0C0 30 60 30 60 0V-20"])
 def test_lines_that_are_straight_at_one_end(data: str, cap: str) -> None:
     (piece,) = parse_path(data)
-    pen = Pen(4.0, cap)
+    pen = StrokeStyle(4.0, cap)
     (got,) = piece_strokes([piece], pen, 1e-3, FinePoints())
     expected = stroke_region(flattened(piece, 1e-7), False, pen, 1e-3)
     assert got.symmetric_difference(expected).area < 1e-3 * expected.length
@@ -54,7 +54,7 @@ def test_lines_that_are_straight_at_one_end(data: str, cap: str) -> None:
 def test_arcs_of_any_length_and_width(span: float, width: float) -> None:
     turns = np.linspace(0.0, span, 2_000)
     unit = np.column_stack([np.cos(turns), np.sin(turns)])
-    got = open_stroke(10 * unit, Pen(width), 1e-3)
+    got = open_stroke(10 * unit, StrokeStyle(width), 1e-3)
     near, far = (10 - width / 2) * unit, (10 + width / 2) * unit
     sector = shapely.Polygon(np.concatenate([near, far[::-1]]))
     assert got.is_valid
@@ -66,6 +66,6 @@ def test_what_is_followed_finer_is_bounded() -> None:
     spent = FinePoints()
     spent.factor(1e9)
     (plain,), (fine,) = (
-        piece_strokes([piece], Pen(4.0), 1e-3, points) for points in (spent, FinePoints())
+        piece_strokes([piece], StrokeStyle(4.0), 1e-3, points) for points in (spent, FinePoints())
     )
     assert shapely.hausdorff_distance(plain, fine) < 0.05

@@ -8,19 +8,19 @@ import numpy as np
 import pytest
 
 from packwork.readers.svg.region.strokes import stroke_region
-from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.painting import StrokeStyle
 
 
 @pytest.mark.parametrize(
     ("pen", "area"),
     [
-        (Pen(2), 40),
-        (Pen(2, "square"), 44),
-        (Pen(2, "round"), 40 + math.pi),
-        (Pen(2, join="bevel"), 39.5),
-        (Pen(2, join="round"), 39 + math.pi / 4),
-        (Pen(2, miter_limit=1.4), 39.5),
-        (Pen(2, miter_limit=1.42), 40),
+        (StrokeStyle(2), 40),
+        (StrokeStyle(2, "square"), 44),
+        (StrokeStyle(2, "round"), 40 + math.pi),
+        (StrokeStyle(2, join="bevel"), 39.5),
+        (StrokeStyle(2, join="round"), 39 + math.pi / 4),
+        (StrokeStyle(2, miter_limit=1.4), 39.5),
+        (StrokeStyle(2, miter_limit=1.42), 40),
     ],
 )
 def test_right_angle(pen, area):
@@ -30,4 +30,4 @@ def test_right_angle(pen, area):
 
 def test_closed_lines_have_no_caps():
     square = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]])
-    assert stroke_region(square, True, Pen(2, "square"), 0.01).area == pytest.approx(80)
+    assert stroke_region(square, True, StrokeStyle(2, "square"), 0.01).area == pytest.approx(80)

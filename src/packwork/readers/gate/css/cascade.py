@@ -10,7 +10,7 @@ from packwork.readers.account import spend
 from packwork.readers.gate.css.declarations import Declarations
 from packwork.readers.gate.css.nodes import Node
 from packwork.readers.gate.css.selectors import Compound
-from packwork.readers.gate.css.sheets import Rule
+from packwork.readers.gate.css.sheets import StyleRule
 
 _COMPARISON_NS, _MERGE_NS = 4e3, 5e2
 """For a step of a rule that is held against an element, and a declaration that is laid over
@@ -38,11 +38,11 @@ class Cascade:
     {'fill': 'blue', 'stroke': 'red'}
     """
 
-    def __init__(self, rules: list[Rule]) -> None:
-        self._by_key: dict[str, list[Rule]] = defaultdict(list)
+    def __init__(self, rules: list[StyleRule]) -> None:
+        self._by_key: dict[str, list[StyleRule]] = defaultdict(list)
         for rule in rules:
             self._by_key[_key(rule.selector.steps[0])].append(rule)
-        self._plain: dict[_Signature, tuple[list[Rule], list[Rule]]] = {}
+        self._plain: dict[_Signature, tuple[list[StyleRule], list[StyleRule]]] = {}
         self._merged: dict[tuple[_Signature, tuple[int, ...]], _Layers] = {}
 
     def declared(self, node: Node, inline: Declarations) -> dict[str, str]:
@@ -71,7 +71,9 @@ class Cascade:
             self._merged[key] = _layers(rules)
         return self._merged[key]
 
-    def _candidates(self, node: Node, signature: _Signature) -> tuple[list[Rule], list[Rule]]:
+    def _candidates(
+        self, node: Node, signature: _Signature
+    ) -> tuple[list[StyleRule], list[StyleRule]]:
         """Rules that are met for sure, and those that depend on the place."""
         if signature not in self._plain:
             keys = ["*", node.tag, f"#{signature[1]}", *(f".{c}" for c in sorted(node.classes))]
@@ -85,11 +87,11 @@ class Cascade:
         return self._plain[signature]
 
 
-def _rank(rule: Rule) -> tuple[tuple[int, int, int], int]:
+def _rank(rule: StyleRule) -> tuple[tuple[int, int, int], int]:
     return rule.specificity, rule.order
 
 
-def _layers(rules: list[Rule]) -> _Layers:
+def _layers(rules: list[StyleRule]) -> _Layers:
     plain: dict[str, str] = {}
     important: dict[str, str] = {}
     for rule in rules:

@@ -44,7 +44,7 @@ _SAID = {
 
 
 @dataclass(frozen=True, eq=False)
-class Rule:
+class StyleRule:
     """Selector and declarations, and where it stands in the document."""
 
     selector: Selector
@@ -58,7 +58,7 @@ class Rule:
 
 
 @dataclass
-class Sheet:
+class StyleSheet:
     """All rules of a drawing.
 
     Parameters
@@ -68,7 +68,7 @@ class Sheet:
 
     Examples
     --------
-    >>> sheet = Sheet()
+    >>> sheet = StyleSheet()
     >>> sheet.add("@import 'x'; path, g > .a {fill:red} @media print {g {fill:none}}")
     >>> [rule.specificity for rule in sheet.rules], sheet.lost
     ([(0, 0, 1), (0, 1, 1)], {'other style sheets'})
@@ -76,7 +76,7 @@ class Sheet:
 
     width: float | None = None
     height: float | None = None
-    rules: list[Rule] = field(default_factory=list)
+    rules: list[StyleRule] = field(default_factory=list)
     lost: set[str] = field(default_factory=set)
 
     def add(self, text: str) -> None:
@@ -134,7 +134,7 @@ class Sheet:
                 self.lost.add(f"style rules for {unknown}")
                 continue
             if declarations.values:
-                self.rules.append(Rule(selector, declarations, len(self.rules)))
+                self.rules.append(StyleRule(selector, declarations, len(self.rules)))
         if inner:
             self._add(inner, prelude, depth + 1)
 

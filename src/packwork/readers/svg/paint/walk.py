@@ -64,17 +64,17 @@ def _walked(root: ET.Element, page: Page | None) -> _Walk:
     """Walk through the whole of a clean drawing."""
     walk = _Walk(root)
     if page is None:
-        frame = _Frame(affine.identity(), Painting(), PLAIN_VIEWPORT)
+        frame = _Surroundings(affine.identity(), Painting(), PLAIN_VIEWPORT)
     else:
         window = shapely.box(0, 0, page.width, page.height)
-        frame = _Frame(page.matrix, Painting(), root_viewport(root, page), window)
+        frame = _Surroundings(page.matrix, Painting(), root_viewport(root, page), window)
     if not walk.is_hidden(root):
         walk.visit_children(root, walk.framed(root, frame))
     return walk
 
 
 @dataclass(frozen=True, eq=False)
-class _Frame:
+class _Surroundings:
     """What surrounds an element."""
 
     matrix: FloatArray
@@ -98,7 +98,7 @@ class _Walk:
         self._known_paintings: dict[ET.Element, Painting] = {}
         self._segments = 0
 
-    def visit(self, element: ET.Element, frame: _Frame) -> None:
+    def visit(self, element: ET.Element, frame: _Surroundings) -> None:
         """Collect what one element paints inside its frame."""
         if element.tag in NEVER_DRAWN or self.is_hidden(element):
             return
@@ -114,7 +114,7 @@ class _Walk:
         else:
             self.visit_children(element, inner)
 
-    def visit_children(self, element: ET.Element, frame: _Frame) -> None:
+    def visit_children(self, element: ET.Element, frame: _Surroundings) -> None:
         """Collect what the children paint."""
         for child in element:
             self.visit(child, frame)
@@ -123,7 +123,7 @@ class _Walk:
         """Whether neither the element nor anything inside it shows."""
         return element.get("display") == "none" or opacity(element.get("opacity"), 1.0) == 0
 
-    def framed(self, element: ET.Element, frame: _Frame) -> _Frame:
+    def framed(self, element: ET.Element, frame: _Surroundings) -> _Surroundings:
         """Frame with the element's own transform, properties and clip."""
         if not element.attrib:
             return frame
@@ -140,7 +140,7 @@ class _Walk:
         clip = self._clip(element, inner)
         return inner if clip is None else replace(inner, clips=(*inner.clips, clip))
 
-    def _paint(self, element: ET.Element, frame: _Frame) -> None:
+    def _paint(self, element: ET.Element, frame: _Surroundings) -> None:
         if not (frame.painting.has_fill or frame.painting.has_stroke):
             return
         pieces = self._pieces(element, frame.viewport)
@@ -159,7 +159,7 @@ class _Walk:
             raise UnfitError(f"has more than {MAX_SEGMENTS:,} path segments; simplify it")
         return pieces
 
-    def _place(self, text: ET.Element, frame: _Frame) -> None:
+    def _place(self, text: ET.Element, frame: _Surroundings) -> None:
         if frame.is_repeated:
             return
         above: list[ET.Element] = []
@@ -169,7 +169,7 @@ class _Walk:
             parent = self._parents.get(parent)
         self.texts.append(PlacedText(text, frame.matrix, frame.viewport, tuple(above[::-1])))
 
-    def _clip(self, element: ET.Element, frame: _Frame) -> Clip | None:
+    def _clip(self, element: ET.Element, frame: _Surroundings) -> Clip | None:
         """Clip of an element whose own frame is known; one that is used again is shared."""
         target = self._by_id.get(paint_server(element.get("clip-path", "")) or "")
         if target is None:
@@ -183,7 +183,7 @@ class _Walk:
             self._known_clips[key] = Clip(tuple(shapes))
         return self._known_clips[key]
 
-    def _stencils(self, element: ET.Element, frame: _Frame) -> list[Painted]:
+    def _stencils(self, element: ET.Element, frame: _Surroundings) -> list[Painted]:
         """Shapes, if any, that a child of a clip path cuts out, whatever their paints."""
         if element.get("display") == "none":
             return []
@@ -212,7 +212,7 @@ class _Walk:
     def _target(self, use: ET.Element) -> ET.Element | None:
         return self._by_id.get(use.get(HREF, "")[1:])
 
-    def _follow(self, use: ET.Element, frame: _Frame) -> None:
+    def _follow(self, use: ET.Element, frame: _Surroundings) -> None:
         target, moved = self._target(use), replace(frame, is_repeated=True)
         if target is None:
             return
@@ -221,7 +221,7 @@ class _Walk:
         else:
             self.visit(target, moved)
 
-    def _enter_viewport(self, element: ET.Element, sized: ET.Element, frame: _Frame) -> None:
+    def _enter_viewport(self, element: ET.Element, sized: ET.Element, frame: _Surroundings) -> None:
         """Visit a nested ``svg`` or a ``symbol``; ``sized`` says how large it is."""
         x, y, width, height = self._viewport(element, sized, frame.viewport)
         if width <= 0 or height <= 0:

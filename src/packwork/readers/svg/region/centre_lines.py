@@ -19,7 +19,7 @@ from packwork.geometry.overlay import simplify, union
 from packwork.geometry.polygon import Region
 from packwork.readers.svg.region.dashing import dashed
 from packwork.readers.svg.region.strokes import stroke_region
-from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.painting import StrokeStyle
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all, step_counts
 
@@ -55,7 +55,7 @@ class FinePoints:
 
 
 def piece_strokes(
-    pieces: Sequence[SubPath], pen: Pen, tolerance: float, points: FinePoints
+    pieces: Sequence[SubPath], pen: StrokeStyle, tolerance: float, points: FinePoints
 ) -> list[Region]:
     """Regions of all pieces of a path, or of their dashes.
 
@@ -71,7 +71,8 @@ def piece_strokes(
     Examples
     --------
     >>> from packwork.readers.svg_syntax.path_data import parse_path
-    >>> [r.area for r in piece_strokes(parse_path("M0 0h4 M0 9h2"), Pen(2), 0.1, FinePoints())]
+    >>> pieces = parse_path("M0 0h4 M0 9h2")
+    >>> [r.area for r in piece_strokes(pieces, StrokeStyle(2), 0.1, FinePoints())]
     [8.0, 4.0]
     """
     if not pen.dashes and (pen.cap == "round" or all(piece.is_closed for piece in pieces)):
@@ -93,14 +94,14 @@ def piece_strokes(
     return painted
 
 
-def open_stroke(fine: FloatArray, pen: Pen, tolerance: float) -> Region:
+def open_stroke(fine: FloatArray, pen: StrokeStyle, tolerance: float) -> Region:
     """Stroke of a line of many more points than it takes, its caps across its very ends.
 
     Examples
     --------
     >>> turns = np.linspace(0, np.pi / 2, 5_000)
     >>> arc = 10 * np.column_stack([np.cos(turns), np.sin(turns)])
-    >>> corners = shapely.get_coordinates(open_stroke(arc, Pen(4.0), 1e-3))
+    >>> corners = shapely.get_coordinates(open_stroke(arc, StrokeStyle(4.0), 1e-3))
     >>> bool(np.hypot(*(corners - (0.0, 12.0)).T).min() < 1e-3)
     True
     """
@@ -125,7 +126,7 @@ def _end(line: FloatArray, corner: FloatArray) -> int:
     return int(np.flatnonzero((line == corner).all(axis=1))[0])
 
 
-def _cap(line: FloatArray, count: int, pen: Pen) -> Polygon:
+def _cap(line: FloatArray, count: int, pen: StrokeStyle) -> Polygon:
     """First half of the first ``count`` steps of a line, a little more, and its cap."""
     half = pen.width / 2
     begin, middle, far = line[0], line[count // 2], line[count]

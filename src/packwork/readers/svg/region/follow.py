@@ -21,7 +21,7 @@ from packwork.readers.svg.region.centre_lines import FinePoints, piece_strokes
 from packwork.readers.svg.region.fills import filled
 from packwork.readers.svg_syntax.extent import is_inside, stretch, whole_box
 from packwork.readers.svg_syntax.painted import Clip, Painted
-from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.painting import StrokeStyle
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all
 
@@ -147,7 +147,7 @@ class Follower:
             self._strokes[shape, is_bridged] = self._stroked(shape, is_bridged)
         return self._strokes[shape, is_bridged]
 
-    def _pen_strokes(self, pieces: Sequence[SubPath], pen: Pen, tolerance: float) -> Region:
+    def _pen_strokes(self, pieces: Sequence[SubPath], pen: StrokeStyle, tolerance: float) -> Region:
         """Stroke of all pieces of one shape, in its own units."""
         for line in flattened_all(pieces, tolerance):
             spend(_STROKE_NS + _PEN_NS * len(line), _TOO_MUCH)

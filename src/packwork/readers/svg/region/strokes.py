@@ -16,7 +16,7 @@ from shapely.geometry import LinearRing, LineString, Point, Polygon
 from packwork.arrays import FloatArray
 from packwork.geometry.overlay import buffered, union
 from packwork.geometry.polygon import Region
-from packwork.readers.svg_syntax.painting import Pen
+from packwork.readers.svg_syntax.painting import StrokeStyle
 
 MAX_QUARTER_STEPS = 64
 """Chords of a quarter turn at most, as for a width as large as the drawing. Chosen."""
@@ -25,7 +25,9 @@ _CAPS = {"butt": "flat", "round": "round", "square": "square"}
 _JOINS = {"round": "round", "bevel": "bevel"}
 
 
-def stroke_region(points: FloatArray, is_closed: bool, pen: Pen, tolerance: float) -> Region:
+def stroke_region(
+    points: FloatArray, is_closed: bool, pen: StrokeStyle, tolerance: float
+) -> Region:
     """Region that ``pen`` paints along a polyline; valid, empty for an invisible dot.
 
     Parameters
@@ -37,7 +39,7 @@ def stroke_region(points: FloatArray, is_closed: bool, pen: Pen, tolerance: floa
 
     Examples
     --------
-    >>> stroke_region(np.array([[0.0, 0], [10, 0]]), False, Pen(2.0, "square"), 0.01).area
+    >>> stroke_region(np.array([[0.0, 0], [10, 0]]), False, StrokeStyle(2.0, "square"), 0.01).area
     24.0
     """
     line = _distinct(points, is_closed)
@@ -67,7 +69,7 @@ def _distinct(points: FloatArray, is_closed: bool) -> FloatArray:
     return line
 
 
-def _dot(at: FloatArray, pen: Pen, tolerance: float) -> Region:
+def _dot(at: FloatArray, pen: StrokeStyle, tolerance: float) -> Region:
     """Mark of a piece without length."""
     half = pen.width / 2
     if pen.cap == "round":
@@ -82,7 +84,7 @@ def _quarter_steps(radius: float, tolerance: float) -> int:
     return min(max(math.ceil(math.pi / 2 / max(step, 1e-6)), 2), MAX_QUARTER_STEPS)
 
 
-def _mitres(line: FloatArray, is_ring: bool, pen: Pen, tolerance: float) -> list[Polygon]:
+def _mitres(line: FloatArray, is_ring: bool, pen: StrokeStyle, tolerance: float) -> list[Polygon]:
     """Spikes over the bevelled corners that the mitre limit allows."""
     half = pen.width / 2
     corners = np.concatenate([line[-1:], line, line[:1]]) if is_ring else line

@@ -16,7 +16,7 @@ from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.budget.work import Work
 from packwork.readers.svg.paint.solid import solid_twin
-from packwork.readers.svg.render.resvg import TRACE_PX, Part, coverage
+from packwork.readers.svg.render.resvg import TRACE_PX, View, coverage
 from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page
 
 LEAST_AGREEMENT = 0.98
@@ -158,7 +158,7 @@ def _on_page(root: ET.Element, page: Page | None) -> tuple[ET.Element, Page]:
     return root, Page(*PLAIN_VIEWPORT, affine.identity())
 
 
-def _surroundings(region: Region, page: Page | None) -> Part:
+def _surroundings(region: Region, page: Page | None) -> View:
     """Part of the page about a region; all of it about none."""
     if region.is_empty:
         width, height = PLAIN_VIEWPORT if page is None else (page.width, page.height)
@@ -172,7 +172,7 @@ def _surroundings(region: Region, page: Page | None) -> Part:
     return left, top, right - left, bottom - top
 
 
-def _drawn(region: Region, part: Part, side: int) -> FloatArray:
+def _drawn(region: Region, part: View, side: int) -> FloatArray:
     """The same picture of a region."""
     px = max(part[2:]) / side
     rings = [np.round((ring - part[:2]) * (_STEPS / px)) for ring in oriented_rings(region)]

@@ -20,7 +20,7 @@ from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.account import left, spend
 from packwork.readers.svg.paint.stage import PLACED, paints_of, stage_of
 from packwork.readers.svg.paint.walk import placed_texts
-from packwork.readers.svg.render.resvg import FIND_PX, Part, coverage, inked
+from packwork.readers.svg.render.resvg import FIND_PX, View, coverage, inked
 from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import PlacedText
@@ -131,7 +131,7 @@ def _replace(
         element.extend(paths)
 
 
-def _outlines(stage: ET.Element, text: PlacedText, view: Part | None, letter_px: float) -> str:
+def _outlines(stage: ET.Element, text: PlacedText, view: View | None, letter_px: float) -> str:
     """Path data of what the stage shows, in the text's own units; empty if nothing."""
     from packwork.readers.pictures.contours import contour_region
 
@@ -162,7 +162,7 @@ def path_data(region: Region, step: float) -> str:
     return "".join(f"M{ring}z" for ring in numbers)
 
 
-def _view(text: PlacedText, page: Page | None) -> Part | None:
+def _view(text: PlacedText, page: Page | None) -> View | None:
     """Box, in the text's own units, that holds all that can show; None if nothing can."""
     if page is None:
         return _reach(text.element)
@@ -175,7 +175,7 @@ def _view(text: PlacedText, page: Page | None) -> Part | None:
     return left, top, width, height
 
 
-def _reach(text: ET.Element) -> Part:
+def _reach(text: ET.Element) -> View:
     """As far as the letters could stand from where the text begins, on no page."""
     numbers = [parse_numbers(e.get(name)) for e in text.iter() for name in ("x", "y", "dx", "dy")]
     sizes = [parse_length(e.get("font-size"), _FONT_PX) or _FONT_PX for e in text.iter()]

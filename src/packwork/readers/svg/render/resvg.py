@@ -26,11 +26,11 @@ costs time, smaller loses specks between its pixels. Chosen."""
 _MARGIN_PX = 2
 _SEEN = 0.5 / 255
 
-Part: TypeAlias = tuple[float, float, float, float]
+View: TypeAlias = tuple[float, float, float, float]
 """Left, top, width and height in CSS pixels."""
 
 
-def coverage(root: ET.Element, page: Page, part: Part, longest_px: int) -> FloatArray:
+def coverage(root: ET.Element, page: Page, part: View, longest_px: int) -> FloatArray:
     """Opacity 0..1 of one part of the page, its longer side ``longest_px`` pixels.
 
     Raises
@@ -50,7 +50,7 @@ def coverage(root: ET.Element, page: Page, part: Part, longest_px: int) -> Float
     return np.asarray(pixels[:, :, 3], dtype=np.float64) / 255.0
 
 
-def inked(opacity: FloatArray, part: Part) -> Part | None:
+def inked(opacity: FloatArray, part: View) -> View | None:
     """Box of what a picture of a part shows, with a margin of two pixels; None if nothing.
 
     Examples
@@ -72,7 +72,7 @@ def inked(opacity: FloatArray, part: Part) -> Part | None:
 def page_picture(
     root: ET.Element,
     page: Page,
-    part: Part | None = None,
+    part: View | None = None,
     longest_px: int = TRACE_PX,
 ) -> bytes:
     """PNG of one part of the page, or all of it, its longer side ``longest_px`` pixels.

@@ -19,7 +19,7 @@ from packwork.readers.budget.work import LEAST_PX, Work
 from packwork.readers.options import HALF
 from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.region.ink import TracedInk
-from packwork.readers.svg.render.resvg import FIND_PX, Part, coverage, inked
+from packwork.readers.svg.render.resvg import FIND_PX, View, coverage, inked
 from packwork.readers.svg.render.resvg import TRACE_PX as TRACE_PX
 from packwork.readers.svg.render.resvg import page_picture as page_picture
 from packwork.readers.svg.render.touched import touched
@@ -56,7 +56,7 @@ def needs_tracing(root: ET.Element) -> bool:
 def traced_ink(
     root: ET.Element,
     page: Page,
-    part: Part | None,
+    part: View | None,
     work: Work,
     threshold: float = HALF,
     shapes: Sequence[Painted] = (),
@@ -116,7 +116,7 @@ def is_plain_enough(region: Region) -> bool:
     return points <= MAX_POINTS and len(rings) <= MAX_RINGS
 
 
-def inked_part(root: ET.Element, page: Page, work: Work) -> Part | None:
+def inked_part(root: ET.Element, page: Page, work: Work) -> View | None:
     """Box of what a clean drawing shows on its page, with a margin; None if nothing.
 
     Raises
@@ -142,7 +142,7 @@ def inked_part(root: ET.Element, page: Page, work: Work) -> Part | None:
 def _traced(
     twin: ET.Element,
     page: Page,
-    part: Part,
+    part: View,
     work: Work,
     threshold: float,
     longest_px: int,
@@ -177,7 +177,7 @@ def _traced(
         side = max(LEAST_PX, side // _COARSER)
 
 
-def _on_page(traced: Region, part: Part, side: int) -> Region:
+def _on_page(traced: Region, part: View, side: int) -> Region:
     """Region in CSS pixels."""
     px = max(part[2:]) / side
     return shapely.transform(traced, lambda points: points * px + part[:2])
