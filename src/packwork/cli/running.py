@@ -20,7 +20,6 @@ from packwork import pipeline, uses, writers
 from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.notices import NOTICES, joined
-from packwork.cli.saliency import write_saliency
 from packwork.cli.show import (
     Paper,
     beside_line,
@@ -206,7 +205,11 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     check_room(job, outputs.kiss)
     # Beforehand, so that no run is lost to what its recipe holds.
     saved = outputs.saved_recipe(recipe)
-    write_saliency(recipe, outputs.saliency)
+    if outputs.saliency is not None:
+        # Only what is asked for loads the picture library.
+        from packwork.display.saliency import write_saliency
+
+        write_saliency(recipe, outputs.saliency)
     compile_kernels(TerminalBar(console, quiet))
     bar = TerminalBar(console, quiet)
     interrupt = Interrupt()

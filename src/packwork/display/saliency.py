@@ -1,19 +1,23 @@
-"""What stands out of a picture, and the part of it that is filled."""
+"""Picture of saliency: what stands out in red, a line round the part that is filled."""
 
 from __future__ import annotations
 
 import io
+from pathlib import Path
 
 import numpy as np
 from PIL import Image, ImageDraw
 
+from packwork.errors import RecipeError
 from packwork.readers.container import read_container
 from packwork.readers.files import read_bytes
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.pictures.developing import developed, inspected
 from packwork.readers.saliency.container import QuietOptions
 from packwork.readers.saliency.region import saliency_map
+from packwork.recipe import Recipe
 from packwork.recipe_paths import AROUND
+from packwork.writers.atomic import check_writable, write_atomic
 
 SIDE_PX = 1_000
 """Longer side of the picture. Chosen."""
@@ -21,6 +25,27 @@ SIDE_PX = 1_000
 _PALE = 0.6
 _LINE_PX = 4
 _RED = np.array([220.0, 30.0, 30.0])
+
+
+def write_saliency(recipe: Recipe, path: Path) -> None:
+    """Write the saliency of a recipe's picture and the outline of its quiet part, as PNG.
+
+    Raises
+    ------
+    ReadError
+        If the picture cannot be used.
+    RecipeError
+        If the container is no picture.
+    WriteError
+        If nothing can be written there.
+    """
+    if not recipe.container.startswith(AROUND):
+        raise RecipeError(
+            "show_saliency", f"needs a container {AROUND}IMAGE, not {recipe.container[:40]!r}"
+        )
+    check_writable(path)
+    quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
+    write_atomic(path, saliency_png(recipe.container, quiet))
 
 
 def saliency_png(source: str, quiet: QuietOptions) -> bytes:

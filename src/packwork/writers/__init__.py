@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from packwork.writers.diagnose import diagnose_png
     from packwork.writers.film.film import Film, tell_nobody
     from packwork.writers.film.registry import FILMS, check_film, film_bytes
-    from packwork.writers.geojson import geojson_text
+    from packwork.writers.geojson import geojson_text, json_bytes
     from packwork.writers.halos import faint_told
     from packwork.writers.png import png_bytes
     from packwork.writers.recipe import recipe_bytes
@@ -33,7 +33,6 @@ if TYPE_CHECKING:
         write,
         write_options,
     )
-    from packwork.writers.report import json_bytes
     from packwork.writers.svg import SvgOptions, svg_text
 
 __all__ = [
@@ -69,7 +68,7 @@ _HOMES = {
     "diagnose": ("diagnose_png",),
     "film.film": ("Film", "tell_nobody"),
     "film.registry": ("FILMS", "check_film", "film_bytes"),
-    "geojson": ("geojson_text",),
+    "geojson": ("geojson_text", "json_bytes"),
     "halos": ("faint_told",),
     "png": ("png_bytes",),
     "recipe": ("recipe_bytes",),
@@ -77,7 +76,6 @@ _HOMES = {
         "WRITERS", "WriteOptions", "check_output", "check_picture_size", "encoded", "write",
         "write_options",
     ),
-    "report": ("json_bytes",),
     "svg": ("SvgOptions", "svg_text"),
 }  # fmt: skip
 

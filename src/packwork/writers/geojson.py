@@ -80,6 +80,17 @@ def plain(value: Any) -> Any:
     return str(value)
 
 
+def json_bytes(values: Mapping[str, Any]) -> bytes:
+    """Indented JSON of plain values, as ``--report`` writes them.
+
+    Examples
+    --------
+    >>> json.loads(json_bytes({"gap": float("inf")}))
+    {'gap': None}
+    """
+    return (json.dumps(plain(values), indent=2, allow_nan=False) + "\n").encode()
+
+
 def _json(value: Any) -> str:
     return json.dumps(value, separators=(",", ":"), allow_nan=False)
 
