@@ -124,26 +124,21 @@ def helped(one_more: Callable[[], None]) -> Iterator[tuple[Path, Any]]:
     with tempfile.TemporaryDirectory(prefix="packwork-claims-") as claims:
         # Not ``-m``, which would look for modules in the current folder.
         command = [sys.executable, "-P", "-c", _HELPER, json.dumps(sys.path), claims]
-        helper = subprocess.Popen(  # noqa: S603 - ourselves
+        with subprocess.Popen(  # noqa: S603 - ourselves
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
-        )
-        assert helper.stdout is not None  # noqa: S101 - a pipe was asked for
+        ) as helper:
 
-        def count(lines: Any = helper.stdout) -> None:
-            for _ in lines:
-                one_more()
+            def count() -> None:
+                for _ in helper.stdout or ():
+                    one_more()
 
-        counter = threading.Thread(target=count, daemon=True)
-        counter.start()
-        try:
-            yield Path(claims), helper
-        finally:
-            helper.kill()
-            helper.wait()
-            counter.join()
-            helper.stdout.close()
-            if helper.stdin is not None:
-                helper.stdin.close()
+            counter = threading.Thread(target=count, daemon=True)
+            counter.start()
+            try:
+                yield Path(claims), helper
+            finally:
+                helper.kill()
+                counter.join()
 
 
 def share(parts: Sequence[Part], claims: Path) -> None:

@@ -42,6 +42,8 @@ class ChartRead:
 
     Parameters
     ----------
+    options
+        As asked.
     items
         One per mark, in the order of the table.
     areas
@@ -72,6 +74,7 @@ class ChartRead:
         What parts fractions of its numbers, as in the table.
     """
 
+    options: ChartOptions
     items: tuple[Item, ...]
     areas: FloatArray
     values: FloatArray
@@ -171,6 +174,7 @@ def read_chart(
     in_group = [names[k] for k in group_of] if names else [""] * len(items)
     data = zip(owner, values.tolist(), colour_of or [""] * len(items), in_group, strict=True)
     return ChartRead(
+        options=options,
         items=tuple(
             replace(item, datum=Datum(rows[k], value, category, group))
             for item, (k, value, category, group) in zip(items, data, strict=True)

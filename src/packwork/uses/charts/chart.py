@@ -20,8 +20,6 @@ class Chart:
 
     Parameters
     ----------
-    options
-        As asked.
     read
         What the marks stand for.
     frame
@@ -32,11 +30,15 @@ class Chart:
         The container of which each group has a copy; None where they are bars.
     """
 
-    options: ChartOptions
     read: ChartRead
     frame: LegendFrame
     cells: tuple[Cell, ...]
     single: Container | None
+
+    @property
+    def options(self) -> ChartOptions:
+        """What was asked of it."""
+        return self.read.options
 
     @property
     def has_bars(self) -> bool:

@@ -60,10 +60,9 @@ def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
     RecipeError
         If there are more categories than the palette has colours.
     """
-    assert recipe.chart is not None  # noqa: S101 - called for charts only
-    paper = recipe.chart.paper
-    if chart.is_ramp and recipe.chart.color_by is not None:
-        return _ramp(recipe, chart, recipe.chart.color_by, paper)
+    paper, column = chart.options.paper, chart.options.color_by
+    if chart.is_ramp and column is not None:
+        return _ramp(recipe, chart, column, paper)
     if chart.colour_of is None:
         first = None if recipe.palette is None else palette_colours(recipe.palette)[0]
         return ChartColours((first,) * len(chart.items))

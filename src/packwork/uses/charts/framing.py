@@ -116,9 +116,7 @@ def frame_ems(
 
     Where the container is not known yet, as much as may be needed.
     """
-    options = recipe.chart
-    assert options is not None  # noqa: S101 - called for charts only
-    above = TITLE_EM if options.title else 0.0
+    above = TITLE_EM if chart.options.title else 0.0
     below = legend_ems(recipe, chart, container)
     if not (above or below or chart.groups):
         return 0.0, 0.0, 0.0
@@ -127,8 +125,8 @@ def frame_ems(
 
 def legend_ems(recipe: Recipe, chart: ChartRead, container: Container | None) -> float:
     """Height of the legend, in ems; 0 for none."""
-    options = recipe.chart
-    if options is None or not options.legend:
+    options = chart.options
+    if not options.legend:
         return 0.0
     ems = 0.0
     if has_sizes(options):
@@ -159,8 +157,7 @@ def has_sizes(options: ChartOptions) -> bool:
 
 def key_names(recipe: Recipe, chart: ChartRead) -> list[str]:
     """Categories that have keys, in their order: those of colours, then those of marks alone."""
-    options = recipe.chart
-    assert options is not None  # noqa: S101 - called for charts only
+    options = chart.options
     names: dict[str, None] = {}
     # Names of groups stand beside them.
     if options.color_by is not None and options.color_by != options.by:

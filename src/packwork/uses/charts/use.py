@@ -93,7 +93,7 @@ def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> M
     chosen = cast_chart(recipe, read)
     spread = spread_out(recipe, read, room)
     return Material(
-        use=Marks(Chart(asked, read, spread.frame, spread.cells, spread.single)),
+        use=Marks(Chart(read, spread.frame, spread.cells, spread.single)),
         container=spread.container,
         cast=chosen,
         fillers=(),

@@ -53,19 +53,20 @@ def word_colours(recipe: Recipe, read: WordsRead, layout: Layout) -> list[str | 
     ReadError
         If there is no such picture.
     """
-    if recipe.words is None or recipe.words.color_by is None:
+    asked = recipe.words
+    if asked is None or asked.color_by is None:
         return None
     # Not by name: an icon may be called as a word is.
     said = dict(zip(read.items, read.words, strict=True))
     # Emoji in colours of their own keep them.
     words = [said.get(item) if has_one_colour(item.art) else None for item in layout.items]
-    by = recipe.words.color_by
+    by = asked.color_by
     if callable(by):
-        return _by_function(words, by, recipe)
+        return _by_function(words, by, asked, _palette(recipe)[0])
     if by == WEIGHT:
         return _by_weight(words, _palette(recipe))
     if _is_picture(by):
-        return _by_picture(words, layout, by, recipe.words)
+        return _by_picture(words, layout, by, asked)
     return _by_column(words, by, _palette(recipe))
 
 
@@ -113,22 +114,23 @@ def _by_weight(words: list[Word | None], palette: tuple[str, ...]) -> list[str |
     ]
 
 
-def _by_function(words: list[Word | None], colour_of: ColourOf, recipe: Recipe) -> list[str | None]:
-    """What a function says of each word, kept readable.
+def _by_function(
+    words: list[Word | None], colour_of: ColourOf, options: WordOptions, otherwise: str
+) -> list[str | None]:
+    """What a function says of each word, kept readable; ``otherwise`` where it says None.
 
     Raises
     ------
     RecipeError
         If that is no colour.
     """
-    assert recipe.words is not None  # noqa: S101 - called for words only
-    paper, first = recipe.words.paper or PAPER, _palette(recipe)[0]
+    paper = options.paper or PAPER
     found: list[str | None] = []
     for word in words:
         said = None if word is None else colour_of(word)
-        colour = first if said is None else said
+        colour = otherwise if said is None else said
         try:
-            legible = readable(colour, paper, recipe.words.contrast)
+            legible = readable(colour, paper, options.contrast)
         except (ValueError, TypeError, AttributeError):
             text = "" if word is None else word.text
             raise RecipeError(
