@@ -31,12 +31,12 @@ from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.detail import seen_at
 from packwork.solve.level import Level
-from packwork.solve.relocate import violation_shares
+from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.solver import solve
 from packwork.start.angles import start_angles
 from packwork.start.first_poses import first_poses
 from packwork.start.options import StartOptions
-from packwork.start.relocate import relocated
+from packwork.start.relocate_buried import relocated
 from packwork.start.sizes import nominal_scales, yielding_scales
 
 METHODS = ("distance-field", "medial-axis", "auto", "scatter")

@@ -13,7 +13,7 @@ from packwork.compaction.compact import compact, worth
 from packwork.compaction.kernels.steps import LEAST_GROWTH, MOST_GROWTH
 from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize
 from packwork.compaction.outer_simplify import inner_simplified, outer_simplified
-from packwork.compaction.relocate import relocate
+from packwork.compaction.relocate_stuck import relocate
 from packwork.compaction.separate import separate, separate_evenly
 from packwork.geometry.outline import Outline
 from packwork.readers.container import read_container

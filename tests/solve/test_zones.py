@@ -14,7 +14,7 @@ from packwork.arrays import FloatArray
 from packwork.scene.limits import Limits, Zone
 from packwork.solve.level import Level
 from packwork.solve.options import SolveOptions
-from packwork.solve.relocate import relocate_trapped, violation_shares
+from packwork.solve.relocate_trapped import relocate_trapped, violation_shares
 from packwork.solve.solver import solve
 from packwork.solve.zones import ZonePull
 from scenes import (

@@ -13,7 +13,7 @@ from packwork.arrays import BoolArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import LEAST_GROWTH
 from packwork.compaction.options import HOPELESS
-from packwork.compaction.relocate import relocate
+from packwork.compaction.relocate_stuck import relocate
 
 CUT = 0.004
 """Logarithm of size that an item in conflict loses at a time. Larger gives room away,

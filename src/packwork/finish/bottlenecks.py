@@ -11,7 +11,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import Objective
-from packwork.compaction.relocate import free_room
+from packwork.compaction.relocate_stuck import free_room
 from packwork.fields.voids import largest_voids
 from packwork.finish.anneal import Lengths, at_angles, put_best
 

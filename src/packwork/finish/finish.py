@@ -17,7 +17,7 @@ from packwork.compaction.detail import COARSE, COARSE_OF_GAP, FINE, FINE_OF_GAP,
 from packwork.compaction.kernels.steps import MOST_GROWTH, Objective
 from packwork.compaction.objective import SharedSize, turn_ranges
 from packwork.compaction.options import HAIR
-from packwork.compaction.relocate import relocate
+from packwork.compaction.relocate_stuck import relocate
 from packwork.compaction.separate import relocate_stuck, separate, separate_evenly
 from packwork.finish import bottlenecks
 from packwork.finish.anneal import Lengths, anneal

@@ -30,12 +30,12 @@ from packwork.scene.mixing import mixed
 from packwork.scene.neighbours import neighbour_pairs
 from packwork.scene.pose import Poses
 from packwork.solve.level import Level
-from packwork.solve.relocate import violation_shares
+from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.shaped import seen_posed
 from packwork.solve.solver import scale_bounds
 from packwork.start.angles import nearest_allowed, start_angles
 from packwork.start.first_poses import disc_radii
-from packwork.start.relocate import relocated
+from packwork.start.relocate_buried import relocated
 from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
 
 NOMINAL_COVERAGE = 0.82

@@ -17,7 +17,7 @@ from packwork.pipeline.plan.resolution import photo_pixels
 from packwork.scene.layout import Layout
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.solve.level import Level
-from packwork.solve.relocate import violation_shares
+from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.shaped import seen_posed
 from packwork.solve.solver import Ending, Outcome
 

@@ -27,7 +27,7 @@ from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
 from packwork.solve.pace import pace_of
-from packwork.solve.relocate import Relocation, relocate_trapped
+from packwork.solve.relocate_trapped import Relocation, relocate_trapped
 from packwork.solve.schedule import force_factor, growth, rate_factor, weights_at
 from packwork.solve.shaped import seen_posed
 

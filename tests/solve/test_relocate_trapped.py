@@ -8,7 +8,12 @@ import pytest
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.solve.level import Level
-from packwork.solve.relocate import MOST_AT_ONCE, SNUGNESS, relocate_trapped, violation_shares
+from packwork.solve.relocate_trapped import (
+    MOST_AT_ONCE,
+    SNUGNESS,
+    relocate_trapped,
+    violation_shares,
+)
 from scenes import disc, overlap_area, placed, poses, square, square_container, taken
 
 
