@@ -35,7 +35,12 @@ def test_what_checks_a_value_is_not_shown() -> None:
 
 def test_saving_shows_how_layouts_are_drawn() -> None:
     shown = inspect.signature(pw.Layout.save).parameters
-    assert list(shown) == ["self", "path", *(option.name for option in offered(DrawingOptions))]
+    assert list(shown) == [
+        "self",
+        "path",
+        "format",
+        *(option.name for option in offered(DrawingOptions)),
+    ]
 
 
 @pytest.mark.parametrize(

@@ -146,6 +146,10 @@ def _keys(model: type[Options], imports: set[str]) -> list[Key]:
 
 def _taken(name: str, field: Any, takes: Any, imports: set[str]) -> str:
     """Type of what Python may give for a field."""
+    if name == "start":
+        imports.add("from packwork.scene.layout import Layout")
+        imports.add("from packwork.scene.pose import Poses")
+        return "str | Path | Layout | Poses | None"
     if name in (*ITEMS, *CONTAINERS):
         imports.add("from packwork.readers.memory.values import Value")
         more = {"region": "Sequence[str | float] | ", "shape": ""}.get(name, "Iterable[Value] | ")

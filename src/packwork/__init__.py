@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import importlib
+import sys
 
 # Not from ``typing``: its import takes ten milliseconds in which Ctrl-C would be a traceback.
 TYPE_CHECKING = False
@@ -16,7 +17,10 @@ if TYPE_CHECKING:
     from typing import Any
 
     from packwork.api.albums import photos
+    from packwork.api.judging import finish, measure
     from packwork.api.layout import Layout
+    from packwork.api.placement import Placement
+    from packwork.api.recipes import run
     from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
@@ -42,6 +46,7 @@ __all__ = [
     "Metrics",
     "Outline",
     "PackworkError",
+    "Placement",
     "Poses",
     "ReadError",
     "RecipeError",
@@ -52,13 +57,16 @@ __all__ = [
     "__version__",
     "chart",
     "fill",
+    "finish",
     "fit_outline",
+    "measure",
     "photos",
     "pile",
     "read_container",
     "read_items",
     "render",
     "render_pullback",
+    "run",
     "words",
 ]
 
@@ -72,6 +80,7 @@ _HOMES = {
     "Metrics": "packwork.metrics.measure:Metrics",
     "Outline": "packwork.geometry.outline:Outline",
     "PackworkError": "packwork.errors:PackworkError",
+    "Placement": "packwork.api.placement:Placement",
     "Poses": "packwork.scene.pose:Poses",
     "ReadError": "packwork.errors:ReadError",
     "RecipeError": "packwork.errors:RecipeError",
@@ -81,13 +90,16 @@ _HOMES = {
     "WriteError": "packwork.errors:WriteError",
     "chart": "packwork.api.verbs:chart",
     "fill": "packwork.api.verbs:fill",
+    "finish": "packwork.api.judging:finish",
     "fit_outline": "packwork.fit.fitted:fit_outline",
+    "measure": "packwork.api.judging:measure",
     "photos": "packwork.api.albums:photos",
     "pile": "packwork.api.verbs:pile",
     "read_container": "packwork.api.verbs:read_container",
     "read_items": "packwork.api.verbs:read_items",
     "render": "packwork.raster.coverage:coverage",
     "render_pullback": "packwork.raster.coverage:coverage_pullback",
+    "run": "packwork.api.recipes:run",
     "words": "packwork.api.verbs:words",
 }
 
@@ -107,3 +119,17 @@ if not TYPE_CHECKING:
 
 def __dir__() -> list[str]:
     return __all__
+
+
+class _Package(type(sys)):  # type: ignore[misc]
+    """The package, in which :func:`finish` is the verb and not the stage of that name.
+
+    Whoever imports from the package ``packwork.finish`` still finds it.
+    """
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not (name == "finish" and isinstance(value, type(sys))):
+            super().__setattr__(name, value)
+
+
+sys.modules[__name__].__class__ = _Package

@@ -85,10 +85,10 @@ def test_a_layout_that_is_no_chart_has_poses_alone() -> None:
     layout = pw.fill("circle", ["star", "heart"], count=3, **QUICK)
     frame = layout.to_dataframe()
     assert list(frame) == [
-        "item", "source", "x", "y", "angle", "scale", "stretch", "area", "weight", "color",
+        "item", "source", "x", "y", "angle_deg", "scale", "stretch", "area", "weight", "color",
     ]  # fmt: skip
     assert frame["item"].tolist() == ["star", "heart", "star"]
-    assert np.radians(frame["angle"].to_numpy()) == pytest.approx(layout.poses.angle)
+    assert np.radians(frame["angle_deg"].to_numpy()) == pytest.approx(layout.poses.angle)
 
 
 @pytest.mark.parametrize(

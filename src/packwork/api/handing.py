@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
 from packwork.readers.memory.shapes import Columns
 from packwork.readers.memory.values import Handed
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
 from packwork.shelf import shelf_in_use
 
-ITEMS = ("filler", "mark")
+ITEMS = ("filler", "items", "mark")
 """Options that are items: what is in memory may stand for them."""
 
-CONTAINERS = ("shape", "region")
+CONTAINERS = ("container", "region", "shape")
 """Options that are containers."""
 
 
@@ -46,6 +49,10 @@ def with_names(options: Mapping[str, Any], handed: Handed) -> dict[str, Any]:
 def _named(key: str, value: Any, handed: Handed) -> Any:
     if value is None:
         return None
+    if key == "start":
+        return _named_start(value, handed)
+    if key == "region" and isinstance(value, list | tuple):
+        return value  # shares of the canvas
     if key in CONTAINERS or (key in ITEMS and isinstance(value, str)):
         return handed.name_of(value, key)
     if key in ITEMS:
@@ -53,3 +60,10 @@ def _named(key: str, value: Any, handed: Handed) -> Any:
     if key == "rules" and isinstance(value, list | tuple):
         return [with_names(rule, handed) if isinstance(rule, Mapping) else rule for rule in value]
     return value
+
+
+def _named_start(value: Any, handed: Handed) -> Any:
+    """Name of a way to start, or of an earlier layout or poses."""
+    if isinstance(value, Layout | Poses):
+        return handed.shelf.put(value, "layout" if isinstance(value, Layout) else "poses")
+    return os.fspath(value) if isinstance(value, os.PathLike) else value

@@ -12,6 +12,8 @@ from typing import Any, Literal, Required, TypedDict
 
 from packwork.readers.memory.values import Value
 from packwork.readers.words.word import Word
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
 
 
 class PinTable(TypedDict, total=False):
@@ -33,7 +35,7 @@ class PinTable(TypedDict, total=False):
 class RuleTable(TypedDict, total=False):
     """What is asked of the items of some names."""
 
-    items: Required[str | Sequence[str]]
+    items: Required[Value | Iterable[Value] | None]
     """Names of items, or patterns such as ``b*``."""
 
     count: int | None
@@ -145,7 +147,7 @@ class _Every(TypedDict, total=False):
     seed: int
     """Same seed, same machine, same versions: same layout. Default: 0."""
 
-    start: str | None
+    start: str | Path | Layout | Poses | None
     """How the first places are found: distance-field (into the largest room), medial-axis (along
     the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;
     for words and shared sizes), or a layout (.geojson, .svg, .dxf; edited ones too). Default: what

@@ -2,22 +2,30 @@
 
 from __future__ import annotations
 
+import io
+import json
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 from functools import cached_property, partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import IO, TYPE_CHECKING, Any, Unpack, cast
 
 from pydantic import ValidationError
 
 from packwork import writers
+from packwork.api.frozen import ReadOnly, frozen, frozen_poses, manifest_of
 from packwork.api.keywords import FilmKeywords, SaveKeywords
+from packwork.api.placement import Placement, Pose
 from packwork.api.signatures import of_model
 from packwork.display.axes import drawn_on
 from packwork.display.bar import bar_for, shown
 from packwork.display.frame import data_frame
 from packwork.display.picture import notebook_png, notebook_svg
+from packwork.errors import RecipeError
+from packwork.metrics.certificate import Promise, broken
+from packwork.metrics.exact import exact_metrics
 from packwork.metrics.measure import Metrics, measure
-from packwork.readers.layouts.geojson import read_layout
+from packwork.readers.layouts.read import read_written
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import refusal
 from packwork.scene import layout as scene
@@ -33,7 +41,9 @@ if TYPE_CHECKING:
 class Layout(scene.Layout):
     """Container + items + poses: what :func:`fill` returns, what is saved and shown.
 
-    It shows itself in a notebook and never changes: ``dataclasses.replace`` gives another.
+    It shows itself in a notebook and never changes: ``dataclasses.replace`` gives another, which
+    is measured anew. ``len`` is the number of placed items; iterating gives each of them with its
+    outline in place, pose, name and weight.
 
     Parameters
     ----------
@@ -47,7 +57,7 @@ class Layout(scene.Layout):
     weights
         ``(n,)`` share of area asked for each item; all ones if none were given.
     manifest
-        What the run did: version, recipe, seed, seconds and metrics per level.
+        What the run did: version, recipe, seed, seconds, what each level found, metrics.
     track
         How the items came here, if that was recorded: :meth:`save_film` shows it.
     leaving
@@ -61,16 +71,45 @@ class Layout(scene.Layout):
     <Layout: 4 items in heart>
     >>> [item.name for item in layout.items]
     ['circle', 'star', 'circle', 'star']
+    >>> len(layout), [placed.name for placed in layout if placed.pose.y > 0][:2]
+    (4, ['circle', 'star'])
     >>> layout.poses.x.shape, layout.manifest["recipe"]["effort"]
     ((4,), 'draft')
     """
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        put = partial(object.__setattr__, self)
+        put("poses", frozen_poses(self.poses))
+        put("weights", frozen(self.weights))
+        parts = self.container, self.items, self.poses, self.weights
+        put("manifest", manifest_of(self.manifest, parts))
+
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        self.__dict__.update(state)
+        # Arrays come out of a pickle as if they could be changed.
+        for array in (self.weights, *(getattr(self.poses, c.name) for c in fields(self.poses))):
+            array.flags.writeable = False
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    def __bool__(self) -> bool:
+        return True
+
+    def __iter__(self) -> Iterator[Placement]:
+        poses = self.poses
+        columns = (poses.x, poses.y, poses.angle, poses.scale, poses.stretch, self.weights)
+        numbers = zip(*(column.tolist() for column in columns), strict=True)
+        for item, outline, row in zip(self.items, self.outlines, numbers, strict=True):
+            yield Placement(item, Pose(*row[:-1]), outline, row[-1])
+
     @classmethod
     def load(cls, path: str | Path) -> Layout:
-        """Layout from a file that was saved as ``.geojson``.
+        """Layout from a file that was saved as ``.geojson``; also from an SVG or a DXF of ours.
 
         The items come back as flat shapes in their mean colour: pictures and drawings stay in
-        their files.
+        their files. SVG and DXF hold shapes in place, and no poses.
 
         Raises
         ------
@@ -88,12 +127,13 @@ class Layout(scene.Layout):
         >>> bool(abs(again.poses.angle - layout.poses.angle).max() < 1e-9)
         True
         """
-        return public(read_layout(Path(path)))
+        return public(read_written(path))
 
     @of_model(DrawingOptions)
     def save(
         self,
-        path: str | Path,
+        path: str | Path | IO[Any],
+        format: str | None = None,
         **options: Unpack[SaveKeywords],
     ) -> None:
         """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
@@ -101,7 +141,10 @@ class Layout(scene.Layout):
         Parameters
         ----------
         path
-            Where to; an older file is replaced only when the new one is complete.
+            Where to; an older file is replaced only when the new one is complete. Or an open
+            file or buffer.
+        format
+            Such as ``"svg"``, in place of the ending; a buffer has none.
         options
             As on the command line: ``pixels``, ``dpi``, ``background``, ``halo`` ...
 
@@ -120,11 +163,62 @@ class Layout(scene.Layout):
         >>> with tempfile.TemporaryDirectory() as folder:
         ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
         """
-        try:
-            drawing = writers.write_options(**options)
-        except ValidationError as error:
-            raise refusal(error, DrawingOptions) from error
-        writers.write(self, path, drawing)
+        if isinstance(path, str | Path):
+            if format is None:
+                writers.write(self, path, _drawing(options))
+            else:
+                writers.write_atomic(path, self._encoded(format, options))
+            return
+        format = format or Path(str(getattr(path, "name", ""))).suffix
+        if not format:
+            raise RecipeError("format", "a buffer has no ending; give a format, such as 'svg'")
+        content = self._encoded(format, options)
+        path.write(content.decode() if isinstance(path, io.TextIOBase) else content)
+
+    @of_model(DrawingOptions)
+    def to_svg(self, **options: Unpack[SaveKeywords]) -> str:
+        """Text of the SVG that :meth:`save` writes.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> fill("circle", "star", effort="draft", levels="50").to_svg()[:5]
+        '<?xml'
+        """
+        return self._encoded("svg", options).decode()
+
+    @of_model(DrawingOptions)
+    def to_png(self, **options: Unpack[SaveKeywords]) -> bytes:
+        r"""Content of the PNG that :meth:`save` writes.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> fill("circle", "star", effort="draft", levels="50").to_png(pixels=64)[:4]
+        b'\x89PNG'
+        """
+        return self._encoded("png", options)
+
+    def to_geojson(self) -> dict[str, Any]:
+        """What the GeoJSON holds that :meth:`save` writes: canvas units, y down.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> made = fill("circle", "star", effort="draft", levels="50").to_geojson()
+        >>> [feature["properties"]["role"] for feature in made["features"]]
+        ['container', 'item']
+        """
+        made: dict[str, Any] = json.loads(self._encoded("geojson", {}))
+        return made
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        """The same, for GeoPandas, Shapely and others that ask for it."""
+        return self.to_geojson()
+
+    def _encoded(self, format: str, options: Mapping[str, Any]) -> bytes:
+        return writers.encoded(self, f"layout.{format.lower().lstrip('.')}", _drawing(options))
 
     @of_model(FilmOptions)
     def save_film(
@@ -172,7 +266,7 @@ class Layout(scene.Layout):
 
         Of a chart, first the columns of its table, then ``value`` (what the mark stands for),
         ``category`` and ``group``, where there are any; of all layouts ``item``, ``source``,
-        ``x``, ``y``, ``angle`` (degrees, clockwise, as in files), ``scale``, ``stretch``,
+        ``x``, ``y``, ``angle_deg`` (degrees, clockwise, as in files), ``scale``, ``stretch``,
         ``area`` (squared canvas units), ``weight`` and ``color``. Where the table has a column of
         that name too, ours is called ``mark_x`` and so on.
 
@@ -232,13 +326,39 @@ class Layout(scene.Layout):
         >>> 0.5 < layout.metrics["LC"] < 1, sorted(layout.metrics["exact"])[-3:]
         (True, ['min_gap', 'outside_area', 'overlap_area'])
         """
-        return measure(self).as_dict()
+        return cast(Metrics, ReadOnly(measure(self).as_dict()))
+
+    @cached_property
+    def certified(self) -> bool:
+        """Whether exact geometry finds no overlap, nothing outside, and gaps as promised.
+
+        Of a layout that was changed since it was measured, this is found anew.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> fill("circle", "hexagon", count=7, effort="draft", levels="50").certified
+        True
+        """
+        known = self.manifest.get("certified")
+        if isinstance(known, bool):
+            return known
+        promise = Promise.of(self.manifest) or Promise()
+        exact = exact_metrics(self.outlines, self.container.outline)
+        return len(self) > 0 and not broken(promise, self, exact)
 
     def _repr_svg_(self) -> str | None:
         return notebook_svg(self)
 
     def _repr_png_(self) -> tuple[bytes, dict[str, int]] | None:
         return notebook_png(self)
+
+
+def _drawing(options: Mapping[str, Any]) -> writers.WriteOptions:
+    try:
+        return writers.write_options(**options)
+    except ValidationError as error:
+        raise refusal(error, DrawingOptions) from error
 
 
 def public(layout: scene.Layout) -> Layout:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Literal, Unpack
 
 from packwork import uses
+from packwork.api.frozen import ReadOnly
 from packwork.api.handing import handed_over, with_names
 from packwork.api.keywords import ChartKeywords, FillKeywords, PileKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
@@ -88,7 +89,7 @@ def fill(
             items=handed.names_of(items, "items"),
             **with_names(options, handed),
         )
-        return _run(recipe, container, observer, stop, progress, record)
+        return run_recipe(recipe, container, observer, stop, progress, record)
 
 
 @of_verb(Verbs.WORDS, BACKGROUND)
@@ -146,7 +147,7 @@ def words(
             add=handed.names_of(add, "add"),
             **with_names(options, handed),
         )
-        return _run(recipe, container, observer, stop, progress, record)
+        return run_recipe(recipe, container, observer, stop, progress, record)
 
 
 @of_verb(Verbs.PILE)
@@ -192,7 +193,7 @@ def pile(
             handed.names_of(items, "items"),
             **with_names(options, handed),
         )
-        return _run(recipe, container, observer, stop, progress, record)
+        return run_recipe(recipe, container, observer, stop, progress, record)
 
 
 @of_verb(Verbs.CHART, BACKGROUND)
@@ -236,7 +237,7 @@ def chart(
     with handed_over(y_up) as handed:
         named = with_names(options, handed)
         recipe = uses.chart_recipe(handed.name_of(container, "container"), data, **named)
-        return _run(recipe, container, observer, stop, progress, record)
+        return run_recipe(recipe, container, observer, stop, progress, record)
 
 
 def read_items(
@@ -343,7 +344,7 @@ def read_container(
         return _read_container(name, canvas, font, reading=how)
 
 
-def _run(
+def run_recipe(
     recipe: Recipe,
     container: Value,
     observer: Observer | None,
@@ -351,11 +352,12 @@ def _run(
     progress: bool | None,
     record: bool,
 ) -> Layout:
+    """Run a recipe, with a bar if one is to be shown; a container that was given is used as is."""
     bar = bar_for(progress, observer)
     whole = container if isinstance(container, Container) else None
     with shown(bar):
         run = uses.fill(recipe, None, whole, bar or observer or NOBODY, stop, record)
     layout = public(run.layout)
     # What was just measured is not measured again when it is asked for.
-    layout.__dict__["metrics"] = run.metrics.as_dict()
+    layout.__dict__["metrics"] = ReadOnly(run.metrics.as_dict())
     return layout

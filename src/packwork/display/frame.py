@@ -79,7 +79,7 @@ def _ours(layout: Layout) -> dict[str, Any]:
         "source": [item.source for item in layout.items],
         "x": poses.x,
         "y": poses.y,
-        "angle": np.degrees(poses.angle),
+        "angle_deg": np.degrees(poses.angle),
         "scale": poses.scale,
         "stretch": poses.stretch,
         "area": layout.areas,

@@ -49,6 +49,11 @@ BURIED_SHARE = 0.5
 """Share of an item under others or outside from which it is moved before a run that did
 not choose its own start. Smaller undoes more of that start. Chosen."""
 
+ROUGH_SHARE, ROUGH_ITEMS = 0.1, 0.1
+"""Share of an item under others or outside, and share of the items of which so much is, from which
+an earlier layout goes through the levels. Larger leave more to the finish, which moves items little
+and shrinks them. Chosen."""
+
 ALIKE = 1.3
 """Factor in radius between two items that may change places to come apart from others of
 their kind. Larger finds more partners and upsets the start more. Chosen."""
@@ -82,6 +87,8 @@ class Beginning:
         What rules ask of single items.
     is_tight
         Whether nothing overlaps, and the levels have nothing to add.
+    goes_on
+        Whether items keep their order, as those of an earlier layout that is no mere heap do.
     """
 
     job: Job
@@ -93,6 +100,12 @@ class Beginning:
     method: str
     limits: Limits
     is_tight: bool = False
+    goes_on: bool = False
+
+    @property
+    def is_refined(self) -> bool:
+        """Whether an earlier layout is gone on from that has to be refined only."""
+        return self.is_tight and self.goes_on
 
 
 def begin(job: Job, stop: Stop = never) -> Beginning:
@@ -151,18 +164,21 @@ class _Start:
         self, poses: Poses, method: str, limits: Limits, *, is_tight: bool = False
     ) -> Beginning:
         """The beginning from these poses, once they are checked and nothing lies buried."""
-        job, outlines = self._job, self._outlines
+        job, outlines, goes_on = self._job, self._outlines, self._job.plan.stays
         check_poses(job, self._region, poses, limits)
         if job.plan.stays:
             buried = new_items(job)
             poses = relocated(self._region, outlines, poses, buried, self._rng, limits)
         elif method in {"layout", "scatter"}:
-            poses = _unburied(self._region, outlines, poses, self._rng, limits)
+            shares = _violation(self._region, outlines, poses, limits)
+            poses = _unburied(self._region, outlines, poses, shares, self._rng, limits)
+            goes_on = method == "layout" and _share_above(BURIED_SHARE, shares) <= ROUGH_ITEMS
+            is_tight = goes_on and _needs_no_levels(job, shares)
         if limits.keeps_kinds_apart:
             poses = _kinds_apart(outlines, poses, limits)
         return Beginning(
             job, self._region, outlines, self._forces, poses, self._nominal, method, limits,
-            is_tight,
+            is_tight, goes_on,
         )  # fmt: skip
 
 
@@ -248,17 +264,41 @@ def _of_now(job: Job, earlier: Layout, poses: Poses, nominal: FloatArray) -> Pos
     return of_now.with_some(np.flatnonzero(known), poses.some(found[known]))
 
 
+def _violation(
+    container: Container, outlines: Sequence[Outline], poses: Poses, limits: Limits
+) -> FloatArray:
+    """``(n,)`` share of each item that lies under others or outside."""
+    seen = seen_posed(outlines, poses, BURIED_RESOLUTION / container.side)
+    level = Level(container, seen, BURIED_RESOLUTION, limits=limits)
+    return violation_shares(level, poses, level.density(poses))
+
+
+def _share_above(bound: float, violation: FloatArray) -> float:
+    return float(np.mean(violation > bound))
+
+
+def _needs_no_levels(job: Job, violation: FloatArray) -> bool:
+    """Whether an earlier layout is such that only the exact finish has to go on with it.
+
+    So it is where hardly anything overlaps or sticks out, and nothing is asked of which the
+    finish knows nothing.
+    """
+    plan = job.plan
+    is_asked = bool(plan.losses) or plan.keeps_apart or not plan.is_default or not plan.is_exact
+    is_rough = _share_above(ROUGH_SHARE, violation) > ROUGH_ITEMS
+    return not (is_asked or is_rough) and not job.forces.acts
+
+
 def _unburied(
     container: Container,
     outlines: Sequence[Outline],
     poses: Poses,
+    violation: FloatArray,
     rng: np.random.Generator,
     limits: Limits,
 ) -> Poses:
     """Poses in which items that lie mostly under others or outside have been moved."""
-    seen = seen_posed(outlines, poses, BURIED_RESOLUTION / container.side)
-    level = Level(container, seen, BURIED_RESOLUTION, limits=limits)
-    buried = np.flatnonzero(violation_shares(level, poses, level.density(poses)) > BURIED_SHARE)
+    buried = np.flatnonzero(violation > BURIED_SHARE)
     return relocated(container, outlines, poses, buried, rng, limits) if len(buried) else poses
 
 
@@ -294,6 +334,8 @@ def _earlier_poses(job: Job, earlier: Layout, nominal: FloatArray) -> Poses:
     poses = brought_over(earlier.poses, earlier.container, job.container)
     if plan.stays:
         poses = _of_now(job, earlier, poses, nominal)
+    elif len(poses) == len(nominal) and (found := who_is_who(job, earlier)).min() >= 0:
+        poses = poses.some(found)
     if len(poses) != len(nominal):
         raise RecipeError(
             "start",

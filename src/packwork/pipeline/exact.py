@@ -214,6 +214,8 @@ def _options(
         limit = narrowest if np.isfinite(narrowest) else None
     # Put together so closely, items have nowhere to go: a tenth of a point in twice the time.
     is_settled = start.is_tight and plan.effort != "best"
+    # What goes on from an earlier layout keeps its order, unless much effort is asked for.
+    keeps_order = plan.stays or (start.goes_on and plan.effort != "best")
     return FinishOptions(
         gap_cu=gap_with_bulge(job, items, largest),
         sizes=plan.sizes,
@@ -222,10 +224,10 @@ def _options(
         turning=turning,
         turn_limit=limit if turning else None,
         leans=tuple(leans[items].tolist()) if turning and leans.any() else None,
-        trials=0 if plan.stays or is_settled else trials_for(job, len(items)),
+        trials=0 if keeps_order or is_settled else trials_for(job, len(items)),
         relieving=not is_settled,
-        refining=needs_no_levels(job),
-        staying=plan.stays,
+        refining=needs_no_levels(job) or start.is_refined,
+        staying=plan.stays or start.is_refined,
         seed=plan.seed,
     )
 

@@ -31,8 +31,10 @@ def run_levels(begun: Beginning, watch: Watch) -> Placed:
         if needs_no_levels(job) or begun.is_tight:
             return Placed.of(begun, Outcome(begun.poses, Ending.DONE), recorder)
         options = _solve_options(job)
+        if begun.goes_on:
+            options = calmed(options)
         if job.plan.stays:
-            options, forces = calmed(options), with_homes(begun)
+            forces = with_homes(begun)
         outcome = solve(
             begun.region, begun.outlines, begun.poses, begun.nominal, options,
             observer, watch.stop, begun.limits, forces,

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from packwork.errors import PackworkError
+import numpy as np
+
+from packwork.errors import PackworkError, RecipeError
 from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.plan.cast import Cast
@@ -24,6 +26,8 @@ from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+from packwork.shelf import shelved
 
 AUTO = "auto"
 """What people write for a number of items that is found."""
@@ -119,7 +123,7 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         weights=weights,
         regions=read_regions(chosen.asked, container),
         fillers=fillers.items,
-        earlier=_earlier(recipe, chosen.items),
+        earlier=_earlier(recipe, container, chosen.items),
         is_counted=recipe.count == AUTO,
         skipped=(*material.skipped, *fillers.skipped),
         clock=clock,
@@ -128,10 +132,20 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
     return job
 
 
-def _earlier(recipe: Recipe, items: Sequence[Item]) -> Layout | None:
+def _earlier(recipe: Recipe, container: Container, items: tuple[Item, ...]) -> Layout | None:
     """The earlier layout that a run begins from; None if it begins anew."""
     if recipe.layout_file is None:
         return None
+    made = shelved(recipe.layout_file)
+    if isinstance(made, Layout):
+        # Arrays of a layout are read-only, which kernels would be compiled for anew.
+        return replace(made, poses=made.poses.some(np.arange(len(made.items))))
+    if isinstance(made, Poses):
+        if len(made) != len(items):
+            raise RecipeError(
+                "start", f"has {len(made)} poses, this run {len(items)} items; give as many"
+            )
+        return Layout(container, items, made.some(np.arange(len(items))), np.ones(len(items)))
     layout = read_written(recipe.layout_file)
     # GeoJSON holds poses; of drawings they are found from the shapes.
     return registered(layout, items) if is_drawn(recipe.layout_file) else layout

@@ -39,6 +39,7 @@ from packwork.recipe.rules import (
     some_rules,
 )
 from packwork.recipe_paths import check_names
+from packwork.shelf import MEMORY
 from packwork.solve.options import (
     MAX_STRETCH,
     ImageLossFunction,
@@ -315,7 +316,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     def layout_file(self) -> str | None:
         """The earlier layout that ``start`` names; None if it names a method."""
         start = self.start or ""
-        return start if Path(start).suffix.lower() in LAYOUTS else None
+        is_layout = start.startswith(MEMORY) or Path(start).suffix.lower() in LAYOUTS
+        return start if is_layout else None
 
     def padding_cu(self, container: Container) -> float:
         """Gap asked for, in units of the container's canvas."""

@@ -48,12 +48,32 @@ def geojson_text(layout: Layout) -> str:
     collection = {
         "type": "FeatureCollection",
         "canvas": container.canvas,
-        "manifest": plain(layout.manifest),
+        "manifest": plain(untimed(layout.manifest)),
     }
     features = chain([_container_feature(layout, digits)], _item_features(layout, digits))
     # One feature a line: a file that people can page through and compare.
     lines = ",\n".join(_json(feature) for feature in features)
     return f'{_json(collection)[:-1]},"features":[\n{lines}\n]}}\n'
+
+
+def untimed(manifest: Mapping[str, Any]) -> dict[str, Any]:
+    """Manifest without its seconds, so that equal runs give equal files.
+
+    Examples
+    --------
+    >>> untimed({"seed": 1, "seconds": {}, "levels": [{"epochs": 9, "seconds": 0.1}]})
+    {'seed': 1, 'levels': [{'epochs': 9}]}
+    """
+    kept = {key: value for key, value in manifest.items() if key != "seconds"}
+    levels = kept.get("levels")
+    if isinstance(levels, list | tuple):
+        kept["levels"] = [
+            {key: value for key, value in level.items() if key != "seconds"}
+            if isinstance(level, Mapping)
+            else level
+            for level in levels
+        ]
+    return kept
 
 
 def plain(value: Any) -> Any:

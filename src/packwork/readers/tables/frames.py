@@ -10,7 +10,9 @@ from packwork.readers.tables.delimited import MOST_ROWS
 
 
 def rows_of_frame(data: Any) -> list[dict[str, Any]]:
-    """Rows of a data frame (by its ``to_dict`` or ``to_dicts``), a dict of columns, or dicts.
+    """Rows of a data frame (pandas, polars, pyarrow), a dict of columns, or dicts.
+
+    An index of pandas that is more than numbers of rows becomes columns, as ``reset_index`` has it.
 
     Raises
     ------
@@ -26,8 +28,10 @@ def rows_of_frame(data: Any) -> list[dict[str, Any]]:
         raise RecipeError("data", f"has {len(data):,} rows; {MOST_ROWS:,} are the most")
     if hasattr(data, "columns") and hasattr(data, "to_dicts"):
         return [plain_row(row) for row in data.to_dicts()]
+    if hasattr(data, "column_names") and hasattr(data, "to_pylist"):
+        return [plain_row(row) for row in data.to_pylist()]
     if hasattr(data, "columns") and hasattr(data, "to_dict"):
-        return [plain_row(row) for row in data.to_dict("records")]
+        return [plain_row(row) for row in _with_index(data).to_dict("records")]
     if isinstance(data, Mapping):
         if not all(_is_column(cells) for cells in data.values()):
             raise RecipeError("data", "use a list of cells for each column, all equally long")
@@ -40,6 +44,32 @@ def rows_of_frame(data: Any) -> list[dict[str, Any]]:
     raise RecipeError(
         "data", "use a file, a data frame, or rows such as [{'land': 'Peru', 'kg': 2}]"
     )
+
+
+def is_frame(data: Any) -> bool:
+    """Whether something is a table of pandas, polars or pyarrow.
+
+    Examples
+    --------
+    >>> is_frame({"land": ["Peru"]})
+    False
+    """
+    ways = ("to_dict", "to_dicts", "to_pylist")
+    return hasattr(data, "columns") and any(hasattr(data, way) for way in ways)
+
+
+def _with_index(frame: Any) -> Any:
+    """The frame with its index among the columns, unless that only counts the rows."""
+    index: Any = getattr(frame, "index", None)
+    if index is None or not hasattr(frame, "reset_index"):
+        return frame
+    if type(index).__name__ == "RangeIndex" and index.name is None:
+        return frame
+    try:
+        return frame.reset_index()
+    except ValueError:
+        # A column is called so already.
+        return frame
 
 
 def _is_column(cells: Any) -> bool:

@@ -7,6 +7,7 @@ from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
+from packwork.readers.tables.frames import is_frame, rows_of_frame
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.refusals import validated
@@ -48,6 +49,9 @@ def words_recipe(
     >>> recipe.words.count, recipe.palette, recipe.sizes
     (1, ('#999a1b',), 'shared')
     """
+    if "fonts" not in options and options.get("font") is not None:
+        # As ``--font`` is meant; the container's own is given beside ``fonts``.
+        options["fonts"] = options.pop("font")
     own = {key: options.pop(key) for key in list(options) if key in WordOptions.model_fields}
     asked = _word_options({"source": _plain_source(source), **own})
     chosen = with_defaults(Verbs.WORDS, options)
@@ -62,7 +66,10 @@ def _word_options(values: Mapping[str, Any]) -> WordOptions:
 
 
 def _plain_source(source: object) -> object:
-    """Tables of other libraries, such as a pandas Series, as a dict."""
+    """Tables of other libraries as a dict: a Series, or the first two columns of a frame."""
+    if is_frame(source):
+        rows = [tuple(row.values()) for row in rows_of_frame(source)]
+        return {str(row[0]): row[1] for row in rows if len(row) > 1 and row[0] is not None}
     pairs = getattr(source, "items", None)
     if pairs is None or isinstance(source, Mapping):
         return source

@@ -1,0 +1,100 @@
+"""What makes layouts values: mappings and arrays that nobody changes."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields
+from typing import Any, NoReturn
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.scene.pose import Poses
+
+OF_PLACES = ("metrics", "certified", "filling", "beside", "pile")
+"""Entries of a manifest that hold for the very poses that were measured."""
+
+
+class ReadOnly(dict[str, Any]):
+    """A dict that nobody changes, tables in it neither.
+
+    Examples
+    --------
+    >>> ReadOnly({"LC": 0.8, "exact": {}})["exact"].update(OO=0)
+    Traceback (most recent call last):
+    TypeError: a layout's numbers are read-only; dict(...) gives a copy to change
+    """
+
+    def __init__(self, values: Mapping[str, Any]) -> None:
+        super().__init__(
+            {k: ReadOnly(v) if isinstance(v, Mapping) else v for k, v in values.items()}
+        )
+
+    def _refuse(self, *_: Any, **__: Any) -> NoReturn:
+        raise TypeError("a layout's numbers are read-only; dict(...) gives a copy to change")
+
+    __setitem__ = __delitem__ = __ior__ = _refuse
+    clear = pop = popitem = setdefault = update = _refuse
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(self),)
+
+
+class Manifest(ReadOnly):
+    """What a run did, and which layout it is true of.
+
+    Parameters
+    ----------
+    values
+        As :class:`packwork.scene.layout.Layout` has them.
+    parts
+        Container, items, poses and weights that it is of.
+    """
+
+    def __init__(self, values: Mapping[str, Any], parts: tuple[Any, ...]) -> None:
+        super().__init__(values)
+        self.parts = parts
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (dict(self), self.parts)
+
+
+def manifest_of(values: Mapping[str, Any], parts: tuple[Any, ...]) -> Manifest:
+    """The manifest of a layout; without what was measured of one whose parts are others.
+
+    Examples
+    --------
+    >>> here, there = (Poses([1], [1]),), (Poses([2], [1]),)
+    >>> first = manifest_of({"seed": 1, "certified": True}, here)
+    >>> manifest_of(first, there), manifest_of(first, here)
+    ({'seed': 1}, {'seed': 1, 'certified': True})
+    """
+    if not isinstance(values, Manifest):
+        return Manifest(values, parts)
+    if all(mine is one for mine, one in zip(values.parts, parts, strict=True)):
+        return values
+    return Manifest({k: v for k, v in values.items() if k not in OF_PLACES}, parts)
+
+
+def frozen(array: FloatArray) -> FloatArray:
+    """The array itself, if nobody can change it; else a copy of that kind."""
+    if not array.flags.writeable:
+        return array
+    copied = np.array(array)
+    copied.flags.writeable = False
+    return copied
+
+
+def frozen_poses(poses: Poses) -> Poses:
+    """Poses whose arrays nobody changes; the same, if they are such.
+
+    Examples
+    --------
+    >>> still = frozen_poses(Poses([1], [1]))
+    >>> still.x.flags.writeable, frozen_poses(still) is still
+    (False, True)
+    """
+    columns = [getattr(poses, column.name) for column in fields(Poses)]
+    if not any(column.flags.writeable for column in columns):
+        return poses
+    return Poses(*map(frozen, columns))

@@ -1,0 +1,128 @@
+"""Layouts of any origin: measured, and brought to where nothing overlaps."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+
+from packwork.api.frozen import ReadOnly
+from packwork.api.layout import Layout, public
+from packwork.finish.finish import finish as exact_finish
+from packwork.finish.options import FinishOptions
+from packwork.geometry.bezier import FLATTENING
+from packwork.metrics.certificate import Promise, broken
+from packwork.metrics.measure import LayoutMetrics, Metrics
+from packwork.metrics.measure import measure as measure_layout
+from packwork.progress import NOBODY, Observer, Stop, never
+from packwork.readers.layouts.read import read_written
+from packwork.recipe.refusals import length_asked
+from packwork.scene import layout as scene
+
+LARGEST = 2.0
+"""Factor by which an item may grow in a finish that grows. As of free sizes."""
+
+
+def measure(layout: scene.Layout | str | Path) -> Metrics:
+    """Measures by name of a layout, or of a file that holds one (.geojson, .svg, .dxf).
+
+    As :attr:`Layout.metrics` has them; of a file without ``LC_ink``, for it holds outlines, not
+    what was drawn in them.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> from packwork import fill
+    >>> layout = fill("circle", "hexagon", count=7, effort="draft", levels="50")
+    >>> measure(layout) == layout.metrics
+    True
+    """
+    if isinstance(layout, Layout):
+        return layout.metrics
+    if isinstance(layout, scene.Layout):
+        return cast(Metrics, ReadOnly(measure_layout(layout).as_dict()))
+    found = measure_layout(read_written(layout)).as_dict()
+    return cast(Metrics, ReadOnly({k: v for k, v in found.items() if k != "LC_ink"}))
+
+
+def finish(
+    layout: scene.Layout,
+    *,
+    padding: str | float = 0.0,
+    grow: bool = True,
+    turn: bool = True,
+    trials: int = 0,
+    seed: int = 0,
+    observer: Observer = NOBODY,
+    stop: Stop = never,
+) -> Layout:
+    """Exact layout near another one: nothing overlaps, nothing sticks out.
+
+    For layouts whose items were moved by hand or placed by other means. Items move, turn and
+    shrink no more than they have to; where that is in vain, one is brought to a void.
+    ``certified`` of the result says whether all found room.
+
+    Parameters
+    ----------
+    layout
+        Any, its sizes as they are to be.
+    padding
+        Least gap between items and to the container's edge, a length as for :func:`fill`.
+    grow
+        Whether items grow into the room that is left.
+    turn
+        Whether they may turn.
+    trials
+        How many turns and exchanges of items are tried, so that they can grow more.
+    seed
+        Of those trials.
+    observer, stop
+        As for :func:`fill`.
+
+    Raises
+    ------
+    RecipeError
+        If the padding has no meaning.
+
+    Examples
+    --------
+    >>> from packwork import fill
+    >>> layout = fill("circle", "hexagon", count=7, effort="draft", levels="50")
+    >>> moved = replace(layout, poses=replace(layout.poses, x=layout.poses.x + 20))
+    >>> moved.certified, finish(moved).certified
+    (False, True)
+    """
+    container = layout.container
+    gap = length_asked("padding", padding, container.unit, container.side)
+    scales = np.array(layout.poses.scale)
+    largest = scales * (LARGEST if grow else 1.0)
+    extents = np.array([item.outline.extent for item in layout.items])
+    bulge = 2 * FLATTENING * float(np.max(extents * largest, initial=0.0))
+    options = FinishOptions(
+        gap_cu=gap + bulge, largest=tuple(largest.tolist()), turning=turn, trials=trials,
+        seed=seed,
+    )  # fmt: skip
+    outlines = [item.outline for item in layout.items]
+    poses = layout.poses.some(np.arange(len(scales)))
+    found = exact_finish(container, outlines, poses, options, observer, stop)
+    return _certified(replace(layout, poses=found.poses), Promise(gap))
+
+
+def _certified(layout: scene.Layout, promise: Promise) -> Layout:
+    """The layout, measured, and what it promises."""
+    found: LayoutMetrics = measure_layout(layout)
+    faults = broken(promise, layout, found.exact)
+    said = dict(layout.manifest) | {
+        "promised": asdict(promise),
+        "certified": not faults and len(layout.items) > 0,
+        "metrics": found.as_dict(),
+    }
+    made = public(replace(layout, manifest=said))
+    made.__dict__["metrics"] = ReadOnly(found.as_dict())
+    return made

@@ -1,0 +1,71 @@
+"""Recipes in Python: files of options, and options as a dict."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from packwork.api.handing import handed_over, with_names
+from packwork.api.layout import Layout
+from packwork.api.verbs import run_recipe
+from packwork.progress import Observer, Stop, never
+from packwork.readers.recipe import read_recipe
+from packwork.recipe import make_recipe
+from packwork.uses.overriding import overridden
+
+
+def run(
+    recipe: str | Path | Mapping[str, Any],
+    *,
+    allow_code: bool = False,
+    observer: Observer | None = None,
+    stop: Stop = never,
+    progress: bool | None = None,
+    record: bool = False,
+    **options: Any,
+) -> Layout:
+    """Run what a recipe asks for.
+
+    Parameters
+    ----------
+    recipe
+        A recipe file (TOML), its options as a dict, or what ``layout.manifest["recipe"]`` holds.
+    allow_code
+        Run code that a recipe file names, as losses ``module:function``: only if you trust
+        whoever wrote both.
+    observer, stop, progress, record
+        As for :func:`packwork.fill`.
+    options
+        In place of the recipe's.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If an option has no meaning.
+
+    Examples
+    --------
+    >>> asked = {"container": "circle", "items": ["star"], "epochs": 25, "levels": "50"}
+    >>> layout = run(asked, count=3)
+    >>> len(layout), run(layout.manifest["recipe"]).metrics == layout.metrics
+    (3, True)
+    """
+    with handed_over() as handed:
+        if isinstance(recipe, Mapping):
+            plain = with_names(_said(recipe), handed)
+        else:
+            plain = read_recipe(recipe, allow_code=allow_code)
+        asked = make_recipe(**overridden(plain, with_names(options, handed)))
+        return run_recipe(asked, asked.container, observer, stop, progress, record)
+
+
+def _said(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options that are set, in tables too: a manifest lists all."""
+    return {
+        key: _said(value) if isinstance(value, Mapping) else value
+        for key, value in options.items()
+        if value is not None
+    }

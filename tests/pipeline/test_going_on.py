@@ -1,0 +1,71 @@
+"""Runs that begin from an earlier layout go on with it."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import packwork as pw
+
+ASKED: dict[str, Any] = {"count": 12, "effort": "draft", "seed": 4}
+ITEMS = ["star", "heart", "owl", "circle"]
+
+
+@pytest.fixture(scope="module")
+def before() -> pw.Layout:
+    return pw.fill("heart", ITEMS, **ASKED)
+
+
+def moved(before: pw.Layout, after: pw.Layout) -> float:
+    """Longest way of an item, in canvases."""
+    way = np.hypot(after.poses.x - before.poses.x, after.poses.y - before.poses.y)
+    return float(way.max()) / before.container.side
+
+
+def starts(layout: pw.Layout, folder: Path) -> dict[str, Any]:
+    layout.save(folder / "layout.geojson")
+    return {
+        "layout": layout, "poses": layout.poses, "path": folder / "layout.geojson",
+        "name": str(folder / "layout.geojson"),
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", ["layout", "poses", "path", "name"])
+def test_a_finished_layout_stays_as_it_is(kind: str, before: pw.Layout, tmp_path: Path) -> None:
+    after = pw.fill("heart", ITEMS, start=starts(before, tmp_path)[kind], **ASKED)
+    assert moved(before, after) < 0.02
+    assert after.metrics["LC"] > before.metrics["LC"] - 1e-3
+    assert np.abs(after.poses.scale / before.poses.scale - 1).max() < 0.1
+    assert after.certified
+
+
+@pytest.mark.parametrize("sizes", ["free", "shared"])
+def test_other_seeds_change_nothing(sizes: str) -> None:
+    before = pw.fill("circle", ITEMS, sizes=sizes, **ASKED)
+    after = pw.fill("circle", ITEMS, sizes=sizes, start=before, **(ASKED | {"seed": 9}))
+    assert len(after) == len(before)
+    assert moved(before, after) < 0.02
+
+
+def test_a_little_disorder_is_put_right_where_it_is(before: pw.Layout) -> None:
+    rng = np.random.default_rng(1)
+    near = replace(before.poses, x=before.poses.x + rng.normal(0, 3, 12))
+    after = pw.fill("heart", ITEMS, start=near, **ASKED)
+    assert moved(before, after) < 0.05
+    assert after.certified
+
+
+def test_a_heap_is_solved_anew(before: pw.Layout) -> None:
+    heap = pw.Poses(np.full(12, 300.0), 300.0)
+    after = pw.fill("heart", ITEMS, start=heap, **ASKED)
+    assert after.certified
+    assert moved(before, replace(before, poses=heap)) > 0.1
+
+
+def test_poses_need_as_many_items() -> None:
+    with pytest.raises(pw.RecipeError, match="start: has 2 poses, this run 12 items"):
+        pw.fill("heart", ITEMS, start=pw.Poses([1, 2], 1), **ASKED)
