@@ -144,29 +144,9 @@ def anneal(
     for trial in range(trials):
         if stop():
             break
-        exchange = arrangement.count > 1 and (not can_turn or rng.random() < EXCHANGES)
-        if exchange:
-            moved, places = _exchanged(arrangement, rng, pulling)
-        else:
-            moved, places = _turned(arrangement, objective.power < 0, rng)
-        items = _about(arrangement, moved)
-        before = arrangement.places[items]
-        target = _value(arrangement, objective, items, pulling)
-        if objective.power == AREA_POWER:
-            heat = HEAT * lengths.spacing**2 * (1 - trial / trials)
-            target -= heat * rng.exponential()
-        candidates = at_angles(places, moved, objective, rng)
-        least, short = arrangement.places[:, 3].min(), _shortfall(arrangement, objective, items)
-        gains = put_best(arrangement, objective, moved, candidates, lengths) and _grow(
-            arrangement, objective, items, lengths, target, pulling
-        )
-        # Where the smallest counts, what all the others gain does not make up for it; nor
-        # for an item below the size that it should have at least.
-        gains &= objective.power > 0 or arrangement.places[items, 3].min() >= least
-        if gains and _shortfall(arrangement, objective, items) <= short:
-            kept += 1
-        else:
-            arrangement.put(items, before)
+        moved, places = _proposed(arrangement, objective, can_turn, rng, pulling)
+        heat = HEAT * lengths.spacing**2 * (1 - trial / trials)
+        kept += _kept(arrangement, objective, moved, places, lengths, heat, rng, pulling)
         if tell is not None:
             tell(trial)
         if (trial + 1) % every == 0:
@@ -174,6 +154,57 @@ def anneal(
         # How far an item may grow depends on how large the smallest is now.
         objective = objective_at(arrangement.places)
     return kept
+
+
+def _proposed(
+    arrangement: Arrangement,
+    objective: Objective,
+    can_turn: bool,
+    rng: np.random.Generator,
+    pulling: Pulling | None,
+) -> tuple[IntArray, FloatArray]:
+    """Items ``(m,)`` that a trial moves, and their places ``(m, 4)``: an exchange or a turn."""
+    if arrangement.count > 1 and (not can_turn or rng.random() < EXCHANGES):
+        return _exchanged(arrangement, rng, pulling)
+    return _turned(arrangement, objective.power < 0, rng)
+
+
+def _kept(
+    arrangement: Arrangement,
+    objective: Objective,
+    moved: IntArray,
+    places: FloatArray,
+    lengths: Lengths,
+    heat: float,
+    rng: np.random.Generator,
+    pulling: Pulling | None,
+) -> bool:
+    """Make one trial and let what lies about it grow; False, and undone, if that does not gain.
+
+    Parameters
+    ----------
+    moved, places
+        ``(m,)`` items and ``(m, 4)`` where they are put.
+    heat
+        Mean of what may be lost, squared canvas units, where all area is worth the same.
+    """
+    items = _about(arrangement, moved)
+    before = arrangement.places[items]
+    target = _value(arrangement, objective, items, pulling)
+    if objective.power == AREA_POWER:
+        target -= heat * rng.exponential()
+    candidates = at_angles(places, moved, objective, rng)
+    least, short = arrangement.places[:, 3].min(), _shortfall(arrangement, objective, items)
+    gains = put_best(arrangement, objective, moved, candidates, lengths) and _grow(
+        arrangement, objective, items, lengths, target, pulling
+    )
+    # Where the smallest counts, what all the others gain does not make up for it; nor
+    # for an item below the size that it should have at least.
+    gains &= objective.power > 0 or arrangement.places[items, 3].min() >= least
+    if gains and _shortfall(arrangement, objective, items) <= short:
+        return True
+    arrangement.put(items, before)
+    return False
 
 
 def _value(

@@ -110,38 +110,57 @@ class Unmeasured:
 
 @dataclass(frozen=True, eq=False)
 class _Measured:
-    """A layout, what it is worth, and what of its promise does not hold."""
+    """A layout, what it is worth, and what of its promise does not hold.
 
+    Parameters
+    ----------
+    job
+        Of the layout's items.
+    kept
+        ``(n,)`` which of the items that were placed these are.
+    left_out
+        The others.
+    """
+
+    job: Job
+    kept: IntArray
     layout: Layout
     metrics: LayoutMetrics
     faults: tuple[str, ...]
+    left_out: tuple[Unplaced, ...] = ()
 
     @classmethod
-    def of(cls, job: Job, poses: Poses, promise: Promise) -> _Measured:
+    def of(cls, job: Job, kept: IntArray, poses: Poses, promise: Promise) -> _Measured:
         layout = Layout(job.container, job.items, poses, job.weights)
         metrics = measure(layout)
         faults = broken(promise, layout, metrics.exact) if job.plan.is_exact else ()
-        return cls(layout, metrics, faults)
+        return cls(job, kept, layout, metrics, faults)
+
+    @classmethod
+    def certifiable(cls, job: Job, found: Unmeasured, promise: Promise) -> _Measured:
+        """The layout without what keeps it from its promise."""
+        seen = cls.of(job, np.arange(len(job.items)), found.poses, promise)
+        if not seen.faults:
+            return seen
+        held = [one.is_placed for one in job.asked]
+        gone = left_out(seen.layout, held, promise.least_gap(job.container.side))
+        rest, kept = without_some(job, list(gone))
+        said = named(gone, seen.layout, found.numbers)
+        return replace(cls.of(rest, kept, found.poses.some(kept), promise), left_out=said)
 
 
 def measured(found: Unmeasured) -> Run:
     """The run's result: of what cannot be certified, without it."""
-    job, is_exact, clock = found.job, found.job.plan.is_exact, found.job.clock
-    total, kept = len(job.items), np.arange(len(job.items))
+    is_exact, clock, total = found.job.plan.is_exact, found.job.clock, len(found.job.items)
     with clock.time("finish"):
-        job = evened(job, found.poses)
+        job = evened(found.job, found.poses)
     # Areas of drawings whose lines are thinner are in shares no more.
     is_as_weighed = job.items is found.job.items and not found.limits.binds
     promise = Promise(job.plan.gap, job.plan.sizes == "shared" and is_as_weighed)
     with clock.time("measure"):
-        seen, known = _Measured.of(job, found.poses, promise), found.unplaced
-        if seen.faults:
-            held = [one.is_placed for one in job.asked]
-            gone = left_out(seen.layout, held, promise.least_gap(job.container.side))
-            known += named(gone, seen.layout, found.numbers)
-            job, kept = without_some(job, list(gone))
-            seen = _Measured.of(job, found.poses.some(kept), promise)
-        layout, metrics = seen.layout, seen.metrics
+        seen = _Measured.certifiable(job, found, promise)
+        job, layout, metrics = seen.job, seen.layout, seen.metrics
+        known = found.unplaced + seen.left_out
         if not is_exact:
             known = find_unplaced(layout, found.limits)
         unplaced = known + job.use.missing(total)
@@ -157,12 +176,12 @@ def measured(found: Unmeasured) -> Run:
     worn = dressed(job, layout)
     whole = replace(worn, manifest=said, notes=job.use.notes(job, layout, worn))
     return Run(
-        layout=with_track(whole, found.recorder, found.numbers[kept], found.asked_for),
+        layout=with_track(whole, found.recorder, found.numbers[seen.kept], found.asked_for),
         metrics=metrics,
         seconds=clock.seconds,
         ending=found.outcome.ending,
         unplaced=unplaced,
-        kept=kept,
+        kept=seen.kept,
         skipped=job.skipped,
         beside=beside,
         certified=certified,
