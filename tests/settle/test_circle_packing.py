@@ -14,7 +14,7 @@ from packwork.scene.pose import Poses
 from packwork.settle.circle_packing import packed_circles
 from packwork.settle.kernels import circle_packing as kernels
 from packwork.settle.options import SettleOptions
-from packwork.settle.pile import pile
+from packwork.settle.pile import Arrival, pile
 from scenes import disc, overlap_area, placed, square, square_container
 
 
@@ -97,7 +97,7 @@ def test_a_round_pack_lies_in_a_smaller_circle(turning: bool) -> None:
     for is_round in (False, True):
         done = pile(
             square_container(), outlines, poses, forces, SettleOptions(turning=turning),
-            is_round=is_round,
+            arrival=Arrival(is_round=is_round),
         )  # fmt: skip
         assert len(done.placed) == n
         there = placed(outlines, done.poses)
@@ -111,7 +111,9 @@ def test_a_pack_for_which_the_sheet_is_too_narrow_finds_its_lowest_places() -> N
     poses = Poses(np.full(3, 50.0), np.full(3, 50.0), np.zeros(3), np.ones(3))
     field = Distance.from_points(np.array([[50.0, 50.0]]))
     forces = Forces([FieldForce(field, np.ones(3))], [], np.zeros(3, dtype=np.int64), 100.0)
-    done = pile(square_container(), outlines, poses, forces, SettleOptions(), is_round=True)
+    done = pile(
+        square_container(), outlines, poses, forces, SettleOptions(), arrival=Arrival(is_round=True)
+    )
     assert 1 <= len(done.placed) < 3
     there = placed(outlines, done.poses)
     assert overlap_area([there[k] for k in done.placed]) == 0

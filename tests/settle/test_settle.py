@@ -17,7 +17,7 @@ from packwork.progress import Step
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
-from packwork.settle.pile import Piled, pile
+from packwork.settle.pile import Arrival, Piled, pile
 from scenes import box, disc, square, square_container, star
 
 SIDE = 100.0
@@ -54,7 +54,7 @@ def _heaped(
         forces,
         options or SettleOptions(),
         basin,
-        known=np.arange(n) if placed else None,
+        Arrival(known=np.arange(n if placed else 0)),
     )
 
 
@@ -184,8 +184,8 @@ def test_every_round_is_told() -> None:
     outlines, start = _crowded()
     forces = Forces([FieldForce(DOWN, np.ones(12))], [], np.zeros(12, dtype=np.int64), SIDE)
     done = pile(
-        square_container(), outlines, start, forces, SettleOptions(), None, Watcher(),
-        known=np.arange(12),
+        square_container(), outlines, start, forces, SettleOptions(), None,
+        Arrival(known=np.arange(12)), Watcher(),
     )  # fmt: skip
     assert len(seen) == done.rounds
     np.testing.assert_allclose(seen[-1], done.poses.y)

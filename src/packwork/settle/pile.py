@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 
 import numpy as np
@@ -68,6 +68,42 @@ class Piled:
     mean_height: float
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Arrival:
+    """How items of a pile come to their first places.
+
+    Parameters
+    ----------
+    known
+        ``(m,)`` items that begin where their poses have them, not quite clear of each other.
+    ranks
+        ``(n,)`` items of a lower rank get their places first, and so lie lower; empty for one rank.
+    shuffle
+        Logarithm of size within which items without a place come in random order and not the
+        largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
+    source
+        Where items come from, one after another or all at once; None for their lowest places.
+    is_round
+        Whether the pack is to lie in a small circle, where forces draw all items to one point
+        alike.
+    """
+
+    known: IntArray = field(default_factory=lambda: np.arange(0))
+    ranks: IntArray = field(default_factory=lambda: np.arange(0))
+    shuffle: float = 0.0
+    source: Source | None = None
+    is_round: bool = False
+
+    def centre(self, forces: Forces) -> FloatArray | None:
+        """``(2,)`` of the circle that a round pack lies in; None for other piles."""
+        is_free = self.source is None and len(self.known) == 0
+        return forces.common_point() if self.is_round and is_free else None
+
+
+LOWEST = Arrival()
+"""All items at their lowest places, the largest first."""
+
+
 def pile(
     container: Container,
     outlines: Sequence[Outline],
@@ -75,13 +111,9 @@ def pile(
     forces: Forces,
     options: SettleOptions,
     basin: Outline | None = None,
+    arrival: Arrival = LOWEST,
     observer: Observer = NOBODY,
     stop: Stop = never,
-    known: IntArray | None = None,
-    shuffle: float = 0.0,
-    source: Source | None = None,
-    ranks: IntArray | None = None,
-    is_round: bool = False,
 ) -> Piled:
     """Poses in which items of the given sizes are at rest and nothing meets.
 
@@ -94,7 +126,7 @@ def pile(
     outlines
         One per item, item units.
     poses
-        Sizes and angles, and where the ``known`` ones are.
+        Sizes and angles, and where those are that have a place.
     forces
         What they go down.
     options
@@ -102,23 +134,12 @@ def pile(
     basin
         The container and more, such as the room above an open one, through which items may
         pass; the container itself if None.
+    arrival
+        How items come to their first places.
     observer
         Told of each round.
     stop
         Asked before each round.
-    known
-        Items that begin where their poses have them, not quite clear of each other; None for
-        none.
-    shuffle
-        Logarithm of size within which items without a place come in random order and not the
-        largest first. Larger leaves more gaps, 0 puts copies of one thing side by side.
-    source
-        Where items come from, one after another or all at once; None for their lowest places.
-    ranks
-        ``(n,)`` items of a lower rank get their places first, and so lie lower; None for one rank.
-    is_round
-        Whether the pack is to lie in a small circle, where forces draw all items to one point
-        alike.
 
     Examples
     --------
@@ -134,16 +155,12 @@ def pile(
     """
     if len(outlines) == 0:
         return Piled(poses, np.arange(0), 0, 0.0)
-    run = _Pile(container, outlines, poses, forces, options, observer, stop, shuffle)
-    if ranks is not None:
-        run.ranks = ranks
-    if is_round and source is None and known is None:
-        run.centre = forces.common_point()
+    run = _Pile(container, outlines, poses, forces, options, arrival, observer, stop)
     room = container.outline if basin is None else basin
-    if source is not None:
-        run.pour(room, source)
+    if arrival.source is None:
+        run.gather(room)
     else:
-        run.gather(room, np.arange(0) if known is None else known)
+        run.pour(room, arrival.source)
     run.settle(room, run.first_trust)
     if basin is not None and run.leave_out_what_sticks_out():
         run.settle(container.outline, ROUGH_TRUST)
@@ -165,11 +182,11 @@ class _Pile:
         poses: Poses,
         forces: Forces,
         options: SettleOptions,
+        arrival: Arrival,
         observer: Observer,
         stop: Stop,
-        shuffle: float,
     ) -> None:
-        self._shuffle = shuffle
+        self._arrival, self._centre = arrival, arrival.centre(forces)
         self._container, self._outlines, self._options = container, outlines, options
         self._forces, self._observer, self._stop = forces, observer, stop
         self._poses = poses
@@ -182,18 +199,16 @@ class _Pile:
         self._keeps_round = True
         self._details: dict[tuple[Outline, float], Detail] = {}
         self._height = 0.0
-        self.ranks = np.zeros(len(poses), dtype=np.int64)
-        """Items of a lower one get their places first."""
-        self.centre: FloatArray | None = None
-        """Of the circle that a round pack lies in; None for other piles."""
+        one_rank = np.zeros(len(poses), dtype=np.int64)
+        self._ranks = arrival.ranks if len(arrival.ranks) else one_rank
         strengths = [f.strengths for f in forces.fields] + [b.strengths for b in forces.bonds]
         columns = np.column_stack([np.zeros(len(poses)), *strengths])
         _, self._kinds = np.unique(columns, axis=0, return_inverse=True)
         self._kinds = self._kinds.ravel()
 
-    def gather(self, room: Outline, known: IntArray) -> None:
-        """Give all items a first place without conflicts; those ``known`` ``(m,)`` keep theirs."""
-        all_items = self._items
+    def gather(self, room: Outline) -> None:
+        """Give all items a first place without conflicts; those that are known keep theirs."""
+        all_items, known = self._items, self._arrival.known
         standing = known
         self._is_given = len(known) > 0
         if self._is_given:
@@ -204,7 +219,7 @@ class _Pile:
         arrangement = self._arrangement(room, COARSE, all_items)
         lifted = np.setdiff1d(all_items, standing)
         sizes = self._order_sizes(arrangement)
-        lifted = lifted[np.lexsort((-sizes[lifted], self.ranks[lifted]))]
+        lifted = lifted[np.lexsort((-sizes[lifted], self._ranks[lifted]))]
         if self._gather_round(arrangement):
             left = np.arange(0)
         else:
@@ -215,13 +230,13 @@ class _Pile:
 
     def round_off(self, room: Outline) -> None:
         """Settle into a small circle those that at first did not all find room."""
-        if self.centre is not None and not self._keeps_round:
+        if self._centre is not None and not self._keeps_round:
             self._keeps_round = True
             self.settle(room, self.first_trust)
 
     def _gather_round(self, arrangement: Arrangement) -> bool:
         """Put all into a small circle, if it is wanted and there is room for it."""
-        if self.centre is None:
+        if self._centre is None:
             return False
         rng = np.random.default_rng(self._options.seed)
         settling = self._settling(arrangement, self._items)
@@ -266,7 +281,7 @@ class _Pile:
             self._hair,
             self._container.side,
         )
-        settling.centre = self.centre if self._keeps_round else None
+        settling.centre = self._centre if self._keeps_round else None
         return settling
 
     def settle(self, room: Outline, first_trust: float) -> None:
@@ -340,7 +355,7 @@ class _Pile:
 
     def _order_sizes(self, arrangement: Arrangement) -> FloatArray:
         rng = np.random.default_rng(self._options.seed)
-        spread = rng.uniform(-self._shuffle, self._shuffle, arrangement.count)
+        spread = rng.uniform(-self._arrival.shuffle, self._arrival.shuffle, arrangement.count)
         return np.asarray(arrangement.radii * np.exp(spread))
 
     def _arrangement(self, room: Outline, tolerance: float, items: IntArray) -> Arrangement:

@@ -24,7 +24,7 @@ from packwork.readers.charts.columns import as_number
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
-from packwork.settle.pile import pile
+from packwork.settle.pile import Arrival, pile
 from packwork.uses.charts.cells import SNUG_SHARE, Cell, joined_rooms
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.colours import chart_colours
@@ -186,7 +186,7 @@ class _Heaps:
         )
         heap = pile(
             container, [self._outlines[k] for k in own], begin, forces, options,
-            observer=steps, stop=self._stop, ranks=self._ranks[own],
+            arrival=Arrival(ranks=self._ranks[own]), observer=steps, stop=self._stop,
         )  # fmt: skip
         return heap.poses, heap.placed
 

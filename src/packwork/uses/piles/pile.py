@@ -29,7 +29,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
-from packwork.settle.pile import Piled, pile
+from packwork.settle.pile import Arrival, Piled, pile
 from packwork.solve.solver import Ending, Outcome
 from packwork.start.angles import nearest_allowed
 from packwork.uses.piles.emitters import source_of
@@ -104,13 +104,15 @@ def _heaped(job: Job, heap: Heap, factor: float, watch: Watch) -> tuple[Job, Pil
     with clock.time("finish"):
         options = _options(job, poses)
         is_alone = room.container.name == NO_CONTAINER
-        piled = pile(
-            room.container, outlines, poses, forces, options, room.basin,
-            watch.observer, watch.stop,
-            known=known if len(known) else None,
+        arrival = Arrival(
+            known=known,
             source=source,
             shuffle=SHUFFLE_ALONE if is_alone else SHUFFLE,
             is_round=is_alone,
+        )
+        piled = pile(
+            room.container, outlines, poses, forces, options, room.basin,
+            arrival, watch.observer, watch.stop,
         )  # fmt: skip
     return job, piled
 
