@@ -20,10 +20,10 @@ import packwork as pw
 from packwork.losses.fused import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.pose import Poses
+from packwork.solve.detail import seen_posed
 from packwork.solve.ensemble import Ensemble
 from packwork.solve.options import SolveOptions
 from packwork.solve.schedule import weights_at
-from packwork.solve.shaped import seen_posed
 
 OUT = Path(__file__).parents[1] / "docs" / "figures"
 COUNT = 36

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 from packwork.geometry.affine import stretched
-from packwork.solve.detail import DETAIL_PX, seen_at
-from packwork.solve.shaped import seen_posed
+from packwork.solve.detail import DETAIL_PX, seen_at, seen_posed
 from scenes import disc, placed, poses, square, star
 
 

@@ -29,9 +29,9 @@ from packwork.scene.limits import Limits
 from packwork.scene.mixing import mixed
 from packwork.scene.neighbours import neighbour_pairs
 from packwork.scene.pose import Poses
+from packwork.solve.detail import seen_posed
 from packwork.solve.level import Level
 from packwork.solve.relocate_trapped import violation_shares
-from packwork.solve.shaped import seen_posed
 from packwork.solve.solver import scale_bounds
 from packwork.start.angles import nearest_allowed, start_angles
 from packwork.start.first_poses import disc_radii

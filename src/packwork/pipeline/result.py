@@ -16,9 +16,9 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.resolution import photo_pixels
 from packwork.scene.layout import Layout
 from packwork.scene.limits import NO_LIMITS, Limits
+from packwork.solve.detail import seen_posed
 from packwork.solve.level import Level
 from packwork.solve.relocate_trapped import violation_shares
-from packwork.solve.shaped import seen_posed
 from packwork.solve.solver import Ending, Outcome
 
 CHECK_RESOLUTION = 600

@@ -5,9 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+import numpy as np
+
 from packwork.arrays import FloatArray
+from packwork.geometry.affine import stretched
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import closed, grown, simplified
+from packwork.scene.pose import Poses
 
 DETAIL_PX = 0.12
 """Outlines are simplified to this many pixels of the level: larger is faster and lets
@@ -16,6 +20,41 @@ items overlap by as much, smaller costs edges that no pixel sees. Tried."""
 CLEFT_PX = 0.26
 """Clefts narrower than twice this many pixels of the level are closed. Larger keeps
 items out of each other's bays, smaller lets thin limbs cross and lock. Tried."""
+
+
+def seen_posed(
+    outlines: Sequence[Outline], poses: Poses, px_per_cu: float, margin_cu: float = 0.0
+) -> list[Outline]:
+    """Outlines simplified to a level's pixels in the shape and size of their poses.
+
+    A pixel and a margin are as wide as high on the canvas, so an item that is stretched
+    gets its detail and its margin stretched; the result is in item units all the same.
+
+    Parameters
+    ----------
+    outlines
+        One per item, item units.
+    poses
+        Scales and stretches are read; as many as outlines.
+    px_per_cu
+        Pixels of the level per canvas unit.
+    margin_cu
+        Every outline is grown by this much all round, canvas units.
+
+    Examples
+    --------
+    >>> half = np.array([[-8.0, -8], [8, -8], [8, 8], [-8, 8]])
+    >>> one = np.ones(1)
+    >>> wide = Poses(one, one, 0 * one, one, 4 * one)
+    >>> (seen,) = seen_posed([Outline.from_rings([half])], wide, 99.0, margin_cu=1.0)
+    >>> [round(v, 2) for v in seen.bounds]
+    [-8.5, -10.0, 8.5, 10.0]
+    """
+    # Items within a factor of two of one shape share one outline, as sizes do; but a
+    # margin has the same width whatever the shape.
+    ratios = poses.stretch if margin_cu > 0 else 2.0 ** np.rint(np.log2(poses.stretch))
+    shaped = _stretched_once(outlines, ratios)
+    return _stretched_once(seen_at(shaped, poses.scale, px_per_cu, margin_cu), 1 / ratios)
 
 
 def seen_at(
@@ -32,10 +71,8 @@ def seen_at(
         One per item, item units.
     scales
         ``(n,)`` canvas units per item unit.
-    px_per_cu
-        Pixels of the level per canvas unit.
-    margin_cu
-        Every outline is grown by this much all round, canvas units.
+    px_per_cu, margin_cu
+        As for :func:`seen_posed`.
     """
     done: dict[tuple[int, float], Outline] = {}
     seen = []
@@ -55,3 +92,15 @@ def _seen(outline: Outline, pixel: float, margin: float) -> Outline:
     # Half the tolerance before closing, which is slow on many points, half after.
     rough = simplified(outline, 0.5 * DETAIL_PX * pixel)
     return simplified(closed(grown(rough, margin), CLEFT_PX * pixel), 0.5 * DETAIL_PX * pixel)
+
+
+def _stretched_once(outlines: Sequence[Outline], ratios: FloatArray) -> list[Outline]:
+    """Stretched outlines; copies stretched alike are made once, others left as they are."""
+    done: dict[tuple[int, float], Outline] = {}
+    result = []
+    for outline, ratio in zip(outlines, ratios.tolist(), strict=True):
+        key = (id(outline), ratio)
+        if key not in done:
+            done[key] = outline if ratio == 1.0 else outline.mapped(stretched(ratio))
+        result.append(done[key])
+    return result

@@ -22,6 +22,7 @@ from packwork.progress import NOBODY, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
+from packwork.solve.detail import seen_posed
 from packwork.solve.exchange import exchange
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
@@ -29,7 +30,6 @@ from packwork.solve.options import SolveOptions
 from packwork.solve.pace import pace_of
 from packwork.solve.relocate_trapped import Relocation, relocate_trapped
 from packwork.solve.schedule import force_factor, growth, rate_factor, weights_at
-from packwork.solve.shaped import seen_posed
 
 EXCHANGES = (0.15, 0.3, 0.45)
 """When, as shares of the run, items leave the side of their kind, or a part of the container
