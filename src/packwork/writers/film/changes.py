@@ -36,7 +36,7 @@ def changed_part(changed: npt.NDArray[np.bool_]) -> Rectangle:
     >>> seen = np.zeros((4, 6), dtype=bool)
     >>> seen[1, 2] = seen[2, 4] = True
     >>> changed_part(seen)
-    Part(top=1, left=2, bottom=3, right=5)
+    Rectangle(top=1, left=2, bottom=3, right=5)
     """
     rows, columns = np.flatnonzero(changed.any(axis=1)), np.flatnonzero(changed.any(axis=0))
     if len(rows) == 0:

@@ -31,8 +31,8 @@ class Cascade:
     --------
     >>> import xml.etree.ElementTree as ET
     >>> from packwork.readers.gate.css.declarations import parse_declarations
-    >>> from packwork.readers.gate.css.sheets import Sheet
-    >>> sheet = Sheet(); sheet.add(".a {fill:blue; stroke:none}")
+    >>> from packwork.readers.gate.css.sheets import StyleSheet
+    >>> sheet = StyleSheet(); sheet.add(".a {fill:blue; stroke:none}")
     >>> path = ET.Element("path", {"class": "a", "style": "stroke:red"})
     >>> Cascade(sheet.rules).declared(Node(path, None, None), parse_declarations("stroke:red"))
     {'fill': 'blue', 'stroke': 'red'}
