@@ -57,11 +57,27 @@ def test_a_long_call_before_the_run_is_left_at_once() -> None:
 
 @NEEDS_SIGNALS
 def test_a_long_call_in_a_run_is_left_at_the_second_time() -> None:
-    before = "WATCH.keeps_results = True; signal.signal(signal.SIGINT, lambda *_: WATCH.answer())"
+    before = "WATCH.keeps_results = True; signal.signal(signal.SIGINT, lambda *_: None)"
     with running(before, "be_deaf()") as run:
         assert run.stderr is not None
         run.send_signal(signal.SIGINT)
         assert run.stderr.readline() == f"packwork: {watch.STOPPING}\n"
+        run.send_signal(signal.SIGINT)
+        _, err = run.communicate(timeout=100)
+    assert (run.returncode, err) == (130, f"packwork: {watch.ENDED}\n")
+
+
+@NEEDS_SIGNALS
+def test_a_ctrl_c_that_something_swallows_is_answered_all_the_same() -> None:
+    swallow = """
+    import time
+    while True:
+        try:
+            time.sleep(0.01)
+        except KeyboardInterrupt:
+            WATCH.keeps_results = True
+"""
+    with running("pass", swallow) as run:
         run.send_signal(signal.SIGINT)
         _, err = run.communicate(timeout=100)
     assert (run.returncode, err) == (130, f"packwork: {watch.ENDED}\n")

@@ -105,6 +105,38 @@ def test_items_outside_come_in() -> None:
     assert is_clean(arrangement)
 
 
+def thin_spiral(turns: int, points: int) -> Outline:
+    """A line as wide as a quarter of the way between its turns, 200 across."""
+    angle = np.linspace(np.pi, 2 * np.pi * turns, points)
+    way = np.column_stack([np.cos(angle), np.sin(angle)])
+    apart = 100 / turns
+    middle = (apart * angle / (2 * np.pi))[:, None]
+    return Outline.from_rings(
+        [np.concatenate([(middle + apart / 8) * way, ((middle - apart / 8) * way)[::-1]])]
+    )
+
+
+@pytest.mark.parametrize("hurries", [bool, lambda: True])
+def test_items_that_lie_across_thin_lines_are_moved_into_them(hurries: object) -> None:
+    wall = thin_spiral(30, 3_000)
+    places = np.zeros((20, 4))
+    places[:, 0] = np.linspace(-80, 80, 20)
+    arrangement = Arrangement([disc(3.0)] * 20, wall, places)
+    separate(arrangement, GAP, hurries=hurries)
+    assert is_clean(arrangement)
+    assert np.exp(arrangement.places[:, 3]).min() > 0.03
+
+
+def test_a_container_of_very_many_vertices_is_simplified_to_its_safe_side(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr("packwork.compaction.outer_simplify.MANY_VERTICES", 1_000)
+    region = thin_spiral(10, 3_000).region
+    fewer = inner_simplified(region, 0.02)
+    assert region.covers(fewer)
+    assert fewer.area > 0.97 * region.area
+
+
 def test_the_largest_item_gets_the_largest_void() -> None:
     places = np.array([[5.0, 5.0, 0, 0], [0.0, 0.0, 0, 0.0], [0.0, 0.0, 0, 0.0]])
     arrangement = Arrangement([square(4.9), square(0.5), square(2.0)], box(0, 0, 30, 10), places)

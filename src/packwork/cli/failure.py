@@ -87,7 +87,6 @@ class Interrupt:
             signal.signal(signal.SIGINT, before)
 
     def _press(self, number: int, frame: FrameType | None) -> None:
-        WATCH.answer()
         if self.is_over:
             return
         if self.pressed:

@@ -223,7 +223,9 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         drawn, undrawn = _drawn(run, outputs)
         written = [*drawn, *saved, *films]
         results = run.report(time.perf_counter() - began)
-        results["advice"] += _hard_to_see(run, outputs)
+        if not was_cut_short:
+            # Looks at pictures of all items, for which nobody waits who wants it to end.
+            results["advice"] += _hard_to_see(run, outputs)
         results["advice"] += pipeline.coarse_photos(run.layout, outputs.options.dpi)
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))

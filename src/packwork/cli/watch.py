@@ -27,32 +27,28 @@ INTERRUPTED = 130
 
 
 class Watch:
-    """How often Ctrl-C was pressed, and how often the program has heard of it."""
+    """How often Ctrl-C was pressed, and whether the program ends."""
 
     def __init__(self) -> None:
         self.keeps_results = False
         """Whether a run goes on whose first Ctrl-C only asks it to stop."""
         self.is_over = False
         """Whether all is written, so that nothing is left to stop."""
-        self._pressed, self._answered = 0, 0
+        self._pressed, self._is_ending = 0, False
         self._changed = threading.Condition()
 
-    def answer(self) -> None:
-        """Note that the program has heard of a Ctrl-C."""
-        # A handler runs between any two steps: it must not wait for a lock.
-        self._answered += 1
-
     def press(self) -> None:
-        """Wait for the program's answer to one Ctrl-C; give it if none comes."""
+        """Wait for the program to end; end it if it does not and is not to keep what it has."""
         self._pressed += 1
         number = self._pressed
         with self._changed:
             self._changed.wait_for(lambda: self.is_over, PATIENCE_SECONDS)
         if self.is_over:
             return
-        if self.keeps_results and number == 1:
+        if self.keeps_results and number == 1 and not self._is_ending:
             say(STOPPING)
-        elif self._answered < number:
+        else:
+            # What is raised while Python collects garbage is dropped: the program may go on.
             say(ENDED)
             self.end()
 
@@ -71,7 +67,7 @@ class Watch:
         """Hear every Ctrl-C while the block runs, in a thread."""
 
         def interrupt(number: int, frame: FrameType | None) -> None:
-            self.answer()
+            self._is_ending = True
             raise KeyboardInterrupt
 
         here, there = socket.socketpair()

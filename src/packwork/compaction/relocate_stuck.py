@@ -19,6 +19,10 @@ PIXELS_PER_ITEM = 24.0
 """Pixels of the image of voids along the side of an item's share of the container. More
 sees smaller voids and takes longer. Tried."""
 
+ACROSS = 4.0
+"""Pixels of that image across the container's mean thickness, at least: a spiral of thin lines has
+no room at all on a coarse one. Larger takes longer. Chosen."""
+
 LEAST_SIDE, MOST_SIDE = 128, 2_048
 """Bounds of that image's longer side, px. Chosen."""
 
@@ -61,7 +65,8 @@ def free_room(
     """Free room beside ``items`` ``(m,)`` alone; px per canvas unit; the image's corner."""
     left, top, right, bottom = arrangement.container.bounds
     side = max(right - left, bottom - top)
-    wanted = PIXELS_PER_ITEM * np.sqrt(arrangement.count)
+    thickness = 2 * arrangement.container.area / arrangement.container.region.length
+    wanted = max(PIXELS_PER_ITEM * np.sqrt(arrangement.count), ACROSS * side / thickness)
     px_per_cu = float(np.clip(wanted, LEAST_SIDE, MOST_SIDE)) / side
     shape = int((bottom - top) * px_per_cu) + 2, int((right - left) * px_per_cu) + 2
     corner = np.array([left, top])

@@ -7,6 +7,8 @@ has to move, and relocates those that would become too small; compaction lets th
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from packwork.arrays import BoolArray, IntArray
@@ -18,6 +20,9 @@ from packwork.compaction.relocate_stuck import relocate
 CUT = 0.004
 """Logarithm of size that an item in conflict loses at a time. Larger gives room away,
 smaller needs more checks. Tried."""
+
+HURRIED_CUT = 0.05
+"""The same once a run is to stop. Chosen."""
 
 PATIENT, HASTE = 150, 1.03
 """Checks after which that loss grows with each check, and by how much, so that even hopeless
@@ -41,7 +46,12 @@ EVEN = 1e-6
 """Logarithm of size within which all are alike. Chosen."""
 
 
-def separate(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS) -> IntArray:
+def separate(
+    arrangement: Arrangement,
+    gap: float,
+    hopeless_at: float = HOPELESS,
+    hurries: Callable[[], bool] = bool,
+) -> IntArray:
     """Make items in conflict smaller until none is; ``(m,)`` indices of the items that were moved.
 
     Only items in conflict change. Some conflicts may be left, if the container has no
@@ -51,6 +61,8 @@ def separate(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS
     ----------
     hopeless_at
         Logarithm of size that an item loses before one is moved to a void.
+    hurries
+        Asked before each check; once it is so, items lose more at a time.
 
     Examples
     --------
@@ -71,7 +83,10 @@ def separate(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS
             break
         items = _items(bad, arrangement.count)
         places = arrangement.places[items]
-        places[:, 3] -= CUT * HASTE ** max(check - PATIENT, 0)
+        if (places[:, 3] <= LEAST_GROWTH).all():
+            break
+        cut = HURRIED_CUT if hurries() else CUT
+        places[:, 3] -= cut * HASTE ** max(check - PATIENT, 0)
         places[:, 3] = np.maximum(places[:, 3], LEAST_GROWTH)
         arrangement.put(items, places)
         worn = arrangement.places[:, 3] < first - hopeless_at
@@ -87,7 +102,9 @@ def separate(arrangement: Arrangement, gap: float, hopeless_at: float = HOPELESS
     return np.unique(np.array(moved, dtype=np.int64))
 
 
-def relocate_stuck(arrangement: Arrangement, gap: float) -> bool:
+def relocate_stuck(
+    arrangement: Arrangement, gap: float, hurries: Callable[[], bool] = bool
+) -> bool:
     """Relocate items still in conflict to voids and separate again; whether few are left.
 
     Items that are next to nothing and yet too near each other ask for more room than there
@@ -98,7 +115,7 @@ def relocate_stuck(arrangement: Arrangement, gap: float) -> bool:
         if len(left) <= HOPELESS_SHARE * arrangement.count:
             return True
         relocate(arrangement, left, gap)
-        separate(arrangement, gap)
+        separate(arrangement, gap, hurries=hurries)
     return False
 
 

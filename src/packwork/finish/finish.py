@@ -183,9 +183,11 @@ class _Finish:
 
     def begin(self) -> bool:
         """Take conflicts apart; False if many stay in one however small they are made."""
-        loose = partial(separate, hopeless_at=self._options.hopeless)
+        loose = partial(separate, hopeless_at=self._options.hopeless, hurries=self._stop)
         (separate_evenly if self._is_shared else loose)(self.arrangement, self.gap)
-        return self._options.sizes == "fixed" or relocate_stuck(self.arrangement, self.gap)
+        return self._options.sizes == "fixed" or relocate_stuck(
+            self.arrangement, self.gap, self._stop
+        )
 
     def coarse(self) -> None:
         """Grow, on coarse outlines; move those that stay behind."""
