@@ -8,7 +8,7 @@ import pytest
 from packwork.finish.finish import Finished
 from packwork.pipeline.exact import DWARF, _without_dwarfs_that_may_be
 from packwork.pipeline.job import Job
-from packwork.pipeline.shortfalls import SPECK
+from packwork.pipeline.shortfalls import SPECK, shortfalls
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
 from packwork.uses import fill, read
@@ -34,6 +34,14 @@ def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
     assert [record.getMessage() for record in caplog.records] == [
         "2 items are smaller than --size-ratio 2 allows, star by 50 %"
     ]
+
+
+def test_all_that_are_far_too_small_are_one_sentence() -> None:
+    job = job_of(5)
+    assert shortfalls(job, np.ones(5), finished([0.1, 0.2, 0.1, 0.2, 0.05])) == (
+        "5 items (star) came out up to 20 times smaller than the typical item, "
+        "--size-ratio 2 allows less; use fewer items",
+    )
 
 
 def test_specks_and_sizes_that_were_asked_for_count(caplog: pytest.LogCaptureFixture) -> None:

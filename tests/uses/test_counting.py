@@ -150,9 +150,15 @@ def test_advice_names_what_is_poor() -> None:
 def test_more_words_are_the_advice_as_long_as_there_are_some() -> None:
     weights = {f"word{k}": float(90 - k) for k in range(70)}
     few = words_recipe("tail", weights, count=9)
-    assert "; -n 70 would show more of it" in advised(few, with_tail(4))
+    assert "; -n 70 would show more of it; --target-coverage 0.6, " in advised(few, with_tail(4))
     every = words_recipe("tail", weights)
     assert "; --target-coverage 0.6," in advised(every, with_tail(4))
+
+
+def test_of_a_container_of_thin_lines_more_items_are_not_the_advice() -> None:
+    rim = shapely.Point(50, 50).buffer(50).difference(shapely.Point(50, 50).buffer(49.8))
+    ring = Container("tail", "tail", Outline.from_region(rim), 100, 100)
+    assert "; it is lines 0.2 px wide; " in advised(recipe(), ring)
 
 
 def test_data_and_heaps_are_as_many_as_they_are() -> None:

@@ -22,6 +22,10 @@ ITEMS_REACH = 0.85
 """Share of a container that smaller copies of items come to cover. Larger is not always reached,
 and then counts as not met. Tried."""
 
+LINES = 0.005
+"""Mean width of a container, as a share of the canvas's side, below which it is but lines: what
+fits is hardly to be seen. Larger blames wrought letters, smaller passes spirals. Chosen."""
+
 CLEARLY_MORE = 1.15
 """How many times as many items must be needed for more of them to be the advice. Chosen."""
 
@@ -30,8 +34,17 @@ def advice(job: Job, layout: Layout, seen: ShapeMetrics) -> tuple[str, ...]:
     """What is poor, and what would do, a sentence each."""
     if not job.use.shows_shape or (seen.bare <= MOST_BARE and seen.shape >= LEAST_SHAPE):
         return ()
-    remedy = job.use.remedy(job) or _remedy(job, len(layout.items))
+    remedy = _wider(job) or job.use.remedy(job) or _remedy(job, len(layout.items))
     return (f"{_poor(seen)}; {remedy}",)
+
+
+def _wider(job: Job) -> str | None:
+    """What would do where the container is but lines; None where it is more."""
+    outline, unit = job.container.outline, job.container.unit
+    width = 2 * outline.area / outline.region.length
+    if width > LINES * job.container.side:
+        return None
+    return f"it is lines {width:.2g} {unit} wide; wider ones, or what they enclose, would show"
 
 
 def _poor(seen: ShapeMetrics) -> str:

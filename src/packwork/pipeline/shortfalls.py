@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from packwork.arrays import FloatArray
@@ -36,6 +38,7 @@ def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...
     side, scales = job.container.side, exact.poses.scale
     pinned = pinned_scales(job)
     said: list[str] = []
+    dwarfs: list[int] = []
     widest = ""
     for k, one in enumerate(job.asked):
         item = job.items[k]
@@ -54,12 +57,24 @@ def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...
                     f"{least:g} asked at least"
                 )
         elif k in exact.undersized:
-            short = float(nominal[k] / scales[k])
-            said.append(
-                f"{item.name} (item {k + 1}) came out {short:.2g} times smaller than the typical "
-                f"item, --size-ratio {job.plan.size_ratio:g} allows less; use fewer items"
-            )
-    return tuple(said)
+            dwarfs.append(k)
+    return (*said, *_dwarfs(job, dwarfs, nominal, scales))
+
+
+def _dwarfs(
+    job: Job, items: Sequence[int], nominal: FloatArray, scales: FloatArray
+) -> tuple[str, ...]:
+    """What is far smaller than free sizes go, in a sentence; or nothing."""
+    if not items:
+        return ()
+    order = sorted(items, key=lambda k: scales[k] / nominal[k])
+    names = enumerated(list(dict.fromkeys(job.items[k].name for k in order)))
+    short = float(nominal[order[0]] / scales[order[0]])
+    many = number_of(len(items), "item")
+    return (
+        f"{many} ({names}) came out up to {short:.0f} times smaller than the typical item, "
+        f"--size-ratio {job.plan.size_ratio:g} allows less; use fewer items",
+    )
 
 
 def specks(layout: Layout) -> tuple[str, ...]:

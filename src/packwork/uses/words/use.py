@@ -171,7 +171,8 @@ class Words(Use):
         count = len(self.read.items)
         if self.read.found > count:
             needed = max(words_needed(job.container), 2 * count)
-            return f"-n {min(needed, self.read.found)} would show more of it"
+            more = f"-n {min(needed, self.read.found)} would show more of it"
+            return f"{more}; {smaller_copies(job.plan.voids, WORDS_REACH)}"
         return smaller_copies(job.plan.voids, WORDS_REACH)
 
     def _with_heaviest(self, job: Job, count: int, sizes: FloatArray, smallest: float) -> Job:
