@@ -218,7 +218,7 @@ def _options(
     keeps_order = plan.stays or (start.goes_on and plan.effort != "best")
     return FinishOptions(
         gap_cu=gap_with_bulge(job, items, largest),
-        sizes=plan.sizes,
+        sizes=plan.size_mode,
         smallest=tuple(smallest.tolist()),
         largest=tuple(largest.tolist()),
         turning=turning,

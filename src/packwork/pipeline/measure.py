@@ -167,7 +167,7 @@ def measured(found: Unmeasured) -> Run:
         faults = seen.faults + found.faults + resolution_faults(job, layout) + specks(layout)
         beside = same_kind_beside(layout) if found.keeps_apart else None
     certified = is_exact and not seen.faults and len(layout.items) > 0
-    words = job.use.words_found()
+    words = job.use.words_found(layout)
     said = manifest(job, found.method, found.outcome, metrics, unplaced, beside)
     said |= {"certified": certified, "promised": asdict(promise) if is_exact else None}
     said |= {"filling": plain(found.filling), "words": plain(words)}

@@ -69,10 +69,19 @@ class Filling:
 
 @dataclass(frozen=True)
 class WordsFound:
-    """How many different words a source holds, and how many of them were to be set."""
+    """How many different words a source holds, and how many of them were to be set.
+
+    Parameters
+    ----------
+    found, asked
+        As above.
+    of_true
+        Where sizes gave way, of each word its size as a share of its proportion to the heaviest.
+    """
 
     found: int
     asked: int
+    of_true: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from packwork.arrays import FloatArray, IntArray
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from packwork.pipeline.watch import Watch
     from packwork.scene.item import Item
     from packwork.scene.layout import Layout
+    from packwork.scene.limits import Limits
     from packwork.scene.note import Note
     from packwork.scene.pose import Poses
 
@@ -28,6 +30,22 @@ processor time, 400 take 5 s, 1,000 take 10 s, 1,500 take 14 s. Measured."""
 MOST_TURNING = 150
 """The same of items that may turn any way, and are no words: 100 of them take 3 s, 400 take 40 s,
 where the levels take 0.6 s and 2.5 s. Measured."""
+
+
+@dataclass(frozen=True, eq=False)
+class OwnPlaces:
+    """First places that a use has found by itself, where nothing overlaps.
+
+    Parameters
+    ----------
+    poses
+        Of the job's items.
+    limits
+        What sizes they may have in the finish.
+    """
+
+    poses: Poses
+    limits: Limits
 
 
 class Use(ABC):
@@ -58,6 +76,11 @@ class Use(ABC):
         """The job without what could not be placed as asked in any run."""
         return job
 
+    @property
+    def own_places(self) -> OwnPlaces | None:
+        """First places of all items, found before the road; None where the start finds them."""
+        return None
+
     def fewer(self, job: Job, poses: Poses, attempt: int) -> Job:
         """A job to place anew, of fewer items; the job itself if all came out as asked."""
         del poses, attempt
@@ -84,8 +107,9 @@ class Use(ABC):
         del start
         return ()
 
-    def words_found(self) -> WordsFound | None:
+    def words_found(self, layout: Layout) -> WordsFound | None:
         """How many words the source holds and how many were to be set; None for no words."""
+        del layout
         return None
 
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:

@@ -1,6 +1,6 @@
 """What a run is asked to do: a recipe and its parts, their options and refusals."""
 
-from packwork.recipe.recipe import APART, EPOCHS, Effort, Recipe, make_recipe
+from packwork.recipe.recipe import APART, EPOCHS, Effort, Recipe, Sizes, make_recipe
 from packwork.recipe.rules import MAX_COUNT, Rotation
 
-__all__ = ["APART", "EPOCHS", "MAX_COUNT", "Effort", "Recipe", "Rotation", "make_recipe"]
+__all__ = ["APART", "EPOCHS", "MAX_COUNT", "Effort", "Recipe", "Rotation", "Sizes", "make_recipe"]

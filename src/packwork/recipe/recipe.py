@@ -54,6 +54,8 @@ if TYPE_CHECKING:
 
 Effort: TypeAlias = Literal["draft", "normal", "best"]
 
+Sizes: TypeAlias = Literal["free", "shared", "fixed", "graded"]
+
 EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
 """Iterations, never seconds: one seed gives one result. Measured (docs/benchmarks-engine.md)."""
 
@@ -123,9 +125,10 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     seed: Annotated[int, Field(ge=0, le=2**63 - 1), Offer(group=Group.SOLVED)] = 0
     """Same seed, same machine, same versions: same layout."""
 
-    sizes: Annotated[SizeMode, _COLLAGES] = "free"
+    sizes: Annotated[Sizes, _COLLAGES] = "free"
     """free: each item finds its size; shared: all have equal areas, or areas in the shares
-    of the weights; fixed: as large as in their files."""
+    of the weights; fixed: as large as in their files; graded (words alone): in proportion as far
+    as there is room, the heaviest first, no word larger than a heavier one."""
 
     size_ratio: Annotated[float, Field(ge=1, le=100), _COLLAGES] = 2.0
     """With free sizes: 2 lets an item be half to twice as large as the typical one."""
@@ -266,6 +269,12 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
                     f"rule {number}: scale bounds free sizes, not {self.sizes} ones; "
                     'leave it out, pin the size, or use sizes = "free"',
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _sizes_suit(self) -> Recipe:
+        if self.sizes == "graded" and self.words is None:
+            raise RecipeError("sizes", "graded is for words; use free, shared or fixed")
         return self
 
     @model_validator(mode="after")

@@ -12,6 +12,7 @@ from packwork.fields.thickness import Thickness, thickness
 from packwork.metrics.shape import REACH
 from packwork.options import SizeMode
 from packwork.raster.membership import centre_count
+from packwork.recipe import Sizes
 from packwork.scene.container import Container
 
 RESOLUTION = 300
@@ -49,7 +50,7 @@ class Needed:
 
 
 def items_needed(
-    container: Container, sizes: SizeMode = "free", size_ratio: float = TYPICAL_RATIO
+    container: Container, sizes: Sizes = "free", size_ratio: float = TYPICAL_RATIO
 ) -> Needed:
     """Items of one nominal size for which the container's shape shows.
 

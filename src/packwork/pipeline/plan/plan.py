@@ -10,7 +10,7 @@ from typing import Any
 
 from packwork.options import SizeMode
 from packwork.readers.regions import Holes
-from packwork.recipe import APART, EPOCHS, Effort, Recipe
+from packwork.recipe import APART, EPOCHS, Effort, Recipe, Sizes
 from packwork.recipe.levels import parse_levels
 from packwork.recipe.pictures import Shades
 from packwork.recipe.presets import DEFAULT, PRESETS, Preset
@@ -137,7 +137,7 @@ class Plan:
     """
 
     gap: float
-    sizes: SizeMode
+    sizes: Sizes
     size_ratio: float
     stretch: float
     rotation: Rotation
@@ -234,6 +234,11 @@ class Plan:
         return self.preset is DEFAULT
 
     @property
+    def size_mode(self) -> SizeMode:
+        """How stages find sizes: graded ones are free within bounds of each item's own."""
+        return "free" if self.sizes == "graded" else self.sizes
+
+    @property
     def may_press(self) -> bool:
         """Whether items may be pressed together for even gaps: else it would cost overlap."""
         return self.sizes == "free" and self.gap == 0
@@ -260,7 +265,7 @@ class Plan:
         changes |= {
             "epochs": self.epochs or EPOCHS[self.effort],
             "seconds": seconds,
-            "sizes": self.sizes,
+            "sizes": self.size_mode,
             "size_ratio": self.size_ratio,
             "stretch": self.stretch,
             "losses": {loss: weight for loss, weight in losses.items() if weight},

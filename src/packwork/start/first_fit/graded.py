@@ -61,6 +61,15 @@ COVERED = 0.5
 DRAWN = 0.1
 """Such score from which places are judged that touch nothing, too. Smaller takes longer. Chosen."""
 
+TOUCHING = 0.5
+"""Share of the items, the first, that are put where they touch most; all others go where there is
+most room. Larger leaves limbs of the container bare, smaller fills less. Tried: with 100 words in
+a bird, a cat and a boat as much ink as with 1, and half the largest gap."""
+
+ROOMY = 2.0
+"""Score of the place with most room for such items; what they touch, of 0 to 1, then says little.
+Tried."""
+
 NOISE = 0.01
 """Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
 
@@ -156,6 +165,7 @@ def graded_fit(
             break
         most = min(most, _on_grid(most * candidate.step, grid)) if rows else candidate.step
         least = smallest or LEAST_SHARE * (rows[0][3] if rows else most)
+        grading.is_loose = k >= TOUCHING * count
         pose = grading.put(candidate, sizes_down(most, max(least, grid), grid, drop))
         if pose is None:
             missed += 1
@@ -193,6 +203,9 @@ def _on_grid(size: float, grid: float) -> float:
 
 class _Grading:
     """The image on which items are put one after another."""
+
+    is_loose = False
+    """Whether items now go where there is most room."""
 
     def __init__(
         self, container: Container, count: int, rng: np.random.Generator, margin_cu: float
@@ -237,17 +250,24 @@ class _Grading:
 
     def _place(self, candidate: Candidate, scale: float) -> tuple[Stencil, int, int, float] | None:
         """Best place of an item of that scale, at the first of its angles that has one."""
-        covered = 1 - self._left / self._room
-        inward = INWARD * min(scale / (self._first or scale), 1.0) * max(1 - covered / COVERED, 0)
-        is_drawn = inward > DRAWN
-        worth = self._noise + inward * self._inward if is_drawn else self._noise
+        worth, is_everywhere = self._worth(scale)
         for angle in candidate.angles:
             posed = similarity(0.0, 0.0, angle, scale * self._px_per_cu)
             stencil = cut_all({0: candidate.outline.mapped(posed)}, REACH)[0]
-            found = self._occupancy.best_place(stencil, worth, is_drawn)
+            found = self._occupancy.best_place(stencil, worth, is_everywhere)
             if found is not None:
                 return stencil, found[1], found[2], angle
         return None
+
+    def _worth(self, scale: float) -> tuple[FloatArray, bool]:
+        """Score of each pixel for an item of that scale, and whether it is looked at everywhere."""
+        if self.is_loose:
+            room = self._occupancy.clearance
+            return self._noise + ROOMY / max(float(room.max()), 1.0) * room, True
+        covered = 1 - self._left / self._room
+        inward = INWARD * min(scale / (self._first or scale), 1.0) * max(1 - covered / COVERED, 0)
+        is_drawn = inward > DRAWN
+        return (self._noise + inward * self._inward if is_drawn else self._noise), is_drawn
 
     def _take(self, stencil: Stencil, row: int, column: int) -> None:
         """Take the pixels of a stencil and those round it that are nearer than the margin."""

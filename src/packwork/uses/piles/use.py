@@ -51,9 +51,9 @@ class Pile(Use):
         """What the content could not draw."""
         return self.content.missing(start)
 
-    def words_found(self) -> WordsFound | None:
+    def words_found(self, layout: Layout) -> WordsFound | None:
         """How many words the content found."""
-        return self.content.words_found()
+        return self.content.words_found(layout)
 
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours that the content's data give."""

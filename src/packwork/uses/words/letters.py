@@ -21,6 +21,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.watch import Watch
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead
 from packwork.readers.words.options import WordOptions
+from packwork.recipe import Sizes
 from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -52,13 +53,13 @@ class Letters:
     largest: float | None = None
 
     @classmethod
-    def of(cls, asked: WordOptions, container: Container, sizes: SizeMode) -> Letters:
+    def of(cls, asked: WordOptions, container: Container, sizes: Sizes) -> Letters:
         """Bounds that words are asked to keep in a container on its canvas.
 
         Raises
         ------
         RecipeError
-            If one is no length, they cross, or sizes are not shared.
+            If one is no length, they cross, or sizes are neither shared nor graded.
         """
         found: dict[str, float | None] = {}
         for key in ("smallest", "largest"):
@@ -68,7 +69,7 @@ class Letters:
             found[key] = size = length_asked(key, length, container.unit, container.side)
             if size <= 0:
                 raise RecipeError(key, f"must be more than nothing, not {length}")
-            if sizes != "shared":
+            if sizes not in {"shared", "graded"}:
                 raise RecipeError(
                     key, f"bounds words in proportion to each other, not --sizes {sizes}"
                 )

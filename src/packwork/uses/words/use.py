@@ -21,7 +21,7 @@ from packwork.pipeline.plan.shares import shared_out
 from packwork.pipeline.read import AUTO, Material, read_named
 from packwork.pipeline.result import Run, Unplaced, WordsFound
 from packwork.pipeline.run import along
-from packwork.pipeline.use import MOST_FIRST_FIT, Use
+from packwork.pipeline.use import MOST_FIRST_FIT, OwnPlaces, Use
 from packwork.pipeline.watch import Watch
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
@@ -34,6 +34,7 @@ from packwork.uses.room import Room
 from packwork.uses.words.cast import cast_words
 from packwork.uses.words.colours import check_colours, word_colours
 from packwork.uses.words.counts import words_counted, words_needed
+from packwork.uses.words.graded import Places, graded_places
 from packwork.uses.words.letters import (
     Letters,
     heaviest,
@@ -65,11 +66,14 @@ class Words(Use):
         As asked.
     letters
         How large they may be.
+    places
+        Where they lie, if their sizes give way in turn; None until that is known, or else.
     """
 
     read: WordsRead
     options: WordOptions
     letters: Letters
+    places: Places | None = None
 
     def run(self, job: Job, watch: Watch) -> Run:
         """The common road."""
@@ -86,7 +90,12 @@ class Words(Use):
         return count <= MOST_FIRST_FIT
 
     def before(self, job: Job) -> Job:
-        """Job without words that could not even be large enough in the fullest cloud."""
+        """Job without words that could not even be large enough in the fullest cloud.
+
+        Where sizes give way in turn, that of the words that find a place, and their places.
+        """
+        if job.plan.sizes == "graded":
+            return self._with_places(job)
         smallest = self.letters.smallest
         if smallest is None:
             return job
@@ -97,7 +106,7 @@ class Words(Use):
     def fewer(self, job: Job, poses: Poses, attempt: int) -> Job:
         """The job itself if all letters are large enough; else one of fewer words."""
         smallest = self.letters.smallest
-        if smallest is None:
+        if smallest is None or self.places is not None:
             return job
         sizes = letters_of(poses, len(self.read.items))
         count = readable_count(self.read, smallest, sizes, attempt)
@@ -127,9 +136,10 @@ class Words(Use):
             for index, (word, reason) in enumerate(self.read.undrawn.items(), start=start)
         )
 
-    def words_found(self) -> WordsFound:
-        """How many words the source holds, and how many were to be set."""
-        return WordsFound(self.read.found, len(self.read.items) + len(self.read.undrawn))
+    def words_found(self, layout: Layout) -> WordsFound:
+        """How many words the source holds, how many were to be set, and which gave way."""
+        asked = len(self.read.items) + len(self.read.undrawn)
+        return WordsFound(self.read.found, asked, self._of_true(layout))
 
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours by weight, column, picture or function, if asked for."""
@@ -174,6 +184,42 @@ class Words(Use):
             more = f"-n {min(needed, self.read.found)} would show more of it"
             return f"{more}; {smaller_copies(job.plan.voids, WORDS_REACH)}"
         return smaller_copies(job.plan.voids, WORDS_REACH)
+
+    @property
+    def own_places(self) -> OwnPlaces | None:
+        """Places of words whose sizes give way in turn."""
+        return None if self.places is None else OwnPlaces(self.places.poses, self.places.limits)
+
+    def _of_true(self, layout: Layout) -> dict[str, float]:
+        """Sizes as shares of their proportion to the heaviest, of words that gave way in turn."""
+        if self.places is None:
+            return {}
+        scales = {id(i): s for i, s in zip(layout.items, layout.poses.scale, strict=True)}
+        own = np.array([item.outline.area for item in self.read.items])
+        true = np.sqrt(self.read.areas / own)
+        first = scales.get(id(self.read.items[0]), np.nan) / true[0]
+        return {
+            item.name: round(float(scales[id(item)] / height / first), 4)
+            for item, height in zip(self.read.items, true, strict=True)
+            if id(item) in scales
+        }
+
+    def _with_places(self, job: Job) -> Job:
+        """Job of the words that find a place, each as large as it does."""
+        with job.clock.time("start"):
+            places = graded_places(job, self.letters)
+        gone = np.setdiff1d(np.arange(len(job.items)), places.placed)
+        words = places.placed[places.placed < len(self.read.items)]
+        reason = "finds no place at a size that could be read; use fewer words or a larger canvas"
+        undrawn = {job.items[k].name: reason for k in gone}
+        read = replace(
+            self.read,
+            items=tuple(self.read.items[k] for k in words),
+            areas=self.read.areas[words],
+            words=tuple(self.read.words[k] for k in words),
+            undrawn={**undrawn, **self.read.undrawn},
+        )
+        return replace(job.some(places.placed), use=replace(self, read=read, places=places))
 
     def _with_heaviest(self, job: Job, count: int, sizes: FloatArray, smallest: float) -> Job:
         """Job of fewer words, what rules ask of them, and what is mixed in."""

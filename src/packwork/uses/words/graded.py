@@ -1,0 +1,203 @@
+"""Words whose sizes give way, with hierarchy: each as large as it finds a place in its turn.
+
+Proportions are kept as far as there is room: the first size is such that all words in proportion
+would cover more than they can, and what comes later gives way. Where the container is so thin
+that the heaviest word is held down and all others with it, and much room is left, sizes come nearer
+to each other: no word is larger than a heavier one, but it may be as large.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.options import HAIR
+from packwork.errors import RecipeError
+from packwork.geometry.affine import similarity
+from packwork.pipeline.first_places import needs_levels
+from packwork.pipeline.job import Job
+from packwork.readers.words.items import EM_PX
+from packwork.recipe.rules import Rotation
+from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
+from packwork.start.angles import spread_angles, start_angles
+from packwork.start.first_fit.graded import Candidate, Graded, graded_fit
+from packwork.uses.words.letters import Letters
+
+FULL = 0.62
+"""Share of the container that words would cover in proportion to the first. Larger gives the
+first words more and lets the last give way more; with 0.5 hardly any has to. Tried, by eye."""
+
+NEARER = (1.0, 0.5, 0.0)
+"""How much of the step from one weight to the next a size keeps, tried in turn: 1 all of it, 0
+none. As ``relative_scaling`` of the ``wordcloud`` package."""
+
+ENOUGH = 0.35
+"""Ink, as a share of the container, from which no step is made smaller. Chosen: three quarters of
+what a fat shape comes to."""
+
+DWARF = 0.1
+"""Size, as a share of its proportion, below which a word is left out unless a least size is given.
+Larger leaves out more, smaller leaves specks. Chosen."""
+
+GROWN = 1.5
+"""How many times as large the heaviest word may become in the finish. Larger grows it alone where
+it is held by nothing. Chosen."""
+
+ANGLES = 7
+"""Angles tried for a word that may turn by any angle within a limit. More take longer. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Where words lie, and how large they are.
+
+    Parameters
+    ----------
+    placed
+        ``(m,)`` which of the items have found a place, in their order.
+    poses
+        Of these.
+    limits
+        Sizes that they may have in the finish: no smaller, and none larger than the one before.
+    of_true
+        ``(m,)`` size of each as a share of its proportion to the first one's.
+    """
+
+    placed: IntArray
+    poses: Poses
+    limits: Limits
+    of_true: FloatArray
+
+
+def graded_places(job: Job, letters: Letters) -> Places:
+    """Places of words, and of what is mixed in, the heaviest first.
+
+    Raises
+    ------
+    RecipeError
+        If something is asked that this cannot heed, or not even one word finds a place.
+    """
+    _check(job)
+    words = _Ranked.of(job)
+    tried = list[tuple[float, Graded]]()
+    for share in NEARER:
+        found = _placed(job, letters, words, share)
+        ink = float((words.inks[found.placed] * found.poses.scale**2).sum())
+        tried.append((ink, found))
+        if ink >= ENOUGH * job.container.outline.area:
+            break
+    _, found = max(tried, key=lambda one: one[0])
+    if len(found.placed) == 0:
+        raise RecipeError("sizes", "graded finds no place for any word in this container")
+    return words.places(found, letters, job.plan.rotation)
+
+
+def _check(job: Job) -> None:
+    """Refuse what only levels know, or limits of single items."""
+    if job.is_limited or job.earlier is not None or needs_levels(job, job.forces):
+        raise RecipeError(
+            "sizes",
+            "graded sets words one after another; leave out --start, losses, levels, --stretch and "
+            "rules on single items, or use sizes shared",
+        )
+
+
+@dataclass(frozen=True, eq=False)
+class _Ranked:
+    """Items with the heaviest first, and their sizes as heights of an em.
+
+    The em of what is no word is the side of a square of its area.
+
+    Parameters
+    ----------
+    order
+        ``(n,)`` numbers of the items.
+    unit
+        ``(n,)`` scale of each at which its em is ``EM_PX``.
+    true
+        ``(n,)`` sizes in proportion, at which all cover ``FULL``, as multiples of that.
+    inks
+        ``(n,)`` area drawn at that scale.
+    """
+
+    order: IntArray
+    unit: FloatArray
+    true: FloatArray
+    inks: FloatArray
+
+    @classmethod
+    def of(cls, job: Job) -> _Ranked:
+        """All items of a job."""
+        areas = np.array([item.outline.area for item in job.items])
+        inks = np.array([item.ink.area for item in job.items])
+        words = {id(item) for item in job.use.words}
+        is_word = np.array([id(item) in words for item in job.items])
+        unit = np.where(is_word, 1.0, EM_PX / np.sqrt(areas))
+        scales = np.sqrt(job.weights / areas)
+        room = FULL * job.container.outline.area
+        true = scales / unit * math.sqrt(room / float((inks * scales**2).sum()))
+        order = np.argsort(-true, kind="stable")
+        return cls(order, unit[order], true[order], inks[order] * unit[order] ** 2)
+
+    def of_true(self, found: Graded) -> FloatArray:
+        """``(m,)`` sizes as shares of what they would be in proportion to the first."""
+        true = self.true[found.placed]
+        return np.asarray(found.poses.scale / true / (found.poses.scale[:1] / true[:1]))
+
+    def places(self, found: Graded, letters: Letters, rotation: Rotation) -> Places:
+        """The same in the items' own order, in their own units."""
+        numbers, unit, size = self.order[found.placed], self.unit[found.placed], found.poses.scale
+        # Each may grow to where the one before is now, which itself gets no smaller.
+        most = math.inf if letters.largest is None else letters.largest / EM_PX
+        before = np.concatenate([GROWN * size[:1], size[:-1]])
+        largest = np.maximum(np.minimum(before, most), size)
+        back = np.argsort(numbers, kind="stable")
+        limits = replace(
+            Limits.free(len(numbers)),
+            turn_limit=np.full(len(numbers), rotation.farthest),
+            smallest=(size * unit)[back],
+            largest=(largest * unit)[back],
+        )
+        poses = replace(found.poses, scale=size * unit).some(back)
+        return Places(numbers[back], poses, limits, self.of_true(found)[back])
+
+
+def _placed(job: Job, letters: Letters, words: _Ranked, share: float) -> Graded:
+    """Items put one after another, ``share`` of the steps between their weights kept."""
+    first = float(words.true[0])
+    if letters.largest is not None:
+        first = min(first, letters.largest / EM_PX)
+    least = letters.smallest / EM_PX if letters.smallest else DWARF * float(words.true[-1])
+    return graded_fit(
+        job.container,
+        _candidates(job, words, first, share),
+        len(words.order),
+        np.random.default_rng(job.plan.seed),
+        smallest=least,
+        margin_cu=job.plan.gap + HAIR * job.container.side,
+    )
+
+
+def _candidates(job: Job, words: _Ranked, first: float, share: float) -> Iterator[Candidate]:
+    """Items in their order, each with the angles that it may have."""
+    rng = np.random.default_rng(job.plan.seed)
+    steps = np.concatenate([[first], share * words.true[1:] / words.true[:-1] + 1 - share])
+    for k, unit, step in zip(words.order, words.unit, steps, strict=True):
+        outline = job.items[k].outline
+        if unit != 1:
+            outline = outline.mapped(similarity(0.0, 0.0, 0.0, float(unit)))
+        yield Candidate(outline, float(step), _angles(job.plan.rotation, rng))
+
+
+def _angles(rotation: Rotation, rng: np.random.Generator) -> tuple[float, ...]:
+    """Angles to try: one as likely as asked, then all others that there are."""
+    if rotation.is_still or rotation.choices:
+        first = float(start_angles(1, rotation.limit, rotation.choices, rng)[0])
+        others = dict.fromkeys(float(angle) for angle in rotation.choices or () if angle != first)
+        return (first, *others)
+    return tuple(spread_angles(ANGLES, rotation.limit, rng).tolist())

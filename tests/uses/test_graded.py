@@ -1,0 +1,94 @@
+"""Words whose sizes give way with hierarchy: ranks hold, nothing overlaps, thin shapes fill."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.readers.words.items import EM_PX
+
+NAMES = ("lorem", "ipsum", "dolor", "sit", "amet")
+WEIGHTS = {f"{NAMES[k % 5]}{k}": 1 / (1 + k) for k in range(30)}
+RING = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><circle cx="50" cy="50" r="45" '
+    'fill="none" stroke="black" stroke-width="6"/></svg>'
+)
+QUICK = {"effort": "draft", "sizes": "graded", "rotate": "mixed"}
+
+
+def words(container: object = "heart", weights: object = WEIGHTS, **options: object) -> pw.Layout:
+    return pw.words(container, weights, **{**QUICK, **options})  # type: ignore[arg-type]
+
+
+def test_no_word_is_larger_than_a_heavier_one() -> None:
+    layout = words()
+    assert [item.name for item in layout.items] == list(WEIGHTS)
+    assert (np.diff(layout.poses.scale) <= 1e-9).all()
+    assert layout.manifest["certified"]
+
+
+def test_the_report_says_how_far_from_true_each_is() -> None:
+    layout = words()
+    of_true = layout.manifest["words"]["of_true"]
+    heights = np.array(list(WEIGHTS.values()))
+    expected = layout.poses.scale / layout.poses.scale[0] / heights
+    assert list(of_true.values()) == pytest.approx(expected.tolist(), abs=1e-4)
+    assert pw.words("heart", WEIGHTS, effort="draft").manifest["words"]["of_true"] == {}
+
+
+def test_a_thin_shape_is_filled_more_than_by_true_sizes(tmp_path: Path) -> None:
+    ring = tmp_path / "ring.svg"
+    ring.write_text(RING)
+    graded, true = words(str(ring)), words(str(ring), sizes="shared")
+    assert graded.metrics["LC"] > 1.5 * true.metrics["LC"]
+    assert (np.diff(graded.poses.scale) <= 1e-9).all()
+
+
+def test_letters_keep_their_bounds() -> None:
+    layout = words(smallest=8, largest=40)
+    sizes = layout.poses.scale * EM_PX
+    assert sizes.max() <= 40 + 1e-9
+    assert sizes.min() >= 8 - 1e-9
+
+
+def test_words_that_find_no_place_are_named() -> None:
+    layout = words(smallest=60)
+    named = {one["item"] for one in layout.manifest["unplaced"]}
+    assert named
+    assert named | {item.name for item in layout.items} == set(WEIGHTS)
+
+
+def test_icons_among_words_take_their_turn() -> None:
+    layout = words(add=["star"])
+    assert "star" in {item.name for item in layout.items}
+    assert layout.manifest["certified"]
+
+
+def test_words_turn_as_asked() -> None:
+    angles = words(rotate="20").poses.angle
+    assert np.abs(angles).max() <= np.radians(20) + 1e-9
+    assert len(set(np.round(angles, 6))) > 5
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{"stretch": 1.5}, {"losses": {"evenness": 1}}, {"rules": [{"match": "lorem0", "pin": "top"}]}],
+)
+def test_what_it_cannot_heed_is_refused(options: dict) -> None:
+    with pytest.raises(RecipeError):
+        words(**options)
+
+
+def test_icons_alone_have_no_ranks() -> None:
+    with pytest.raises(RecipeError, match="graded is for words"):
+        pw.fill("heart", ["star"], sizes="graded")
+
+
+def test_one_seed_gives_one_cloud() -> None:
+    first, second = words(seed=3).poses, words(seed=3).poses
+    assert np.array_equal(first.x, second.x)
+    assert np.array_equal(first.scale, second.scale)
