@@ -18,7 +18,6 @@ from pydantic import (
 
 from packwork.errors import RecipeError
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
-from packwork.options import SizeMode
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions

@@ -10,7 +10,6 @@ import numpy as np
 from packwork.errors import RecipeError
 from packwork.fields.thickness import Thickness, thickness
 from packwork.metrics.shape import REACH
-from packwork.options import SizeMode
 from packwork.raster.membership import centre_count
 from packwork.recipe import Sizes
 from packwork.scene.container import Container

@@ -14,7 +14,6 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.finish.finished import Finished
-from packwork.options import SizeMode
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.exact import finished
 from packwork.pipeline.job import Job
