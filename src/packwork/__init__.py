@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
     from packwork.geometry.outline import Outline
-    from packwork.losses.term import ImageLoss, Term
+    from packwork.losses.term import ImageLoss, PosedItems, PoseTerm, Term
     from packwork.metrics.measure import Metrics
     from packwork.progress import Step
     from packwork.raster.coverage import coverage as render
@@ -47,6 +47,8 @@ __all__ = [
     "Outline",
     "PackworkError",
     "Placement",
+    "PoseTerm",
+    "PosedItems",
     "Poses",
     "ReadError",
     "RecipeError",
@@ -81,6 +83,8 @@ _HOMES = {
     "Outline": "packwork.geometry.outline:Outline",
     "PackworkError": "packwork.errors:PackworkError",
     "Placement": "packwork.api.placement:Placement",
+    "PoseTerm": "packwork.losses.term:PoseTerm",
+    "PosedItems": "packwork.losses.term:PosedItems",
     "Poses": "packwork.scene.pose:Poses",
     "ReadError": "packwork.errors:ReadError",
     "RecipeError": "packwork.errors:RecipeError",

@@ -7,13 +7,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import factorial, gcd
-from typing import Protocol, TypeAlias
+from typing import Literal, Protocol, TypeAlias, cast
 
 from packwork.arrays import IntArray
+from packwork.errors import RecipeError
 from packwork.scene.pose import Poses
 
 Shares: TypeAlias = tuple[float, float, float]
 """Image-space shares of the container: covered, covered twice, covered outside it."""
+
+
+Stage: TypeAlias = Literal["levels", "finish", "gaps", "pile", "done"]
+"""Parts of a run, as its steps name them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +48,9 @@ class Step:
         ``(n,)`` what each item is called by, from 0, where fillers have joined the run and some
         of them have left it, or some of a pile are yet to come; None: their places in
         ``poses``.
+    stage
+        Which part of the run this is of: levels, finish, gaps (that voids are filled), pile, or
+        done, once at its end.
     """
 
     level: int
@@ -55,6 +63,7 @@ class Step:
     is_finish: bool = False
     is_last: bool = False
     ids: IntArray | None = None
+    stage: Stage = "levels"
 
     @cached_property
     def _shares(self) -> Shares:
@@ -85,6 +94,44 @@ class Observer(Protocol):
     def on_step(self, step: Step) -> None:
         """Receive a step; must not change it."""
         ...
+
+
+Listener: TypeAlias = Observer | Callable[[Step], object]
+"""What users give to be told: an observer, or a function of a step."""
+
+EPOCHS_BETWEEN = 10
+"""Epochs between two steps that a function is told. Larger tells less, smaller takes longer if it
+reads what steps measure. Chosen."""
+
+
+def as_observer(listener: Listener) -> Observer:
+    """The observer that a listener is; of a function, one that calls it.
+
+    Examples
+    --------
+    >>> as_observer(NOBODY) is NOBODY, as_observer(print).every
+    (True, 10)
+    """
+    if hasattr(listener, "on_step"):
+        return cast(Observer, listener)
+    if not callable(listener):
+        raise RecipeError(
+            "observer", f"is {type(listener).__name__}; give a function of a step, or an observer"
+        )
+    return _Calling(listener)
+
+
+class _Calling:
+    """Calls a function of every step."""
+
+    every = EPOCHS_BETWEEN
+
+    def __init__(self, function: Callable[[Step], object]) -> None:
+        self._function = function
+
+    def on_step(self, step: Step) -> None:
+        """Call it."""
+        self._function(step)
 
 
 class _Nobody:

@@ -11,7 +11,7 @@ from packwork.api.layout import Layout
 from packwork.api.signatures import of_verb
 from packwork.api.verbs import fill
 from packwork.offers import Verbs
-from packwork.progress import Observer, Stop, never
+from packwork.progress import Listener, Stop, never
 from packwork.readers.memory.values import Value
 from packwork.uses.photos.recipe import photo_choices
 
@@ -23,7 +23,7 @@ def photos(
     *,
     add: Value | Iterable[Value] = (),
     y_up: bool | None = None,
-    observer: Observer | None = None,
+    observer: Listener | None = None,
     stop: Stop = never,
     progress: bool | None = None,
     **options: Unpack[PhotosKeywords],

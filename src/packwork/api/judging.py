@@ -16,7 +16,7 @@ from packwork.geometry.bezier import FLATTENING
 from packwork.metrics.certificate import Promise, broken
 from packwork.metrics.measure import LayoutMetrics, Metrics
 from packwork.metrics.measure import measure as measure_layout
-from packwork.progress import NOBODY, Observer, Stop, never
+from packwork.progress import NOBODY, Listener, Stop, as_observer, never
 from packwork.readers.layouts.read import read_written
 from packwork.recipe.refusals import length_asked
 from packwork.scene import layout as scene
@@ -59,7 +59,7 @@ def finish(
     turn: bool = True,
     trials: int = 0,
     seed: int = 0,
-    observer: Observer = NOBODY,
+    observer: Listener = NOBODY,
     stop: Stop = never,
 ) -> Layout:
     """Exact layout near another one: nothing overlaps, nothing sticks out.
@@ -110,7 +110,7 @@ def finish(
     )  # fmt: skip
     outlines = [item.outline for item in layout.items]
     poses = layout.poses.some(np.arange(len(scales)))
-    found = exact_finish(container, outlines, poses, options, observer, stop)
+    found = exact_finish(container, outlines, poses, options, as_observer(observer), stop)
     return _certified(replace(layout, poses=found.poses), Promise(gap))
 
 

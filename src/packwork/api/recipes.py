@@ -9,7 +9,7 @@ from typing import Any
 from packwork.api.handing import handed_over, with_names
 from packwork.api.layout import Layout
 from packwork.api.verbs import run_recipe
-from packwork.progress import Observer, Stop, never
+from packwork.progress import Listener, Stop, never
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
 from packwork.uses.overriding import overridden
@@ -19,7 +19,7 @@ def run(
     recipe: str | Path | Mapping[str, Any],
     *,
     allow_code: bool = False,
-    observer: Observer | None = None,
+    observer: Listener | None = None,
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,

@@ -15,7 +15,7 @@ from packwork.api.signatures import of_verb
 from packwork.display.bar import bar_for, shown
 from packwork.offers import Verbs
 from packwork.options import offered
-from packwork.progress import NOBODY, Observer, Stop, never
+from packwork.progress import NOBODY, Listener, Stop, as_observer, never
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
 from packwork.readers.memory.shapes import Columns
@@ -37,7 +37,7 @@ def fill(
     items: Value | Iterable[Value] = "builtin:icons",
     *,
     y_up: bool | None = None,
-    observer: Observer | None = None,
+    observer: Listener | None = None,
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
@@ -59,7 +59,8 @@ def fill(
     y_up
         Whether the y of geometries points up; None: where a frame says its reference system.
     observer
-        Told of progress.
+        Told of progress: a function of a :class:`Step`, called every ten epochs, or an object with
+        ``every`` and ``on_step``.
     stop
         Asked before every epoch; True ends the run with what it has.
     progress
@@ -99,7 +100,7 @@ def words(
     *,
     add: Value | Iterable[Value] = (),
     y_up: bool | None = None,
-    observer: Observer | None = None,
+    observer: Listener | None = None,
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
@@ -156,7 +157,7 @@ def pile(
     items: Value | Iterable[Value] = "builtin:icons",
     *,
     y_up: bool | None = None,
-    observer: Observer | None = None,
+    observer: Listener | None = None,
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
@@ -202,7 +203,7 @@ def chart(
     data: Any,
     *,
     y_up: bool | None = None,
-    observer: Observer | None = None,
+    observer: Listener | None = None,
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
@@ -347,16 +348,17 @@ def read_container(
 def run_recipe(
     recipe: Recipe,
     container: Value,
-    observer: Observer | None,
+    observer: Listener | None,
     stop: Stop,
     progress: bool | None,
     record: bool,
 ) -> Layout:
     """Run a recipe, with a bar if one is to be shown; a container that was given is used as is."""
-    bar = bar_for(progress, observer)
+    heard = NOBODY if observer is None else as_observer(observer)
+    bar = bar_for(progress, None if observer is None else heard)
     whole = container if isinstance(container, Container) else None
     with shown(bar):
-        run = uses.fill(recipe, None, whole, bar or observer or NOBODY, stop, record)
+        run = uses.fill(recipe, None, whole, bar or heard, stop, record)
     layout = public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = ReadOnly(run.metrics.as_dict())

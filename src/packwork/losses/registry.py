@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import importlib
+import inspect
 from collections.abc import Mapping
+from functools import partial
 from types import MappingProxyType
+from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.losses.apart import apart
@@ -15,7 +18,7 @@ from packwork.losses.filling import filling
 from packwork.losses.overlap import overlap
 from packwork.losses.paper_containment import paper_containment
 from packwork.losses.paper_evenness import paper_evenness
-from packwork.losses.term import ImageLoss, PoseLoss
+from packwork.losses.term import ImageLoss, PoseLoss, checked_pose_term
 
 LOSSES: Mapping[str, ImageLoss] = MappingProxyType(
     {
@@ -65,6 +68,42 @@ def find_loss(name: str | ImageLoss) -> ImageLoss:
     except AttributeError as error:
         raise RecipeError("loss", f"module {module!r} has no function {function!r}") from error
     if not callable(found):
-        raise RecipeError("loss", f"{name!r} is not a function of (density, container)")
+        raise RecipeError(
+            "loss", f"{name!r} is not a function of (density, container), nor of (placed)"
+        )
     loss: ImageLoss = found
     return loss
+
+
+def find_pose_loss(name: str | ImageLoss | PoseLoss) -> PoseLoss | None:
+    """Loss of the poses, by its name or as a function of one argument; None of image losses.
+
+    Raises
+    ------
+    RecipeError
+        As for :func:`find_loss`.
+
+    Examples
+    --------
+    >>> find_pose_loss("overlap") is None, find_pose_loss("apart") is apart
+    (True, True)
+    >>> find_pose_loss(lambda placed: None) is None
+    False
+    """
+    if isinstance(name, str) and name in POSE_LOSSES:
+        return POSE_LOSSES[name]
+    if isinstance(name, str) and name in LOSSES:
+        return None
+    found: Any = find_loss(name) if isinstance(name, str) else name
+    return partial(checked_pose_term, found) if _takes_poses(found) else None
+
+
+def _takes_poses(function: Any) -> bool:
+    """Whether a function has to be given one thing only, and not the two images."""
+    try:
+        parameters = inspect.signature(function).parameters.values()
+    except (TypeError, ValueError):
+        return False
+    needed = [p for p in parameters if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+    has_rest = any(p.kind is p.VAR_POSITIONAL for p in parameters)
+    return not has_rest and sum(p.default is p.empty for p in needed) == 1 == len(needed)

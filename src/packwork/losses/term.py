@@ -121,3 +121,45 @@ class PoseLoss(Protocol):
     def __call__(self, placed: PosedItems) -> PoseTerm:
         """Return the value and its derivative."""
         ...
+
+
+def checked_pose_term(loss: PoseLoss, placed: PosedItems) -> PoseTerm:
+    """Term of a loss of poses that a user may have written, checked.
+
+    Raises
+    ------
+    RecipeError
+        If the loss fails, returns no PoseTerm, or one of another size or not finite.
+
+    Examples
+    --------
+    >>> one = np.ones(1)
+    >>> placed = PosedItems(Poses(one, one), one, one)
+    >>> checked_pose_term(lambda placed: PoseTerm(0.0, [1.0], [0.0]), placed).x
+    array([1.])
+    """
+    name = getattr(loss, "__name__", repr(loss))
+    try:
+        term = loss(placed)
+    except Exception as error:  # a user's code may raise anything
+        raise RecipeError("loss", f"{name} failed: {type(error).__name__}: {error}") from error
+    if not isinstance(term, PoseTerm):
+        raise RecipeError("loss", f"{name} must return a PoseTerm, not {type(term).__name__}")
+    x, y, log_scale = (
+        None if slopes is None else _checked_slopes(np.asarray(slopes, float), name, placed)
+        for slopes in (term.x, term.y, term.log_scale)
+    )
+    if x is None or y is None:
+        raise RecipeError("loss", f"{name} must return the derivatives by x and y")
+    return PoseTerm(term.value, x, y, log_scale)
+
+
+def _checked_slopes(slopes: FloatArray, name: str, placed: PosedItems) -> FloatArray:
+    count = len(placed.poses)
+    if slopes.shape != (count,):
+        raise RecipeError(
+            "loss", f"{name}'s derivatives must have shape ({count},), not {slopes.shape}"
+        )
+    if not np.isfinite(slopes).all():
+        raise RecipeError("loss", f"{name}'s derivatives must be finite; some are NaN or infinite")
+    return slopes

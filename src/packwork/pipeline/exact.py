@@ -324,4 +324,6 @@ class Closing:
     def on_step(self, step: Step) -> None:
         """Tell the run's observer."""
         poses = self._poses.with_some(self._items, step.poses)
-        self._observer.on_step(replace(step, poses=poses, is_finish=True, ids=self._ids))
+        self._observer.on_step(
+            replace(step, poses=poses, is_finish=True, ids=self._ids, stage="finish")
+        )

@@ -8,9 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.errors import PackworkError, RecipeError
-from packwork.losses.registry import POSE_LOSSES, find_loss
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.plan.cast import Cast
+from packwork.pipeline.plan.own_losses import losses_with_a_say
 from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
@@ -110,9 +110,7 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
     weights = shared_out(chosen.items, chosen.weights, material.use.words, recipe.share)
     plan = Plan.of(recipe, container)
     fillers = _fillers(recipe, material.fillers)
-    for loss in recipe.losses:
-        if loss not in POSE_LOSSES:
-            find_loss(loss)
+    plan = replace(plan, losses=losses_with_a_say(plan.losses, container, chosen.items))
     job = Job(
         recipe=recipe,
         plan=plan,

@@ -37,10 +37,13 @@ def run(job: Job, observer: Observer = NOBODY, stop: Stop = never, record: bool 
         If an option has no meaning for these files.
     """
     try:
-        return job.use.run(job, Watch(Onward(observer), stop, record))
+        onward = Onward(observer)
+        done = job.use.run(job, Watch(onward, stop, record))
     except (UnresolvedError, GEOSException) as error:
         why = error if isinstance(error, UnresolvedError) else f"cannot be resolved: {error}"
         raise ReadError(job.container.source, str(why)) from error
+    onward.end(done)
+    return done
 
 
 def along(job: Job, watch: Watch) -> Placed:
@@ -57,4 +60,4 @@ def along(job: Job, watch: Watch) -> Placed:
             solved.append(run_levels(begun, turn))
         best = most_promising(solved, watch.stop)
         attempts.take(finish_exactly(best, attempt.finishing, may_fail=attempt.is_spare))
-    return fill_gaps(attempts.placed, watch.part(BEFORE_VOIDS, 1.0))
+    return fill_gaps(attempts.placed, watch.part(BEFORE_VOIDS, 1.0, "gaps"))

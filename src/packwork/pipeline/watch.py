@@ -7,13 +7,17 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from packwork.pipeline.film.recorder import Recorder
-from packwork.progress import NOBODY, Observer, Step, Stop, never, together
+from packwork.pipeline.result import Run
+from packwork.progress import NOBODY, Observer, Stage, Step, Stop, never, together
 
 LEVELS = 0.4
 """How far a run is when its levels are done, where an exact finish follows. Tried."""
 
 BEFORE_VOIDS = 0.5
 """How far it is when voids begin to be filled. Tried."""
+
+NEARLY = 0.999
+"""How far a run is at most before it is measured and done. Chosen."""
 
 Tried = TypeVar("Tried")
 
@@ -41,9 +45,9 @@ class Watch:
     stop: Stop = never
     records: bool = False
 
-    def part(self, begin: float, end: float) -> Watch:
+    def part(self, begin: float, end: float, stage: Stage | None = None) -> Watch:
         """Watch of one stage of several, which goes from ``begin`` to ``end``."""
-        return replace(self, observer=_Part(self.observer, begin, end))
+        return replace(self, observer=_Part(self.observer, begin, end, stage))
 
     def turns(self, tried: Sequence[Tried]) -> Iterator[tuple[Watch, Tried]]:
         """A part for each of several that are tried in turn; the first alone after a stop."""
@@ -79,18 +83,30 @@ class Onward:
 
     def on_step(self, step: Step) -> None:
         """Tell of a step, as far on as any before it."""
-        self._most = max(self._most, min(step.progress, 1.0))
+        self._most = max(self._most, min(step.progress, NEARLY))
         self._observer.on_step(replace(step, progress=self._most))
+
+    def end(self, run: Run) -> None:
+        """Tell that the run is over, once, with the poses that its layout has."""
+        shares = run.metrics.exact
+        self._observer.on_step(
+            Step(
+                0, 1, 0, 0, 1.0, run.layout.poses,
+                lambda: (shares.coverage, shares.overlap, shares.exceeding),
+                is_finish=True, is_last=True, ids=run.kept, stage="done",
+            )
+        )  # fmt: skip
 
 
 class _Part:
     """Passes steps of a stage on, whose progress is a part of that of another."""
 
-    def __init__(self, observer: Observer, begin: float, end: float) -> None:
+    def __init__(self, observer: Observer, begin: float, end: float, stage: Stage | None) -> None:
         self.every = observer.every
-        self._observer, self._begin, self._end = observer, begin, end
+        self._observer, self._begin, self._end, self._stage = observer, begin, end, stage
 
     def on_step(self, step: Step) -> None:
         """Tell of a step."""
         progress = self._begin + (self._end - self._begin) * min(step.progress, 1.0)
-        self._observer.on_step(replace(step, progress=progress))
+        stage = self._stage or step.stage
+        self._observer.on_step(replace(step, progress=progress, stage=stage))

@@ -380,7 +380,18 @@ class _Pile:
         progress = self._told / (self._told + USUAL_ROUNDS)
         shares = (covered, 0.0, 0.0)
         self._observer.on_step(
-            Step(0, 1, 0, self._told, progress, now, lambda: shares, is_finish=True, ids=items)
+            Step(
+                0,
+                1,
+                0,
+                self._told,
+                progress,
+                now,
+                lambda: shares,
+                is_finish=True,
+                ids=items,
+                stage="pile",
+            )
         )
 
 

@@ -11,7 +11,7 @@ from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
 from packwork.losses.recall import Recall
-from packwork.losses.registry import POSE_LOSSES, find_loss
+from packwork.losses.registry import find_loss, find_pose_loss
 from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, checked_term
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
@@ -73,10 +73,10 @@ class Level:
         self._kinds = limits.kinds if limits.binds else np.arange(len(outlines))
         self.zones = [ZonePull(zone, outlines, shape, self.px_per_cu) for zone in limits.zones]
         self._further: dict[str | ImageLoss, ImageLoss] = {}
-        self._of_poses: dict[str, PoseLoss] = {}
+        self._of_poses: dict[str | ImageLoss, PoseLoss] = {}
         for loss in losses:
-            if isinstance(loss, str) and loss in POSE_LOSSES:
-                self._of_poses[loss] = POSE_LOSSES[loss]
+            if (of_poses := find_pose_loss(loss)) is not None:
+                self._of_poses[loss] = of_poses
             elif loss not in FUSED:
                 self._further[loss] = find_loss(loss)
 

@@ -118,7 +118,9 @@ def _as_before(
     """A group whose marks lie as those of another, which are alike."""
     placed = replace(before, job=part)
     nothing = (0.0, 0.0, 0.0)
-    steps.on_step(Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True))
+    steps.on_step(
+        Step(0, 1, 0, 0, 1.0, placed.poses, lambda: nothing, is_finish=True, stage="finish")
+    )
     scale = float(np.median(placed.poses.scale / unit_scales(part)))
     return _Filled(own, offset, placed, scale)
 

@@ -1,0 +1,74 @@
+"""Losses of users' own, tried out before a run: what never says anything shall change nothing."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeAlias
+
+import numpy as np
+
+from packwork.arrays import Image
+from packwork.losses.registry import LOSSES, POSE_LOSSES, find_loss, find_pose_loss
+from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, checked_term
+from packwork.raster.coverage import Rasteriser
+from packwork.raster.pyramid import image_shape, region_image
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.pose import Poses
+
+TRIED_PX = 64
+"""Pixels on the longer side of the images that losses are tried on. Chosen."""
+
+DENSEST = 3.0
+"""Largest density that they are tried on. Chosen: what overlaps twice over is rare."""
+
+Losses: TypeAlias = Mapping[str | ImageLoss, float]
+
+_LOG = logging.getLogger("packwork")
+
+
+def losses_with_a_say(losses: Losses, container: Container, items: Sequence[Item]) -> Losses:
+    """The losses without those of one's own that are zero wherever items are, which is told.
+
+    Raises
+    ------
+    RecipeError
+        If there is no such loss, or it fails.
+    """
+    return {key: weight for key, weight in losses.items() if _has_a_say(key, container, items)}
+
+
+def _has_a_say(key: str | ImageLoss, container: Container, items: Sequence[Item]) -> bool:
+    if isinstance(key, str) and key in {*LOSSES, *POSE_LOSSES}:
+        return True
+    of_poses = find_pose_loss(key)
+    says = _moves(of_poses, container, items) if of_poses else _colours(find_loss(key), container)
+    if not says:
+        name = key if isinstance(key, str) else getattr(key, "__name__", repr(key))
+        _LOG.warning("the loss %s is zero wherever items are: it changes nothing", name)
+    return says
+
+
+def _colours(loss: ImageLoss, container: Container) -> bool:
+    """Whether the adjoint of an image loss is anything but zero for some density."""
+    shape = image_shape(container.width, container.height, TRIED_PX)
+    rasteriser = Rasteriser(shape, np.float32)
+    inside = region_image(container.outline, rasteriser, TRIED_PX / container.side)
+    return any(checked_term(loss, d, inside).adjoint.any() for d in _densities(inside))
+
+
+def _densities(inside: Image) -> Iterator[Image]:
+    yield (np.random.default_rng(0).random(inside.shape) * DENSEST).astype(np.float32)
+    yield np.zeros_like(inside)
+    yield np.ones_like(inside)
+    yield inside.copy()
+
+
+def _moves(loss: PoseLoss, container: Container, items: Sequence[Item]) -> bool:
+    """Whether a loss of poses pulls at any item that lies somewhere on the canvas."""
+    rng, count = np.random.default_rng(0), len(items)
+    x, y = rng.random(count) * container.width, rng.random(count) * container.height
+    areas = np.array([item.outline.area for item in items])
+    term = loss(PosedItems(Poses(x, y, rng.random(count)), areas, np.ones(count), np.arange(count)))
+    return bool(np.any(term.x) or np.any(term.y) or np.any(term.log_scale))
