@@ -21,7 +21,7 @@ from packwork.wordcloud import (
     get_single_color_func,
     random_color_func,
 )
-from packwork.wordcloud import cloud as cloud_module
+from packwork.wordcloud import wordcloud as cloud_module
 
 TEXT = """The bear and the honey bear. Bears like honey, bees make honey in the wood; a bee
 stings a bear. White rabbits run, a white rabbit sleeps, the white rabbit eats clover."""

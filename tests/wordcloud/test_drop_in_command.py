@@ -70,7 +70,7 @@ def test_options_are_the_arguments_of_the_class(text: Path, tmp_path: Path) -> N
     [
         ("--width 1.5", "invalid int value"),
         ("--relative_scaling c", "invalid float value"),
-        ("--regexp (", "is no regular expression"),
+        ("--regexp (", "Invalid regular expression"),
         ("--text missing.txt", "No such file"),
         ("--mask missing.png", "No such file"),
     ],

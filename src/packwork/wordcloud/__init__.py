@@ -7,13 +7,13 @@ A program written for it runs with ``from packwork.wordcloud import WordCloud``.
 ['honey', 'bear']
 """
 
-from packwork.wordcloud.cloud import WordCloud
 from packwork.wordcloud.colours import (
     ImageColorGenerator,
     colormap_color_func,
     get_single_color_func,
     random_color_func,
 )
+from packwork.wordcloud.wordcloud import WordCloud
 from packwork.wordcloud.words import STOPWORDS
 
 __all__ = [

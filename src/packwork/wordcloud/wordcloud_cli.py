@@ -19,9 +19,9 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
+import packwork.wordcloud as wc
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import note_input, noting_inputs
-from packwork.wordcloud.cloud import WordCloud
 from packwork.wordcloud.colours import (
     ImageColorGenerator,
     get_single_color_func,
@@ -47,7 +47,7 @@ _VALUES: Sequence[tuple[str, type, Any, str]] = (
     ("max_words", int, 200, "words at most"),
     ("min_font_size", int, 4, "smallest size of a word"),
     ("max_font_size", int, None, "largest size of a word"),
-    ("font_step", int, 1, "has no effect"),
+    ("font_step", int, 1, "least difference of the sizes tried"),
     ("random_state", int, None, "seed"),
 )
 """Options that go to the class as they are: name, kind, default, help."""
@@ -147,7 +147,7 @@ def main(args: dict[str, Any], text: str, imagefile: IO[bytes]) -> None:
     """
     try:
         with imagefile:
-            image = WordCloud(**args).generate(text).to_image()
+            image = wc.WordCloud(**args).generate(text).to_image()
             image.save(imagefile, format="png", optimize=True)
     except (PackworkError, ValueError) as error:
         raise SystemExit(f"packwork.wordcloud: {error}") from None
@@ -184,7 +184,7 @@ def _pattern(text: str) -> str:
     try:
         re.compile(text)
     except re.error as error:
-        raise argparse.ArgumentTypeError(f"is no regular expression: {error}") from None
+        raise argparse.ArgumentTypeError(f"Invalid regular expression: {error}") from None
     return text
 
 
