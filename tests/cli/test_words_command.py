@@ -49,7 +49,7 @@ def test_how_many_words_there_were_is_said(packwork: Command, text: Path) -> Non
     result = packwork(f"words circle bears.txt -n 3 {line} -o c.svg --report r.json")
     assert "the 3 largest of 6 different words; -n takes more" in result.stdout
     report = json.loads(Path("r.json").read_text(encoding="utf-8"))
-    assert report["words"] == {"found": 6, "asked": 3}
+    assert report["words"] == {"found": 6, "asked": 3, "of_true": {}}
     assert "different words" not in packwork(f"words circle bears.txt {line} -o c.svg").stdout
 
 

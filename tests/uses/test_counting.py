@@ -150,7 +150,7 @@ def test_advice_names_what_is_poor() -> None:
 def test_more_words_are_the_advice_as_long_as_there_are_some() -> None:
     weights = {f"word{k}": float(90 - k) for k in range(70)}
     few = words_recipe("tail", weights, count=9)
-    assert "; -n 70 would show more of it; --target-coverage 0.6, " in advised(few, with_tail(4))
+    assert "; -n 70 would show more of it; --sizes graded, " in advised(few, with_tail(4))
     every = words_recipe("tail", weights)
     assert "; --target-coverage 0.6," in advised(every, with_tail(4))
 

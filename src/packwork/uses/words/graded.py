@@ -97,9 +97,13 @@ def graded_places(job: Job, letters: Letters) -> Places:
     return words.places(found, letters, job.plan.rotation)
 
 
+def can_give_way(job: Job) -> bool:
+    """Whether nothing is asked that only levels know, nor of single items."""
+    return not (job.is_limited or job.earlier is not None or needs_levels(job, job.forces))
+
+
 def _check(job: Job) -> None:
-    """Refuse what only levels know, or limits of single items."""
-    if job.is_limited or job.earlier is not None or needs_levels(job, job.forces):
+    if not can_give_way(job):
         raise RecipeError(
             "sizes",
             "graded sets words one after another; leave out --start, losses, levels, --stretch and "

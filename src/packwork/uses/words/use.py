@@ -34,7 +34,7 @@ from packwork.uses.room import Room
 from packwork.uses.words.cast import cast_words
 from packwork.uses.words.colours import check_colours, word_colours
 from packwork.uses.words.counts import words_counted, words_needed
-from packwork.uses.words.graded import Places, graded_places
+from packwork.uses.words.graded import Places, can_give_way, graded_places
 from packwork.uses.words.letters import (
     Letters,
     heaviest,
@@ -177,13 +177,17 @@ class Words(Use):
         return (*super().remarks(job), *stopped)
 
     def remedy(self, job: Job) -> str:
-        """More words, if there are more; else smaller copies of them."""
+        """More words, if there are more; and sizes that give way, or else smaller copies."""
         count = len(self.read.items)
+        said = []
         if self.read.found > count:
             needed = max(words_needed(job.container), 2 * count)
-            more = f"-n {min(needed, self.read.found)} would show more of it"
-            return f"{more}; {smaller_copies(job.plan.voids, WORDS_REACH)}"
-        return smaller_copies(job.plan.voids, WORDS_REACH)
+            said = [f"-n {min(needed, self.read.found)} would show more of it"]
+        if job.plan.sizes == "shared" and can_give_way(job):
+            said.append("--sizes graded, whose proportions give way, would fill it")
+        else:
+            said.append(smaller_copies(job.plan.voids, WORDS_REACH))
+        return "; ".join(said)
 
     @property
     def own_places(self) -> OwnPlaces | None:
