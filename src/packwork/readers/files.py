@@ -27,21 +27,28 @@ def read_bytes(path: str | Path, most: int) -> bytes:
     value = shelved(str(path))
     data = value if isinstance(value, bytes) else _read_file(path, most)
     if len(data) > most:
-        raise ReadError(path, f"is larger than {most / 1e6:g} MB, the most for such a file")
+        raise _too_large(path, most)
     return data
 
 
+def _too_large(path: str | Path, most: int) -> ReadError:
+    return ReadError(path, f"is larger than {most / 1e6:g} MB, the most for such a file")
+
+
 def _read_file(path: str | Path, most: int) -> bytes:
-    """Content of a file, one byte more than ``most`` if it is larger."""
+    """Content of a file, one byte more than ``most`` if it grows beyond that meanwhile."""
     if str(path).startswith(MEMORY):
         raise ReadError(
             path, "was in the memory of the program that wrote this recipe; give a file"
         )
     try:
         # Opening a pipe waits for its writer, and a device never ends.
-        mode = Path(path).stat().st_mode
+        status = Path(path).stat()
+        mode = status.st_mode
         if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
             raise ReadError(path, "is a pipe or a device; give a file on disk")
+        if stat.S_ISREG(mode) and status.st_size > most:
+            raise _too_large(path, most)
         note_input(path)
         with Path(path).open("rb") as file:
             return file.read(most + 1)
