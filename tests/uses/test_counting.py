@@ -152,7 +152,9 @@ def test_more_words_are_the_advice_as_long_as_there_are_some() -> None:
     few = words_recipe("tail", weights, count=9)
     assert "; -n 70 would show more of it; --sizes graded, " in advised(few, with_tail(4))
     every = words_recipe("tail", weights)
-    assert "; --target-coverage 0.6," in advised(every, with_tail(4))
+    assert "; --sizes graded, " in advised(every, with_tail(4))
+    graded = words_recipe("tail", weights, sizes="graded")
+    assert "; --target-coverage 0.6," in advised(graded, with_tail(4))
 
 
 def test_of_a_container_of_thin_lines_more_items_are_not_the_advice() -> None:
