@@ -31,7 +31,7 @@ def names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
 
 def test_every_block_is_one_that_a_test_runs() -> None:
     fences = re.findall(r"^```(.*)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
-    assert set(fences) == {"python", "python torch", ""}
+    assert set(fences) == {"python", "python geopandas", "python torch", ""}
 
 
 def test_the_page_runs(names: dict[str, Any], tmp_path: Path) -> None:
@@ -43,6 +43,12 @@ def test_the_page_runs(names: dict[str, Any], tmp_path: Path) -> None:
     assert names["higher"].metrics["EA"] > 0
     assert names["layout"].manifest["ending"]
     assert 0 < names["watch"].covered < 1
+
+
+def test_the_page_runs_with_geopandas(names: dict[str, Any]) -> None:
+    pytest.importorskip("geopandas")
+    exec(blocks("python", "python geopandas"), names)  # noqa: S102
+    assert len(names["placed"]) == 3
 
 
 def test_the_page_runs_with_pytorch(names: dict[str, Any]) -> None:
