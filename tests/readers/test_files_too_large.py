@@ -40,4 +40,5 @@ def test_a_quarter_of_a_gigabyte_is_one_line(line: str, name: str, tmp_path: Pat
     assert result.exit_code == 2
     assert result.stderr.count("\n") == 1
     assert "MB" in result.stderr
-    assert peak < FAR_TOO_LARGE / 10
+    # What is imported by the first takes up to 32 MB.
+    assert peak < FAR_TOO_LARGE / 5
