@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from packwork.metrics.certificate import Promise, broken
+from packwork.metrics.certificate import Promise, broken, off_shares, unclean
 from packwork.metrics.exact import exact_metrics
 from packwork.scene.layout import Layout
 from scenes import flat_item, poses, square, square_container
@@ -70,3 +70,11 @@ def test_of_specks_areas_are_checked_to_the_precision_of_files() -> None:
 )
 def test_promises_are_read_from_manifests(manifest: dict[str, Any], promise: object) -> None:
     assert Promise.of(manifest) == promise
+
+
+def test_shares_are_no_matter_of_the_certificate() -> None:
+    layout = two_squares(2.0, 20.0, (1, 3.98))
+    promise = Promise(0.0, areas_in_shares=True)
+    exact = exact_metrics(layout.outlines, layout.container.outline)
+    assert not unclean(promise, layout, exact)
+    assert broken(promise, layout, exact) == off_shares(promise, layout) != ()

@@ -13,7 +13,7 @@ from packwork.api.layout import Layout, public
 from packwork.finish.finish import finish as exact_finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.bezier import FLATTENING
-from packwork.metrics.certificate import Promise, broken
+from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.measure import LayoutMetrics, Metrics
 from packwork.metrics.measure import measure as measure_layout
 from packwork.progress import NOBODY, Listener, Stop, as_observer, never
@@ -117,7 +117,7 @@ def finish(
 def _certified(layout: scene.Layout, promise: Promise) -> Layout:
     """The layout, measured, and what it promises."""
     found: LayoutMetrics = measure_layout(layout)
-    faults = broken(promise, layout, found.exact)
+    faults = unclean(promise, layout, found.exact)
     said = dict(layout.manifest) | {
         "promised": asdict(promise),
         "certified": not faults and len(layout.items) > 0,

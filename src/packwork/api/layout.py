@@ -22,7 +22,7 @@ from packwork.display.bar import bar_for, shown
 from packwork.display.frame import data_frame
 from packwork.display.picture import notebook_png, notebook_svg
 from packwork.errors import RecipeError
-from packwork.metrics.certificate import Promise, broken
+from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.exact import exact_metrics
 from packwork.metrics.measure import Metrics, measure
 from packwork.readers.layouts.read import read_written
@@ -345,7 +345,7 @@ class Layout(scene.Layout):
             return known
         promise = Promise.of(self.manifest) or Promise()
         exact = exact_metrics(self.outlines, self.container.outline)
-        return len(self) > 0 and not broken(promise, self, exact)
+        return len(self) > 0 and not unclean(promise, self, exact)
 
     def _repr_svg_(self) -> str | None:
         return notebook_svg(self)

@@ -40,7 +40,7 @@ def measure(
         from packwork import writers
         from packwork.cli.show import Paper, certificate_line, metrics_table, printing
         from packwork.inputs import check_no_input
-        from packwork.metrics.certificate import Promise, broken, taken_on_trust
+        from packwork.metrics.certificate import Promise, broken, taken_on_trust, unclean
         from packwork.metrics.measure import measure as measure_layout
         from packwork.readers.layouts.read import read_written
 
@@ -59,6 +59,7 @@ def measure(
         promise = Promise.of(found.manifest)
         on_trust = taken_on_trust(found.manifest)
         faults = () if promise is None else broken(promise, found, measured.exact)
+        certified = promise is not None and not unclean(promise, found, measured.exact)
         picture = None if diagnose is None else writers.diagnose_png(found, pixels)
         if report is not None:
             writers.write_atomic(
@@ -67,7 +68,7 @@ def measure(
                     {
                         "metrics": metrics,
                         "items": len(found.items),
-                        "certified": promise is not None and not faults,
+                        "certified": certified,
                         "broken": faults,
                         "on_trust": on_trust,
                     }
@@ -78,7 +79,7 @@ def measure(
         console = Paper(quiet=quiet, highlight=False)
         with printing():
             console.print(metrics_table(metrics, found.container.unit))
-            console.print(certificate_line(promise is not None, not faults), soft_wrap=True)
+            console.print(certificate_line(promise is not None, certified), soft_wrap=True)
         for believed in on_trust:
             say(f"{layout}: {believed}")
         for fault in faults:

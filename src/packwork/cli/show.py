@@ -80,7 +80,7 @@ def certificate_line(was_promised: bool, certified: bool) -> str:
     if not was_promised:
         return "not certified: there was no exact finish"
     if not certified:
-        return "not certified: not all that was asked holds"
+        return "not certified: items overlap, stick out or lie nearer than asked"
     return "certified: nothing overlaps, nothing sticks out"
 
 

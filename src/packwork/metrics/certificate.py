@@ -84,8 +84,25 @@ def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, 
     >>> broken(Promise(), layout, touching)
     ('the smallest gap is 0 instead of 0.0006 or more',)
     """
-    unit, side = layout.container.unit, layout.container.side
-    least = promise.least_gap(side)
+    return (*unclean(promise, layout, exact), *off_shares(promise, layout))
+
+
+def unclean(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, ...]:
+    """What of the geometry does not hold: overlaps, what sticks out, gaps; a sentence each.
+
+    A layout of which nothing does not is certified.
+
+    Examples
+    --------
+    >>> from packwork.metrics.exact import ExactMetrics
+    >>> from packwork.scene.blank import blank
+    >>> found = ExactMetrics(
+    ...     coverage=0.5, overlap=0.1, exceeding=0, overlap_area=3, outside_area=0, min_gap=0
+    ... )
+    >>> unclean(Promise(), blank(), found)
+    ('items overlap by 3 px² in all',)
+    """
+    unit, least = layout.container.unit, promise.least_gap(layout.container.side)
     found = []
     if exact.overlap_area > 0:
         found.append(f"items overlap by {exact.overlap_area:.3g} {unit}² in all")
@@ -93,16 +110,23 @@ def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, 
         found.append(f"items stick out by {exact.outside_area:.3g} {unit}² in all")
     if not found and exact.min_gap < least:
         found.append(f"the smallest gap is {exact.min_gap:.3g} instead of {least:.3g} or more")
+    return tuple(found)
+
+
+def off_shares(promise: Promise, layout: Layout) -> tuple[str, ...]:
+    """That areas are not in the shares of the weights, if they were to be; else nothing."""
     # What fills voids has no weight: its size says nothing.
     weighed = layout.weights > 0
-    if promise.areas_in_shares and weighed.any():
-        per_weight = layout.areas[weighed] / layout.weights[weighed]
-        slack = FILE_PRECISION * side * _perimeters(layout)[weighed] / layout.areas[weighed]
-        least_most, most_least = per_weight * (1 + slack), per_weight * (1 - slack)
-        off = float((most_least.max() - least_most.min()) / per_weight.mean())
-        if off > SHARE_TOLERANCE:
-            found.append(f"areas are off the shares asked for by {100 * off:.2g} %")
-    return tuple(found)
+    if not (promise.areas_in_shares and weighed.any()):
+        return ()
+    per_weight = layout.areas[weighed] / layout.weights[weighed]
+    tolerance = FILE_PRECISION * layout.container.side
+    slack = tolerance * _perimeters(layout)[weighed] / layout.areas[weighed]
+    least_most, most_least = per_weight * (1 + slack), per_weight * (1 - slack)
+    off = float((most_least.max() - least_most.min()) / per_weight.mean())
+    if off <= SHARE_TOLERANCE:
+        return ()
+    return (f"areas are off the shares asked for by {100 * off:.2g} %",)
 
 
 def _perimeters(layout: Layout) -> FloatArray:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.metrics.certificate import Promise, broken
+from packwork.metrics.certificate import Promise, broken, unclean
 from packwork.metrics.measure import LayoutMetrics, measure
 from packwork.pipeline.advice import advice
 from packwork.pipeline.dress.colours import dressed
@@ -166,7 +166,9 @@ def measured(found: Unmeasured) -> Run:
         unplaced = known + job.use.missing(total)
         faults = seen.faults + found.faults + resolution_faults(job, layout) + specks(layout)
         beside = same_kind_beside(layout) if found.keeps_apart else None
-    certified = is_exact and not seen.faults and len(layout.items) > 0
+    # Geometry alone: other wishes that are not met stand under "broken".
+    is_clean = not unclean(promise, layout, metrics.exact)
+    certified = is_exact and is_clean and len(layout.items) > 0
     words = job.use.words_found(layout)
     said = manifest(job, found.method, found.outcome, metrics, unplaced, beside)
     said |= {"certified": certified, "promised": asdict(promise) if is_exact else None}

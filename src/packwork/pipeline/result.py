@@ -107,11 +107,11 @@ class Run:
     beside
         Pairs of one kind that lie side by side; None if they may.
     certified
-        Whether exact measures find that nothing of the layout overlaps, nothing sticks out
-        and all gaps and shares are as asked.
+        Whether exact measures find that nothing overlaps, nothing sticks out and all gaps are as
+        asked.
     broken
-        What of that does not hold although it was promised, and what else was asked and not
-        met, a sentence each.
+        What of that does not hold although it was promised, and what else was asked and is not
+        met, as shares of area; a sentence each.
     filling
         How the voids were filled, if that was asked for.
     words

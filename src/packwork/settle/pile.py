@@ -379,20 +379,8 @@ class _Pile:
         # The number of rounds is not known: the bar comes ever nearer to its end.
         progress = self._told / (self._told + USUAL_ROUNDS)
         shares = (covered, 0.0, 0.0)
-        self._observer.on_step(
-            Step(
-                0,
-                1,
-                0,
-                self._told,
-                progress,
-                now,
-                lambda: shares,
-                is_finish=True,
-                ids=items,
-                stage="pile",
-            )
-        )
+        step = Step(0, 1, 0, self._told, progress, now, lambda: shares, True, ids=items)
+        self._observer.on_step(replace(step, stage="pile"))
 
 
 def _moved(poses: Poses, items: IntArray, places: FloatArray) -> Poses:
