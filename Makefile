@@ -3,12 +3,14 @@
 ifeq ($(OS),Windows_NT)
 PYTHON ?= python
 BIN := .venv/Scripts
+LOWEST_BIN := .lowest/Scripts
 else
 PYTHON ?= python3
 BIN := .venv/bin
+LOWEST_BIN := .lowest/bin
 endif
 
-.PHONY: demo gallery figures site test check format clean
+.PHONY: demo gallery figures site test test-lowest check format clean
 
 demo: .venv/installed
 	$(BIN)/packwork demo
@@ -32,6 +34,22 @@ test: .venv/installed-dev
 	$(BIN)/python -m pytest -q -n auto
 	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest -q -n auto tests/raster tests/losses tests/fields
 
+# What reads, draws, asks and writes, with the lowest version of each dependency. Old libraries
+# warn of each other's ways.
+LOWEST := tests/readers tests/writers tests/display tests/recipe tests/scene tests/geometry \
+  tests/cli/test_help.py tests/cli/test_usage.py tests/cli/test_bad_input.py tests/test_api.py
+
+test-lowest: .lowest/installed
+	$(LOWEST_BIN)/python -m pytest -q -n auto -W ignore::DeprecationWarning $(LOWEST)
+
+.lowest/installed: pyproject.toml
+	$(PYTHON) -c "import sys; sys.exit(sys.version_info[:2] != (3, 11) and 'The lowest versions are those of Python 3.11: make test-lowest PYTHON=python3.11')"
+	$(PYTHON) -m venv .lowest
+	$(LOWEST_BIN)/python -m pip install --quiet --disable-pip-version-check uv
+	$(LOWEST_BIN)/uv pip install --quiet --python .lowest --resolution lowest-direct --only-binary :all: -r pyproject.toml --extra dev
+	$(LOWEST_BIN)/uv pip install --quiet --python .lowest --no-deps -e .
+	touch .lowest/installed
+
 check: test
 
 format: .venv/installed-dev
@@ -39,7 +57,7 @@ format: .venv/installed-dev
 	$(BIN)/ruff check --fix src tests benchmarks examples tools
 
 clean:
-	rm -rf .venv out build dist .pytest_cache .mypy_cache .ruff_cache
+	rm -rf .venv .lowest out build dist .pytest_cache .mypy_cache .ruff_cache
 
 .venv/python:
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info < (3, 11) and 'Packwork needs Python 3.11 or newer; this is ' + sys.version)"

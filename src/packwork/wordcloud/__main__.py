@@ -4,5 +4,11 @@ import sys
 
 from packwork.wordcloud.wordcloud_cli import run
 
-if __name__ == "__main__":
+
+def main() -> None:
+    """Do what the command line asks."""
     run(sys.argv[1:])
+
+
+if __name__ == "__main__":
+    main()

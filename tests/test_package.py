@@ -1,0 +1,54 @@
+"""What is published: its page, its licences, its commands."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+ROOT = Path(__file__).parents[1]
+ASKED: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+PROJECT = ASKED["project"]
+
+
+def page() -> str:
+    """The README as the package shows it."""
+    hook = ASKED["tool"]["hatch"]["metadata"]["hooks"]["fancy-pypi-readme"]
+    text = "".join((ROOT / part["path"]).read_text(encoding="utf-8") for part in hook["fragments"])
+    for change in hook["substitutions"]:
+        text = re.sub(change["pattern"], change["replacement"], text)
+    return text
+
+
+def test_the_page_leads_nowhere_but_to_addresses() -> None:
+    links = re.findall(r"\]\(([^)]+)\)|(?:src|href)=\"([^\"]+)\"", page())
+    assert [a or b for a, b in links if not (a or b).startswith("https://")] == []
+    assert "Each leads to" not in page()
+
+
+def test_the_page_keeps_its_commands() -> None:
+    assert "packwork fill heart" in page()
+    assert "import packwork as pw" in page()
+
+
+def test_the_licence_of_the_font_is_named_and_travels() -> None:
+    assert PROJECT["license"] == "MIT AND OFL-1.1"
+    texts = [(ROOT / name).read_text(encoding="utf-8") for name in PROJECT["license-files"]]
+    assert any("MIT License" in text for text in texts)
+    assert any("SIL OPEN FONT LICENSE Version 1.1" in text for text in texts)
+
+
+@pytest.mark.parametrize("entry", PROJECT["scripts"].values())
+def test_commands_are_functions(entry: str) -> None:
+    module, function = entry.split(":")
+    assert callable(getattr(import_module(module), function))
+
+
+def test_every_dependency_has_a_lower_bound() -> None:
+    several = [PROJECT["dependencies"], *PROJECT["optional-dependencies"].values()]
+    named = [one for group in several for one in group if not one.startswith("packwork[")]
+    assert [one for one in named if ">=" not in one] == []
