@@ -127,6 +127,22 @@ def test_items_that_lie_across_thin_lines_are_moved_into_them(hurries: object) -
     assert np.exp(arrangement.places[:, 3]).min() > 0.03
 
 
+def test_separation_evenly_in_a_hurry_is_clean_and_even() -> None:
+    places = np.zeros((6, 4))
+    places[:, 0] = np.arange(6)
+    arrangement = Arrangement([square(1.0)] * 6, box(-9, -9, 9, 9), places)
+    asked = [0]
+
+    def hurries() -> bool:
+        asked[0] += 1
+        return True
+
+    separate_evenly(arrangement, GAP, hurries)
+    assert is_clean(arrangement)
+    assert np.ptp(arrangement.places[:, 3]) < 1e-3
+    assert 0 < asked[0] < 60
+
+
 def test_a_container_of_very_many_vertices_is_simplified_to_its_safe_side(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:

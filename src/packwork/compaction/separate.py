@@ -119,7 +119,9 @@ def relocate_stuck(
     return False
 
 
-def separate_evenly(arrangement: Arrangement, gap: float) -> None:
+def separate_evenly(
+    arrangement: Arrangement, gap: float, hurries: Callable[[], bool] = bool
+) -> None:
     """Make all items smaller until none is in conflict and all have shrunk alike, nearly.
 
     Where one size is asked for in the end, the few that had to shrink by far would
@@ -136,7 +138,7 @@ def separate_evenly(arrangement: Arrangement, gap: float) -> None:
     >>> bool(np.ptp(three.places[:, 3]) < 0.001)
     True
     """
-    separate(arrangement, gap)
+    separate(arrangement, gap, hurries=hurries)
     all_items = np.arange(arrangement.count)
     for _ in range(EVENINGS):
         places = arrangement.places.copy()
@@ -145,7 +147,7 @@ def separate_evenly(arrangement: Arrangement, gap: float) -> None:
             return
         places[:, 3] = least
         arrangement.put(all_items, places)
-        separate(arrangement, gap)
+        separate(arrangement, gap, hurries=hurries)
 
 
 def _items(pairs: IntArray, count: int) -> IntArray:

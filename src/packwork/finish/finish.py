@@ -183,8 +183,9 @@ class _Finish:
 
     def begin(self) -> bool:
         """Take conflicts apart; False if many stay in one however small they are made."""
-        loose = partial(separate, hopeless_at=self._options.hopeless, hurries=self._stop)
-        (separate_evenly if self._is_shared else loose)(self.arrangement, self.gap)
+        loose = partial(separate, hopeless_at=self._options.hopeless)
+        separated = separate_evenly if self._is_shared else loose
+        separated(self.arrangement, self.gap, hurries=self._stop)
         return self._options.sizes == "fixed" or relocate_stuck(
             self.arrangement, self.gap, self._stop
         )

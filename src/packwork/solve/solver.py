@@ -111,8 +111,11 @@ def solve(
         What pulls items about.
     """
     run = _Solve(container, outlines, start, nominal, options, observer, stop, limits, forces)
-    reports = []
+    reports: list[LevelReport] = []
     for index in range(len(options.levels)):
+        if stop():
+            # What a level sees of many outlines takes seconds to make.
+            return Outcome(run.motion.poses, Ending.STOPPED, reports)
         if not run.pace.has_reached(index, 1.0):
             reports.append(run.level(index))
         if run.is_stopped:
