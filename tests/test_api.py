@@ -149,7 +149,7 @@ def test_the_ending_picks_the_format(ending: str, layout: pw.Layout, tmp_path: P
     [
         ({"pixels": 0}, "pixels: "),
         ({"pixels": 10**9}, "pixels: "),
-        ({"background": "puce"}, "background: 'puce' is not a colour"),
+        ({"background": "puce"}, "background: 'puce' is no colour"),
     ],
 )
 def test_saving_refuses_what_has_no_meaning(

@@ -19,6 +19,7 @@ import shapely
 import packwork as pw
 from packwork import writers
 from packwork.recipe import make_recipe
+from packwork.uses.words.recipe import words_recipe
 
 QUICK: dict[str, Any] = {"epochs": 25, "levels": "32,64"}
 FORMATS = [ending for ending in writers.WRITERS if ending not in {".jpeg", ".tif"}]
@@ -192,3 +193,22 @@ def _bytes_at(
 
 def test_the_version_is_known() -> None:
     assert pw.__version__.count(".") == 2
+
+
+def test_a_font_of_words_is_given_as_on_the_command_line() -> None:
+    for given in ({"font": "a.ttf"}, {"fonts": "a.ttf"}, {"fonts": ["a.ttf"], "font": None}):
+        recipe = words_recipe("heart", {"owl": 1}, **given)
+        assert recipe.words is not None
+        assert recipe.words.fonts == ("a.ttf",)
+        assert recipe.font is None
+
+
+def test_indexes_and_tables_of_arrow_survive() -> None:
+    pandas = pytest.importorskip("pandas")
+    arrow = pytest.importorskip("pyarrow")
+    frame = pandas.DataFrame({"kg": [3, 1]}, index=pandas.Index(["fig", "kiwi"], name="fruit"))
+    for data in (frame, arrow.Table.from_pandas(frame.reset_index()), frame.reset_index()):
+        made = pw.chart("circle", data, size_by="kg", label_by="fruit", **QUICK).to_dataframe()
+        assert made["fruit"].tolist() == ["fig", "kiwi"]
+        words = pw.words("circle", data, min_count=1, **QUICK)
+        assert [item.name for item in words.items] == ["fig", "kiwi"]

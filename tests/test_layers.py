@@ -72,7 +72,8 @@ def test_kernels_import_nothing_of_the_package_but_kernels_and_their_decorator(p
 @each_module
 def test_files_and_functions_stay_short(path: Path) -> None:
     text = path.read_text(encoding="utf-8")
-    assert text.count("\n") <= LONGEST_FILE
+    is_written = "Written by ``tools/" in text
+    assert is_written or text.count("\n") <= LONGEST_FILE
     longest = LONGEST_KERNEL if is_compiled(path) else LONGEST_FUNCTION
     for node in ast.walk(ast.parse(text)):
         if isinstance(node, ast.FunctionDef) and node.body:

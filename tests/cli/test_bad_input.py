@@ -103,7 +103,7 @@ OPTIONS = [
     ("--max-items 9 --finish none", "--finish: none leaves overlaps; voids are filled after"),
     ("--max-items 9 --sizes shared", "--filler: must be given where sizes are shared"),
     ("--filler no_such_thing", "no_such_thing"),
-    ("--background puce", "background: 'puce' is not a colour"),
+    ("--background puce", "background: 'puce' is no colour"),
     ("--pixels 0", "pixels: a picture's longer side must be"),
     ("--pixels 99999999", "pixels: "),
     ("-o note.txt/out.svg", "a part of its path is a file"),
