@@ -58,7 +58,7 @@ def test_saving_refuses_what_is_no_option(options: dict, said: str, tmp_path: Pa
 
 def test_a_form_can_be_made_of_what_is_offered() -> None:
     asked = {option.name: option for option in offered(Recipe)}
-    assert asked["sizes"].choices == ("free", "shared", "fixed", "graded")
+    assert asked["sizes"].choices == ("free", "shared", "fixed", "graded", "auto")
     assert asked["quiet_share"].bounds == {"ge": 0.02, "le": 0.98}
     assert asked["target_coverage"].bounds == {"gt": 0, "lt": 1}
     assert asked["weights"].forms == (str, dict[str, float])

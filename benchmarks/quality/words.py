@@ -94,7 +94,12 @@ def vocabulary(count: int) -> dict[str, float]:
 def ours(container: Container, weights: dict[str, float], **options: Any) -> Cloud:
     began = time.process_time()
     recipe = uses.words_recipe(
-        container.name, weights, count=len(weights), padding="0", rotate="mixed", **options
+        container.name,
+        weights,
+        count=len(weights),
+        padding="0",
+        rotate="mixed",
+        **{"sizes": "shared", **options},
     )
     run = uses.fill(recipe, container=container)
     seconds = time.process_time() - began

@@ -83,6 +83,17 @@ def test_what_it_cannot_heed_is_refused(options: dict) -> None:
         words(**options)
 
 
+def test_thin_shapes_are_graded_by_default_and_fat_ones_true() -> None:
+    thin = pw.words("ring", WEIGHTS, effort="draft")
+    assert thin.manifest["words"]["of_true"]
+    assert pw.words("ring", WEIGHTS, effort="draft", sizes="shared").manifest["words"] == {
+        "found": 30,
+        "asked": 30,
+        "of_true": {},
+    }
+    assert not pw.words("heart", WEIGHTS, effort="draft").manifest["words"]["of_true"]
+
+
 def test_icons_alone_have_no_ranks() -> None:
     with pytest.raises(RecipeError, match="graded is for words"):
         pw.fill("heart", ["star"], sizes="graded")

@@ -168,11 +168,12 @@ class _FillWordsPhotos(TypedDict, total=False):
     """Of a container around:IMAGE: what is left free in any case, a mask (dark is kept clear) or a
     box left,top,width,height such as 10%,20%,30%,30%."""
 
-    sizes: Literal["free", "shared", "fixed", "graded"]
+    sizes: Literal["free", "shared", "fixed", "graded", "auto"]
     """free: each item finds its size; shared: all have equal areas, or areas in the shares of the
     weights; fixed: as large as in their files; graded (words alone): in proportion as far as there
-    is room, the heaviest first, no word larger than a heavier one. Default: 'free' (fill, photos),
-    'shared' (words)."""
+    is room, the heaviest first, no word larger than a heavier one; auto (words alone): graded where
+    the container is thin or branched, else shared. Default: 'free' (fill, photos), 'auto'
+    (words)."""
 
     size_ratio: float
     """With free sizes: 2 lets an item be half to twice as large as the typical one. Default:

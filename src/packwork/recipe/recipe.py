@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
 Effort: TypeAlias = Literal["draft", "normal", "best"]
 
-Sizes: TypeAlias = Literal["free", "shared", "fixed", "graded"]
+Sizes: TypeAlias = Literal["free", "shared", "fixed", "graded", "auto"]
 
 EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
 """Iterations, never seconds: one seed gives one result. Measured (docs/benchmarks-engine.md)."""
@@ -127,7 +127,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     sizes: Annotated[Sizes, _COLLAGES] = "free"
     """free: each item finds its size; shared: all have equal areas, or areas in the shares
     of the weights; fixed: as large as in their files; graded (words alone): in proportion as far
-    as there is room, the heaviest first, no word larger than a heavier one."""
+    as there is room, the heaviest first, no word larger than a heavier one; auto (words alone):
+    graded where the container is thin or branched, else shared."""
 
     size_ratio: Annotated[float, Field(ge=1, le=100), _COLLAGES] = 2.0
     """With free sizes: 2 lets an item be half to twice as large as the typical one."""
@@ -272,8 +273,8 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
 
     @model_validator(mode="after")
     def _sizes_suit(self) -> Recipe:
-        if self.sizes == "graded" and self.words is None:
-            raise RecipeError("sizes", "graded is for words; use free, shared or fixed")
+        if self.sizes in {"graded", "auto"} and self.words is None:
+            raise RecipeError("sizes", f"{self.sizes} is for words; use free, shared or fixed")
         return self
 
     @model_validator(mode="after")

@@ -46,7 +46,7 @@ VERBS: Mapping[Verbs, Verb] = MappingProxyType(
         # one; less fills more. Chosen by eye.
         Verbs.WORDS: Verb(
             part=WordOptions,
-            defaults={"sizes": "shared", "rotate": "horizontal", "padding": "0.3%"},
+            defaults={"sizes": "auto", "rotate": "horizontal", "padding": "0.3%"},
         ),
         # Photos lie as if strewn on a table, and none is upside down.
         Verbs.PHOTOS: Verb(part=PhotoOptions, defaults={"rotate": "15"}),

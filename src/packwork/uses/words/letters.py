@@ -68,7 +68,7 @@ class Letters:
             found[key] = size = length_asked(key, length, container.unit, container.side)
             if size <= 0:
                 raise RecipeError(key, f"must be more than nothing, not {length}")
-            if sizes not in {"shared", "graded"}:
+            if sizes not in {"shared", "graded", "auto"}:
                 raise RecipeError(
                     key, f"bounds words in proportion to each other, not --sizes {sizes}"
                 )

@@ -47,7 +47,7 @@ def words_recipe(
     --------
     >>> recipe = words_recipe("heart", {"bear": 2, "fox": 1}, count=1, palette="yellow")
     >>> recipe.words.count, recipe.palette, recipe.sizes
-    (1, ('#999a1b',), 'shared')
+    (1, ('#999a1b',), 'auto')
     """
     if "fonts" not in options and options.get("font") is not None:
         # As ``--font`` is meant; the container's own is given beside ``fonts``.

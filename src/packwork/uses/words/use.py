@@ -172,6 +172,11 @@ class Words(Use):
             many = number_of(len(words), "function word is", "function words are")
             names = enumerated(words)
             stopped = (f"{many} left out ({names}); --language none keeps them",)
+        if self.places is not None and job.recipe.sizes == AUTO:
+            median = float(np.median(self.places.of_true))
+            thin = "the container is thin, so sizes of words give way"
+            told = f"{thin}, to {median:.2g} of their proportion in the median"
+            stopped = (*stopped, f"{told}; --sizes shared keeps proportions")
         if self.options.count == AUTO:
             return (f"auto chose {number_of(len(job.items), 'word')}", *stopped)
         return (*super().remarks(job), *stopped)
