@@ -85,9 +85,9 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
         space = drawing.modelspace()
         space.reset_extents(points.min(axis=0).tolist(), points.max(axis=0).tolist())
         for lot, ring in lines:
-            line = space.add_lwpolyline(
-                ring.tolist(), close=not lot.is_open, dxfattribs={"layer": lot.layer}
-            )
+            line = space.add_lwpolyline([], close=not lot.is_open, dxfattribs={"layer": lot.layer})
+            # All points at once: one by one they are copied as often as there are points.
+            line.lwpoints.set(np.column_stack([ring, np.zeros((len(ring), 3))]))
             if lot.said:
                 line.set_xdata(APPLICATION, [(_TEXT, text) for text in lot.said])
         stream = io.StringIO()
