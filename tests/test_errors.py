@@ -157,3 +157,44 @@ def test_a_block_that_reads_a_picture_keeps_its_own_error() -> None:
         opened(file.getvalue()),
     ):
         raise ReadError("b.svg", "is empty")
+
+
+class Watch:
+    """An observer that asks to be told every so many epochs."""
+
+    def __init__(self, every: object) -> None:
+        self.every = every
+
+    def on_step(self, step: pw.Step) -> None:
+        """Hear nothing."""
+
+
+@pytest.mark.parametrize("every", [0, -3, "3", 2.5, None])
+def test_an_observer_that_is_told_at_no_time_is_one_line(every: object) -> None:
+    with pytest.raises(RecipeError, match=r"^observer: every must be a whole number"):
+        pw.fill("heart", "star", count=1, observer=Watch(every))  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("stop", [None, 3])
+def test_what_cannot_be_asked_to_stop_is_one_line(stop: object) -> None:
+    with pytest.raises(RecipeError, match=r"^stop: must be a function"):
+        pw.fill("heart", "star", count=1, stop=stop)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("art", [None, 3, object()])
+def test_an_item_without_art_is_one_line(art: object) -> None:
+    with pytest.raises(errors.ShapeError, match=r"^the art of the item 'tile' must be a colour"):
+        pw.Item("tile", outline=[(0, 0), (4, 0), (4, 2)], art=art)  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("words", ["", " \n", {}, {" ": 1}, {"\u200b": 1}])
+def test_words_that_are_none_are_one_line(words: object) -> None:
+    with pytest.raises(ReadError) as met:
+        pw.words("heart", words)
+    assert "\n" not in str(met.value)
+
+
+@pytest.mark.parametrize("container", [None, 3, [], {"a": 1}, set(), object(), True])
+def test_a_container_of_an_odd_type_is_one_line(container: object) -> None:
+    with pytest.raises(RecipeError, match=r"^container: is \w+, which cannot be read"):
+        pw.fill(container, "star")  # type: ignore[arg-type]

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import factorial, gcd
+from numbers import Integral
 from typing import Literal, Protocol, TypeAlias, cast
 
 from packwork.arrays import IntArray
@@ -107,12 +108,22 @@ reads what steps measure. Chosen."""
 def as_observer(listener: Listener) -> Observer:
     """The observer that a listener is; of a function, one that calls it.
 
+    Raises
+    ------
+    RecipeError
+        If it is neither, or would be told every so many epochs that are none.
+
     Examples
     --------
     >>> as_observer(NOBODY) is NOBODY, as_observer(print).every
     (True, 10)
     """
     if hasattr(listener, "on_step"):
+        every = getattr(listener, "every", None)
+        if not (isinstance(every, Integral) and int(every) >= 1):
+            raise RecipeError(
+                "observer", f"every must be a whole number of epochs such as 10, not {every!r}"
+            )
         return cast(Observer, listener)
     if not callable(listener):
         raise RecipeError(

@@ -13,6 +13,7 @@ from packwork.api.keywords import ChartKeywords, FillKeywords, PileKeywords, Wor
 from packwork.api.layout import Layout, public
 from packwork.api.signatures import of_verb
 from packwork.display.bar import bar_for, shown
+from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.options import offered
 from packwork.progress import NOBODY, Listener, Stop, as_observer, never
@@ -355,6 +356,8 @@ def run_recipe(
 ) -> Layout:
     """Run a recipe, with a bar if one is to be shown; a container that was given is used as is."""
     heard = NOBODY if observer is None else as_observer(observer)
+    if not callable(stop):
+        raise RecipeError("stop", f"must be a function that says whether to stop, not {stop!r}")
     bar = bar_for(progress, None if observer is None else heard)
     whole = container if isinstance(container, Container) else None
     with shown(bar):

@@ -167,6 +167,10 @@ class Item:
         solid = Outline.of(outline)
         drawn = solid if ink is None else Outline.of(ink)
         made = FlatArt(_known_colour(art)) if isinstance(art, str) else art
+        if not isinstance(made, Art):
+            raise ShapeError(
+                f"the art of the item {name!r} must be a colour or an art, not {str(art)[:40]}"
+            )
         values = (name, source, solid, drawn, made, label, text, halo, datum, weight)
         for column, value in zip(fields(Item), values, strict=True):
             object.__setattr__(self, column.name, value)
