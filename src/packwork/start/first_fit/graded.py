@@ -216,8 +216,8 @@ class _Grading:
         clearance = distance_inside(image > 1 - TOUCHED)
         self._inward: FloatArray = clearance / max(float(clearance.max()), 1.0)
         self._noise = NOISE * rng.random(image.shape)
-        # The edge needs no pixel of its own: what is inside lies wholly inside.
-        room = clearance > self._reach - CORNERS
+        # From a pixel's centre to its corner; the edge lies beyond the pixels that are inside.
+        room = clearance > self._reach - CORNERS / 2
         self._occupancy = Occupancy(room, REACH)
         self._room, self._left = max(int(room.sum()), 1), int(room.sum())
         self._first = 0.0

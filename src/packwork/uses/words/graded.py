@@ -145,7 +145,8 @@ class _Ranked:
         scales = np.sqrt(job.weights / areas)
         room = FULL * job.container.outline.area
         true = scales / unit * math.sqrt(room / float((inks * scales**2).sum()))
-        order = np.argsort(-true, kind="stable")
+        # Words of one weight keep their order, whatever the last digits are.
+        order = np.argsort(-np.round(true / true.max(), 9), kind="stable")
         return cls(order, unit[order], true[order], inks[order] * unit[order] ** 2)
 
     def of_true(self, found: Graded) -> FloatArray:
