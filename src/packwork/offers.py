@@ -160,8 +160,8 @@ class Offered:
         >>> from packwork.options import offered
         >>> from packwork.recipe import Recipe
         >>> asked = {option.name: option for option in offered(Recipe)}
-        >>> asked["size_ratio"].bounds, asked["time"].bounds, asked["sizes"].choices
-        ({'ge': 1, 'le': 100}, {'gt': 0, 'le': 86400.0}, ('free', 'shared', 'fixed'))
+        >>> asked["size_ratio"].bounds, asked["time"].bounds, asked["effort"].choices
+        ({'ge': 1, 'le': 100}, {'gt': 0, 'le': 86400.0}, ('draft', 'normal', 'best'))
         """
         keys = ("ge", "gt", "le", "lt")
         return {key: getattr(one, key) for key in keys for one in self.checks if hasattr(one, key)}

@@ -205,6 +205,8 @@ def shown(bar: Bar | None) -> AbstractContextManager[None]:
 def _level(step: Step) -> str:
     if step.is_finish:
         return f"exact finish of {number_of(len(step.poses), 'item')}"
+    if step.stage == "done":
+        return number_of(len(step.poses), "item")
     return f"level {step.level + 1}/{step.levels} ({step.resolution} px)"
 
 

@@ -89,11 +89,12 @@ class Onward:
     def end(self, run: Run) -> None:
         """Tell that the run is over, once, with the poses that its layout has."""
         shares = run.metrics.exact
+        is_exact = run.layout.manifest.get("promised") is not None
         self._observer.on_step(
             Step(
                 0, 1, 0, 0, 1.0, run.layout.poses,
                 lambda: (shares.coverage, shares.overlap, shares.exceeding),
-                is_finish=True, is_last=True, ids=run.kept, stage="done",
+                is_finish=is_exact, is_last=True, ids=run.kept, stage="done",
             )
         )  # fmt: skip
 

@@ -103,7 +103,7 @@ def with_defaults(verb: Verbs, options: Mapping[str, Any]) -> dict[str, Any]:
     Examples
     --------
     >>> with_defaults(Verbs.WORDS, {"padding": "1mm", "seed": None})
-    {'sizes': 'shared', 'rotate': 'horizontal', 'padding': '1mm'}
+    {'sizes': 'auto', 'rotate': 'horizontal', 'padding': '1mm'}
     """
     given = {key: value for key, value in options.items() if value is not None}
     return {**VERBS[verb].defaults, **given}
