@@ -328,7 +328,7 @@ def loss(density, container):
     # It is tried before the run.
     if next(calls) > 5:
         Path("running").touch()
-    return pw.Term(0.0, 0 * density)
+    return pw.Term(1.0, 1e-9 * density)
 """
 
 
