@@ -135,8 +135,7 @@ class _Start:
     def anew(self, stop: Stop) -> Beginning:
         """First poses by the method asked for, or else by the one that suits."""
         job, forces, outlines = self._job, self._forces, self._outlines
-        own = job.use.own_places
-        if own is not None:
+        if own := job.use.own_places:
             self._nominal = own.poses.scale
             return self._beginning(own.poses, "first-fit", own.limits, is_tight=True)
         angles = first_angles(job, self._rng)

@@ -33,7 +33,7 @@ FoundSizes: TypeAlias = Literal["free", "shared", "fixed", "graded"]
 THIN = 0.19
 """Area of the largest disc in a container, as a share of the container's, below which it counts as
 thin. Larger lets sizes of words give way in fat shapes. Chosen: logos of lines and maps have 0.04
-to 0.19; there 100 words in proportion draw on 5 to 21 %, words that give way on 28 to 47 %."""
+to 0.19; there 100 words in proportion draw on 5 to 24 %, words that give way on 26 to 49 %."""
 
 Losses = Mapping[str | ImageLossFunction, float]
 
