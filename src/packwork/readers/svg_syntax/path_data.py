@@ -24,8 +24,9 @@ from packwork.readers.unfit import UnfitError
 _SEGMENT_NS, _COUNTED = 1.5e4, 1_000
 """For reading a segment of a path, and how many are spent at once. Measured."""
 
-MAX_SEGMENTS = 200_000
-"""Segments of one drawing, repeats by ``use`` counted. Chosen."""
+MAX_SEGMENTS = 500_000
+"""Segments of one drawing, repeats by ``use`` counted. Larger takes longer than a reader may,
+smaller refuses files of ours: a container of 200,000 curves is written as more lines. Chosen."""
 
 _COMMAND = re.compile(r"([MmZzLlHhVvCcSsQqTtAa])([^MmZzLlHhVvCcSsQqTtAa]*)")
 _SEPARATOR = r"[\s,]*+"
