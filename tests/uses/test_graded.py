@@ -78,11 +78,25 @@ def test_words_turn_as_asked() -> None:
 
 @pytest.mark.parametrize(
     "options",
-    [{"stretch": 1.5}, {"losses": {"evenness": 1}}, {"rules": [{"match": "lorem0", "pin": "top"}]}],
+    [
+        {"losses": {"evenness": 1}},
+        {"rules": [{"items": "lorem0", "pin": {"x": 300, "y": 100}}]},
+        {"force": ["towards centre"]},
+        {"start": "distance-field"},
+        {"add": ["star"], "share": {"words": 3, "items": 1}},
+    ],
 )
-def test_what_it_cannot_heed_is_refused(options: dict) -> None:
-    with pytest.raises(RecipeError):
-        words(**options)
+def test_what_it_cannot_heed_is_refused_and_true_sizes_heed_it(options: dict) -> None:
+    with pytest.raises(RecipeError, match="sizes: graded sets words one after another"):
+        words("ring", **options)
+    # Where nobody asked for graded sizes, proportions are kept instead.
+    layout = words("ring", sizes="auto", **options)
+    assert not layout.manifest["words"]["of_true"]
+
+
+def test_a_run_that_is_stopped_has_the_first_words() -> None:
+    layout = words(stop=lambda: True)
+    assert layout.items[0].name == "lorem0"
 
 
 def test_thin_shapes_are_graded_by_default_and_fat_ones_true() -> None:

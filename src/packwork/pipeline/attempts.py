@@ -74,7 +74,7 @@ class Attempts:
     """The best so far of what came of them."""
 
     def __init__(self, job: Job, watch: Watch) -> None:
-        self._job, self._watch = job.use.before(job), watch
+        self._job, self._watch = job.use.before(job, watch.stop), watch
         self._taken: list[Placed] = []
 
     def __iter__(self) -> Iterator[Attempt]:

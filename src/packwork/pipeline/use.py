@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from packwork.pipeline.job import Job
     from packwork.pipeline.result import Run, Unplaced, WordsFound
     from packwork.pipeline.watch import Watch
+    from packwork.progress import Stop
     from packwork.scene.item import Item
     from packwork.scene.layout import Layout
     from packwork.scene.limits import Limits
@@ -72,8 +73,9 @@ class Use(ABC):
         """Whether putting so many items one after another is better than levels, and fast."""
         return count <= (MOST_TURNING if is_turning else MOST_FIRST_FIT)
 
-    def before(self, job: Job) -> Job:
+    def before(self, job: Job, stop: Stop) -> Job:
         """The job without what could not be placed as asked in any run."""
+        del stop
         return job
 
     @property

@@ -304,7 +304,7 @@ _FIRST: Mapping[str, Stage] = {
 
 
 def found_sizes(recipe: Recipe, container: Container) -> FoundSizes:
-    """How sizes are found: as asked, or else as suits words in this container.
+    """How sizes are found: as asked, or else as suits words in this container, if nothing hinders.
 
     Examples
     --------
@@ -316,10 +316,6 @@ def found_sizes(recipe: Recipe, container: Container) -> FoundSizes:
     """
     if recipe.sizes != "auto":
         return recipe.sizes
-    is_told = recipe.rules or recipe.layout_file or recipe.start or recipe.losses or recipe.levels
-    needs_levels = recipe.apart or recipe.epochs or recipe.stretch > 1 or recipe.finish != "exact"
-    if is_told or needs_levels or recipe.preset != "default":
-        return "shared"
     disc = math.pi * (widest_cu(container.outline) / 2) ** 2
     return "graded" if disc < THIN * container.outline.area else "shared"
 

@@ -146,7 +146,7 @@ def graded_fit(
     patience
         How many items in a row may find no place before the rest is left out; None for any.
     stop
-        Asked before each item; True ends with those that are placed.
+        Asked before each item but the first; True ends with those that are placed.
 
     Examples
     --------
@@ -161,7 +161,7 @@ def graded_fit(
     placed, rows, missed = list[int](), list[_Pose](), 0
     most = 0.0
     for k, candidate in enumerate(candidates):
-        if stop() or (patience is not None and missed > patience):
+        if (rows and stop()) or (patience is not None and missed > patience):
             break
         most = min(most, _on_grid(most * candidate.step, grid)) if rows else candidate.step
         least = smallest or LEAST_SHARE * (rows[0][3] if rows else most)

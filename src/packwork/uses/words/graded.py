@@ -20,6 +20,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.affine import similarity
 from packwork.pipeline.first_places import needs_levels
 from packwork.pipeline.job import Job
+from packwork.progress import Stop, never
 from packwork.readers.words.items import EM_PX
 from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
@@ -64,18 +65,20 @@ class Places:
         Of these.
     limits
         Sizes that they may have in the finish: no smaller, and none larger than the one before.
-    of_true
-        ``(m,)`` size of each as a share of its proportion to the first one's.
     """
 
     placed: IntArray
     poses: Poses
     limits: Limits
-    of_true: FloatArray
 
 
-def graded_places(job: Job, letters: Letters) -> Places:
+def graded_places(job: Job, letters: Letters, stop: Stop = never) -> Places:
     """Places of words, and of what is mixed in, the heaviest first.
+
+    Parameters
+    ----------
+    stop
+        Asked before each word; True ends with those that are placed.
 
     Raises
     ------
@@ -86,10 +89,10 @@ def graded_places(job: Job, letters: Letters) -> Places:
     words = _Ranked.of(job)
     tried = list[tuple[float, Graded]]()
     for share in NEARER:
-        found = _placed(job, letters, words, share)
+        found = _placed(job, letters, words, share, stop)
         ink = float((words.inks[found.placed] * found.poses.scale**2).sum())
         tried.append((ink, found))
-        if ink >= ENOUGH * job.container.outline.area:
+        if stop() or ink >= ENOUGH * job.container.outline.area:
             break
     _, found = max(tried, key=lambda one: one[0])
     if len(found.placed) == 0:
@@ -98,16 +101,18 @@ def graded_places(job: Job, letters: Letters) -> Places:
 
 
 def can_give_way(job: Job) -> bool:
-    """Whether nothing is asked that only levels know, nor of single items."""
-    return not (job.is_limited or job.earlier is not None or needs_levels(job, job.forces))
+    """Whether nothing is asked of places or single items that this cannot heed."""
+    plan = job.plan
+    is_told_where = job.earlier is not None or plan.method or plan.share or job.forces.acts
+    return not (is_told_where or job.is_limited or needs_levels(job, job.forces))
 
 
 def _check(job: Job) -> None:
     if not can_give_way(job):
         raise RecipeError(
             "sizes",
-            "graded sets words one after another; leave out --start, losses, levels, --stretch and "
-            "rules on single items, or use sizes shared",
+            "graded sets words one after another; leave out --start, --force, --share, losses, "
+            "levels, --stretch and what is asked of single items, or use sizes shared",
         )
 
 
@@ -149,11 +154,6 @@ class _Ranked:
         order = np.argsort(-np.round(true / true.max(), 9), kind="stable")
         return cls(order, unit[order], true[order], inks[order] * unit[order] ** 2)
 
-    def of_true(self, found: Graded) -> FloatArray:
-        """``(m,)`` sizes as shares of what they would be in proportion to the first."""
-        true = self.true[found.placed]
-        return np.asarray(found.poses.scale / true / (found.poses.scale[:1] / true[:1]))
-
     def places(self, found: Graded, letters: Letters, rotation: Rotation) -> Places:
         """The same in the items' own order, in their own units."""
         numbers, unit, size = self.order[found.placed], self.unit[found.placed], found.poses.scale
@@ -169,10 +169,10 @@ class _Ranked:
             largest=(largest * unit)[back],
         )
         poses = replace(found.poses, scale=size * unit).some(back)
-        return Places(numbers[back], poses, limits, self.of_true(found)[back])
+        return Places(numbers[back], poses, limits)
 
 
-def _placed(job: Job, letters: Letters, words: _Ranked, share: float) -> Graded:
+def _placed(job: Job, letters: Letters, words: _Ranked, share: float, stop: Stop) -> Graded:
     """Items put one after another, ``share`` of the steps between their weights kept."""
     first = float(words.true[0])
     if letters.largest is not None:
@@ -185,6 +185,7 @@ def _placed(job: Job, letters: Letters, words: _Ranked, share: float) -> Graded:
         np.random.default_rng(job.plan.seed),
         smallest=least,
         margin_cu=job.plan.gap + HAIR * job.container.side,
+        stop=stop,
     )
 
 

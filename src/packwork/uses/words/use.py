@@ -23,6 +23,7 @@ from packwork.pipeline.result import Run, Unplaced, WordsFound
 from packwork.pipeline.run import along
 from packwork.pipeline.use import MOST_FIRST_FIT, OwnPlaces, Use
 from packwork.pipeline.watch import Watch
+from packwork.progress import Stop
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
@@ -89,13 +90,15 @@ class Words(Use):
         del is_turning
         return count <= MOST_FIRST_FIT
 
-    def before(self, job: Job) -> Job:
+    def before(self, job: Job, stop: Stop) -> Job:
         """Job without words that could not even be large enough in the fullest cloud.
 
         Where sizes give way in turn, that of the words that find a place, and their places.
         """
+        if job.plan.sizes == "graded" and job.recipe.sizes == AUTO and not can_give_way(job):
+            job = replace(job, plan=replace(job.plan, sizes="shared"))
         if job.plan.sizes == "graded":
-            return self._with_places(job)
+            return self._with_places(job, stop)
         smallest = self.letters.smallest
         if smallest is None:
             return job
@@ -173,10 +176,8 @@ class Words(Use):
             names = enumerated(words)
             stopped = (f"{many} left out ({names}); --language none keeps them",)
         if self.places is not None and job.recipe.sizes == AUTO:
-            median = float(np.median(self.places.of_true))
             thin = "the container is thin, so sizes of words give way"
-            told = f"{thin}, to {median:.2g} of their proportion in the median"
-            stopped = (*stopped, f"{told}; --sizes shared keeps proportions")
+            stopped = (*stopped, f"{thin}; --sizes shared keeps proportions")
         if self.options.count == AUTO:
             return (f"auto chose {number_of(len(job.items), 'word')}", *stopped)
         return (*super().remarks(job), *stopped)
@@ -213,10 +214,10 @@ class Words(Use):
             if id(item) in scales
         }
 
-    def _with_places(self, job: Job) -> Job:
+    def _with_places(self, job: Job, stop: Stop) -> Job:
         """Job of the words that find a place, each as large as it does."""
         with job.clock.time("start"):
-            places = graded_places(job, self.letters)
+            places = graded_places(job, self.letters, stop)
         gone = np.setdiff1d(np.arange(len(job.items)), places.placed)
         words = places.placed[places.placed < len(self.read.items)]
         reason = "finds no place at a size that could be read; use fewer words or a larger canvas"
