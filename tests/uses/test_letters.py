@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
+from packwork.progress import never
 from packwork.readers.words.items import EM_PX
 from packwork.scene.pose import Poses
 from packwork.uses import fill, read, words_recipe
@@ -100,7 +101,7 @@ def test_each_attempt_keeps_fewer_words() -> None:
     least = 0.95 * float(poses.scale[-1]) * EM_PX
     assert isinstance(job.use, Words)
     asked = replace(job, use=replace(job.use, letters=Letters(smallest=least)))
-    assert asked.use.before(asked) is asked
+    assert asked.use.before(asked, never) is asked
     assert len(asked.use.fewer(asked, tiny, 1).items) == 11
     assert len(asked.use.fewer(asked, tiny, 3).items) == 8
     assert asked.use.fewer(asked, poses, 1) is asked
