@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from packwork.api.albums import photos
+    from packwork.api.history import History
     from packwork.api.judging import finish, measure
     from packwork.api.layout import Layout
     from packwork.api.placement import Placement
@@ -40,6 +41,7 @@ __all__ = [
     "Container",
     "FittedOutline",
     "FlatArt",
+    "History",
     "ImageLoss",
     "Item",
     "Layout",
@@ -76,6 +78,7 @@ _HOMES = {
     "Container": "packwork.scene.container:Container",
     "FittedOutline": "packwork.fit.fitted:FittedOutline",
     "FlatArt": "packwork.scene.item:FlatArt",
+    "History": "packwork.api.history:History",
     "ImageLoss": "packwork.losses.term:ImageLoss",
     "Item": "packwork.scene.item:Item",
     "Layout": "packwork.api.layout:Layout",

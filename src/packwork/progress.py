@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
-from math import factorial, gcd
+from math import factorial, gcd, nan
 from numbers import Integral
 from typing import Literal, Protocol, TypeAlias, cast
 
@@ -20,6 +20,22 @@ Shares: TypeAlias = tuple[float, float, float]
 
 Stage: TypeAlias = Literal["levels", "finish", "gaps", "pile", "done"]
 """Parts of a run, as its steps name them."""
+
+
+@dataclass(frozen=True)
+class Objective:
+    """Value of what the levels minimise, and of its terms.
+
+    Parameters
+    ----------
+    total
+        Sum of all terms, each by its weight at that epoch; not a number where nothing is minimised.
+    terms
+        Value of each loss by name, not weighed; ``recall`` and ``forces`` too, where they act.
+    """
+
+    total: float = nan
+    terms: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,6 +68,8 @@ class Step:
     stage
         Which part of the run this is of: levels, finish, gaps (that voids are filled), pile, or
         done, once at its end.
+    priced
+        Computes ``objective`` when that is first read: about as long as two epochs.
     """
 
     level: int
@@ -65,6 +83,12 @@ class Step:
     is_last: bool = False
     ids: IntArray | None = None
     stage: Stage = "levels"
+    priced: Callable[[], Objective] = Objective
+
+    @cached_property
+    def objective(self) -> Objective:
+        """What the levels minimise, after this epoch; of other stages no terms."""
+        return self.priced()
 
     @cached_property
     def _shares(self) -> Shares:

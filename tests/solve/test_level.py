@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -10,15 +11,19 @@ import pytest
 from numerics import assert_gradient, compare
 from packwork.arrays import FloatArray, Image
 from packwork.errors import RecipeError
+from packwork.forces.direction import Direction
+from packwork.forces.forces import FieldForce, Forces
+from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.losses.containment import containment
 from packwork.losses.evenness import evenness
 from packwork.losses.filling import filling
 from packwork.losses.overlap import overlap
-from packwork.losses.term import Term
+from packwork.losses.term import ImageLoss, Term
 from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback
 from packwork.raster.pyramid import region_image
 from packwork.scene.container import Container
+from packwork.scene.limits import Limits, Zone
 from packwork.scene.pose import Poses
 from packwork.solve.ensemble import Ensemble
 from packwork.solve.level import Level
@@ -105,6 +110,53 @@ def test_level_agrees_with_its_double_twin(rng: np.random.Generator) -> None:
     met = compare(level.gradient(where, WEIGHTS, RECALL), twin.gradient(as_array(where)))
     assert met.error < 2e-3, met
     assert abs(met.bias) < 1e-3, met
+
+
+def test_the_objective_is_what_the_gradient_is_of(rng: np.random.Generator) -> None:
+    outlines, where = scene(rng)
+    twin = DoubleTwin(square_container(), outlines, 40)
+    level = Level(square_container(), outlines, 40)
+    met = level.objective(where, WEIGHTS, RECALL)
+    canvas = 100.0**2
+    assert met.total * canvas == pytest.approx(twin.value(as_array(where)), rel=1e-4)
+    assert list(met.terms) == [*WEIGHTS, "recall"]
+    assert met.terms["recall"] > 0
+
+
+def test_terms_of_poses_and_forces_are_in_the_objective(rng: np.random.Generator) -> None:
+    outlines, where = scene(rng)
+    down = FieldForce(Direction(np.pi / 2), np.ones(4))
+    region = disc(20.0).mapped(affine.similarity(30.0, 40.0, 0.0, 1.0))
+    limits = replace(Limits.free(4), zones=(Zone(region, np.array([0, 3])),))
+    forces = Forces([down], [], np.zeros(4, int), 100.0)
+    weights: dict[str | ImageLoss, float] = {"area-shares": 3.0}
+    level = Level(square_container(), outlines, 40, weights, np.full(4, 16.0), limits, forces)
+
+    def value(numbers: FloatArray) -> float:
+        return level.objective(from_array(numbers), weights, RECALL, 0.5).total * 100.0**2
+
+    at, slopes = as_array(where), level.gradient(where, weights, RECALL, 0.5)
+    # Places alone: recall and forces leave out that larger items weigh more.
+    along = np.zeros_like(at)
+    along[:, :2] = rng.normal(size=(4, 2))
+    step = 2.0**-5
+    met = (value(at + step * along) - value(at - step * along)) / (2 * step)
+    assert met == pytest.approx(float((along * slopes).sum()), rel=0.02)
+
+
+def test_losses_of_one_name_are_told_apart() -> None:
+    def loss(density: Image, container: Image) -> Term:
+        return Term(1.0, np.zeros_like(density))
+
+    def other(density: Image, container: Image) -> Term:
+        return Term(2.0, np.zeros_like(density))
+
+    other.__name__ = loss.__name__
+    weights: dict[str | ImageLoss, float] = {loss: 1.0, other: 1.0}
+    level = Level(square_container(), [disc()], 20, weights)
+    met = level.objective(poses([50.0], [50.0], 0.0, [9.0]), weights)
+    assert met.terms == {"loss": 1.0, "loss 2": 2.0}
+    assert met.total == 3.0
 
 
 def test_physics_does_not_change_with_the_level(rng: np.random.Generator) -> None:

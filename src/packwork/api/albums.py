@@ -26,6 +26,8 @@ def photos(
     observer: Listener | None = None,
     stop: Stop = never,
     progress: bool | None = None,
+    record: bool = False,
+    history: bool | int = False,
     **options: Unpack[PhotosKeywords],
 ) -> Layout:
     """Fill a container with photographs.
@@ -38,7 +40,7 @@ def photos(
         Photos (JPEG, PNG, WebP), folders of them or patterns; pictures, arrays and bytes too.
     add
         Items that are placed among the photos, as for :func:`packwork.fill`.
-    y_up, observer, stop, progress
+    y_up, observer, stop, progress, record, history
         As for :func:`packwork.fill`.
     options
         As on the command line, by the names in the signature.
@@ -65,4 +67,7 @@ def photos(
     with handed_over(y_up) as handed:
         named = with_names(options, handed)
         chosen = photo_choices(handed.names_of(sources, "sources"), **named)
-        return fill(container, add, observer=observer, stop=stop, progress=progress, **chosen)
+        return fill(
+            container, add, observer=observer, stop=stop, progress=progress, record=record,
+            history=history, **chosen,
+        )  # fmt: skip

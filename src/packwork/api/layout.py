@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, field, fields
 from functools import cached_property, partial
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Any, Unpack, cast
@@ -14,6 +14,7 @@ from pydantic import ValidationError
 
 from packwork import writers
 from packwork.api.frozen import ReadOnly, frozen, frozen_poses, manifest_of
+from packwork.api.history import History
 from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.placement import Placement, Pose
 from packwork.api.signatures import of_model
@@ -76,6 +77,10 @@ class Layout(scene.Layout):
     >>> layout.poses.x.shape, layout.manifest["recipe"]["effort"]
     ((4,), 'draft')
     """
+
+    history: History | None = field(default=None, init=False)
+    """Losses by epoch of the run that made it, if they were asked for (``history=True``); files and
+    layouts made of it by ``replace`` have none."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -363,4 +368,4 @@ def _drawing(options: Mapping[str, Any]) -> writers.WriteOptions:
 
 def public(layout: scene.Layout) -> Layout:
     """The same layout with the methods that users know."""
-    return Layout(**{field.name: getattr(layout, field.name) for field in fields(layout)})
+    return Layout(**{one.name: getattr(layout, one.name) for one in fields(layout) if one.init})

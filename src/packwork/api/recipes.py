@@ -23,6 +23,7 @@ def run(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
+    history: bool | int = False,
     **options: Any,
 ) -> Layout:
     """Run what a recipe asks for.
@@ -34,7 +35,7 @@ def run(
     allow_code
         Run code that a recipe file names, as losses ``module:function``: only if you trust
         whoever wrote both.
-    observer, stop, progress, record
+    observer, stop, progress, record, history
         As for :func:`packwork.fill`.
     options
         In place of the recipe's.
@@ -59,7 +60,7 @@ def run(
         else:
             plain = read_recipe(recipe, allow_code=allow_code)
         asked = make_recipe(**overridden(plain, with_names(options, handed)))
-        return run_recipe(asked, asked.container, observer, stop, progress, record)
+        return run_recipe(asked, asked.container, observer, stop, progress, record, history)
 
 
 def _said(options: Mapping[str, Any]) -> dict[str, Any]:

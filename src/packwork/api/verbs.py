@@ -9,6 +9,7 @@ from typing import Any, Literal, Unpack
 from packwork import uses
 from packwork.api.frozen import ReadOnly
 from packwork.api.handing import handed_over, with_names
+from packwork.api.history import keeper
 from packwork.api.keywords import ChartKeywords, FillKeywords, PileKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
 from packwork.api.signatures import of_verb
@@ -16,7 +17,7 @@ from packwork.display.bar import bar_for, shown
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.options import offered
-from packwork.progress import NOBODY, Listener, Stop, as_observer, never
+from packwork.progress import NOBODY, Listener, Stop, as_observer, never, together
 from packwork.readers import items as item_reader
 from packwork.readers.container import read_container as _read_container
 from packwork.readers.memory.shapes import Columns
@@ -42,6 +43,7 @@ def fill(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
+    history: bool | int = False,
     **options: Unpack[FillKeywords],
 ) -> Layout:
     """Fill a container with items.
@@ -68,6 +70,9 @@ def fill(
         True shows a bar, False none; None one in a notebook only.
     record
         Keep the way of the items, for :meth:`Layout.save_film`.
+    history
+        Keep losses by epoch, in ``layout.history``: of each, or of every so many (``10``). Reading
+        them takes longer than the epochs themselves.
     options
         As on the command line, by the names in the signature; and ``rules`` about single
         items, tables as in a recipe file: ``[{"items": "star", "count": 3}]``.
@@ -91,7 +96,7 @@ def fill(
             items=handed.names_of(items, "items"),
             **with_names(options, handed),
         )
-        return run_recipe(recipe, container, observer, stop, progress, record)
+        return run_recipe(recipe, container, observer, stop, progress, record, history)
 
 
 @of_verb(Verbs.WORDS, BACKGROUND)
@@ -105,6 +110,7 @@ def words(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
+    history: bool | int = False,
     **options: Unpack[WordsKeywords],
 ) -> Layout:
     """Fill a container with words.
@@ -120,7 +126,7 @@ def words(
         weights by word: a dict, a ``Counter``, a pandas Series.
     add
         Items that are placed among the words: files, folders or built-in names.
-    observer, stop, progress, record
+    observer, stop, progress, record, history
         As for :func:`fill`.
     options
         As on the command line, by the names in the signature. ``color_by`` may be a function
@@ -149,7 +155,7 @@ def words(
             add=handed.names_of(add, "add"),
             **with_names(options, handed),
         )
-        return run_recipe(recipe, container, observer, stop, progress, record)
+        return run_recipe(recipe, container, observer, stop, progress, record, history)
 
 
 @of_verb(Verbs.PILE)
@@ -162,6 +168,7 @@ def pile(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
+    history: bool | int = False,
     **options: Unpack[PileKeywords],
 ) -> Layout:
     """Heap items of given sizes, under forces, until they are at rest.
@@ -171,7 +178,7 @@ def pile(
     container
         As for :func:`fill`; an SVG of open paths is open where they are, and ``"none"``
         lets items lie anywhere.
-    items, y_up, observer, stop, progress, record
+    items, y_up, observer, stop, progress, record, history
         As for :func:`fill`.
     options
         As on the command line, by the names in the signature.
@@ -195,7 +202,7 @@ def pile(
             handed.names_of(items, "items"),
             **with_names(options, handed),
         )
-        return run_recipe(recipe, container, observer, stop, progress, record)
+        return run_recipe(recipe, container, observer, stop, progress, record, history)
 
 
 @of_verb(Verbs.CHART, BACKGROUND)
@@ -208,6 +215,7 @@ def chart(
     stop: Stop = never,
     progress: bool | None = None,
     record: bool = False,
+    history: bool | int = False,
     **options: Unpack[ChartKeywords],
 ) -> Layout:
     """Show a table's rows, a mark for each, sizes in proportion to numbers.
@@ -216,7 +224,7 @@ def chart(
     ----------
     container
         As for :func:`fill`; ``"none"`` shows the groups of ``by`` as bars.
-    y_up, observer, stop, progress, record
+    y_up, observer, stop, progress, record, history
         As for :func:`fill`.
     data
         A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
@@ -239,7 +247,7 @@ def chart(
     with handed_over(y_up) as handed:
         named = with_names(options, handed)
         recipe = uses.chart_recipe(handed.name_of(container, "container"), data, **named)
-        return run_recipe(recipe, container, observer, stop, progress, record)
+        return run_recipe(recipe, container, observer, stop, progress, record, history)
 
 
 def read_items(
@@ -353,16 +361,20 @@ def run_recipe(
     stop: Stop,
     progress: bool | None,
     record: bool,
+    history: bool | int = False,
 ) -> Layout:
     """Run a recipe, with a bar if one is to be shown; a container that was given is used as is."""
+    kept = keeper(history)
     heard = NOBODY if observer is None else as_observer(observer)
     if not callable(stop):
         raise RecipeError("stop", f"must be a function that says whether to stop, not {stop!r}")
     bar = bar_for(progress, None if observer is None else heard)
     whole = container if isinstance(container, Container) else None
     with shown(bar):
-        run = uses.fill(recipe, None, whole, bar or heard, stop, record)
+        told = together(bar or heard, kept or NOBODY)
+        run = uses.fill(recipe, None, whole, told, stop, record)
     layout = public(run.layout)
     # What was just measured is not measured again when it is asked for.
     layout.__dict__["metrics"] = ReadOnly(run.metrics.as_dict())
+    layout.__dict__["history"] = None if kept is None else kept.history()
     return layout

@@ -75,6 +75,17 @@ def find_loss(name: str | ImageLoss) -> ImageLoss:
     return loss
 
 
+def loss_name(loss: str | ImageLoss | PoseLoss) -> str:
+    """What a loss is called, in tables of losses.
+
+    Examples
+    --------
+    >>> loss_name("overlap"), loss_name(overlap)
+    ('overlap', 'overlap')
+    """
+    return loss if isinstance(loss, str) else getattr(loss, "__name__", type(loss).__name__)
+
+
 def find_pose_loss(name: str | ImageLoss | PoseLoss) -> PoseLoss | None:
     """Loss of the poses, by its name or as a function of one argument; None of image losses.
 

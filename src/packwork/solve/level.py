@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import count
 
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
+from packwork.losses.evenness import evenness
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
 from packwork.losses.recall import Recall
-from packwork.losses.registry import find_loss, find_pose_loss
+from packwork.losses.registry import find_loss, find_pose_loss, loss_name
 from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, checked_term
+from packwork.progress import Objective
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
@@ -110,13 +113,13 @@ class Level:
         by_points = self.rasteriser.pullback(adjoint, beyond=recall)
         by_pose = self.ensemble.gather(by_points, poses, self.px_per_cu)
         by_pose /= self.px_per_cu**2
-        called = self._recall(poses.x, poses.y, self.areas * poses.scale**2)
+        called = self._recall(poses.x, poses.y, self._areas_of(poses))
         _add(by_pose, called, recall * self.px_per_cu / self.resolution)
         for zone in self.zones:
             zone.add(by_pose, poses, recall)
         if self._forces.acts:
             centres = np.column_stack([poses.x, poses.y])
-            cost = self._forces.cost(centres, self.areas * poses.scale**2)
+            cost = self._forces.cost(centres, self._areas_of(poses))
             by_pose[:, :2] += force * cost.slopes
         for name, loss in self._of_poses.items():
             # Their values have no unit: weighed by the container's area, as a mean over
@@ -124,6 +127,56 @@ class Level:
             weight = weights.get(name, 0.0) * self._container_area
             _add(by_pose, loss(PosedItems(poses, self.areas, self._nominal, self._kinds)), weight)
         return by_pose
+
+    def objective(
+        self,
+        poses: Poses,
+        weights: Mapping[str | ImageLoss, float],
+        recall: float = 0.0,
+        force: float = 1.0,
+    ) -> Objective:
+        """What :meth:`gradient` differentiates, over the canvas's area, and its terms.
+
+        Parameters are those of :meth:`gradient`.
+        """
+        density = self.density(poses)
+        canvas = density.size / self.px_per_cu**2
+        terms: dict[str, float] = {}
+        total = 0.0
+        for loss, weight in weights.items():
+            value, share = self._value(loss, poses, density), 1.0
+            if loss in self._of_poses:
+                share = self._container_area / canvas
+            terms[_unused(loss_name(loss), terms)] = value
+            total += weight * share * value
+        if recall:
+            terms["recall"] = self._recall_value(poses, density) / canvas
+            total += recall * terms["recall"]
+        if self._forces.acts:
+            centres = np.column_stack([poses.x, poses.y])
+            terms["forces"] = self._forces.cost(centres, self._areas_of(poses)).value / canvas
+            total += force * terms["forces"]
+        return Objective(total, terms)
+
+    def _value(self, loss: str | ImageLoss, poses: Poses, density: Image) -> float:
+        """Value of one loss."""
+        if loss in self._of_poses:
+            placed = PosedItems(poses, self.areas, self._nominal, self._kinds)
+            return float(self._of_poses[loss](placed).value)
+        if loss == "evenness":
+            return evenness(density, self.container_image, len(self.areas)).value
+        return float(checked_term(find_loss(loss), density, self.container_image).value)
+
+    def _recall_value(self, poses: Poses, density: Image) -> float:
+        """What lies beyond the image or a zone, and how far items are from there, squared units."""
+        areas = self._areas_of(poses)
+        seen = float(density.sum(dtype=np.float64)) / self.px_per_cu**2
+        called = self._recall(poses.x, poses.y, areas).value * self.px_per_cu / self.resolution
+        zones = sum(zone.value(poses) for zone in self.zones)
+        return float(areas.sum()) - seen + called + zones
+
+    def _areas_of(self, poses: Poses) -> FloatArray:
+        return np.asarray(self.areas * poses.scale**2)
 
     def density(self, poses: Poses) -> Image:
         """Density image of these poses; their walk stays on record."""
@@ -155,6 +208,12 @@ class Level:
             term = checked_term(loss, density, self.container_image)
             adjoint += weights.get(key, 0.0) * density.size * term.adjoint
         return adjoint
+
+
+def _unused(name: str, taken: Mapping[str, float]) -> str:
+    """The name, numbered if there is another loss of that name."""
+    numbered = (name if k == 1 else f"{name} {k}" for k in count(1))
+    return next(one for one in numbered if one not in taken)
 
 
 def _add(by_pose: FloatArray, term: PoseTerm, weight: float) -> None:

@@ -18,7 +18,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
-from packwork.progress import NOBODY, Observer, Step, Stop, never
+from packwork.progress import NOBODY, Objective, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
@@ -26,7 +26,7 @@ from packwork.solve.detail import seen_posed
 from packwork.solve.exchange import exchange
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
-from packwork.solve.options import SolveOptions
+from packwork.solve.options import ImageLossFunction, SolveOptions
 from packwork.solve.pace import pace_of
 from packwork.solve.relocate_trapped import Relocation, relocate_trapped
 from packwork.solve.schedule import force_factor, growth, rate_factor, weights_at
@@ -181,13 +181,19 @@ class _Solve:
         )
 
     def _epoch(self, level: Level) -> None:
-        options, progress = self._options, self.pace.progress()
-        recall = options.recall * growth(options, progress)
-        weights, force = weights_at(options, progress), force_factor(progress)
-        gradient = level.gradient(self.motion.poses, weights, recall, force)
-        self.motion.follow(gradient, rate_factor(options, progress))
+        progress = self.pace.progress()
+        gradient = level.gradient(self.motion.poses, *self._weights(progress))
+        self.motion.follow(gradient, rate_factor(self._options, progress))
         self.pace.advance()
         self._done += 1
+
+    def _weights(
+        self, progress: float
+    ) -> tuple[dict[str | ImageLossFunction, float], float, float]:
+        """Weights of losses, recall and forces at ``progress`` (0..1) through the run."""
+        options = self._options
+        recall = options.recall * growth(options, progress)
+        return weights_at(options, progress), recall, force_factor(progress)
 
     def _relocate(self, level: Level) -> list[Relocation]:
         poses = self.motion.poses
@@ -215,12 +221,16 @@ class _Solve:
         is_end = self.pace.has_reached(index, 1.0)
         if (self._done - 1) % observer.every and not is_end:
             return
-        poses = self.motion.poses
+        poses, progress = self.motion.poses, self.pace.progress()
+
+        def priced() -> Objective:
+            return level.objective(poses, *self._weights(progress))
+
         observer.on_step(
             Step(
                 index, len(self._options.levels), level.resolution, self._done,
-                self.pace.progress(), poses, lambda: level.shares(level.density(poses)),
-                is_last=is_end,
+                progress, poses, lambda: level.shares(level.density(poses)),
+                is_last=is_end, priced=priced,
             )
         )  # fmt: skip
 

@@ -79,6 +79,19 @@ class ZonePull:
         by_pose[self.items, 0] += price / side_cu * called.x
         by_pose[self.items, 1] += price / side_cu * called.y
 
+    def value(self, poses: Poses) -> float:
+        """What :meth:`add` differentiates, at a price of 1, squared canvas units."""
+        own = poses.some(self.items)
+        areas = self._areas * own.scale**2
+        self._rasteriser.sweep(
+            self._ensemble.place(own, self._px_per_cu), self._ensemble.ring_starts
+        )
+        inside = self._rasteriser.density(self._blank) * (1 - self.outside)
+        called = self._recall(own.x, own.y, areas)
+        side_cu = max(self.outside.shape) / self._px_per_cu
+        kept = float(inside.sum(dtype=np.float64)) / self._px_per_cu**2
+        return float(areas.sum() - kept + called.value / side_cu)
+
 
 def _recall(zone: Zone, shape: tuple[int, int], px_per_cu: float) -> Recall:
     coarser = max(max(shape) / RECALL_PX, 1.0)
