@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -15,6 +16,22 @@ from strategies import ring_sets
 
 _SIZES = st.sampled_from([1e-3, 1.0, 1e6])
 _SLIPS = st.sampled_from([0.0, 1e-13, 1e-9, 1e-7, 1e-5])
+
+TINY = (1e-160, 2.99e-218, 1e-310)
+
+
+def extent_of(shape: shapely.Geometry) -> float:
+    left, top, right, bottom = shape.bounds
+    return float(max(right - left, bottom - top))
+
+
+@pytest.mark.parametrize("tiny", TINY)
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e6])
+def test_differences_near_the_smallest_numbers_raise_no_warning(tiny: float, size: float) -> None:
+    ring = size * np.array([[0.0, 0.0], [0.0, tiny], [1.0, 0.0]])
+    crossed = size * np.array([[1, -1], [-tiny, 0], [0, 1], [0, -1], [1, 0.0]])
+    assert sound(region([ring], "evenodd")).area == 0
+    assert sound(region([crossed], "evenodd")).is_valid
 
 
 @given(ring_sets(), _SIZES, _SLIPS, st.integers(0, 99), st.booleans())
@@ -29,10 +46,10 @@ def test_sound_regions_stay_valid_when_turned_and_rounded(
     clean = sound(wild)
     if clean.area == 0:
         return
-    left, top, right, bottom = clean.bounds
-    extent = max(right - left, bottom - top)
+    extent, before = extent_of(clean), extent_of(wild)
     assert shapely.minimum_clearance(clean) >= 0.49 * STEP * extent
-    assert abs(clean.area - wild.area) <= 20 * STEP * extent * max(wild.length, extent)
+    # Of slivers a speck may be left: the step is a share of what there was.
+    assert abs(clean.area - wild.area) <= 20 * STEP * before * max(wild.length, before)
     outline = Outline.from_region(clean)
     for angle in rng.uniform(0, 6.28, 3):
         placed = outline.mapped(affine.similarity(70.0, 30.0, float(angle), 50.0 / extent))

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 import shapely
 
-from packwork.geometry.overlay import Region
+from packwork.geometry.overlay import Region, quiet
 
 FEW_PAIRS = 1_000_000
 """Pairs of vertices up to which all are looked at, and the last digit is that of plain distances.
@@ -52,7 +52,8 @@ def is_clear(region: Region, least: float) -> bool:
     (True, False)
     """
     if shapely.get_num_coordinates(region) <= FEW_VERTICES:
-        return bool(shapely.minimum_clearance(region) >= least)
+        with quiet():
+            return bool(shapely.minimum_clearance(region) >= least)
     rings = shapely.get_rings(shapely.get_parts(region))
     points, ring = shapely.get_coordinates(rings, return_index=True)
     is_edge = ring[1:] == ring[:-1]

@@ -19,7 +19,7 @@ from shapely.ops import polygonize
 from packwork.arrays import FloatArray
 from packwork.geometry.overlay import Region as Region
 from packwork.geometry.overlay import polygon_parts as polygon_parts
-from packwork.geometry.overlay import union
+from packwork.geometry.overlay import quiet, union
 
 FillRule: TypeAlias = Literal["nonzero", "evenodd"]
 
@@ -47,10 +47,9 @@ def region(rings: Iterable[FloatArray], rule: FillRule = "nonzero") -> Region:
     faces = [f for f in polygonize(union(kept)) if f.area > 0]
     if not faces:
         return Polygon()
-    winding = _winding_numbers(
-        shapely.get_coordinates(shapely.point_on_surface(faces)),
-        [shapely.get_coordinates(r) for r in kept],
-    )
+    with quiet():
+        points = shapely.get_coordinates(shapely.point_on_surface(faces))
+    winding = _winding_numbers(points, [shapely.get_coordinates(r) for r in kept])
     inside = winding != 0 if rule == "nonzero" else winding % 2 != 0
     return union([f for f, keep in zip(faces, inside, strict=True) if keep])
 
@@ -65,8 +64,7 @@ def enclosed(rings: Sequence[LinearRing]) -> Region:
     8.0
     """
     try:
-        # GEOS tries corners that touch with numbers that are none; its answer has none.
-        with np.errstate(invalid="ignore"):
+        with quiet():
             return shapely.build_area(MultiLineString(rings))
     except GEOSException:
         # They do cross.

@@ -13,7 +13,7 @@ from __future__ import annotations
 import shapely
 
 from packwork.geometry.distance import is_clear
-from packwork.geometry.overlay import Region, buffered, polygon_parts, union, valid
+from packwork.geometry.overlay import Region, buffered, polygon_parts, quiet, union, valid
 
 STEP = 1e-7
 """Clearance that regions keep at least, and the grid's step, as shares of their extent. Larger
@@ -60,8 +60,10 @@ def sound(shape: Region, step: float = STEP) -> Region:
         if not least > 0 or is_clear(shape, least / 2):
             break
         # A region that says it lies on the grid is not looked at again.
-        loose = shapely.set_precision(shape, 0.0, mode="pointwise")
-        shape = union(polygon_parts(shapely.set_precision(loose, least)))
+        with quiet():
+            loose = shapely.set_precision(shape, 0.0, mode="pointwise")
+            snapped = shapely.set_precision(loose, least)
+        shape = union(polygon_parts(snapped))
     return shape
 
 

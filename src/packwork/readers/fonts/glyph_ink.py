@@ -16,6 +16,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.affine import similarity
 from packwork.geometry.distance import distance
 from packwork.geometry.outline import Outline, joined
+from packwork.geometry.overlay import quiet
 from packwork.geometry.polygon import Region, region, silhouette
 from packwork.readers.fonts.curves import rings_of
 from packwork.readers.fonts.face import Typeface
@@ -130,7 +131,8 @@ def glyph_ink(face: Typeface, number: int, tolerance: float) -> GlyphInk:
     if not covered.area > 0:
         return GlyphInk(covered, None, None, np.inf)
     filled = Outline.from_region(silhouette(covered))
-    clearance = float(shapely.minimum_clearance(covered))
+    with quiet():
+        clearance = float(shapely.minimum_clearance(covered))
     return GlyphInk(covered, Outline.from_region(covered), filled, clearance)
 
 
