@@ -269,8 +269,9 @@ class Layout(scene.Layout):
     def to_dataframe(self) -> DataFrame:
         """Pandas data frame: one row per item, in the layout's order.
 
-        Of a chart, first the columns of its table, then ``value`` (what the mark stands for),
-        ``category`` and ``group``, where there are any; of all layouts ``item``, ``source``,
+        Of a chart, first the columns of its table (the index of a data frame is the index again),
+        then ``value`` (what the mark stands for), ``category`` and ``group``, where there are any;
+        of all layouts ``item``, ``source``,
         ``x``, ``y``, ``angle_deg`` (degrees, clockwise, as in files), ``scale``, ``stretch``,
         ``area`` (squared canvas units), ``weight`` and ``color``. Where the table has a column of
         that name too, ours is called ``mark_x`` and so on.

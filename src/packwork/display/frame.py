@@ -16,6 +16,9 @@ from packwork.scene.swatch import representative_colour
 TAKEN = "mark_"
 """What our columns begin with where a table has one of that name."""
 
+_UNNAMED = re.compile(r"index|level_\d+")
+"""What pandas calls columns of an index that has no name."""
+
 _CODE = re.compile(r"\s*[-+]?0\d")
 """Numbers that no number begins with: codes such as 0042."""
 
@@ -32,7 +35,33 @@ def data_frame(layout: Layout) -> Any:
     table = _table(layout)
     ours = _ours(layout)
     named = {TAKEN + name if name in table else name: cells for name, cells in ours.items()}
-    return pandas.DataFrame(table | named)
+    frame = pandas.DataFrame(table | named)
+    return _indexed(frame, layout, pandas) if table else frame
+
+
+def _indexed(frame: Any, layout: Layout, pandas: Any) -> Any:
+    """The frame with the index that a chart's table had, if it was a data frame with one."""
+    chart = layout.manifest.get("recipe", {}).get("chart") or {}
+    types = {name: kind for name, kind in chart.get("index", {}).items() if name in frame}
+    if not types:
+        return frame
+    # As they were read: an index of texts such as 1 stays one of texts.
+    cells = {
+        name: [item.datum and item.datum.row.get(name) for item in layout.items] for name in types
+    }
+    levels = [_level(pandas, cells[name], kind) for name, kind in types.items()]
+    names = [None if _UNNAMED.fullmatch(name) else name for name in types]
+    made = pandas.MultiIndex.from_arrays(levels) if len(levels) > 1 else levels[0]
+    return frame.drop(columns=list(types)).set_index(made.set_names(names))
+
+
+def _level(pandas: Any, cells: Sequence[Any], kind: str) -> Any:
+    """One level of an index, of the type that it had where that is known here."""
+    plain = pandas.Index(cells)
+    try:
+        return plain.astype(kind)
+    except (TypeError, ValueError):
+        return plain
 
 
 def _table(layout: Layout) -> dict[str, list[Any]]:

@@ -25,6 +25,9 @@ class ChartOptions(Options):
     """A table: .csv, .tsv, .json or (with pandas) .parquet; in Python also a data frame, rows
     as dicts, or a dict of columns."""
 
+    index: Annotated[dict[str, str], NOT_OFFERED] = Field(default_factory=dict)
+    """Columns that were a data frame's index, with their types: they are its index again."""
+
     size_by: str | None = None
     """Column of numbers that sizes are in proportion to. Default: all marks are alike."""
 

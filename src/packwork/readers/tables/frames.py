@@ -9,10 +9,15 @@ from packwork.errors import RecipeError
 from packwork.readers.tables.delimited import MOST_ROWS
 
 
-def rows_of_frame(data: Any) -> list[dict[str, Any]]:
+def rows_of_frame(data: Any, *, has_row_numbers: bool = True) -> list[dict[str, Any]]:
     """Rows of a data frame (pandas, polars, pyarrow), a dict of columns, or dicts.
 
     An index of pandas that is more than numbers of rows becomes columns, as ``reset_index`` has it.
+
+    Parameters
+    ----------
+    has_row_numbers
+        Whether that holds of numbers of rows that were sorted or left out, too.
 
     Raises
     ------
@@ -31,7 +36,7 @@ def rows_of_frame(data: Any) -> list[dict[str, Any]]:
     if hasattr(data, "column_names") and hasattr(data, "to_pylist"):
         return [plain_row(row) for row in data.to_pylist()]
     if hasattr(data, "columns") and hasattr(data, "to_dict"):
-        return [plain_row(row) for row in _with_index(data).to_dict("records")]
+        return [plain_row(row) for row in _with_index(data, has_row_numbers).to_dict("records")]
     if isinstance(data, Mapping):
         if not all(_is_column(cells) for cells in data.values()):
             raise RecipeError("data", "use a list of cells for each column, all equally long")
@@ -58,13 +63,30 @@ def is_frame(data: Any) -> bool:
     return hasattr(data, "columns") and any(hasattr(data, way) for way in ways)
 
 
-def _with_index(frame: Any) -> Any:
+def index_of_frame(data: Any) -> dict[str, str]:
+    """Columns that were the index of a data frame of pandas, with their types; else none.
+
+    Examples
+    --------
+    >>> index_of_frame({"land": ["Peru"]})
+    {}
+    """
+    with_index = _with_index(data, has_row_numbers=True)
+    if with_index is data:
+        return {}
+    names = with_index.columns[: data.index.nlevels]
+    return {str(name): str(with_index[name].dtype) for name in names}
+
+
+def _with_index(frame: Any, has_row_numbers: bool) -> Any:
     """The frame with its index among the columns, unless that only counts the rows."""
     index: Any = getattr(frame, "index", None)
     if index is None or not hasattr(frame, "reset_index"):
         return frame
-    if type(index).__name__ == "RangeIndex" and index.name is None:
-        return frame
+    if index.name is None and getattr(index.dtype, "kind", "") in "iu":
+        counts = type(index).__name__ == "RangeIndex" and (index.start, index.step) == (0, 1)
+        if counts or not has_row_numbers:
+            return frame
     try:
         return frame.reset_index()
     except ValueError:

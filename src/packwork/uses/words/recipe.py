@@ -68,7 +68,7 @@ def _word_options(values: Mapping[str, Any]) -> WordOptions:
 def _plain_source(source: object) -> object:
     """Tables of other libraries as a dict: a Series, or the first two columns of a frame."""
     if is_frame(source):
-        rows = [tuple(row.values()) for row in rows_of_frame(source)]
+        rows = [tuple(row.values()) for row in rows_of_frame(source, has_row_numbers=False)]
         return {str(row[0]): row[1] for row in rows if len(row) > 1 and row[0] is not None}
     pairs = getattr(source, "items", None)
     if pairs is None or isinstance(source, Mapping):
