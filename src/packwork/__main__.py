@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import contextlib
-import logging
+# Python itself has loaded these; all else is loaded where Ctrl-C is one line.
 import os
-import signal
 import sys
 
 INTERRUPTED = 130
@@ -13,9 +11,11 @@ INTERRUPTED = 130
 
 def main() -> None:
     """Run the command line; Ctrl-C while it still loads is one line too."""
-    _leave_working_folder()
-    _log_warnings()
     try:
+        import signal
+
+        _leave_working_folder()
+        _log_warnings()
         from packwork.cli import app
         from packwork.cli.watch import WATCH
 
@@ -41,14 +41,19 @@ def _leave_working_folder() -> None:
     installed would be run in its place. Where this package itself lies there, it stays.
     """
     package = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))  # noqa: PTH120
-    with contextlib.suppress(OSError):  # a folder that has been deleted holds no modules
+    try:
         here = os.path.realpath(sys.path[0] or os.curdir)
-        if not sys.flags.safe_path and here == os.path.realpath(os.curdir) and here != package:
-            del sys.path[0]
+        is_working = here == os.path.realpath(os.curdir)
+    except OSError:
+        return  # a folder that has been deleted holds no modules
+    if is_working and not sys.flags.safe_path and here != package:
+        del sys.path[0]
 
 
 def _log_warnings() -> None:
     """Keep to the log what libraries warn of: a person can do nothing about it."""
+    import logging
+
     logging.captureWarnings(True)
     logging.getLogger().addHandler(logging.NullHandler())
 
@@ -60,8 +65,10 @@ def _end_stopped() -> None:
     Ctrl-C struck inside ``exec``, as data classes call it, Python would die of the signal.
     """
     for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError):
+        try:
             stream.flush()
+        except OSError:
+            continue
     os._exit(INTERRUPTED)
 
 

@@ -49,3 +49,14 @@ def test_ctrl_c_that_strikes_inside_exec_is_no_death_by_signal(folder: Path) -> 
     )
     assert run.returncode == 130
     assert run.stderr == "packwork: stopped before there was anything to write\n"
+
+
+def test_next_to_nothing_is_loaded_before_ctrl_c_is_one_line() -> None:
+    code = (
+        "import sys; before = set(sys.modules); import packwork.__main__; "
+        "print(*sorted(set(sys.modules) - before))"
+    )
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    loaded = set(run.stdout.split())
+    assert not loaded & {"logging", "re", "contextlib", "typing", "numpy", "signal"}
+    assert "packwork.__main__" in loaded

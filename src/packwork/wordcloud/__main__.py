@@ -2,12 +2,15 @@
 
 import sys
 
-from packwork.wordcloud.wordcloud_cli import run
-
 
 def main() -> None:
-    """Do what the command line asks."""
-    run(sys.argv[1:])
+    """Do what the command line asks; Ctrl-C is one line."""
+    try:
+        from packwork.wordcloud.wordcloud_cli import run
+
+        run(sys.argv[1:])
+    except KeyboardInterrupt:
+        sys.exit("packwork-wordcloud: stopped before there was anything to write")
 
 
 if __name__ == "__main__":
