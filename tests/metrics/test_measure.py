@@ -44,6 +44,15 @@ def test_ink_is_what_is_drawn_within_the_container(
     assert measure(layout).ink == pytest.approx(expected, rel=1e-12)
 
 
+def test_ink_with_its_holes_filled_needs_no_look(monkeypatch: pytest.MonkeyPatch) -> None:
+    layout = layout_of([drilled(0.5)], (30.0, 30, 4))
+    expected = measure(layout).ink
+    item = layout.items[0]
+    filled = replace(item, outline=Outline.from_rings(item.ink.solid_rings))
+    monkeypatch.setattr(shapely.Polygon, "covers", lambda *_: pytest.fail("it looked"))
+    assert measure(replace(layout, items=(filled,))).ink == pytest.approx(expected, rel=1e-12)
+
+
 def test_ink_that_leaves_its_outline_counts_once_where_it_meets_other_ink() -> None:
     wide = Item("wide", "wide", square(), box(-3, -1, 3, 1), FlatArt())
     layout = layout_of([wide, wide], (30.0, 30, 3), (40.0, 30, 3))

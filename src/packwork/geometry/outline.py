@@ -139,8 +139,8 @@ class Outline:
     @cached_property
     def bounds(self) -> tuple[float, float, float, float]:
         """Smallest upright box ``(left, top, right, bottom)``."""
-        low, high = self.points.min(axis=0), self.points.max(axis=0)
-        return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+        x, y = self.points.T.copy()  # in one piece each, which is faster
+        return float(x.min()), float(y.min()), float(x.max()), float(y.max())
 
     @cached_property
     def extent(self) -> float:
@@ -157,6 +157,11 @@ class Outline:
     def has_holes(self) -> bool:
         """Whether any ring is a hole."""
         return bool((self._ring_areas < 0).any())
+
+    @property
+    def solid_rings(self) -> list[FloatArray]:
+        """Those of the rings that are no holes."""
+        return [ring for ring, area in zip(self.rings, self._ring_areas, strict=True) if area > 0]
 
     @cached_property
     def region(self) -> Region:

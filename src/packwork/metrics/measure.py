@@ -137,6 +137,18 @@ def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
 def _area_inside(item: Item) -> float | None:
     """Area of an item's ink, if that lies in its outline."""
     ink, outline = item.ink.region, item.outline.region
-    if not (ink.is_valid and outline.is_valid and outline.covers(ink)):
+    if not (ink.is_valid and outline.is_valid):
         return None
-    return float(ink.area)
+    is_inside = _is_ink_with_filled_holes(item) or outline.covers(ink)
+    return float(ink.area) if is_inside else None
+
+
+def _is_ink_with_filled_holes(item: Item) -> bool:
+    """Whether an outline without holes has the very rings round the ink that the ink has.
+
+    Most words and icons are so, and where edges coincide to ask for cover takes a millisecond.
+    """
+    ink, outline = item.ink, item.outline
+    return not outline.has_holes and {r.tobytes() for r in ink.solid_rings} <= {
+        r.tobytes() for r in outline.rings
+    }

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from packwork.arrays import FloatArray
@@ -122,10 +124,15 @@ def between(colours: tuple[str, ...], share: float) -> str:
     >>> between(("#000000", "#ffffff"), 0.0), between(("#ff0000", "#ff0000"), 0.3)
     ('#000000', '#ff0000')
     """
-    labs = np.array([_TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour)) for colour in colours])
+    labs = _oklabs_of(colours)
     place = np.clip(share, 0.0, 1.0) * (len(colours) - 1)
     at = np.arange(len(colours))
     return _hex(_rgb(np.array([np.interp(place, at, labs[:, k]) for k in range(3)])))
+
+
+@lru_cache(16)
+def _oklabs_of(colours: tuple[str, ...]) -> FloatArray:
+    return np.array([oklab(colour) for colour in colours])
 
 
 def oklab(colour: str) -> FloatArray:

@@ -27,6 +27,7 @@ def differing_share(one: Outline, other: Outline) -> float:
 def test_a_word_of_clear_glyphs_is_their_union(text: str, monkeypatch: pytest.MonkeyPatch) -> None:
     quick = item_of(text)
     monkeypatch.setattr(lettering, "clear_ink", lambda *_: None)
+    monkeypatch.setattr(lettering, "_drawn_by", lettering._drawn_by.__wrapped__)
     slow = item_of(text)
     assert differing_share(quick.outline, slow.outline) < 1e-12
     assert differing_share(quick.ink, slow.ink) < 1e-12
@@ -47,3 +48,10 @@ def test_marks_that_touch_a_letter_do() -> None:
 def test_the_centre_is_that_of_the_region() -> None:
     outline = item_of("Tolkien").outline
     assert centre_of_area(outline) == pytest.approx(outline.centroid, abs=1e-9 * outline.extent)
+
+
+def test_words_are_remembered_by_what_the_font_holds() -> None:
+    first, again = (open_fonts([]).lettering(["honey"]) for _ in range(2))
+    assert again.covered is first.covered
+    other = open_fonts([]).lettering(["honeys"])
+    assert other.covered is not first.covered

@@ -79,6 +79,15 @@ def test_a_container_too_small_for_any_size_holds_nothing() -> None:
     assert len(put(smallest=100.0)[1].placed) == 0
 
 
+def test_what_is_larger_than_the_canvas_comes_down_to_it() -> None:
+    container = builtin_container("square")
+    asked = [Candidate(builtin_item("square").outline, 1e3)]
+    found = graded_fit(container, asked, 1, np.random.default_rng(1))
+    [outline] = [asked[0].outline.mapped(found.poses.matrix(0))]
+    assert container.outline.region.contains(outline.region)
+    assert outline.area > 0.8 * container.outline.area
+
+
 def test_sizes_end_at_the_least() -> None:
     assert sizes_down(1.0, 2.0) == []
     assert sizes_down(2.0, 2.0) == [2.0]

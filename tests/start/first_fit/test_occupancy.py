@@ -68,6 +68,24 @@ def test_the_best_place_is_that_of_a_look_at_all(seed: int, width: int) -> None:
     assert scores[row, column] == pytest.approx(score)
 
 
+@pytest.mark.parametrize("pull", [0.3, 5.0])
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_a_field_draws_to_where_it_is_worth_most(seed: int, pull: float) -> None:
+    free, mask = _random(seed, 70)
+    field = np.random.default_rng(seed).random(free.shape)
+    noise = np.zeros(free.shape)
+    place = Occupancy(free, REACH).best_place(_stencil(mask), noise, True, field, pull)
+    scores = {
+        (y, x): found + pull * field[y, x]
+        for y in range(free.shape[0])
+        for x in range(70)
+        if (found := _touching(mask, free, y, x)) is not None
+    }
+    assert place is not None
+    assert place[0] == pytest.approx(max(scores.values()))
+    assert scores[place[1:]] == pytest.approx(place[0])
+
+
 def test_what_is_put_meets_nothing_until_nothing_fits() -> None:
     free, mask = _random(5, 70)
     occupancy, left, count = Occupancy(free, REACH), free.copy(), 0

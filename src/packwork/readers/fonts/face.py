@@ -123,6 +123,7 @@ class Typeface:
         self._hb = hb
         self._font = hb.Font(face)
         self._known: dict[int, tuple[Segment, ...]] = {}
+        self._shaped: tuple[tuple[str, bool, str], Shaped] | None = None
         axes = {axis.tag: axis for axis in face.axis_infos}
         held = None
         if weight is not None and "wght" in axes:
@@ -184,6 +185,13 @@ class Typeface:
         UnfitError
             If they are more than ``MOST_GLYPHS``.
         """
+        key = run, is_leftward, language
+        # Whether a run can be drawn is asked before it is.
+        if self._shaped is None or self._shaped[0] != key:
+            self._shaped = key, self._shape(run, is_leftward, language)
+        return self._shaped[1]
+
+    def _shape(self, run: str, is_leftward: bool, language: str) -> Shaped:
         buffer = self._hb.Buffer()
         buffer.add_str(run)
         buffer.language = language
@@ -201,9 +209,14 @@ class Typeface:
             y -= place.y_advance
         return Shaped(tuple(found), x)
 
+    @cached_property
+    def has_pictures(self) -> bool:
+        """Whether glyphs may be pictures."""
+        return bool(self._font.face.has_color_png)
+
     def bitmap(self, number: int) -> Bitmap | None:
         """Picture of a glyph of a colour font; None if it has none."""
-        if not self._font.face.has_color_png:
+        if not self.has_pictures:
             return None
         blob, box = self._font.get_glyph_color_png(number), self._font.get_glyph_extents(number)
         if blob is None or len(blob) == 0 or box is None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import shapely
@@ -79,7 +80,7 @@ class GlyphPath:
     template: str
     points: FloatArray
 
-    @property
+    @cached_property
     def box(self) -> FloatArray:
         """``(2, 2)`` least and largest x, y; ``(0, 2)`` of a space."""
         if len(self.points) == 0:

@@ -13,7 +13,7 @@ from shapely import affinity
 from packwork.arrays import FloatArray
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.polygon import Region, united
-from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Shaped, Typeface
+from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Typeface
 from packwork.readers.fonts.glyph_ink import (
     ClearInk,
     GlyphInk,
@@ -24,11 +24,15 @@ from packwork.readers.fonts.glyph_ink import (
 )
 from packwork.readers.fonts.itemise import Piece, visual_order
 from packwork.readers.fonts.pictures import GlyphPicture, picture_of
+from packwork.readers.fonts.remembered import remembered_by_font
 from packwork.readers.unfit import UnfitError
 from packwork.scene.live_text import TextRun
 
 LINE_STEP = 1.0
 """Distance of the base lines of a word of several lines, in ems. Chosen."""
+
+MOST_WORDS = 1_024
+"""Words whose curves and outlines are remembered, each up to fifty kilobytes. Chosen."""
 
 _MARGIN = 0.5
 """Share of the allowed flattening that glyphs use up; the rest is rounding."""
@@ -97,21 +101,41 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
     shaped = [_line(line, k, units, language) for k, line in enumerate(lines)]
     runs = [run for line in shaped for run in line]
     pictures = tuple(picture for run in runs for picture in run.pictures())
+    faces = {id(run.face): run.face for run in runs}
+    if pictures or len(faces) > 1:
+        drawn = _drawn(runs, pictures)
+    else:
+        [face] = faces.values()
+        drawn = _drawn_by(face, tuple((run.glyphs, run.x, run.y) for run in runs))
+    return Lettering(drawn.covered, drawn.path, units, tuple(run.text for run in runs), pictures)
+
+
+@dataclass(frozen=True, eq=False)
+class _Drawn:
+    """What a word's letters cover, in ems, and its curves, as a lettering has them."""
+
+    covered: ClearInk | Region
+    path: str
+
+
+@remembered_by_font(MOST_WORDS)
+def _drawn_by(face: Typeface, runs: tuple[tuple[tuple[Glyph, ...], float, float], ...]) -> _Drawn:
+    """Glyphs of one font, each run with the place where it begins: words recur as letters do."""
+    return _drawn([_GlyphRun(face, glyphs, x, y, 1.0) for glyphs, x, y in runs], ())
+
+
+def _drawn(runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture]) -> _Drawn:
     boxes = [box for run in runs for box in run.boxes()]
     if not boxes and not pictures:
         raise UnfitError("has no outlines to draw it with")
-    tolerance = _tolerance(boxes)
-    return Lettering(
-        _covered(runs, pictures, tolerance, 1 / units),
-        "".join(run.path() for run in runs),
-        units,
-        tuple(run.text for run in runs),
-        pictures,
-    )
+    # The first run is in its font's own units.
+    size = 1 / runs[0].face.units
+    covered = _covered(runs, pictures, _tolerance(boxes), size)
+    return _Drawn(covered, "".join(run.path() for run in runs))
 
 
 def _covered(
-    runs: Sequence[_FontRun], pictures: Sequence[GlyphPicture], tolerance: float, size: float
+    runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture], tolerance: float, size: float
 ) -> ClearInk | Region:
     """What glyphs and pictures cover, ``size`` times as large; curves followed to ``tolerance``."""
     glyphs = [glyph for run in runs for glyph in run.inks(tolerance)]
@@ -129,32 +153,14 @@ def _covered(
 
 
 @dataclass(frozen=True)
-class _FontRun:
-    """A shaped piece at its place, in the word's units."""
+class _GlyphRun:
+    """Glyphs of one font at their place, in the word's units."""
 
-    setting: Setting
-    shaped: Shaped
+    face: Typeface
+    glyphs: tuple[Glyph, ...]
     x: float
     y: float
     scale: float
-
-    @property
-    def glyphs(self) -> tuple[Glyph, ...]:
-        return self.shaped.glyphs
-
-    @property
-    def text(self) -> TextRun:
-        piece, face = self.setting.piece, self.setting.face
-        return TextRun(
-            piece.text,
-            face.file,
-            self.x,
-            self.y,
-            face.units * self.scale,
-            tuple(glyph.x / face.units for glyph in self.glyphs),
-            self.shaped.advance / face.units,
-            piece.is_leftward,
-        )
 
     def path(self) -> str:
         """SVG path data of all glyphs."""
@@ -165,22 +171,20 @@ class _FontRun:
         return [path.box * self.scale + place for path, place in self._curves() if len(path.points)]
 
     def _curves(self) -> list[tuple[GlyphPath, tuple[float, float]]]:
-        face = self.setting.face
-        return [(glyph_path(face, glyph.number), self._place(glyph)) for glyph in self.glyphs]
+        return [(glyph_path(self.face, glyph.number), self._place(glyph)) for glyph in self.glyphs]
 
     def inks(self, tolerance: float) -> list[GlyphInk]:
         """What the glyphs cover about their origins, curves followed to ``tolerance``."""
-        face = self.setting.face
-        return [glyph_ink(face, glyph.number, tolerance / self.scale) for glyph in self.glyphs]
+        return [glyph_ink(self.face, glyph.number, tolerance / self.scale) for glyph in self.glyphs]
 
     def places(self) -> list[tuple[float, float]]:
         """Origins of the glyphs."""
         return [self._place(glyph) for glyph in self.glyphs]
 
     def pictures(self) -> list[GlyphPicture]:
-        face = self.setting.face
+        face = self.face
         found = []
-        for glyph in self.glyphs:
+        for glyph in self.glyphs if face.has_pictures else ():
             bitmap = None if face.drawing(glyph.number) else face.bitmap(glyph.number)
             if bitmap is not None:
                 found.append(picture_of(bitmap, self._place(glyph), self.scale))
@@ -196,6 +200,28 @@ class _FontRun:
         return self.x + glyph.x * self.scale, self.y + glyph.y * self.scale
 
 
+@dataclass(frozen=True)
+class _FontRun(_GlyphRun):
+    """The same with the text that it is."""
+
+    piece: Piece
+    advance: float
+
+    @property
+    def text(self) -> TextRun:
+        units = self.face.units
+        return TextRun(
+            self.piece.text,
+            self.face.file,
+            self.x,
+            self.y,
+            units * self.scale,
+            tuple(glyph.x / units for glyph in self.glyphs),
+            self.advance / units,
+            self.piece.is_leftward,
+        )
+
+
 def _line(line: Sequence[Setting], number: int, units: float, language: str) -> list[_FontRun]:
     """Runs of one line beside each other, centred about 0 by what they draw."""
     runs: dict[int, _FontRun] = {}
@@ -203,7 +229,8 @@ def _line(line: Sequence[Setting], number: int, units: float, language: str) -> 
     for k in visual_order([setting.piece for setting in line]):
         piece, face = line[k].piece, line[k].face
         shaped = face.shaped(piece.text, is_leftward=piece.is_leftward, language=language)
-        runs[k] = _FontRun(line[k], shaped, x, number * LINE_STEP * units, units / face.units)
+        y, scale = number * LINE_STEP * units, units / face.units
+        runs[k] = _FontRun(face, shaped.glyphs, x, y, scale, piece, shaped.advance)
         x += shaped.advance * runs[k].scale
     ends = [end for run in runs.values() for end in run.ends()]
     middle = float(np.round((min(ends) + max(ends)) / 2)) if ends else 0.0

@@ -6,6 +6,7 @@ import base64
 import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from shapely import affinity
@@ -17,7 +18,7 @@ from packwork.geometry.outline import Outline, centre_of_area
 from packwork.geometry.snapping import CLEFT
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.glyph_ink import ClearInk
-from packwork.readers.fonts.lettering import Lettering
+from packwork.readers.fonts.lettering import MOST_WORDS, Lettering
 from packwork.readers.fonts.pictures import GlyphPicture
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
@@ -189,13 +190,19 @@ def _placed(drawn: Lettering, holes: Holes) -> tuple[Outline, Outline, FloatArra
     """Outline and ink about the outline's centroid, and the map that brought them there."""
     covered = drawn.covered
     if isinstance(covered, ClearInk) and covered.clearance > CLEFT:
-        outline = covered.silhouette if holes == "fill" else covered.ink
-        x, y = centre_of_area(outline) * EM_PX
-        place = affine.similarity(-x, -y, 0.0, 1.0)
-        whole = affine.compose(place, affine.similarity(0.0, 0.0, 0.0, EM_PX))
-        return outline.mapped(whole), covered.ink.mapped(whole), place
+        return _placed_clear(covered, holes)
     region = affinity.scale(drawn.region, EM_PX, EM_PX, origin=(0, 0))
     return centred(clean_union(region), holes)
+
+
+@lru_cache(MOST_WORDS)
+def _placed_clear(covered: ClearInk, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
+    """The same of letters that stand clear of each other."""
+    outline = covered.silhouette if holes == "fill" else covered.ink
+    x, y = centre_of_area(outline) * EM_PX
+    place = affine.similarity(-x, -y, 0.0, 1.0)
+    whole = affine.compose(place, affine.similarity(0.0, 0.0, 0.0, EM_PX))
+    return outline.mapped(whole), covered.ink.mapped(whole), place
 
 
 def _art(drawn: Lettering, place: FloatArray) -> VectorArt:

@@ -63,51 +63,100 @@ def find_free(rows, runs, height, free):
 
 
 @kernel
-def best_touching(free, taken, margin, fringe, worth, origin, is_everywhere):
+def best_touching(free, taken, margin, fringe, worth, field, pull, origin, is_everywhere):
     """Return score, row and column of the free place whose fringe is taken most; -1 if none.
 
-    ``worth`` is added for the pixel that the stencil's origin comes to; minus infinity
-    forbids it. Unless ``is_everywhere``, only places beside one that is not free come into
-    question.
+    ``worth + pull * field`` is added for the pixel that the stencil's origin comes to; a worth of
+    minus infinity forbids it. Unless ``is_everywhere``, only places beside one that is not free
+    come into question.
     """
-    best, best_y, best_x = -np.inf, -1, -1
     height, words = free.shape
     width = taken.shape[1]
     flat = taken.ravel()
     zero = np.uint64(0)
-    for y in range(height):
-        for i in range(words):
-            word = free[y, i]
-            if word == zero:
-                continue
-            left = (word << ONE) | (free[y, i - 1] >> np.uint64(63) if i > 0 else zero)
-            right = (word >> ONE) | (free[y, i + 1] << np.uint64(63) if i + 1 < words else zero)
-            above = free[y - 1, i] if y > 0 else zero
-            below = free[y + 1, i] if y + 1 < height else zero
-            edge = word & ~(left & right & above & below)
-            if is_everywhere:
-                edge = word
-            bit = 0
-            while edge != zero:
-                while edge & ONE == zero:
+    best, best_y, best_x = -np.inf, -1, -1
+    # What touches nothing is worth no less than that, and what touches all one more at most.
+    least = -np.inf
+    for is_counted in (False, True):
+        for y in range(height):
+            for i in range(words):
+                word = free[y, i]
+                if word == zero:
+                    continue
+                edge = word if is_everywhere else _edge_of(free, y, i)
+                bit = 0
+                while edge != zero:
+                    while edge & ONE == zero:
+                        edge >>= ONE
+                        bit += 1
+                    x = 64 * i + bit
                     edge >>= ONE
                     bit += 1
-                x = 64 * i + bit
-                edge >>= ONE
-                bit += 1
-                row = min(max(y + origin[0], 0), height - 1)
-                column = min(max(x + origin[1], 0), worth.shape[1] - 1)
-                more = worth[row, column]
-                if more == -np.inf:
-                    continue
-                base = (y + margin) * width + x + margin
-                touched = 0
-                for k in range(len(fringe)):
-                    touched += flat[base + fringe[k]]
-                score = touched / len(fringe) + more
-                if best_y < 0 or score > best:
-                    best, best_y, best_x = score, y, x
+                    row = min(max(y + origin[0], 0), height - 1)
+                    column = min(max(x + origin[1], 0), worth.shape[1] - 1)
+                    more = worth[row, column]
+                    if pull != 0.0:
+                        more += pull * field[row, column]
+                    if not is_counted:
+                        least = max(least, more)
+                        continue
+                    if more == -np.inf or 1.0 + more < least:
+                        continue
+                    base = (y + margin) * width + x + margin
+                    touched = 0
+                    for k in range(len(fringe)):
+                        touched += flat[base + fringe[k]]
+                    score = touched / len(fringe) + more
+                    least = max(least, score)
+                    if best_y < 0 or score > best:
+                        best, best_y, best_x = score, y, x
     return best, best_y, best_x
+
+
+@helper
+def _edge_of(free, y, i):
+    """Return the free places of a word beside one that is not free."""
+    height, words = free.shape
+    zero = np.uint64(0)
+    word = free[y, i]
+    left = (word << ONE) | (free[y, i - 1] >> np.uint64(63) if i > 0 else zero)
+    right = (word >> ONE) | (free[y, i + 1] << np.uint64(63) if i + 1 < words else zero)
+    above = free[y - 1, i] if y > 0 else zero
+    below = free[y + 1, i] if y + 1 < height else zero
+    return word & ~(left & right & above & below)
+
+
+@kernel
+def grown(mask, wide, reach):
+    """Return a mask, ``wide`` pixels larger all round, of the pixels at most ``reach`` from one."""
+    height, width = mask.shape
+    near = np.zeros((height + 2 * wide, width + 2 * wide), np.bool_)
+    for y in range(height):
+        for x in range(width):
+            if not mask[y, x]:
+                continue
+            near[y + wide, x + wide] = True
+            if _is_amid(mask, y, x):
+                continue
+            for j in range(-wide, wide + 1):
+                for i in range(-wide, wide + 1):
+                    if i * i + j * j <= reach * reach:
+                        near[y + j + wide, x + i + wide] = True
+    return near
+
+
+@helper
+def _is_amid(mask, y, x):
+    """Return whether the four pixels round one are in the mask as well."""
+    height, width = mask.shape
+    return (
+        0 < y < height - 1
+        and 0 < x < width - 1
+        and mask[y - 1, x]
+        and mask[y + 1, x]
+        and mask[y, x - 1]
+        and mask[y, x + 1]
+    )
 
 
 @kernel
@@ -141,10 +190,7 @@ def fringe_of(mask, reach):
     far = reach * reach + reach
     for y in range(height):
         for x in range(width):
-            inner = 0 < y < height - 1 and 0 < x < width - 1
-            if not mask[y, x] or (
-                inner and mask[y - 1, x] and mask[y + 1, x] and mask[y, x - 1] and mask[y, x + 1]
-            ):
+            if not mask[y, x] or _is_amid(mask, y, x):
                 continue
             for j in range(-reach, reach + 1):
                 for i in range(-reach, reach + 1):

@@ -270,9 +270,8 @@ class _Fitting:
         """Which stencil of an item is to be put, and at what row and column."""
         is_everywhere = is_loose or self._homes[item] is not None or len(self._fields) > 0
         worth = self._worth(item)
-        if is_loose:
-            worth = worth + occupancy.clearance
-        tried = [occupancy.best_place(s, worth, is_everywhere) for s in stencils]
+        field = occupancy.clearance if is_loose else None
+        tried = [occupancy.best_place(s, worth, is_everywhere, field) for s in stencils]
         found = [(*place, which) for which, place in enumerate(tried) if place is not None]
         if not found:
             return None

@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from scipy import ndimage
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.fields.clearance import distance_inside
@@ -24,6 +23,7 @@ from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.occupancy import Occupancy
 from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all
 from packwork.start.first_poses import container_image
@@ -31,7 +31,7 @@ from packwork.start.first_poses import container_image
 _Pose: TypeAlias = tuple[float, float, float, float]
 """x, y, angle, scale."""
 
-PIXELS_EACH = 64
+PIXELS_EACH = 45
 """Pixels of the image's side for each item of a row of them. More waste less room between items and
 take longer. Tried."""
 
@@ -250,30 +250,37 @@ class _Grading:
 
     def _place(self, candidate: Candidate, scale: float) -> tuple[Stencil, int, int, float] | None:
         """Best place of an item of that scale, at the first of its angles that has one."""
-        worth, is_everywhere = self._worth(scale)
+        field, pull, is_everywhere = self._drawn(scale)
         for angle in candidate.angles:
-            posed = similarity(0.0, 0.0, angle, scale * self._px_per_cu)
-            stencil = cut_all({0: candidate.outline.mapped(posed)}, REACH)[0]
-            found = self._occupancy.best_place(stencil, worth, is_everywhere)
+            posed = candidate.outline.mapped(similarity(0.0, 0.0, angle, scale * self._px_per_cu))
+            if self._is_larger(posed):
+                continue
+            stencil = cut_all({0: posed}, REACH)[0]
+            found = self._occupancy.best_place(stencil, self._noise, is_everywhere, field, pull)
             if found is not None:
                 return stencil, found[1], found[2], angle
         return None
 
-    def _worth(self, scale: float) -> tuple[FloatArray, bool]:
-        """Score of each pixel for an item of that scale, and whether it is looked at everywhere."""
+    def _is_larger(self, outline_px: Outline) -> bool:
+        """Whether an outline is higher or wider than the image."""
+        left, top, right, bottom = outline_px.bounds
+        height, width = self._occupancy.shape
+        return bool(right - left > width or bottom - top > height)
+
+    def _drawn(self, scale: float) -> tuple[FloatArray, float, bool]:
+        """What draws an item of that scale, how much, and whether to places that touch nothing."""
         if self.is_loose:
             room = self._occupancy.clearance
-            return self._noise + ROOMY / max(float(room.max()), 1.0) * room, True
+            return room, ROOMY / max(self._occupancy.widest, 1.0), True
         covered = 1 - self._left / self._room
         inward = INWARD * min(scale / (self._first or scale), 1.0) * max(1 - covered / COVERED, 0)
         is_drawn = inward > DRAWN
-        return (self._noise + inward * self._inward if is_drawn else self._noise), is_drawn
+        return self._inward, inward if is_drawn else 0.0, is_drawn
 
     def _take(self, stencil: Stencil, row: int, column: int) -> None:
         """Take the pixels of a stencil and those round it that are nearer than the margin."""
         wide = math.ceil(self._reach)
-        free = np.pad(~stencil.mask, wide, constant_values=True)
-        near = ndimage.distance_transform_edt(free) <= self._reach
+        near = _kernels.grown(stencil.mask, wide, self._reach)
         origin = (stencil.origin[0] + wide, stencil.origin[1] + wide)
         margin = Stencil(near, origin, stencil.runs, stencil.fringe)
         self._occupancy.take(margin, row - wide, column - wide)

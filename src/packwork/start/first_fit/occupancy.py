@@ -56,6 +56,8 @@ class Occupancy:
         self._rows = np.full((height, LEVELS, self._words), _kernels.ALL, dtype=np.uint64)
         self._free = np.empty((height, self._words), dtype=np.uint64)
         self._clearance: FloatArray | None = None
+        self.widest = 0.0
+        """Largest clearance, once that has been asked for."""
         self._refresh(0, height)
 
     def _refresh(self, top: int, bottom: int) -> None:
@@ -67,7 +69,12 @@ class Occupancy:
         _kernels.smear(self._rows, top, bottom)
 
     def best_place(
-        self, stencil: Stencil, worth: FloatArray, is_everywhere: bool = False
+        self,
+        stencil: Stencil,
+        worth: FloatArray,
+        is_everywhere: bool = False,
+        field: FloatArray | None = None,
+        pull: float = 1.0,
     ) -> tuple[float, int, int] | None:
         """Score, row and column for the stencil's box where it touches most; None if none.
 
@@ -78,6 +85,8 @@ class Occupancy:
             minus infinity where it may not.
         is_everywhere
             Look at places that touch nothing, too.
+        field, pull
+            ``(rows, columns)`` that is added as well, so many times; None for none.
         """
         height = stencil.mask.shape[0]
         _kernels.find_free(self._rows, stencil.runs, height, self._free)
@@ -87,8 +96,10 @@ class Occupancy:
         steps = fringe[:, 0] * self.taken.shape[1] + fringe[:, 1]
         origin = np.array(stencil.origin)
         score, row, column = _kernels.best_touching(
-            self._free, self.taken, self._margin, steps, worth, origin, is_everywhere
-        )
+            self._free, self.taken, self._margin, steps, worth,
+            worth if field is None else field, 0.0 if field is None else float(pull),
+            origin, is_everywhere,
+        )  # fmt: skip
         return (float(score), int(row), int(column)) if row >= 0 else None
 
     def take(self, stencil: Stencil, row: int, column: int) -> None:
@@ -113,11 +124,12 @@ class Occupancy:
             height, width = self.shape
             m = self._margin
             self._clearance = distance_inside(self.taken[m : m + height, m : m + width] == 0)
+            self.widest = float(self._clearance.max())
         return self._clearance
 
     def _lessen(self, clearance: FloatArray, top: int, bottom: int, left: int, right: int) -> None:
         """Clearance round a box in which pixels have been taken."""
-        reach = math.ceil(clearance.max())
+        reach = math.ceil(self.widest)
         rows = slice(max(top - reach, 0), min(bottom + reach, self.shape[0]))
         columns = slice(max(left - reach, 0), min(right + reach, self.shape[1]))
         m = self._margin
@@ -126,3 +138,4 @@ class Occupancy:
         # Not ``distance_inside``: the window's own edge is no edge.
         away = ndimage.distance_transform_edt(near == 0) - 0.5
         np.minimum(window, np.maximum(away, 0.0), out=window)
+        self.widest = float(clearance.max())

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+import math
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
 import numpy as np
 
 from packwork.arrays import BoolArray, IntArray
-from packwork.geometry.outline import Outline, joined
+from packwork.geometry.outline import Outline
 from packwork.raster.coverage import Rasteriser
 from packwork.start.first_fit import _kernels
 
@@ -17,9 +18,6 @@ Key = TypeVar("Key", bound=Hashable)
 
 TOUCHED = 1e-3
 """Coverage from which on a pixel counts as taken: those that are only grazed are not."""
-
-PAGE_PX = 4_000
-"""Rows of an image of stencils, but for the last of them. Chosen: images have a largest side."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,34 +60,19 @@ def cut_all(outlines_px: Mapping[Key, Outline], reach: int) -> dict[Key, Stencil
     >>> one.mask.tolist(), one.origin, len(one.fringe)
     ([[True, True, True], [True, True, True]], (1, 1), 14)
     """
-    outlines = list(outlines_px.values())
-    boxes = np.array([outline.bounds for outline in outlines]).reshape(-1, 4)
-    low = np.floor(boxes[:, :2]).astype(np.int64)
-    size = np.maximum(np.ceil(boxes[:, 2:]).astype(np.int64) - low, 1)
-    page = np.cumsum(size[:, 1]) // PAGE_PX
-    found: list[Stencil] = []
-    for number in np.unique(page):
-        some = np.flatnonzero(page == number)
-        masks = _masks([outlines[k] for k in some], low[some], size[some])
-        for k, mask in zip(some, masks, strict=True):
-            runs = _kernels.runs_of(mask)
-            runs = runs[np.argsort(-runs[:, 2], kind="stable")]
-            origin = (-int(low[k, 1]), -int(low[k, 0]))
-            found.append(Stencil(mask, origin, runs, _kernels.fringe_of(mask, reach)))
-    return dict(zip(outlines_px, found, strict=True))
+    return {key: _cut(outline, reach) for key, outline in outlines_px.items()}
 
 
-def _masks(outlines_px: Sequence[Outline], low: IntArray, size: IntArray) -> Iterator[BoolArray]:
-    """Pixels that outlines touch, rendered in one image, each below the one before."""
-    below = np.concatenate([[0], np.cumsum(size[:, 1])])
-    points, starts = joined(outlines_px)
-    shift = np.column_stack([-low[:, 0], below[:-1] - low[:, 1]])
-    counts = [len(outline.points) for outline in outlines_px]
-    rasteriser = Rasteriser((int(below[-1]), int(size[:, 0].max())))
-    rasteriser.sweep(points + np.repeat(shift, counts, axis=0), starts)
-    taken = rasteriser.density() > TOUCHED
-    for top, (columns, rows) in zip(below[:-1], size, strict=True):
-        mask = taken[top : top + rows, :columns].copy()
-        if not mask.any():
-            mask[rows // 2, columns // 2] = True
-        yield mask
+def _cut(outline_px: Outline, reach: int) -> Stencil:
+    """Stencil of one outline."""
+    left, top, right, bottom = outline_px.bounds
+    column, row = math.floor(left), math.floor(top)
+    width, height = max(math.ceil(right) - column, 1), max(math.ceil(bottom) - row, 1)
+    rasteriser = Rasteriser((height, width))
+    rasteriser.sweep(outline_px.points - (column, row), outline_px.starts)
+    mask = rasteriser.density() > TOUCHED
+    if not mask.any():
+        mask[height // 2, width // 2] = True
+    runs = _kernels.runs_of(mask)
+    runs = runs[np.argsort(-runs[:, 2], kind="stable")]
+    return Stencil(mask, (-row, -column), runs, _kernels.fringe_of(mask, reach))
