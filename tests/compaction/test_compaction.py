@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
+
 import numpy as np
 import pytest
+import shapely
 from hypothesis import given, settings
+from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Arrangement
@@ -16,6 +20,7 @@ from packwork.compaction.outer_simplify import inner_simplified, outer_simplifie
 from packwork.compaction.relocate_stuck import relocate
 from packwork.compaction.separate import separate, separate_evenly
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import union
 from packwork.readers.container import read_container
 from scenes import box, disc, square, star
 from strategies import generators, star_rings
@@ -151,6 +156,32 @@ def test_a_container_of_very_many_vertices_is_simplified_to_its_safe_side(
     fewer = inner_simplified(region, 0.02)
     assert region.covers(fewer)
     assert fewer.area > 0.97 * region.area
+
+
+def test_a_container_of_very_many_parts_keeps_those_of_few_vertices(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    left = np.arange(40.0)
+    hairs = list(shapely.box(left, 0.0, left + 0.01, 40.0))
+    region = shapely.MultiPolygon([*hairs, shapely.Point(60, 20).buffer(5.0, quad_segs=100)])
+    monkeypatch.setattr("packwork.compaction.outer_simplify.MANY_PARTS", 40)
+    united: list[int] = []
+    monkeypatch.setattr("packwork.compaction.outer_simplify.union", as_counted(united))
+    fewer = inner_simplified(region, 0.02)
+    assert region.covers(fewer)
+    assert fewer.area > 0.99 * region.area
+    assert shapely.get_num_coordinates(fewer) < shapely.get_num_coordinates(region) - 200
+    assert united == [1]
+
+
+def as_counted(united: list[int]) -> Callable[[Sequence[Polygon]], Polygon]:
+    """Union of regions, with how many they are."""
+
+    def counted(parts: Sequence[Polygon]) -> Polygon:
+        united.append(len(parts))
+        return union(parts)
+
+    return counted
 
 
 def test_the_largest_item_gets_the_largest_void() -> None:

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -258,3 +259,22 @@ def test_many_items_go_in_blocks() -> None:
 def test_options_without_meaning_are_refused(wrong: dict[str, object]) -> None:
     with pytest.raises(ValidationError):
         FinishOptions(**wrong)
+
+
+def test_steps_go_by_items_that_are_far_smaller_than_their_shares(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Else each looks at all edges of a spiral that lie within a share of the whole."""
+    trusts: list[float] = []
+
+    def noted(*given: object) -> bool:
+        trusts.append(float(str(given[3])))
+        return False
+
+    monkeypatch.setattr(sys.modules["packwork.finish.finish"], "compact", noted)
+    container = square_container(100.0)
+    for scale in (0.01, 10.0):
+        start = poses([20, 20, 80, 80], [20, 80, 20, 80], scale=scale)
+        finish(container, [square()] * 4, start, FAST)
+        assert max(trusts) <= 2.5 * scale
+        trusts.clear()

@@ -36,6 +36,12 @@ FIRST_TRUST, LAST_TRUST = 0.08, 0.003
 the container. A larger first one lets items pass each other and fails more checks, a
 smaller last one gains what is not seen. Tried."""
 
+SPARSE = 16.0
+"""Side of an item's share of the container, in radii of the usual item, above which steps go by
+the items: in a spiral of thin lines a share is a hundred turns wide. Larger looks at thousands of
+edges that no item comes near, smaller lets small items in a large container move little. Chosen:
+in fills it is 1 to 3."""
+
 REFINING_TRUST = 0.03
 """The same of the first round where a clean layout is refined. Larger moves what lies well,
 smaller gains less. Tried."""
@@ -166,7 +172,7 @@ class _Finish:
         self.rounds = 0
         self._is_trying = False
         self._planned = options.rounds * (1 if options.sizes == "free" else COMMON_ROUNDS)
-        self._spacing = float(np.sqrt(self._area / len(poses)))
+        self._share = float(np.sqrt(self._area / len(poses)))
         own = np.array([outline.area for outline in outlines])
         self._sizing = sizing_of(poses, own * poses.scale**2, options)
         self._pulling = pulling_of(forces, self._sizing)
@@ -221,6 +227,11 @@ class _Finish:
     def undersized(self) -> tuple[int, ...]:
         """Items that are smaller than they should be."""
         return self._sizing.undersized(self.arrangement.places[:, 3])
+
+    @property
+    def _spacing(self) -> float:
+        """Side of an item's share of the container; less where items are far smaller than that."""
+        return min(self._share, SPARSE * float(np.median(self.arrangement.radii)))
 
     @property
     def _lengths(self) -> Lengths:

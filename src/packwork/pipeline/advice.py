@@ -8,6 +8,7 @@ from packwork.metrics.shape import ShapeMetrics
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.plan.plan import VoidPlan
+from packwork.pipeline.widest import lines_width
 from packwork.scene.layout import Layout
 
 MOST_BARE = 0.05
@@ -21,10 +22,6 @@ twelve icons (0.88), smaller passes a guitar without its head (0.72). By eye, of
 ITEMS_REACH = 0.85
 """Share of a container that smaller copies of items come to cover. Larger is not always reached,
 and then counts as not met. Tried."""
-
-LINES = 0.005
-"""Mean width of a container, as a share of the canvas's side, below which it is but lines: what
-fits is hardly to be seen. Larger blames wrought letters, smaller passes spirals. Chosen."""
 
 CLEARLY_MORE = 1.15
 """How many times as many items must be needed for more of them to be the advice. Chosen."""
@@ -40,11 +37,11 @@ def advice(job: Job, layout: Layout, seen: ShapeMetrics) -> tuple[str, ...]:
 
 def _wider(job: Job) -> str | None:
     """What would do where the container is but lines; None where it is more."""
-    outline, unit = job.container.outline, job.container.unit
-    width = 2 * outline.area / outline.region.length
-    if width > LINES * job.container.side:
+    width = lines_width(job.container)
+    if width is None:
         return None
-    return f"it is lines {width:.2g} {unit} wide; wider ones, or what they enclose, would show"
+    what = f"it is lines {width:.2g} {job.container.unit} wide"
+    return f"{what}; wider ones, or what they enclose, would show"
 
 
 def _poor(seen: ShapeMetrics) -> str:

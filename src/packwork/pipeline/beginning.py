@@ -14,7 +14,7 @@ from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.earlier import new_items, who_is_who
-from packwork.pipeline.first_places import first_places, needs_levels
+from packwork.pipeline.first_places import first_places, needs_levels, places_along_thread
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.limits import check_poses, held_to, item_limits, pinned_scales
@@ -139,6 +139,10 @@ class _Start:
             self._nominal = own.poses.scale
             return self._beginning(own.poses, "first-fit", own.limits, is_tight=True)
         angles = first_angles(job, self._rng)
+        thread = places_along_thread(job, self._region, outlines, self._nominal, angles, self._rng)
+        if thread is not None:
+            poses, self._nominal = thread
+            return self._beginning(poses, "erosion", Limits.free(len(poses)), is_tight=True)
         limits, scales = self._limits(angles)
         first = first_places(
             job, self._region, outlines, scales, angles, limits, self._rng, forces, stop

@@ -19,15 +19,21 @@ from packwork.progress import Stop, never, until_over
 from packwork.scene.container import Container
 from packwork.scene.leaning import turn_sides
 from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
 from packwork.start.angles import spread_angles
+from packwork.start.erosion import is_thread, scales_within, spread_along
 from packwork.start.first_fit.first_fit import first_fit
-from packwork.start.first_poses import FirstPoses, first_poses
+from packwork.start.first_poses import FirstPoses, disc_radii, first_poses
 
 ATTEMPTS = {"draft": 1, "normal": 4, "best": 24}
 """Orders tried for each size, by effort. More find a little more, ever less so. Tried."""
 
 ANGLES, ANY_ANGLES = 5, 8
 """Angles tried for an item that may turn within a limit, and for one that may turn any way."""
+
+SNUG = 0.9
+"""Radius of the disc round an item in a thread over the one that fits there. Larger has no room
+for the gap, smaller has farther to grow. Chosen."""
 
 TIME_SHARE = 0.3
 """Share of the time left that it may take, where one was given. Chosen."""
@@ -77,6 +83,33 @@ def first_places(
         if poses is not None:
             return FirstPoses(poses, "first-fit")
     return first_poses(container, outlines, scales, angles, plan.start_options(), rng, limits)
+
+
+def places_along_thread(
+    job: Job, container: Container, outlines: Sequence[Outline], nominal: FloatArray,
+    angles: FloatArray, rng: np.random.Generator,
+) -> tuple[Poses, FloatArray] | None:  # fmt: skip
+    """Poses in a container that is a thread to its items, and their typical scales; else None.
+
+    No image of the levels shows such a container, and items of usual sizes have no place in it.
+
+    Parameters
+    ----------
+    nominal
+        ``(n,)`` scales that weights ask for; the typical ones are in these proportions.
+    """
+    plan, forces = job.plan, job.forces
+    is_told = plan.method or job.is_limited or forces.acts or needs_levels(job, forces)
+    if is_told or plan.sizes == "fixed":
+        return None
+    if not is_thread(container.outline, disc_radii(outlines, nominal)):
+        return None
+    found = spread_along(container.outline, len(outlines), rng)
+    if found is None:
+        return None
+    room = SNUG * found.radius - (plan.gap + HAIR * job.container.side) / 2
+    scales, typical = scales_within(outlines, nominal, room, is_common=plan.sizes == "shared")
+    return Poses(found.x, found.y, angles, scales), typical
 
 
 def needs_levels(job: Job, forces: Forces) -> bool:

@@ -12,7 +12,7 @@ from packwork.finish.finished import Finished
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import pinned_scales
-from packwork.pipeline.widest import widest_cu
+from packwork.pipeline.widest import lines_width, widest_cu
 from packwork.scene.layout import Layout
 
 WIDEST_TOLERANCE = 0.01
@@ -87,10 +87,11 @@ def specks(layout: Layout) -> tuple[str, ...]:
     names = enumerated(list(dict.fromkeys(layout.items[k].name for k in order)))
     unit = layout.container.unit
     many = number_of(len(small), "item is", "items are")
-    return (
-        f"{many} too small to be seen ({names}: {sizes[order[0]]:.2g} {unit} wide); "
-        "weights that differ less, fewer items or --smallest for words would do",
-    )
+    lines = lines_width(layout.container)
+    remedy = "weights that differ less, fewer items or --smallest for words would do"
+    if lines is not None:
+        remedy = f"the container is lines {lines:.2g} {unit} wide; wider ones would do"
+    return (f"{many} too small to be seen ({names}: {sizes[order[0]]:.2g} {unit} wide); {remedy}",)
 
 
 def _percent(share: float) -> str:

@@ -8,6 +8,7 @@ import shapely
 from packwork.fields.clearance import distance_inside
 from packwork.geometry.outline import Outline
 from packwork.raster.membership import centre_count
+from packwork.scene.container import Container
 
 THIN = 5e-4
 """Mean half width of a region (area over perimeter), as a share of its extent, below which a
@@ -20,6 +21,23 @@ RESOLUTION = 1_000
 a pixel is seen, and the exact search is no finer."""
 
 _WIDE = 1.5
+
+LINES = 0.005
+"""Mean width of a container, as a share of the canvas's side, below which it is but lines: what
+fits is hardly to be seen. Larger blames wrought letters, smaller passes spirals. Chosen."""
+
+
+def lines_width(container: Container) -> float | None:
+    """Mean width of a container that is but lines, canvas units; None of one that is more.
+
+    Examples
+    --------
+    >>> hair = Outline.from_rings([np.array([[0.0, 0], [90, 0], [90, 0.1], [0, 0.1]])])
+    >>> round(lines_width(Container("hair", "", hair, 100.0, 100.0)), 3)
+    0.1
+    """
+    width = 2 * container.outline.area / container.outline.region.length
+    return float(width) if width <= LINES * container.side else None
 
 
 def widest_cu(outline: Outline, tolerance: float = 0.0) -> float:

@@ -8,7 +8,7 @@ from pydantic import Field
 
 from packwork.options import Options
 
-Placing: TypeAlias = Literal["distance-field", "medial-axis", "scatter", "first-fit"]
+Placing: TypeAlias = Literal["distance-field", "medial-axis", "scatter", "first-fit", "erosion"]
 """Ways to find first places."""
 
 

@@ -20,6 +20,7 @@ from packwork.errors import RecipeError
 from packwork.geometry.affine import similarity
 from packwork.pipeline.first_places import needs_levels
 from packwork.pipeline.job import Job
+from packwork.pipeline.widest import lines_width
 from packwork.progress import Stop, never
 from packwork.readers.words.items import EM_PX
 from packwork.recipe.rules import Rotation
@@ -96,8 +97,18 @@ def graded_places(job: Job, letters: Letters, stop: Stop = never) -> Places:
             break
     _, found = max(tried, key=lambda one: one[0])
     if len(found.placed) == 0:
-        raise RecipeError("sizes", "graded finds no place for any word in this container")
+        raise RecipeError("container", _no_place(job))
     return words.places(found, letters, job.plan.rotation)
+
+
+def _no_place(job: Job) -> str:
+    """Why no word was placed, and what would do."""
+    width = lines_width(job.container)
+    said = f"{job.container.source} has no place for any word at a size that could be read"
+    if width is None:
+        return f"{said}; use a larger canvas, or fewer words"
+    unit = job.container.unit
+    return f"{said}: it is lines {width:.2g} {unit} wide; use wider ones, or what they enclose"
 
 
 def can_give_way(job: Job) -> bool:
