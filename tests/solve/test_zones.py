@@ -35,6 +35,12 @@ PX_PER_CU = 2.0
 ZONE = box(20, 30, 60, 70)
 
 
+@pytest.mark.parametrize("side", [1e-4, 0.01, 0.1])
+def test_a_zone_thinner_than_a_pixel_has_room(side: float) -> None:
+    thin = Zone(box(20, 30, 20 + side, 30 + side), np.array([0]))
+    assert ZonePull(thin, [star()], (50, 50), 0.5).room.any()
+
+
 def pull(items: list[int], outlines: list) -> ZonePull:
     return ZonePull(Zone(ZONE, np.array(items)), outlines, (200, 200), PX_PER_CU)
 

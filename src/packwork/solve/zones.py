@@ -51,8 +51,10 @@ class ZonePull:
         """Per pixel of the level, the share outside the zone."""
         self._blank = np.empty_like(inside)
         self._recall = _recall(zone, shape, px_per_cu)
-        self.room: BoolArray = inside > 0.5
-        """Pixels of the level that belong to the zone."""
+        most = float(inside.max())
+        self.room: BoolArray = inside > 0.5 if most > 0.5 else inside >= most / 2
+        """Pixels of the level that belong to the zone: of one thinner than half a pixel, those where
+        it is thickest."""
 
     def add(self, by_pose: FloatArray, poses: Poses, price: float) -> None:
         """Add the derivatives of the zone's items to those of all, ``(n, 5)``.
