@@ -48,7 +48,9 @@ def test_placed_items_are_listed(layout: pw.Layout) -> None:
 def test_nothing_of_a_layout_can_be_changed(layout: pw.Layout) -> None:
     again = pickle.loads(pickle.dumps(copy.deepcopy(layout)))  # noqa: S301
     for one in (layout, again):
-        for array in (one.poses.x, one.poses.stretch, one.weights):
+        outlines = (one.outlines[0], one.inks[0], one.items[0].outline, one.container.outline)
+        points = [outline.points for outline in outlines]
+        for array in (one.poses.x, one.poses.stretch, one.weights, *points):
             with pytest.raises(ValueError, match="read-only"):
                 array[0] = 1.0
         for table in (one.metrics, one.metrics["exact"], one.manifest, one.manifest["recipe"]):

@@ -101,6 +101,13 @@ def test_a_bad_name_in_a_pool_leaves_the_other_results(start: str) -> None:
         assert square.result(timeout=120) == again.result(timeout=120) > 0
 
 
+def test_a_bad_name_ends_the_map_of_a_pool() -> None:
+    with multiprocessing.get_context("spawn").Pool(1) as pool:
+        with pytest.raises(ReadError, match=r"^sqare: there is no such file"):
+            pool.map_async(_area, ["square", "sqare"], chunksize=1).get(timeout=120)
+        assert pool.map_async(_area, ["square"]).get(timeout=120)[0] > 0
+
+
 @pytest.mark.parametrize(
     ("options", "said"),
     [

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -12,7 +14,8 @@ import pytest
 import packwork
 from packwork.api.verbs import fill
 
-PAGE = Path(__file__).parents[1] / "docs" / "python.md"
+ROOT = Path(__file__).parents[1]
+PAGE = ROOT / "docs" / "python.md"
 
 
 def blocks(*kinds: str) -> str:
@@ -31,7 +34,9 @@ def names(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
 
 def test_every_block_is_one_that_a_test_runs() -> None:
     fences = re.findall(r"^```(.*)$", PAGE.read_text(encoding="utf-8"), re.MULTILINE)
-    assert set(fences) == {"python", "python geopandas", "python torch", ""}
+    assert set(fences) == {
+        "python", "python geopandas", "python torch", "python types", "",
+    }  # fmt: skip
 
 
 def test_the_page_runs(names: dict[str, Any], tmp_path: Path) -> None:
@@ -43,6 +48,19 @@ def test_the_page_runs(names: dict[str, Any], tmp_path: Path) -> None:
     assert names["higher"].metrics["EA"] > 0
     assert names["layout"].manifest["ending"]
     assert 0 < names["watch"].covered < 1
+
+
+def test_mypy_says_what_the_page_says(tmp_path: Path) -> None:
+    pytest.importorskip("mypy")
+    head = 'import packwork as pw\nlayout = pw.fill("heart")\n'
+    lines = (head + blocks("python types")).strip().splitlines()
+    (tmp_path / "page.py").write_text("\n".join(lines), encoding="utf-8")
+    command = [sys.executable, "-m", "mypy", "--strict", str(tmp_path / "page.py")]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False)
+    errors = re.findall(r"page\.py:(\d+): error: (.*)", done.stdout)
+    assert [int(number) for number, _ in errors] == list(range(3, len(lines) + 1)), done.stdout
+    for number, said in errors:
+        assert lines[int(number) - 1].partition("  # ")[2] in said
 
 
 def test_the_page_runs_with_geopandas(names: dict[str, Any]) -> None:

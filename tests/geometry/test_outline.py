@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from typing import Any
 
 import numpy as np
@@ -53,6 +55,17 @@ def test_rings_of_an_outline() -> None:
     assert len(outline.rings) == 5
     assert np.shares_memory(outline.rings[1], outline.points)
     assert sum(len(r) for r in outline.rings) == len(outline.points) == outline.starts[-1]
+
+
+def test_points_are_read_only() -> None:
+    outline = Outline.from_region(ISLANDS)
+    assert len(outline.rings) == 5
+    again = pickle.loads(pickle.dumps(outline))  # noqa: S301
+    for one in (outline, again, copy.deepcopy(outline), outline.mapped(similarity(1, 2, 0, 3))):
+        for points in (one.points, one.rings[2]):
+            with pytest.raises(ValueError, match="read-only"):
+                points[0] = 1.0
+        assert np.shares_memory(one.rings[1], one.points)
 
 
 def test_measures_of_a_square() -> None:

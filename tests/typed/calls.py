@@ -22,6 +22,8 @@ def right(names: list[str], weights: dict[str, float], turns: list[int]) -> None
     pw.fill("heart", losses={"overlap": 2.0, far: 1.0}, target_coverage="94%", levels=(50, 200))
     pw.fill("heart", losses={"overlap": 2.0}, effort="best", time=9, canvas=300, record=True)
     pw.fill("heart", rules=[{"items": "star", "count": 3, "pin": {"x": "50%", "size": 30}}])
+    pw.fill("heart", history=True)
+    pw.photos("heart", "sea.jpg", record=True, history=10)
     pw.words("heart", weights, fonts="own.ttf", color_by=lambda word: None, background="ivory")
     pw.words("heart", "a text", fonts=names, stopwords={"a", "the"}, largest="48pt")
     pw.photos("heart", ["sea.jpg"], shape="rounded:20%", edge="crop", least_dpi=150)
@@ -37,6 +39,10 @@ def right(names: list[str], weights: dict[str, float], turns: list[int]) -> None
     assert_type(pw.read_items("star"), list[pw.Item])
     assert_type(pw.read_container("heart"), pw.Container)
     assert_type(pw.__version__, str)
+    assert_type(layout.history, pw.History | None)
+    assert_type(pw.measure(layout), pw.Metrics)
+    assert_type(pw.finish(layout), pw.Layout)
+    assert_type([placed.name for placed in layout], list[str])
 
 
 def far(density: npt.NDArray[Any], container: npt.NDArray[Any]) -> pw.Term:
@@ -53,6 +59,9 @@ def wrong(layout: pw.Layout) -> None:
     pw.fill("heart", rules=[{"items": "star", "cuont": 3}])  # wrong
     pw.fill("heart", rules=[{"count": 3}])  # wrong
     pw.fill("heart", 7)  # wrong
+    pw.fill("heart", history="all")  # wrong
+    pw.fill("heart", observer=3)  # wrong
+    pw.finish("heart")  # wrong
     pw.fill(None)  # wrong
     pw.words("heart", "a text", stretch=1.5)  # wrong
     pw.words("heart", "a text", case="title")  # wrong

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import os
 import re
 import shutil
 import subprocess
@@ -56,7 +57,9 @@ def test_mypy_refuses_what_is_wrong_and_nothing_else() -> None:
 
 
 def test_pyright_refuses_what_is_wrong_and_nothing_else(tmp_path: Path) -> None:
-    name = next((name for name in ("pyright", "basedpyright") if shutil.which(name)), None)
+    places = os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")])
+    found = (shutil.which(name, path=places) for name in ("basedpyright", "pyright"))
+    name = next(filter(None, found), None)
     if name is None:
         pytest.skip("pyright is not installed")
     asked = tmp_path / "pyrightconfig.json"

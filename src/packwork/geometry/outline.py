@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -30,7 +30,7 @@ class Outline:
     Parameters
     ----------
     points
-        ``(n, 2)`` vertices of all rings, one after another, rings unclosed.
+        ``(n, 2)`` vertices of all rings, one after another, rings unclosed; read-only.
     starts
         Index of each ring's first vertex, and ``n`` at the end.
 
@@ -46,10 +46,15 @@ class Outline:
 
     def __post_init__(self) -> None:
         points = as_points(self.points)
-        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "points", _still(points))
         object.__setattr__(self, "starts", as_starts(self.starts, len(points)))
         if len(points) < 3:
             raise ShapeError("an outline needs at least three points")
+
+    def __setstate__(self, state: Mapping[str, Any]) -> None:
+        # Arrays come out of a pickle as if they could be changed; rings are views of the points.
+        kept = {name: value for name, value in state.items() if name != "rings"}
+        self.__dict__.update(kept | {"points": _still(kept["points"])})
 
     @classmethod
     def from_rings(cls, rings: Sequence[FloatArray]) -> Outline:
@@ -196,6 +201,13 @@ class Outline:
     def without_holes(self) -> Outline:
         """Silhouette: every hole filled, parts that lay in holes absorbed."""
         return Outline.from_region(silhouette(self.region))
+
+
+def _still(points: FloatArray) -> FloatArray:
+    """The same points ``(n, 2)``, in any unit, that nobody changes through this array."""
+    seen = points.view()
+    seen.flags.writeable = False
+    return seen
 
 
 def centre_of_area(outline: Outline) -> FloatArray:

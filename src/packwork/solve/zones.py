@@ -53,8 +53,8 @@ class ZonePull:
         self._recall = _recall(zone, shape, px_per_cu)
         most = float(inside.max())
         self.room: BoolArray = inside > 0.5 if most > 0.5 else inside >= most / 2
-        """Pixels of the level that belong to the zone: of one thinner than half a pixel, those where
-        it is thickest."""
+        """Pixels of the level that belong to the zone; of one thinner than half a pixel, where it
+        is thickest."""
 
     def add(self, by_pose: FloatArray, poses: Poses, price: float) -> None:
         """Add the derivatives of the zone's items to those of all, ``(n, 5)``.
