@@ -37,7 +37,8 @@ test: .venv/installed-dev
 # What reads, draws, asks and writes, with the lowest version of each dependency. Old libraries
 # warn of each other's ways.
 LOWEST := tests/readers tests/writers tests/display tests/recipe tests/scene tests/geometry \
-  tests/cli/test_help.py tests/cli/test_usage.py tests/cli/test_bad_input.py tests/test_api.py
+  tests/cli/test_help.py tests/cli/test_usage.py tests/cli/test_bad_input.py tests/test_api.py \
+  tests/test_api_values.py tests/test_errors.py tests/typed
 
 test-lowest: .lowest/installed
 	$(LOWEST_BIN)/python -m pytest -q -n auto -W ignore::DeprecationWarning $(LOWEST)

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 import tomllib
 from importlib import import_module
 from pathlib import Path
@@ -52,3 +54,22 @@ def test_every_dependency_has_a_lower_bound() -> None:
     several = [PROJECT["dependencies"], *PROJECT["optional-dependencies"].values()]
     named = [one for group in several for one in group if not one.startswith("packwork[")]
     assert [one for one in named if ">=" not in one] == []
+
+
+@pytest.mark.parametrize(
+    "imported",
+    [
+        "import packwork.finish.options as y",
+        "from packwork.finish import options as y",
+        "import packwork.finish.options; y = sys.modules['packwork.finish.options']",
+    ],
+)
+@pytest.mark.parametrize("order", ["{use}\n{imported}", "{imported}\n{use}"])
+def test_the_verb_finish_hides_no_module_of_that_package(imported: str, order: str) -> None:
+    use = "import packwork as pw\nassert pw.finish.__module__ == 'packwork.api.judging'"
+    program = order.format(use=use, imported=imported)
+    checked = f"import sys\n{program}\nassert y.__name__ == 'packwork.finish.options'\n{use}"
+    done = subprocess.run(
+        [sys.executable, "-c", checked], capture_output=True, text=True, check=False
+    )
+    assert done.returncode == 0, done.stderr

@@ -114,6 +114,11 @@ def finish(
     return _certified(replace(layout, poses=found.poses), Promise(gap))
 
 
+# ``import packwork.finish.options as options`` asks the verb for the module, which it has not, and
+# then looks for one by this name.
+finish.__name__ = "packwork.finish"
+
+
 def _certified(layout: scene.Layout, promise: Promise) -> Layout:
     """The layout, measured, and what it promises."""
     found: LayoutMetrics = measure_layout(layout)
