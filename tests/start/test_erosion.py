@@ -77,3 +77,26 @@ def test_items_of_such_scales_lie_in_the_disc(is_common: bool) -> None:
     assert np.allclose(typical / nominal, typical[0] / nominal[0])
     if is_common:
         assert np.allclose(scales, typical)
+
+
+def test_a_rough_edge_is_not_eroded_to_tell_that_it_is_no_thread(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """That took 21 s and 1.5 GB for a disc whose edge has 490,000 points."""
+
+    def refused(*_: object, **__: object) -> None:
+        pytest.fail("the outline was grown or shrunk")
+
+    monkeypatch.setattr("packwork.start.erosion.buffered", refused)
+    angle = np.linspace(0, 2 * np.pi, 40_000, endpoint=False)
+    radius = 90 + 10 * np.sin(2_000 * angle)
+    rough = Outline.from_rings([np.column_stack([np.cos(angle), np.sin(angle)]) * radius[:, None]])
+    assert rough.area / rough.region.length < 0.3 * 20.0
+    assert not is_thread(rough, np.full(10, 20.0))
+
+
+@pytest.mark.parametrize("pitch", [0.25, 0.4, 1.0 / 3])
+def test_close_hairs_are_no_shape(pitch: float) -> None:
+    left = np.arange(0.0, 200.0, pitch)
+    lines = shapely.box(left, 0, left + 0.2 * pitch, 200.0)
+    assert is_thread(Outline.from_region(shapely.MultiPolygon(list(lines))), np.full(10, 5.0))

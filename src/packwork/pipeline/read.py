@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from packwork.errors import PackworkError, RecipeError
+from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.plan.cast import Cast
 from packwork.pipeline.plan.own_losses import losses_with_a_say
@@ -20,6 +20,7 @@ from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import is_drawn, read_written
 from packwork.readers.photos.read import read_photos
+from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency.container import QuietOptions
 from packwork.recipe import Recipe
 from packwork.scene.canvas import on_canvas
@@ -67,13 +68,30 @@ class Named:
 
 
 def read_room(recipe: Recipe, given: Container | None) -> Container:
-    """The container of a recipe on its canvas; one that was given is in its place."""
+    """The container of a recipe on its canvas; one that was given is in its place.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read, or has more points than files of the run could be measured with.
+    """
     if given is not None:
-        return on_canvas(given, recipe.canvas_size)
+        return _bounded(on_canvas(given, recipe.canvas_size))
     quiet = QuietOptions(recipe.quiet_share, recipe.keep_clear or ())
-    return read_container(
-        recipe.container, recipe.canvas_size, recipe.font, quiet, recipe.read_options
+    return _bounded(
+        read_container(
+            recipe.container, recipe.canvas_size, recipe.font, quiet, recipe.read_options
+        )
     )
+
+
+def _bounded(container: Container) -> Container:
+    """The container, if it has no more points than exact stages are made for."""
+    count = len(container.outline.points)
+    if count > MAX_POINTS:
+        why = f"has {count:,} points, more than {MAX_POINTS:,}; simplify it"
+        raise ReadError(container.source or container.name, why)
+    return container
 
 
 def read_named(recipe: Recipe, given: Sequence[Item] | None) -> Named:

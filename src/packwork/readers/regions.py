@@ -25,6 +25,10 @@ SMALLEST_EXTENT_PX = 1e-4
 THINNEST = 1e-7
 """Least area of a drawing as a share of its squared extent. Chosen."""
 
+MAX_POINTS = 400_000
+"""Points of one outline, a container's as well, which exact measures look at many times: as a run
+takes it, its files are read back. Chosen."""
+
 NEARLY_ALL = 0.97
 """Share of its page from which a container is told to fill it. Larger misses pages with round
 corners, smaller speaks of shapes drawn to the rim. Chosen."""

@@ -15,8 +15,10 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.fields.clearance import distance_inside
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import Region, buffered, polygon_parts
+from packwork.raster.coverage import coverage
 from packwork.start.first_poses import disc_radii
 
 THREAD = 0.3
@@ -32,10 +34,18 @@ LEAST_LEFT = 0.5
 """Share of a container's edge that is left of an erosion whose places are used, at least. Larger
 makes items of uneven threads smaller, smaller leaves more of them bare. Chosen."""
 
+RESOLUTION, LEAST_WIDE = 500, 2.0
+"""Pixels on the longer side of the picture that tells whether some places are wide, and from which
+distance to the edge one is, px: closer lines than pixels look like shapes here and there. Larger
+takes longer. Chosen."""
+
+WHOLE = 0.9
+"""Share of a pixel from which it counts as inside. Larger finds no wide places between rough edges,
+smaller takes close lines for one shape. Chosen."""
+
 CANDIDATES = 8
 """Places looked at for each item, of which those farthest from each other are taken. More are
 more even and take longer. Chosen."""
-
 
 ROUND = 4
 """Pieces of a quarter of a circle round a corner of the edge. More take longer, fewer leave less of
@@ -63,9 +73,14 @@ def is_thread(container: Outline, radii_cu: FloatArray) -> bool:
     half = container.area / container.region.length
     if half >= THREAD * float(np.mean(radii_cu)):
         return False
-    # A disc with hairs is none.
-    wide = _eroded(container, 2 * DEPTHS[0] * half)
-    return bool(wide.area < (1 - LEAST_LEFT) * container.area)
+    # A disc with hairs is none; a picture tells, for outlines may be of any number of edges.
+    left, top, right, bottom = container.bounds
+    px = container.extent / RESOLUTION
+    shape = int((bottom - top) / px) + 2, int((right - left) / px) + 2
+    points = (container.points - (left, top)) / px
+    image = coverage(points, container.starts, shape, np.float32)
+    is_wide = distance_inside(image > WHOLE) >= max(2 * DEPTHS[0] * half / px, LEAST_WIDE)
+    return bool(np.count_nonzero(is_wide) * px**2 < (1 - LEAST_LEFT) * container.area)
 
 
 def spread_along(container: Outline, count: int, rng: np.random.Generator) -> Spread | None:

@@ -13,15 +13,13 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
+from packwork.readers.regions import MAX_POINTS
 from packwork.readers.unfit import UnfitError
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.units import Unit
-
-MAX_POINTS = 400_000
-"""Points of one outline, which the exact measures look at many times. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -19,7 +19,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_text
-from packwork.readers.layouts.assembly import MAX_POINTS
+from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.colour import css_colour
