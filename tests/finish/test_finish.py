@@ -1,9 +1,9 @@
 from __future__ import annotations
 
-import sys
 import time
 from collections.abc import Sequence
 from dataclasses import replace
+from importlib import import_module
 
 import numpy as np
 import pytest
@@ -271,7 +271,7 @@ def test_steps_go_by_items_that_are_far_smaller_than_their_shares(
         trusts.append(float(str(given[3])))
         return False
 
-    monkeypatch.setattr(sys.modules["packwork.finish.finish"], "compact", noted)
+    monkeypatch.setattr(import_module("packwork.finish.finish"), "compact", noted)
     container = square_container(100.0)
     for scale in (0.01, 10.0):
         start = poses([20, 20, 80, 80], [20, 80, 20, 80], scale=scale)

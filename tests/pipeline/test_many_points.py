@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import sys
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -21,8 +21,8 @@ def no_stage(monkeypatch: pytest.MonkeyPatch) -> None:
     def refused(*_: object, **__: object) -> None:
         pytest.fail("a stage began")
 
-    monkeypatch.setattr(sys.modules["packwork.pipeline.run"], "begin", refused)
-    monkeypatch.setattr(sys.modules["packwork.metrics.measure"], "exact_metrics", refused)
+    monkeypatch.setattr(import_module("packwork.pipeline.run"), "begin", refused)
+    monkeypatch.setattr(import_module("packwork.metrics.measure"), "exact_metrics", refused)
 
 
 def ring() -> np.ndarray:
