@@ -270,6 +270,12 @@ def test_stop_words_are_a_set_that_may_grow() -> None:
     assert "bear" not in STOPWORDS
 
 
+def test_stop_words_are_those_of_the_other_package() -> None:
+    assert len(STOPWORDS) == 192
+    assert {"however", "can't", "www"} < STOPWORDS
+    assert not {"several", "must", "whose"} & STOPWORDS
+
+
 def test_colours_come_from_a_picture(cloud: WordCloud) -> None:
     picture = np.zeros((100, 160, 3), dtype=np.uint8)
     picture[..., 2] = 200

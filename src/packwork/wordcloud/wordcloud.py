@@ -22,7 +22,12 @@ from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.words.items import EM_PX
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
-from packwork.wordcloud.colours import ColourFunction, colormap_color_func
+from packwork.wordcloud.colours import (
+    ColourFunction,
+    colormap_color_func,
+    get_single_color_func,
+    random_color_func,
+)
 from packwork.wordcloud.setting import (
     CloudSettings,
     PlacedWords,
@@ -35,6 +40,14 @@ from packwork.writers.atomic import write_atomic
 from packwork.writers.options import TextChoice
 from packwork.writers.png import png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
+
+__all__ = [
+    "STOPWORDS",
+    "WordCloud",
+    "colormap_color_func",
+    "get_single_color_func",
+    "random_color_func",
+]
 
 _LOG = logging.getLogger("packwork")
 

@@ -6,13 +6,19 @@ import math
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping
+from importlib import resources
 from itertools import pairwise
 
 from packwork.readers.words.matching import found_in
-from packwork.readers.words.stop_words import stop_words
 
-STOPWORDS: set[str] = set(stop_words("en"))
-"""English function words; a set of the caller's own, as programs add to it."""
+STOPWORDS: set[str] = set(
+    resources.files("packwork.bundled")
+    .joinpath("words", "english-short.txt")
+    .read_text(encoding="utf-8")
+    .split()
+)
+"""The 192 words that the other package leaves out: the usual short list of English (ranks.nl) and
+some of web pages. Programs add to it; ``packwork words`` has longer ones, of many languages."""
 
 _PLAIN, _LONGER = r"\w[\w']*", r"\w[\w']+"
 
