@@ -54,15 +54,37 @@ class ClearInk:
 
     Parameters
     ----------
-    ink, silhouette
-        Rings, with holes and without.
+    glyphs
+        Those that cover something.
+    places, sizes
+        ``(n, 2)`` of their origins, and ``(n, 1)`` factors on their own units.
     clearance
         Smallest distance of two glyphs, or clearance of one, as a share of the extent; at least.
     """
 
-    ink: Outline
-    silhouette: Outline
+    glyphs: Sequence[GlyphInk]
+    places: FloatArray
+    sizes: FloatArray
     clearance: float
+
+    @cached_property
+    def ink(self) -> Outline:
+        """Rings, with holes."""
+        return self._moved([glyph.ink for glyph in self.glyphs if glyph.ink is not None])
+
+    @cached_property
+    def silhouette(self) -> Outline:
+        """Rings, without holes."""
+        return self._moved(
+            [glyph.silhouette for glyph in self.glyphs if glyph.silhouette is not None]
+        )
+
+    def _moved(self, outlines: Sequence[Outline]) -> Outline:
+        """Outlines of the glyphs at their places, as one."""
+        points, starts = joined(outlines)
+        counts = [len(outline.points) for outline in outlines]
+        sizes = np.repeat(self.sizes, counts, axis=0)
+        return Outline(points * sizes + np.repeat(self.places, counts, axis=0), starts)
 
 
 @dataclass(frozen=True, eq=False)
@@ -170,16 +192,7 @@ def clear_ink(glyphs: Sequence[GlyphInk], places: FloatArray, sizes: FloatArray)
         least = min(least, distance(one, two))
     if not least > 0:
         return None
-    filled = [glyph.silhouette for glyph in glyphs if glyph.silhouette is not None]
-    return ClearInk(_moved(inks, place, size), _moved(filled, place, size), least / extent)
-
-
-def _moved(outlines: Sequence[Outline], places: FloatArray, sizes: FloatArray) -> Outline:
-    """Outlines at their places, as one."""
-    points, starts = joined(outlines)
-    counts = [len(outline.points) for outline in outlines]
-    moved = points * np.repeat(sizes, counts, axis=0) + np.repeat(places, counts, axis=0)
-    return Outline(moved, starts)
+    return ClearInk([glyphs[k] for k in drawn], place, size, least / extent)
 
 
 def _is_within(inner: FloatArray, outer: FloatArray) -> bool:
