@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from packwork.geometry import distance as distance_module
-from packwork.geometry.distance import distance, is_clear
+from packwork.geometry.distance import clearance, distance, is_clear
 from packwork.geometry.overlay import polygon_parts, valid
 
 
@@ -42,10 +42,13 @@ def test_edges_that_are_far_enough_are_told_from_those_that_are_not(
     for _ in range(100):
         shape = shapely.union_all([_star(rng), shapely.affinity.translate(_star(rng), 1.5)])
         region = shapely.MultiPolygon(polygon_parts(shape))
-        clearance = float(shapely.minimum_clearance(region))
-        monkeypatch.setattr(distance_module, "FEW_VERTICES", 0)
-        assert is_clear(region, clearance * (1 - 1e-9))
-        assert not is_clear(region, clearance * (1 + 1e-9))
+        found = float(shapely.minimum_clearance(region))
+        assert clearance(region, 9.0) == pytest.approx(found, rel=1e-12)
+        assert clearance(region, found / 2) == found / 2
+        for few in (0, 20_000):
+            monkeypatch.setattr(distance_module, "FEW_VERTICES", few)
+            assert is_clear(region, found * (1 - 1e-9))
+            assert not is_clear(region, found * (1 + 1e-9))
 
 
 def test_a_spiral_of_many_turns_is_looked_at_once() -> None:

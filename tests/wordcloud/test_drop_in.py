@@ -263,6 +263,13 @@ def test_arguments_without_effect_are_told_once(fresh_warnings: None) -> None:
     WordCloud(ranks_only=True)
 
 
+def test_words_of_blanks_are_told_and_left_out(caplog: pytest.LogCaptureFixture) -> None:
+    frequencies = {"ox": 2, " \n": 1, "bee": 1}
+    cloud = WordCloud(width=60, height=40, random_state=0).generate_from_frequencies(frequencies)
+    assert [word for (word, _), *_ in cloud.layout_] == ["ox", "bee"]
+    assert "has no letters" in caplog.text
+
+
 def test_stop_words_are_a_set_that_may_grow() -> None:
     mine = set(STOPWORDS)
     mine.add("bear")

@@ -16,7 +16,7 @@ from shapely.errors import GEOSException
 from shapely.geometry import LinearRing, MultiLineString, MultiPolygon, Polygon
 from shapely.ops import polygonize
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.overlay import Region as Region
 from packwork.geometry.overlay import polygon_parts as polygon_parts
 from packwork.geometry.overlay import quiet, union
@@ -109,15 +109,27 @@ def oriented_rings(shape: Region) -> list[FloatArray]:
     [4]
     """
     rings, owners = shapely.get_rings(polygon_parts(shape), return_index=True)
+    if len(rings) == 0:
+        return []
     points, rows = shapely.get_coordinates(rings, return_index=True)
     # The first ring of a polygon is its outer one; the last point of a ring is its first.
-    signs = np.where(np.diff(owners, prepend=-1) > 0, 1.0, -1.0)
-    split = np.split(points, np.flatnonzero(np.diff(rows)) + 1) if len(rings) else []
-    turned = [ring[:-1] for ring in split]
+    is_outer = np.diff(owners, prepend=-1) > 0
+    starts = np.flatnonzero(np.diff(rows, prepend=-1))
+    turned = (_signed_areas(points, starts) > 0) != is_outer
+    split = np.split(points, starts[1:])
     return [
-        ring if signed_area(ring) * sign > 0 else ring[::-1]
-        for ring, sign in zip(turned, signs, strict=True)
+        ring[-2::-1] if is_turned else ring[:-1]
+        for ring, is_turned in zip(split, turned, strict=True)
     ]
+
+
+def _signed_areas(points: FloatArray, starts: IntArray) -> FloatArray:
+    """The same as :func:`signed_area` of closed rings ``(n, 2)``, one after another."""
+    lengths = np.diff(starts, append=len(points))
+    x, y = (points - np.repeat(points[starts], lengths, axis=0)).T
+    # About a ring's first point, which is its last as well: what links two rings adds nothing.
+    cross = x * np.roll(y, -1) - np.roll(x, -1) * y
+    return np.asarray(0.5 * np.add.reduceat(cross, starts))
 
 
 def signed_area(points: FloatArray) -> float:

@@ -136,7 +136,7 @@ def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
     Raises
     ------
     UnfitError
-        If no font can draw it, or it is too long.
+        If no font can draw it, it is blank or too long.
 
     Examples
     --------
@@ -147,8 +147,11 @@ def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
     if len(word.text) > LONGEST:
         raise UnfitError(f"has {len(word.text):,} characters; the most is {LONGEST}")
     lines = [" ".join(line.split()) for line in word.text.split("|")]
-    drawn = fonts.lettering([line for line in lines if line])
-    name = " ".join(line for line in lines if line)
+    lines = [line for line in lines if line]
+    if not lines:
+        raise UnfitError("has no letters")
+    drawn = fonts.lettering(lines)
+    name = " ".join(lines)
     label = Label(name=name, title=f"{name}: {word.weight:.6g}")
     with naming(name):
         outline, ink, place = _placed(drawn, holes)
