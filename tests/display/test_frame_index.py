@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
+import shapely
 
 import packwork as pw
 
@@ -69,3 +71,53 @@ def test_an_index_of_an_unknown_type_is_one_of_texts() -> None:
     recipe = pw.chart("circle", frame_of(INDEXES["names"]()), **QUICK).manifest["recipe"]
     asked = {**recipe, "chart": {**recipe["chart"], "index": {"fruit": "no such type"}}}
     assert pw.run(asked).to_dataframe().index.tolist() == ["fig", "kiwi", "lime"]
+
+
+class Rows:
+    """As GeoPandas gives a frame to others: geometries, and an index."""
+
+    def __init__(self, index: Any, bare: int = -1) -> None:
+        self.index, self._bare = index, bare
+
+    @property
+    def __geo_interface__(self) -> dict[str, Any]:
+        shapes = [shapely.box(0, 0, 2 + k, 1) for k in range(len(self.index))]
+        geometries = [None if k == self._bare else shape for k, shape in enumerate(shapes)]
+        return {
+            "type": "FeatureCollection",
+            "features": [
+                {"type": "Feature", "id": str(label), "properties": {}, "geometry": geometry}
+                for label, geometry in zip(self.index, geometries, strict=True)
+            ],
+        }
+
+
+@pytest.mark.parametrize("index", INDEXES.values(), ids=INDEXES)
+def test_rows_of_geometries_keep_their_labels(index: Callable[[], Any]) -> None:
+    labels = index()
+    layout = pw.fill("circle", Rows(labels), count=4, epochs=25, levels="50")
+    made = pickle.loads(pickle.dumps(layout)).to_dataframe()  # noqa: S301
+    pandas.testing.assert_index_equal(made.index, labels[[0, 1, 2, 0]])
+
+
+def test_rows_without_area_shift_no_labels() -> None:
+    rows = Rows(pandas.Index(["Thun", "Zug", "Sils"]), bare=1)
+    made = pw.fill("circle", [*pw.read_items(rows), "star"], epochs=25, levels="50").to_dataframe()
+    assert made.index.tolist()[:2] == ["Thun", "Sils"]
+    assert made.index.isna().tolist() == [False, False, True]
+
+
+def test_rows_that_are_only_counted_have_no_labels() -> None:
+    assert pw.read_items(Rows(pandas.RangeIndex(3)))[0].row is None
+
+
+def test_rows_of_geopandas_keep_their_labels() -> None:
+    geopandas = pytest.importorskip("geopandas")
+    frame = geopandas.GeoDataFrame(
+        geometry=[shapely.box(0, 0, 2, 1), shapely.box(0, 0, 3, 1)],
+        index=pandas.Index(["Thun", "Zug"], name="lake"),
+    )
+    for items in (frame, [row for _, row in frame.iterrows()], list(frame.itertuples())):
+        made = pw.fill("circle", items, epochs=25, levels="50").to_dataframe()
+        assert made.index.tolist() == ["Thun", "Zug"]
+    assert frame.join(pw.fill("circle", frame, epochs=25).to_dataframe()[["x"]]).shape == (2, 2)

@@ -271,7 +271,7 @@ class Layout(scene.Layout):
 
         Of a chart, first the columns of its table (the index of a data frame is the index again),
         then ``value`` (what the mark stands for), ``category`` and ``group``, where there are any;
-        of all layouts ``item``, ``source``,
+        of items that were rows of a data frame its index; of all layouts ``item``, ``source``,
         ``x``, ``y``, ``angle_deg`` (degrees, clockwise, as in files), ``scale``, ``stretch``,
         ``area`` (squared canvas units), ``weight`` and ``color``. Where the table has a column of
         that name too, ours is called ``mark_x`` and so on.

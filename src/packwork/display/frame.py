@@ -36,7 +36,21 @@ def data_frame(layout: Layout) -> Any:
     ours = _ours(layout)
     named = {TAKEN + name if name in table else name: cells for name, cells in ours.items()}
     frame = pandas.DataFrame(table | named)
-    return _indexed(frame, layout, pandas) if table else frame
+    return _indexed(frame, layout, pandas) if table else _labelled(frame, layout, pandas)
+
+
+def _labelled(frame: Any, layout: Layout, pandas: Any) -> Any:
+    """The frame with the labels that items had as rows of another one, if they had some."""
+    rows = [item.row for item in layout.items]
+    names = next((row.names for row in rows if row is not None), None)
+    if names is None:
+        return frame
+    if len(names) == 1:
+        labels = [None if row is None else row.label for row in rows]
+        return frame.set_index(pandas.Index(labels, name=names[0]))
+    nothing = (None,) * len(names)
+    several = [nothing if row is None else row.label for row in rows]
+    return frame.set_index(pandas.MultiIndex.from_tuples(several, names=names))
 
 
 def _indexed(frame: Any, layout: Layout, pandas: Any) -> Any:

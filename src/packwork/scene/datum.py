@@ -1,4 +1,4 @@
-"""What a mark of a chart stands for."""
+"""What a mark of a chart stands for, and which row of a frame an item came from."""
 
 from __future__ import annotations
 
@@ -28,3 +28,19 @@ class Datum:
     value: float
     category: str = ""
     group: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class RowLabel:
+    """Label of a row in the index of a data frame of geometries.
+
+    Parameters
+    ----------
+    label
+        As the index has it: of several levels a tuple.
+    names
+        Of the levels, None for one without a name.
+    """
+
+    label: Any
+    names: tuple[Any, ...] = (None,)

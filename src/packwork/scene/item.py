@@ -8,7 +8,7 @@ from typing import Protocol, TypeAlias
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline, OutlineLike
-from packwork.scene.datum import Datum
+from packwork.scene.datum import Datum, RowLabel
 from packwork.scene.label import Label
 from packwork.scene.live_text import LiveText
 
@@ -125,6 +125,8 @@ class Item:
         What it stands for, if it is a mark of a chart.
     weight
         Share of area it asks for, where nothing else says one.
+    row
+        Which row of a data frame it came from, in memory only; None of all else.
 
     Raises
     ------
@@ -148,6 +150,7 @@ class Item:
     halo: str
     datum: Datum | None
     weight: float = 1.0  # of those kept on disk, too
+    row: RowLabel | None = None
 
     def __init__(
         self,
@@ -161,6 +164,7 @@ class Item:
         halo: str = "",
         datum: Datum | None = None,
         weight: float = 1.0,
+        row: RowLabel | None = None,
     ) -> None:
         if outline is None:
             raise ShapeError(f"the item {name!r} needs an outline, such as a Shapely polygon")
@@ -171,7 +175,7 @@ class Item:
             raise ShapeError(
                 f"the art of the item {name!r} must be a colour or an art, not {str(art)[:40]}"
             )
-        values = (name, source, solid, drawn, made, label, text, halo, datum, weight)
+        values = (name, source, solid, drawn, made, label, text, halo, datum, weight, row)
         for column, value in zip(fields(Item), values, strict=True):
             object.__setattr__(self, column.name, value)
 

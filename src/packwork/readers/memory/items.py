@@ -76,7 +76,7 @@ def recentred(item: Item) -> Item:
 def _item_of_shape(shape: Shape, source: str, holes: Holes) -> Item:
     outline, ink, _ = centred(clean_union(shape.region), holes)
     art = FlatArt(shape.fill) if _is_colour(shape.fill) else FlatArt()
-    return Item(shape.name, source, outline, ink, art, weight=shape.weight)
+    return Item(shape.name, source, outline, ink, art, weight=shape.weight, row=shape.row)
 
 
 def _is_colour(text: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import chain, repeat
 from typing import Any
 
 import numpy as np
@@ -15,7 +16,9 @@ from shapely.geometry.base import BaseGeometry
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region, polygon_parts, united
+from packwork.readers.tables.frames import is_count
 from packwork.readers.unfit import UnfitError, notice
+from packwork.scene.datum import RowLabel
 
 MAX_SHAPES = 20_000
 """Rows of one frame, features of one collection. Chosen."""
@@ -73,12 +76,15 @@ class Shape:
         Share of area it asks for.
     fill
         Its colour, as the data have it; empty for none.
+    row
+        Which row of a frame it is; None of one whose index only counts them, and of all else.
     """
 
     name: str
     region: Region
     weight: float = 1.0
     fill: str = ""
+    row: RowLabel | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -159,7 +165,8 @@ def shapes_of(
     """
     found: list[Shape] = []
     bare: list[str] = []
-    for number, (geometry, said) in enumerate(_features(value), start=1):
+    rows = zip(_features(value), chain(row_labels(value), repeat(None)), strict=False)
+    for number, ((geometry, said), row) in enumerate(rows, start=1):
         if number > MAX_SHAPES:
             raise UnfitError(f"has more than {MAX_SHAPES:,} geometries; give fewer rows")
         called = _name(said, columns) or name
@@ -167,7 +174,8 @@ def shapes_of(
         if region is None:
             bare.append(called)
         else:
-            found.append(Shape(called, region, _weight(said, columns, number), _fill(said)))
+            weight = _weight(said, columns, number)
+            found.append(Shape(called, region, weight, _fill(said), row))
     if not found:
         raise UnfitError(f"has no area{_kind(value)}; give polygons, or lines with a buffer round")
     if bare:
@@ -184,6 +192,16 @@ def _features(value: object) -> Iterator[tuple[BaseGeometry | None, Mapping[str,
         yield row["geometry"], row
     else:
         yield from _of_geojson(getattr(value, "__geo_interface__", value))
+
+
+def row_labels(value: Any) -> list[RowLabel]:
+    """Labels of the rows of a frame, or of one row; none where an index only counts them."""
+    if _as_row(value) is not None:
+        return [RowLabel(getattr(value, "Index", getattr(value, "name", None)))]
+    index: Any = getattr(value, "index", None)
+    if not hasattr(index, "nlevels") or is_count(index):
+        return []
+    return [RowLabel(label, tuple(index.names)) for label in index]
 
 
 def _of_geojson(value: Any) -> Iterator[tuple[BaseGeometry | None, Mapping[str, Any]]]:

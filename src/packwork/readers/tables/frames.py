@@ -78,15 +78,20 @@ def index_of_frame(data: Any) -> dict[str, str]:
     return {str(name): str(with_index[name].dtype) for name in names}
 
 
+def is_count(index: Any) -> bool:
+    """Whether an index of pandas has no name and counts rows from 0."""
+    is_range = type(index).__name__ == "RangeIndex" and index.name is None
+    return is_range and (index.start, index.step) == (0, 1)
+
+
 def _with_index(frame: Any, has_row_numbers: bool) -> Any:
     """The frame with its index among the columns, unless that only counts the rows."""
     index: Any = getattr(frame, "index", None)
     if index is None or not hasattr(frame, "reset_index"):
         return frame
-    if index.name is None and getattr(index.dtype, "kind", "") in "iu":
-        counts = type(index).__name__ == "RangeIndex" and (index.start, index.step) == (0, 1)
-        if counts or not has_row_numbers:
-            return frame
+    has_numbers = index.name is None and getattr(index.dtype, "kind", "") in "iu"
+    if is_count(index) or (has_numbers and not has_row_numbers):
+        return frame
     try:
         return frame.reset_index()
     except ValueError:
