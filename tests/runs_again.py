@@ -12,6 +12,8 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+import numpy as np
+import shapely
 from PIL import Image
 
 import packwork as pw
@@ -43,6 +45,12 @@ def verbs(folder: Path) -> dict[str, Callable[[int], object]]:
         "photos": lambda k: pw.photos("heart", folder, seed=k, **SMALL),
         "chart": lambda k: pw.chart("heart", ROWS, size_by="kg", label_by="name", seed=k, **SMALL),
         "pile": lambda k: pw.pile("square", "circle", count=3, size="30%", seed=k),
+        "finish": lambda k: pw.finish(pw.fill("heart", "star", count=3, seed=k, **SMALL)),
+        "run": lambda k: pw.run({"container": "heart", "items": ["star"], "seed": k, **SMALL}),
+        "history": lambda k: pw.fill("heart", "star", count=3, seed=k, history=True, **SMALL),
+        "in memory": lambda k: pw.fill(
+            shapely.box(0, 0, 30, 20), np.tri(40) > 0, count=3, seed=k, **SMALL
+        ).to_dataframe(),
         "save": lambda k: pw.fill("heart", "star", count=3, seed=k, **SMALL).save(
             folder / "a.png", pixels=90
         ),

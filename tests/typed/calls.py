@@ -46,7 +46,7 @@ def right(names: list[str], weights: dict[str, float], turns: list[int]) -> None
 
 
 def far(density: npt.NDArray[Any], container: npt.NDArray[Any]) -> pw.Term:
-    return pw.Term(0.0, density + container)
+    return pw.Term(0.0, density if density.any() else container)
 
 
 def wrong(layout: pw.Layout) -> None:
