@@ -14,7 +14,7 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts
-from packwork.readers.pictures.mask import mask_of_pixels
+from packwork.readers.pictures.mask import mask_of_shares
 from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import EM_PX, word_item
 from packwork.readers.words.word import Word
@@ -30,6 +30,18 @@ SMALLEST_CANVAS = 4
 PATIENCE = 10
 """Words in a row that may find no place before all others are left out. Larger looks longer for
 short words that would still fit. Chosen."""
+
+UPRIGHT = 10
+"""Words, the first, that are not turned where most are not: one large turned word is what is seen
+first. By eye."""
+
+APART = (0.12 * EM_PX, 0.03 * EM_PX)
+"""Room that a word keeps from larger ones beside and above itself, in the units of its outline:
+words of one size side by side read as one with less. By eye."""
+
+EDGE = 0.01
+"""Room along the edge of a canvas, as a share of its shorter side, where margins are narrower:
+words cut off by the edge is what it looks like with less. By eye."""
 
 NO_ROOM = (
     "Couldn't find space to draw. Either the Canvas size is too small or too much of the "
@@ -108,10 +120,8 @@ def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) ->
         return Container("canvas", "canvas", outline, float(width), float(height))
     if not dark.any():
         raise no_room
-    pixels = np.full((*dark.shape, 4), 255, dtype=np.uint8)
-    pixels[..., :3] = np.where(dark, 0, 255)[..., None]
     try:
-        traced = mask_of_pixels(pixels)
+        traced = mask_of_shares(dark.astype(np.float64))
     except UnfitError:
         raise no_room from None
     canvas = (0.0, 0.0, float(width), float(height))
@@ -149,10 +159,11 @@ def placed(
     [20.0, 10.0]
     """
     read = _Reading(asked, words, steps, random)
-    largest = asked.largest or _largest_size(asked, read)
+    container = _with_edge(asked)
+    largest = asked.largest or _largest_size(asked, read, container)
     rng = np.random.default_rng(random.randrange(2**31))
     found = graded_fit(
-        asked.container,
+        container,
         read.candidates(largest),
         len(words),
         rng,
@@ -204,10 +215,16 @@ class _Reading:
             item = self._item(number)
             if item is None:
                 continue
-            angles = self._angles[number][: 1 if self._asked.horizontal >= 1 else 2]
             self.numbers.append(number)
-            yield Candidate(item.outline, step, angles)
+            yield Candidate(item.outline, step, self._angles_of(number), APART)
             step = 1.0
+
+    def _angles_of(self, number: int) -> tuple[float, ...]:
+        """The angles to try in turn; the largest words are upright where most are."""
+        angles, horizontal = self._angles[number], self._asked.horizontal
+        if number < UPRIGHT and horizontal >= 0.5:
+            return (0.0,)
+        return angles[: 1 if horizontal >= 1 else 2]
 
     def _item(self, number: int) -> Item | None:
         """The word as an item, its counters open; None if it cannot be drawn."""
@@ -223,10 +240,23 @@ class _Reading:
         return self.items.get(number)
 
 
-def _largest_size(asked: CloudSettings, read: _Reading) -> float:
+def _with_edge(asked: CloudSettings) -> Container:
+    """What words may fill: of a canvas, not the pixels along its edge."""
+    container = asked.container
+    if container.outline.area < container.width * container.height:
+        return container
+    edge = max(asked.margin, EDGE * min(container.width, container.height)) - asked.margin / 2
+    left, top, right, bottom = container.outline.bounds
+    if right - left <= 4 * edge or bottom - top <= 4 * edge:
+        return container
+    inner = Outline.box(left + edge, top + edge, right - edge, bottom - edge)
+    return replace(container, outline=inner)
+
+
+def _largest_size(asked: CloudSettings, read: _Reading, container: Container) -> float:
     """Size of the largest word, pixels: the harmonic mean of those of the first two alone."""
     found = graded_fit(
-        asked.container,
+        container,
         read.candidates(float(asked.container.height), 2),
         2,
         np.random.default_rng(0),

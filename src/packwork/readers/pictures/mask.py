@@ -115,8 +115,22 @@ def mask_of_pixels(pixels: Pixels, alpha_threshold: float = HALF) -> TracedMask:
         raise UnfitError(
             "is all light, and dark is inside; paint the region to fill black on white"
         )
+    mask = mask_of_shares(inside)
+    _tell(inside, mask.region.area / inside.size, by_alpha=by_alpha)
+    return mask
+
+
+def mask_of_shares(inside: FloatArray) -> TracedMask:
+    """Region of ``(rows, columns)`` shares of pixels that are inside, some half or more.
+
+    Examples
+    --------
+    >>> shares = np.zeros((20, 20)); shares[5:15, 5:15] = 1
+    >>> [round(side) for side in mask_of_shares(shares).region.bounds]
+    [5, 5, 15, 15]
+    """
+    rows, columns = inside.shape
     region = clean_union(outline_of_coverage(inside), speck=SPECK)
-    _tell(inside, region.area / inside.size, by_alpha=by_alpha)
     return TracedMask(region, float(columns), float(rows))
 
 

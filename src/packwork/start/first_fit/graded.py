@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
+from scipy import ndimage
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.fields.clearance import distance_inside
@@ -25,7 +26,7 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.occupancy import Occupancy
-from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all
+from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all, stencil_of
 from packwork.start.first_poses import container_image
 
 _Pose: TypeAlias = tuple[float, float, float, float]
@@ -54,6 +55,9 @@ INWARD = 0.6
 """Score, beside the touched share of 0 to 1, for lying where the container is widest, of an item
 of the first one's size while nothing lies there; less by as much as an item is smaller, and
 as more is covered. Larger heaps large ones in the middle, smaller puts them at the edge. By eye."""
+
+WIDE = 0.9
+"""Clearance, as a share of the largest, from which on a place is one of the widest. Chosen."""
 
 COVERED = 0.5
 """Share of the container, margins taken in, from which on nothing is drawn inwards. Chosen."""
@@ -87,11 +91,15 @@ class Candidate:
     angles
         That it may have, radians, the preferred ones first: of those at which it fits in one
         size, the first is taken.
+    apart
+        Room that it keeps, along and across itself, from those that were put before it, in item
+        units: beside the margin of all.
     """
 
     outline: Outline
     step: float
     angles: Sequence[float] = (0.0,)
+    apart: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -201,6 +209,21 @@ def _on_grid(size: float, grid: float) -> float:
     return round(size / grid) * grid if grid else size
 
 
+def _inwards(clearance: FloatArray) -> FloatArray:
+    """How far each pixel is inwards, 0 to 1: in the middle of where the container is widest.
+
+    Half of it for the room there, half for being near that middle: a long container is as wide
+    all along.
+    """
+    widest = max(float(clearance.max()), 1.0)
+    wide = np.argwhere(clearance >= WIDE * widest)
+    middle = wide[np.argmin(np.linalg.norm(wide - wide.mean(axis=0), axis=1))]
+    rows, columns = np.ogrid[: clearance.shape[0], : clearance.shape[1]]
+    away = np.hypot(rows - middle[0], columns - middle[1])
+    farthest = max(float(away[clearance > 0].max(initial=0.0)), 1.0)
+    return np.asarray((clearance / widest + 1 - away / farthest) / 2)
+
+
 class _Grading:
     """The image on which items are put one after another."""
 
@@ -214,7 +237,7 @@ class _Grading:
         image, self._px_per_cu = container_image(container, side)
         self._reach = margin_cu * self._px_per_cu + CORNERS
         clearance = distance_inside(image > 1 - TOUCHED)
-        self._inward: FloatArray = clearance / max(float(clearance.max()), 1.0)
+        self._inward = _inwards(clearance)
         self._noise = NOISE * rng.random(image.shape)
         # From a pixel's centre to its corner; the edge lies beyond the pixels that are inside.
         room = clearance > self._reach - CORNERS / 2
@@ -243,23 +266,39 @@ class _Grading:
             else:
                 found, high = larger, middle
         stencil, row, column, angle = found
-        self._take(stencil, row, column)
+        self._take(stencil, row - stencil.origin[0], column - stencil.origin[1])
         self._first = self._first or sizes[high]
-        y, x = (np.array([row, column]) + stencil.origin) / self._px_per_cu
-        return float(x), float(y), angle, sizes[high]
+        return column / self._px_per_cu, row / self._px_per_cu, angle, sizes[high]
 
     def _place(self, candidate: Candidate, scale: float) -> tuple[Stencil, int, int, float] | None:
-        """Best place of an item of that scale, at the first of its angles that has one."""
+        """Stencil of an item of that scale, row and column of its origin, and its angle.
+
+        At its best place, at the first of its angles that has one.
+        """
         field, pull, is_everywhere = self._drawn(scale)
         for angle in candidate.angles:
             posed = candidate.outline.mapped(similarity(0.0, 0.0, angle, scale * self._px_per_cu))
             if self._is_larger(posed):
                 continue
             stencil = cut_all({0: posed}, REACH)[0]
-            found = self._occupancy.best_place(stencil, self._noise, is_everywhere, field, pull)
+            wide = self._with_room(stencil, candidate.apart, scale, angle)
+            found = self._occupancy.best_place(wide, self._noise, is_everywhere, field, pull)
             if found is not None:
-                return stencil, found[1], found[2], angle
+                row, column = np.array(found[1:]) + wide.origin
+                return stencil, int(row), int(column), angle
         return None
+
+    def _with_room(
+        self, stencil: Stencil, apart: tuple[float, float], scale: float, angle: float
+    ) -> Stencil:
+        """The stencil with the room that its item keeps along and across itself."""
+        turned = np.abs([[np.cos(angle), np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        across, down = np.rint(turned @ apart * scale * self._px_per_cu).astype(int)
+        if not (across or down):
+            return stencil
+        mask = np.pad(stencil.mask, ((down, down), (across, across)))
+        mask = ndimage.maximum_filter(mask, (2 * down + 1, 2 * across + 1))
+        return stencil_of(mask, (stencil.origin[0] + down, stencil.origin[1] + across), REACH)
 
     def _is_larger(self, outline_px: Outline) -> bool:
         """Whether an outline is higher or wider than the image."""

@@ -73,6 +73,11 @@ def _cut(outline_px: Outline, reach: int) -> Stencil:
     mask = rasteriser.density() > TOUCHED
     if not mask.any():
         mask[height // 2, width // 2] = True
+    return stencil_of(mask, (-row, -column), reach)
+
+
+def stencil_of(mask: BoolArray, origin: tuple[int, int], reach: int) -> Stencil:
+    """Stencil of pixels; ``reach`` is the width of its fringe."""
     runs = _kernels.runs_of(mask)
     runs = runs[np.argsort(-runs[:, 2], kind="stable")]
-    return Stencil(mask, (-row, -column), runs, _kernels.fringe_of(mask, reach))
+    return Stencil(mask, origin, runs, _kernels.fringe_of(mask, reach))
