@@ -41,13 +41,7 @@ from packwork.writers.options import TextChoice
 from packwork.writers.png import png_bytes
 from packwork.writers.svg import SvgOptions, svg_text
 
-__all__ = [
-    "STOPWORDS",
-    "WordCloud",
-    "colormap_color_func",
-    "get_single_color_func",
-    "random_color_func",
-]
+__all__ = ["STOPWORDS", "WordCloud", "get_single_color_func", "random_color_func"]
 
 _LOG = logging.getLogger("packwork")
 
