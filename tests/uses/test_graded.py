@@ -64,6 +64,14 @@ def test_words_that_find_no_place_are_named() -> None:
     assert named | {item.name for item in layout.items} == set(WEIGHTS)
 
 
+def test_words_that_are_not_there_are_not_repeated_in_voids() -> None:
+    layout = words(smallest=60, target_coverage=0.9)
+    gone = {one["item"] for one in layout.manifest["unplaced"] if one["item"] in WEIGHTS}
+    assert gone
+    assert not gone & {item.name for item in layout.items}
+    assert layout.manifest["certified"]
+
+
 def test_icons_among_words_take_their_turn() -> None:
     layout = words(add=["star"])
     assert "star" in {item.name for item in layout.items}

@@ -229,7 +229,11 @@ class Words(Use):
             words=tuple(self.read.words[k] for k in words),
             undrawn={**undrawn, **self.read.undrawn},
         )
-        return replace(job.some(places.placed), use=replace(self, read=read, places=places))
+        return replace(
+            job.some(places.placed),
+            use=replace(self, read=read, places=places),
+            fillers=without(job.fillers, [job.items[k] for k in gone]),
+        )
 
     def _with_heaviest(self, job: Job, count: int, sizes: FloatArray, smallest: float) -> Job:
         """Job of fewer words, what rules ask of them, and what is mixed in."""
@@ -239,7 +243,8 @@ class Words(Use):
         before = {id(item) for item in self.read.items}
         others = {id(item): item for item in job.items if id(item) not in before}
         chosen = cast_words(job.recipe, words, list(others.values()))
-        gone = before - {id(item) for item in words.items}
+        kept = {id(item) for item in words.items}
+        gone = [item for item in self.read.items if id(item) not in kept]
         return replace(
             job,
             use=replace(self, read=words),
@@ -247,8 +252,14 @@ class Words(Use):
             asked=chosen.asked,
             weights=shared_out(chosen.items, chosen.weights, words.items, job.plan.share),
             regions=read_regions(chosen.asked, job.container),
-            fillers=tuple(item for item in job.fillers if id(item) not in gone),
+            fillers=without(job.fillers, gone),
         )
+
+
+def without(items: Sequence[Item], gone: Sequence[Item]) -> tuple[Item, ...]:
+    """Items but those that are gone: a word that is not there is not repeated either."""
+    known = {id(item) for item in gone}
+    return tuple(item for item in items if id(item) not in known)
 
 
 def read_cloud(
