@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+import shapely
 
 from packwork.arrays import FloatArray
 
 AT_ONCE = 2**22
 """Products of points and pieces that are looked at together. Larger takes more memory for
 no speed. Chosen."""
+
+FEW_PIECES = 32
+"""Pieces up to which all are looked at for each point. Larger is slower for many points, smaller
+builds an index for nothing. Tried."""
 
 NOWHERE = 1e-12
 """Distance below which there is no direction. Derived: far below any canvas' rounding."""
@@ -54,7 +60,7 @@ class Distance:
     def __call__(self, points: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Distances ``(n,)``, canvas units, and unit vectors ``(n, 2)`` that lead off, or zeros."""
         off = np.empty_like(points)
-        step = max(AT_ONCE // max(len(self.begins), 1), 1)
+        step = max(AT_ONCE // min(max(len(self.begins), 1), FEW_PIECES), 1)
         for first in range(0, len(points), step):
             some = slice(first, first + step)
             off[some] = points[some] - self.nearest(points[some])
@@ -63,10 +69,29 @@ class Distance:
 
     def nearest(self, points: FloatArray) -> FloatArray:
         """``(n, 2)`` nearest point of the pieces to each point ``(n, 2)``, canvas units."""
-        along = self.ends - self.begins
-        square = np.maximum((along**2).sum(axis=1), NOWHERE**2)
-        since = points[:, None] - self.begins
-        share = np.clip((since * along).sum(axis=2) / square, 0.0, 1.0)
-        off = since - share[..., None] * along
+        off = self._from_all(points) if len(self.begins) <= FEW_PIECES else self._from_near(points)
+        return np.asarray(points - off)
+
+    def _from_all(self, points: FloatArray) -> FloatArray:
+        """``(n, 2)`` way from the nearest piece: all are looked at."""
+        off = _ways(points[:, None], self.begins, self.ends)
         best = np.argmin((off**2).sum(axis=2), axis=1)
-        return np.asarray(points - off[np.arange(len(points)), best])
+        return np.asarray(off[np.arange(len(points)), best])
+
+    def _from_near(self, points: FloatArray) -> FloatArray:
+        """The same by an index of the pieces."""
+        best = self._tree.nearest(shapely.points(points))
+        return _ways(points, self.begins[best], self.ends[best])
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        return shapely.STRtree(shapely.linestrings(np.stack([self.begins, self.ends], axis=1)))
+
+
+def _ways(points: FloatArray, begins: FloatArray, ends: FloatArray) -> FloatArray:
+    """Ways ``(..., 2)`` to points from the nearest places of pieces."""
+    along = ends - begins
+    square = np.maximum((along**2).sum(axis=-1), NOWHERE**2)
+    since = points - begins
+    share = np.clip((since * along).sum(axis=-1) / square, 0.0, 1.0)
+    return np.asarray(since - share[..., None] * along)

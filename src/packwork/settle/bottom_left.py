@@ -92,7 +92,10 @@ class FreeRoom:
             Items of one number have the same ones.
         """
         if kind not in self._heights:
-            self._heights[kind] = heights(self._points, item)
+            # Of room alone: heights above a coast of many edges take time.
+            room = np.flatnonzero(self._wall.ravel() > self._gap)
+            self._heights[kind] = np.full(len(self._points), np.inf)
+            self._heights[kind][room] = heights(self._points[room], item)
         found = [self._by_pixel(radius, item, kind, heights), self._by_pair(radius, item, heights)]
         centres = [centre for centre in found if centre is not None]
         if not centres:
