@@ -156,6 +156,7 @@ def test_a_container_of_very_many_vertices_is_simplified_to_its_safe_side(
     fewer = inner_simplified(region, 0.02)
     assert region.covers(fewer)
     assert fewer.area > 0.97 * region.area
+    assert inner_simplified(region, 1e-4 * region.length / 6_000) is region
 
 
 def test_a_container_of_very_many_parts_keeps_those_of_few_vertices(

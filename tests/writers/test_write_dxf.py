@@ -12,6 +12,7 @@ import pytest
 import shapely
 from ezdxf import recover
 from ezdxf.document import Drawing
+from ezdxf.entities.lwpolyline import LWPolylinePoints
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
@@ -22,7 +23,7 @@ from packwork.scene.canvas import brought_over, on_canvas
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.units import canvas_size, convert
-from packwork.writers.dxf import LAYERS, dxf_bytes, paper_unit
+from packwork.writers.dxf import LAYERS, LinePoints, dxf_bytes, paper_unit
 
 CODES = {"mm": 4, "cm": 5, "in": 1}
 
@@ -112,3 +113,11 @@ def test_same_layout_same_bytes_and_no_trace_in_the_library(three: Layout) -> No
     before = ezdxf.options.write_fixed_meta_data_for_testing
     assert dxf_bytes(three) == dxf_bytes(three)
     assert ezdxf.options.write_fixed_meta_data_for_testing is before
+
+
+def test_points_are_written_as_ezdxf_would_write_them() -> None:
+    ring = np.random.default_rng(0).normal(0, 1e3, (50, 2)).round(6)
+    ring[:3] = [[0, -0.0], [1e-6, 1e20], [1e-9, 3]]
+    own = LWPolylinePoints()
+    own.set(np.column_stack([ring, np.zeros((50, 3))]))
+    assert LinePoints(ring).dxfstr() == "".join(tag.dxfstr() for tag in own.dxftags())

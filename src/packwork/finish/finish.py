@@ -178,11 +178,15 @@ class _Finish:
         self._pulling = pulling_of(forces, self._sizing)
         self._is_shared = isinstance(self._sizing, SharedSize)
         exact = Detail(outlines, container.outline, poses)
-        self._fine = exact.covers(exact.tolerance(FINE, FINE_OF_GAP * options.gap_cu))
         tolerance = COARSE if options.sizes == "free" else COMMON_COARSE
         tolerance = exact.tolerance(tolerance, COARSE_OF_GAP * options.gap_cu)
         is_exact = options.sizes == "fixed" or options.refining
-        self._coarse = self._fine if is_exact else self._fine.covers(tolerance)
+        if stop() and not is_exact:
+            # Nothing will grow into what finer ones leave.
+            self._fine = self._coarse = exact.covers(tolerance)
+        else:
+            self._fine = exact.covers(exact.tolerance(FINE, FINE_OF_GAP * options.gap_cu))
+            self._coarse = self._fine if is_exact else self._fine.covers(tolerance)
         self._first_trust = REFINING_TRUST if options.refining else FIRST_TRUST
         zero = np.zeros(len(poses))
         self.arrangement = self._coarse.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))

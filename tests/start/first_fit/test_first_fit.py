@@ -116,6 +116,19 @@ def test_where_nothing_can_fit_nothing_is_found() -> None:
     assert first_fit(container, [BOX] * 3, np.ones(3), [UPRIGHT] * 3, rng) is None
 
 
+def test_a_stop_ends_the_search_while_margins_are_made() -> None:
+    """Those of hundreds of words take seconds."""
+    asked = [0]
+
+    def stop() -> bool:
+        asked[0] += 1
+        return asked[0] > 3
+
+    angles, rng = [np.zeros(1)] * 9, np.random.default_rng(0)
+    assert first_fit(_disc(), [BOX] * 9, np.ones(9), angles, rng, margin_cu=0.1, stop=stop) is None
+    assert asked[0] <= 6
+
+
 def test_a_stop_ends_the_search_at_once() -> None:
     rng = np.random.default_rng(0)
     angles = [UPRIGHT] * 3

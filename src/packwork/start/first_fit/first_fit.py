@@ -187,14 +187,16 @@ class _Fitting:
                 factor = low * STRIDE
             else:
                 factor = math.sqrt(low * high)
-        return found if found is None or stop() else self._loosened(found)
+        return found if found is None else self._loosened(found, stop)
 
-    def _loosened(self, tight: Poses) -> Poses:
+    def _loosened(self, tight: Poses, stop: Stop) -> Poses:
         """The same sizes, the last and smallest where there is most room.
 
         What is left over is else one large void, where the last items would have come.
         """
-        stencils = self._stencils(tight.scale)
+        stencils = self._stencils(tight.scale, stop)
+        if stencils is None:
+            return tight
         order = self._order(self._urgency)
         for share in LOOSE:
             found = self._put_in_order(order, tight.scale, stencils, round(share * len(order)))
@@ -205,7 +207,9 @@ class _Fitting:
     def _put_all(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
         """Poses of all items at one size; None if not all found a place."""
         scales = np.where(self._is_sized, self._scales, self._scales * factor)
-        stencils = self._stencils(scales)
+        stencils = self._stencils(scales, stop)
+        if stencils is None:
+            return None
         urgency = self._urgency.copy()
         for attempt in range(attempts):
             if attempt and stop():
@@ -294,10 +298,12 @@ class _Fitting:
         held.ravel()[home] = worth.ravel()[home]
         return held
 
-    def _stencils(self, scales: FloatArray) -> dict[Key, Stencil]:
-        """Stencils of all items at all their angles; equal ones are cut once."""
+    def _stencils(self, scales: FloatArray, stop: Stop) -> dict[Key, Stencil] | None:
+        """Stencils of all items at all their angles, equal ones cut once; None if stopped."""
         wanted: dict[Key, Outline] = {}
         for k, outline in enumerate(self._outlines):
+            if stop():
+                return None
             scale = scales[k]
             for turn in self._angles[k]:
                 key = self._key(k, scale, turn)
