@@ -7,6 +7,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 
 from made_fonts import make_font_folders
+from packwork import compiled
 from packwork.display import bar
 from packwork.fonts import FOLDERS
 from packwork.readers.svg import kept
@@ -23,6 +24,12 @@ settings.load_profile("check")
 def _no_lines_of_slow_machines(monkeypatch: pytest.MonkeyPatch) -> None:
     """Lines of progress come with time; what a test sees may not."""
     monkeypatch.setattr(bar, "SECONDS_BETWEEN_LINES", float("inf"))
+
+
+@pytest.fixture(autouse=True)
+def _no_notice_of_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Which test compiles the first kernel, and logs that, is chance."""
+    monkeypatch.setattr(compiled, "_tell_once", lambda: None)
 
 
 class _OfThisSession(dict[str, bytes]):

@@ -214,3 +214,34 @@ def test_indexes_and_tables_of_arrow_survive() -> None:
         assert (made.index if data is frame else made["fruit"]).tolist() == ["fig", "kiwi"]
         words = pw.words("circle", data, min_count=1, **QUICK)
         assert [item.name for item in words.items] == ["fig", "kiwi"]
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda: pw.measure(3), "layout: is int; give a layout or its file"),
+        (lambda: pw.Layout.load(None), "layout: is NoneType; give a layout or its file"),
+        (lambda: pw.finish("heart"), "layout: is str; give a layout, such as"),
+        (lambda: pw.run(None), "recipe: is NoneType; give a recipe file, or options as a dict"),
+        (lambda: pw.photos("heart", []), "sources: none were given; give photos"),
+        (lambda: pw.words("heart", ["owl", "fox"]), "source: is list; use a text, a file, or"),
+        (lambda: pw.fill("heart", "star", **QUICK).save(None), "path: is NoneType; give a path"),
+        (
+            lambda: pw.fill("heart", "star", start=pw.Poses([1], [float("nan")])),
+            "poses: y must be finite; that of item 0 is nan",
+        ),
+        (
+            lambda: pw.fill("heart", "star", start=pw.Poses([1, 1], [2, 2], scale=[1, 0])),
+            r"poses: scale must be finite and positive; that of item 1 is 0\.0",
+        ),
+    ],
+)
+def test_what_is_no_such_value_is_told_in_one_line(call: Callable[[], Any], said: str) -> None:
+    with pytest.raises(pw.PackworkError, match=rf"^{said}") as met:
+        call()
+    assert "\n" not in str(met.value)
+
+
+def test_a_layout_has_numbers_that_can_be_drawn(layout: pw.Layout) -> None:
+    with pytest.raises(pw.ShapeError, match="poses: scale must be finite and positive"):
+        replace(layout, poses=replace(layout.poses, scale=-layout.poses.scale))

@@ -9,6 +9,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.errors import ShapeError
 from packwork.scene.pose import Poses
 
 OF_PLACES = ("metrics", "certified", "filling", "beside", "pile")
@@ -83,6 +84,33 @@ def frozen(array: FloatArray) -> FloatArray:
     copied = np.array(array)
     copied.flags.writeable = False
     return copied
+
+
+def checked_poses(poses: Poses) -> Poses:
+    """The poses themselves, if all of them can be drawn.
+
+    Raises
+    ------
+    ShapeError
+        If a number is none, or a scale or stretch is not positive.
+
+    Examples
+    --------
+    >>> checked_poses(Poses([1], [2], scale=-1))
+    Traceback (most recent call last):
+    packwork.errors.ShapeError: poses: scale must be finite and positive; that of item 0 is -1.0
+    """
+    for column in fields(Poses):
+        numbers = getattr(poses, column.name)
+        is_size = column.name in {"scale", "stretch"}
+        wrong = np.flatnonzero(~(np.isfinite(numbers) & ((numbers > 0) | (not is_size))))
+        if len(wrong):
+            needed = "finite and positive" if is_size else "finite"
+            raise ShapeError(
+                f"poses: {column.name} must be {needed}; "
+                f"that of item {wrong[0]} is {numbers[wrong[0]]}"
+            )
+    return poses
 
 
 def frozen_poses(poses: Poses) -> Poses:

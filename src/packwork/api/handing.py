@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from typing import Any
 
+from packwork.api.frozen import checked_poses
 from packwork.readers.memory.shapes import Columns
 from packwork.readers.memory.values import Handed
 from packwork.scene.layout import Layout
@@ -64,6 +65,8 @@ def _named(key: str, value: Any, handed: Handed) -> Any:
 
 def _named_start(value: Any, handed: Handed) -> Any:
     """Name of a way to start, or of an earlier layout or poses."""
+    if isinstance(value, Poses):
+        checked_poses(value)
     if isinstance(value, Layout | Poses):
         return handed.shelf.put(value, "layout" if isinstance(value, Layout) else "poses")
     return os.fspath(value) if isinstance(value, os.PathLike) else value

@@ -10,6 +10,7 @@ import numpy as np
 
 from packwork.api.frozen import ReadOnly
 from packwork.api.layout import Layout, public
+from packwork.errors import RecipeError
 from packwork.finish.finish import finish as exact_finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.bezier import FLATTENING
@@ -98,6 +99,10 @@ def finish(
     >>> moved.certified, finish(moved).certified
     (False, True)
     """
+    if not isinstance(layout, scene.Layout):
+        raise RecipeError(
+            "layout", f"is {type(layout).__name__}; give a layout, such as Layout.load(file)"
+        )
     container = layout.container
     gap = length_asked("padding", padding, container.unit, container.side)
     scales = np.array(layout.poses.scale)

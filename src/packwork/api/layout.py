@@ -13,7 +13,7 @@ from typing import IO, TYPE_CHECKING, Any, Unpack, cast
 from pydantic import ValidationError
 
 from packwork import writers
-from packwork.api.frozen import ReadOnly, frozen, frozen_poses, manifest_of
+from packwork.api.frozen import ReadOnly, checked_poses, frozen, frozen_poses, manifest_of
 from packwork.api.history import History
 from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.placement import Placement, Pose
@@ -85,7 +85,7 @@ class Layout(scene.Layout):
     def __post_init__(self) -> None:
         super().__post_init__()
         put = partial(object.__setattr__, self)
-        put("poses", frozen_poses(self.poses))
+        put("poses", frozen_poses(checked_poses(self.poses)))
         put("weights", frozen(self.weights))
         parts = self.container, self.items, self.poses, self.weights
         put("manifest", manifest_of(self.manifest, parts))
@@ -174,6 +174,8 @@ class Layout(scene.Layout):
             else:
                 writers.write_atomic(path, self._encoded(format, options))
             return
+        if not hasattr(path, "write"):
+            raise RecipeError("path", f"is {type(path).__name__}; give a path or an open file")
         format = format or Path(str(getattr(path, "name", ""))).suffix
         if not format:
             raise RecipeError("format", "a buffer has no ending; give a format, such as 'svg'")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -9,6 +10,7 @@ from typing import Any
 from packwork.api.handing import handed_over, with_names
 from packwork.api.layout import Layout
 from packwork.api.verbs import run_recipe
+from packwork.errors import RecipeError
 from packwork.progress import Listener, Stop, never
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
@@ -55,6 +57,10 @@ def run(
     (3, True)
     """
     with handed_over() as handed:
+        if not isinstance(recipe, Mapping | str | os.PathLike):
+            raise RecipeError(
+                "recipe", f"is {type(recipe).__name__}; give a recipe file, or options as a dict"
+            )
         if isinstance(recipe, Mapping):
             plain = with_names(_said(recipe), handed)
         else:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from io import BytesIO
+from tempfile import TemporaryFile
 from typing import TYPE_CHECKING, Any
 
 from packwork.errors import RecipeError
@@ -91,7 +92,12 @@ def tiff_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None =
     if picture.getextrema()[-1] == (255, 255):
         picture = picture.convert("RGB")
     known = _density(layout, longer_side_px)
-    return _saved(picture, "TIFF", compression="tiff_adobe_deflate", **known)
+    # In memory libtiff leaves the byte between data of an odd length and what follows as it finds
+    # it; in a file that is 0.
+    with TemporaryFile() as file:
+        picture.save(file, "TIFF", compression="tiff_adobe_deflate", **known)
+        file.seek(0)
+        return file.read()
 
 
 def _density(layout: Layout, longer_side_px: int) -> dict[str, Any]:

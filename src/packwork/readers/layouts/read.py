@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
-from packwork.errors import ReadError
+from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.layouts.dxf import layout_of_dxf
@@ -45,6 +46,8 @@ def read_written(path: str | Path) -> Layout:
     Traceback (most recent call last):
     packwork.errors.ReadError: layout.png: has no outlines to measure; give a .geojson, ...
     """
+    if not isinstance(path, str | os.PathLike):
+        raise RecipeError("layout", f"is {type(path).__name__}; give a layout or its file")
     ending = Path(path).suffix.lower()
     if ending == ".svg":
         data = read_bytes(path, MAX_BYTES)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sized
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
@@ -64,6 +64,8 @@ class PhotoOptions(Options):
     def _one_source_is_enough(cls, sources: Any) -> Any:
         if isinstance(sources, str | Path):
             return (str(sources),)
+        if isinstance(sources, Sized) and not len(sources):
+            raise RecipeError("sources", "none were given; give photos, or a folder of them")
         return tuple(map(str, sources)) if isinstance(sources, Iterable) else sources
 
     @field_validator("shape")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -70,14 +71,16 @@ def _plain_source(source: object) -> object:
     if is_frame(source):
         rows = [tuple(row.values()) for row in rows_of_frame(source, has_row_numbers=False)]
         return {str(row[0]): row[1] for row in rows if len(row) > 1 and row[0] is not None}
-    pairs = getattr(source, "items", None)
-    if pairs is None or isinstance(source, Mapping):
+    if source is None or isinstance(source, str | os.PathLike | Mapping):
         return source
+    pairs = getattr(source, "items", None)
     try:
-        return dict(pairs())
+        return dict(pairs())  # type: ignore[misc]
     except (TypeError, ValueError):
         raise RecipeError(
-            "source", "use a text, a file, or weights by word such as {'bear': 2}"
+            "source",
+            f"is {type(source).__name__}; use a text, a file, or weights by word such as "
+            "{'bear': 2}",
         ) from None
 
 
