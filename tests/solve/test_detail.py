@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from packwork.geometry.outline import Outline
-from packwork.solve.detail import CLEFT_PX, DETAIL_PX, seen_at
+from packwork.solve.detail import CLEFT_PX, DETAIL_PX, MARGIN_RUNGS, seen_at
 from scenes import box, disc, square
 
 
@@ -30,6 +30,16 @@ def test_copies_of_about_one_size_share_one_outline() -> None:
     seen = seen_at([outline, outline, outline], np.array([1.0, 1.01, 9.0]), 10.5)
     assert seen[0] is seen[1]
     assert seen[0] is not seen[2]
+
+
+def test_margins_of_many_sizes_are_made_once_a_step_of_size() -> None:
+    """Of 3,000 marks of a chart each had one of its own."""
+    outline = disc()
+    scales = np.geomspace(1.0, 4.0, 500)
+    seen = seen_at([outline] * 500, scales, 50.0, margin_cu=0.2)
+    assert len({id(one) for one in seen}) <= 2 * MARGIN_RUNGS + 1
+    margins = (np.array([one.extent for one in seen]) - outline.extent) / 2 * scales
+    assert np.abs(margins / 0.2 - 1).max() < 2 ** (1 / MARGIN_RUNGS) - 1 + 0.03
 
 
 @pytest.mark.parametrize(("px_per_cu", "is_closed"), [(0.5, True), (200.0, False)])
