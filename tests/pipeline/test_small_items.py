@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from importlib import import_module
+
 import numpy as np
 import pytest
 
 from packwork.finish.finish import Finished
-from packwork.pipeline.exact import DWARF, _without_dwarfs_that_may_be
+from packwork.pipeline.exact import DWARF, _without_dwarfs_that_may_be, tell_of_small
 from packwork.pipeline.job import Job
 from packwork.pipeline.shortfalls import SPECK, shortfalls
 from packwork.recipe import make_recipe
@@ -31,6 +34,9 @@ def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
 ) -> None:
     found = _without_dwarfs_that_may_be(job_of(3), np.ones(3), finished([0.5, 0.8, 1.0]))
     assert found.undersized == ()
+    # Of several attempts that of the one that is kept is told alone.
+    assert not caplog.records
+    tell_of_small(found)
     assert [record.getMessage() for record in caplog.records] == [
         "2 items are smaller than --size-ratio 2 allows, star by 50 %"
     ]
@@ -64,3 +70,21 @@ def test_what_nobody_can_see_is_not_as_asked() -> None:
     assert said.startswith("10 items are too small to be seen (circle: ")
     is_speck = np.sqrt(run.layout.areas) < SPECK * run.layout.container.side
     assert is_speck.tolist() == [False, True] * 10
+
+
+def test_one_line_tells_of_them_though_several_attempts_are_finished(
+    caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls: list[int] = []
+
+    def noted(job: Job, smallest: np.ndarray, result: Finished) -> Finished:
+        calls.append(len(result.poses))
+        return replace(result, undersized=(), small=f"attempt {len(calls)}")
+
+    monkeypatch.setattr(
+        import_module("packwork.pipeline.exact"), "_without_dwarfs_that_may_be", noted
+    )
+    fill(make_recipe(container="circle", items=["star"], count=1, **QUICK))
+    told = [r.getMessage() for r in caplog.records if r.getMessage().startswith("attempt")]
+    assert len(calls) > 1
+    assert len(told) == 1

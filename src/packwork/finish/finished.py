@@ -26,6 +26,8 @@ class Finished:
         Linear programmes for each item.
     seconds
         Time taken.
+    small
+        What is said of items a little smaller than free sizes go; empty if none is.
     """
 
     poses: Poses
@@ -34,6 +36,7 @@ class Finished:
     undersized: tuple[int, ...]
     rounds: int
     seconds: float
+    small: str = ""
 
     @classmethod
     def as_is(cls, poses: Poses) -> Finished:

@@ -162,7 +162,8 @@ def finished(
 def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished) -> Finished:
     """The result without items a little smaller than free sizes go, unless a rule sizes them.
 
-    That range is a default, not an option that was given; a notice names them.
+    That range is a default, not an option that was given; a sentence names them, which is told
+    of the result that is kept alone (:func:`tell_of_small`).
     """
     real: list[int] = []
     small: list[int] = []
@@ -171,14 +172,21 @@ def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished
         is_asked = "scale" in job.asked[k].values or "size" in job.asked[k].pin
         if short[k] > 1:
             (real if is_asked or short[k] > DWARF else small).append(k)
+    said = ""
     if small:
         worst = max(small, key=lambda k: short[k])
         many = number_of(len(small), "item is", "items are")
-        _LOG.warning(
-            "%s smaller than --size-ratio %g allows, %s by %.0f %%",
-            many, job.plan.size_ratio, job.items[worst].name, 100 * (1 - 1 / short[worst]),
-        )  # fmt: skip
-    return replace(result, undersized=tuple(real))
+        said = (
+            f"{many} smaller than --size-ratio {job.plan.size_ratio:g} allows, "
+            f"{job.items[worst].name} by {100 * (1 - 1 / short[worst]):.0f} %"
+        )
+    return replace(result, undersized=tuple(real), small=said)
+
+
+def tell_of_small(result: Finished) -> None:
+    """Tell of items a little smaller than free sizes go."""
+    if result.small:
+        _LOG.warning("%s", result.small)
 
 
 def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:

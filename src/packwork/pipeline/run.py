@@ -7,7 +7,7 @@ from shapely.errors import GEOSException
 from packwork.errors import ReadError, UnresolvedError
 from packwork.pipeline.attempts import Attempts, most_promising
 from packwork.pipeline.beginning import begin
-from packwork.pipeline.exact import finish_exactly
+from packwork.pipeline.exact import finish_exactly, tell_of_small
 from packwork.pipeline.gaps import fill_gaps
 from packwork.pipeline.job import Job
 from packwork.pipeline.levels import run_levels
@@ -60,4 +60,5 @@ def along(job: Job, watch: Watch) -> Placed:
             solved.append(run_levels(begun, turn))
         best = most_promising(solved, watch.stop)
         attempts.take(finish_exactly(best, attempt.finishing, may_fail=attempt.is_spare))
+    tell_of_small(attempts.placed.exact)
     return fill_gaps(attempts.placed, watch.part(BEFORE_VOIDS, 1.0, "gaps"))
