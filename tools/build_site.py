@@ -20,7 +20,17 @@ STAGE, SITE = BUILD / "site-source", BUILD / "site"
 
 PAGES = {
     "Begin": ("tutorial", "users", "how-it-works", "gallery"),
-    "Uses": ("words", "photos", "charts", "films", "forces", "rules", "cutting", "python"),
+    "Uses": (
+        "words",
+        "words-pairs",
+        "photos",
+        "charts",
+        "films",
+        "forces",
+        "rules",
+        "cutting",
+        "python",
+    ),
     "Reference": tuple(f"reference/{name}" for name in REFERENCE),
     "About": ("conventions", "architecture", "security"),
 }

@@ -73,7 +73,7 @@ PAGES = {
     "scaling": "10 to 10,000 items, 50 to 4,000 px, stages, floor, cores",
     "engine": "milliseconds per stage, the frozen set",
     "quality": "before the exact finish and after, voids filled, many items",
-    "words": "word clouds in five containers",
+    "words": "word clouds in fat and thin shapes, in the peer's own examples",
     "photos": "photographs, and a poster's memory",
     "forces": "piles, round packs, stable words",
     "parts": "containers of several parts",

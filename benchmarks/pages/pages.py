@@ -13,8 +13,9 @@ from benchmarks.kit.manifests import Manifest, known, of_parts, write_text
 from benchmarks.pages import overview
 from benchmarks.paper import paper, resolution
 from benchmarks.peers import peer_pages
-from benchmarks.quality import charts, evenness, forces, parts, photos, quality, words
+from benchmarks.quality import charts, evenness, forces, parts, photos, quality
 from benchmarks.robustness import files_page, robustness
+from benchmarks.words import pairs_page, words_page
 
 PAGES: dict[str, Callable[[Manifest], str]] = {
     "evenness": evenness.page,
@@ -22,22 +23,30 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
     "peers": peer_pages.page,
     "resolution": resolution.page,
     "scaling": scaling_page.page,
+    "words": words_page.page,
+    "words-pairs": pairs_page.page,
     **{
         name: partial(of_parts, module.PAGE)
         for name, module in {
             "charts": charts, "engine": engine, "files": files_page, "films": film,
             "forces": forces, "outlines": outlines, "parts": parts, "photos": photos,
-            "quality": quality, "robustness": robustness, "words": words,
+            "quality": quality, "robustness": robustness,
         }.items()
     },
 }  # fmt: skip
 """By the manifest's name."""
 
+FILES = {"words-pairs": pairs_page.FILE}
+"""Pages that are called otherwise than their manifests."""
+
 
 def rendered() -> dict[str, str]:
     """Every page whose manifest is there, by its file's name; the overview last."""
     manifests = known()
-    found = {f"benchmarks-{name}.md": PAGES[name](one) for name, one in manifests.items()}
+    found = {
+        FILES.get(name, f"benchmarks-{name}.md"): PAGES[name](one)
+        for name, one in manifests.items()
+    }
     return {**found, "benchmarks.md": overview.page(manifests)}
 
 

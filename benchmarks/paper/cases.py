@@ -14,7 +14,7 @@ from benchmarks.kit import frozen
 from benchmarks.kit.manifests import DOCS, Manifest
 from benchmarks.quality.photos import COUNT as PHOTOS
 from benchmarks.quality.photos import album
-from benchmarks.quality.words import vocabulary
+from benchmarks.words.clouds import vocabulary
 from packwork import pipeline, uses
 from packwork.geometry import affine
 from packwork.readers.builtin import builtin_item

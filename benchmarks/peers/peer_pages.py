@@ -9,7 +9,7 @@ import numpy as np
 from benchmarks.kit.manifests import Manifest
 from benchmarks.kit.measuring import lasting, markdown_table, ranged
 from benchmarks.peers import peer_circles, peer_icons, peer_penrose, peer_raster
-from benchmarks.quality.words import SIZE_RATIO
+from benchmarks.words.clouds import SIZE_RATIO
 
 PAGE = """# Peers
 

@@ -12,7 +12,7 @@ from PIL import Image
 from benchmarks.kit import node
 from benchmarks.kit.manifests import Manifest
 from benchmarks.peers.peering import RUNS, entry, missing, version
-from benchmarks.quality.words import (
+from benchmarks.words.clouds import (
     FONT,
     FREE_SIZES,
     SIDE_PX,
@@ -77,8 +77,8 @@ def _entry(
     """The same seed in each run: what differs is the time alone."""
     clouds = [make(container, weights) for _ in range(RUNS)]
     found = figures(container, weights, clouds[0])
-    if clouds[0].overlap != "-":
-        found["overlap"] = float(clouds[0].overlap)
+    if clouds[0].overlap is not None:
+        found["overlap"] = clouds[0].overlap
     return entry(
         program, known, container.name, len(weights), [cloud.seconds for cloud in clouds],
         {key: [value] for key, value in found.items()},

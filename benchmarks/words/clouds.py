@@ -1,31 +1,20 @@
-"""Word clouds beside the ``wordcloud`` package: ``packwork bench words [CONTAINER...] [100|400]``.
-
-Same words, weights, font and container in one run; ours with ``padding 0`` and one word in four
-vertical, once more with sizes that give way, the peer with its defaults, and once more asked for
-sizes in proportion. Without
-arguments all rows are run and the tables are written to docs/benchmarks-words.md. The peer
-comes with ``pip install '.[bench]'``.
-"""
+"""Clouds of the same words by ours and by the ``wordcloud`` package, and their measures."""
 
 from __future__ import annotations
 
-import os
-import sys
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-
 import numpy as np
 from scipy import ndimage
 
-from benchmarks.kit.manifests import write_page
-from benchmarks.kit.measuring import markdown_table
-from packwork import pipeline, uses
+from benchmarks.kit.manifests import Manifest
+from packwork import uses
 from packwork.geometry.outline import joined
+from packwork.metrics.shape import REACH
 from packwork.raster.membership import centre_count
 from packwork.readers.container import read_container
 from packwork.readers.words.options import WordOptions
@@ -34,50 +23,48 @@ from packwork.scene.container import Container
 
 ROOT = Path(__file__).parents[2]
 FONT = ROOT / "src" / "packwork" / "bundled" / "fonts" / "InterDisplay-Black.otf"
-CONTAINERS = ("bird", "bear", "dragon", "cat", "heart")
-COUNTS = (100, 400)
 SIDE_PX = 1_200
+CANVAS_PX = 600
+"""Side of the canvas on which gaps are told."""
+
 ZIPF = 0.35
 FREE_SIZES, SIZE_RATIO = "sizes free", 4.0
-
-HEADER = [
-    "container", "words", "program", "placed", "ink", "sizes off by", "largest gap", "L-nU",
-    "overlap", "outside", "seconds",
-]  # fmt: skip
-
-PAGE = """# Word clouds
-
-Made by `packwork bench words` on {date}.
-{machine}.
-
-Weights are 1 / rank^0.35, heights of letters. "ink" is the share of the container's pixels that is
-drawn on, at 1,200 px; "sizes off by" the median distance of a word's height from its share, in
-percent of it. The peer shrinks words that find no place; in "sizes free" ours give way too
-(`--sizes free --size-ratio {ratio}`); "scaling 1" is the peer with `relative_scaling=1`, which asks
-for sizes in proportion. The largest gap is the radius of the largest empty disc and L-nU the mean
-squared distance from empty pixels to the nearest ink, both on a canvas of 600 px. Overlap and
-outside are exact areas of ours, shares of the container; the peer writes pixels. Seconds are
-the processor's, reading and measuring taken in, on a machine that others use too.
-
-{table}
-"""
+GRADED_SIZES, AUTO_SIZES = "sizes graded", "sizes auto"
+SYLLABLES = ("ba", "den", "fo", "gri", "lo", "mar", "nu", "pes", "qua", "ri", "sto", "ven")
 
 
 @dataclass(frozen=True)
 class Cloud:
-    """One result."""
+    """One result: which program, what it drew and what it took.
+
+    Parameters
+    ----------
+    placed
+        How many words are there.
+    ink
+        ``(rows, columns)`` pixels that are drawn on.
+    heights
+        Of the words that are there, in any unit.
+    seconds
+        Of the processor.
+    overlap, outside
+        Exact areas, shares of the container; None where they are not known.
+    certified
+        Whether the run's certificate holds; None where there is none.
+    """
 
     program: str
     placed: int
     ink: np.ndarray
     heights: dict[str, float]
     seconds: float
-    overlap: str = "-"
-    outside: str = "-"
+    overlap: float | None = None
+    outside: float | None = None
+    certified: bool | None = None
 
 
 def vocabulary(count: int) -> dict[str, float]:
-    """Lower-case words of the gallery, with Zipf-like weights."""
+    """Lower-case words of the gallery, then made-up ones, with Zipf-like weights."""
     examples = ROOT / "examples"
     sources = [*sorted(examples.glob("words-*/words.csv")), examples / "words-bird" / "raven.txt"]
     texts = [
@@ -86,12 +73,16 @@ def vocabulary(count: int) -> dict[str, float]:
         for word in read_words(WordOptions(source=str(source), count=5_000))
     ]
     plain = [text for text in dict.fromkeys(texts) if text.isascii() and text.isalpha()]
-    assert len(plain) >= count, len(plain)
-    mixed = np.random.default_rng(0).permutation(sorted(plain))[:count]
-    return {str(word): (rank + 1.0) ** -ZIPF for rank, word in enumerate(mixed)}
+    rng = np.random.default_rng(0)
+    mixed = [str(word) for word in rng.permutation(sorted(plain))[:count]]
+    while len(mixed) < count:
+        made_up = "".join(rng.choice(SYLLABLES, size=rng.integers(2, 5)))
+        mixed += [made_up] if made_up not in mixed else []
+    return {word: (rank + 1.0) ** -ZIPF for rank, word in enumerate(mixed)}
 
 
 def ours(container: Container, weights: dict[str, float], **options: Any) -> Cloud:
+    """Ours without padding, one word in four vertical; sizes true unless asked otherwise."""
     began = time.process_time()
     recipe = uses.words_recipe(
         container.name,
@@ -106,22 +97,34 @@ def ours(container: Container, weights: dict[str, float], **options: Any) -> Clo
     layout, exact = run.layout, run.metrics.exact
     names = [item.name for item in layout.items]
     return Cloud(
-        f"packwork, {FREE_SIZES}" if options else "packwork",
+        f"packwork, sizes {options['sizes']}" if "sizes" in options else "packwork",
         len(layout.items) - len(run.unplaced),
         pixels(layout.inks, container),
         dict(zip(names, layout.poses.scale.tolist(), strict=True)),
         seconds,
-        f"{exact.overlap:.0e}",
-        f"{exact.exceeding:.0e}",
+        exact.overlap,
+        exact.exceeding,
+        run.certified,
     )
 
 
 def our_free(container: Container, weights: dict[str, float]) -> Cloud:
-    """Ours with sizes that give way, as the peer's do."""
+    """Ours with sizes that give way as it comes."""
     return ours(container, weights, sizes="free", size_ratio=SIZE_RATIO)
 
 
+def our_graded(container: Container, weights: dict[str, float]) -> Cloud:
+    """Ours with sizes that give way in rank order, as the peer's do."""
+    return ours(container, weights, sizes="graded")
+
+
+def our_choice(container: Container, weights: dict[str, float]) -> Cloud:
+    """Ours with the default of ``packwork words``."""
+    return ours(container, weights, sizes="auto")
+
+
 def peer(container: Container, weights: dict[str, float], relative_scaling: Any = "auto") -> Cloud:
+    """The peer with its defaults, in the same font."""
     import wordcloud
 
     inside = pixels([container.outline], container)
@@ -149,6 +152,7 @@ def proportional_peer(container: Container, weights: dict[str, float]) -> Cloud:
 
 
 def pixels(outlines: Sequence[Any], container: Container) -> np.ndarray:
+    """``(rows, columns)`` which pixels some of the outlines have, the longer side ``SIDE_PX``."""
     scale = SIDE_PX / container.side
     shape = (round(container.height * scale), round(container.width * scale))
     points, starts = joined(outlines)
@@ -156,61 +160,50 @@ def pixels(outlines: Sequence[Any], container: Container) -> np.ndarray:
 
 
 def figures(container: Container, weights: dict[str, float], cloud: Cloud) -> dict[str, float]:
-    """What a cloud is worth: ink, sizes, gaps."""
+    """What a cloud is worth: ink, sizes, gaps, and how much of the container is near a word."""
     inside = pixels([container.outline], container)
     shown = cloud.ink & inside
-    distance = ndimage.distance_transform_edt(~shown) * (600 / SIDE_PX)
-    room = np.minimum(distance, ndimage.distance_transform_edt(inside) * (600 / SIDE_PX))
+    px_per_canvas = CANVAS_PX / SIDE_PX
+    distance = ndimage.distance_transform_edt(~shown) * px_per_canvas
+    room = np.minimum(distance, ndimage.distance_transform_edt(inside) * px_per_canvas)
     ratios = np.array([height / weights[word] for word, height in cloud.heights.items()])
     # Against the largest word's, as a reader compares.
     first = next(iter(weights))
     off = ratios / (cloud.heights.get(first, np.nan) / weights[first]) - 1
+    reach = REACH * container.outline.extent / container.side * CANVAS_PX
     return {
         "placed": cloud.placed,
         "ink": float(shown.sum() / inside.sum()),
         "off": float(np.median(np.abs(off))),
         "gap": float(room.max()),
         "LnU": float(np.mean(distance[inside & ~shown] ** 2)),
+        "near": float(np.mean(distance[inside] <= reach)),
     }
 
 
-def row(container: Container, weights: dict[str, float], cloud: Cloud) -> list[str]:
-    found = figures(container, weights, cloud)
-    return [
-        container.name,
-        str(len(weights)),
-        cloud.program,
-        str(cloud.placed),
-        f"{found['ink']:.3f}",
-        f"{100 * found['off']:.2g} %",
-        f"{found['gap']:.1f}",
-        f"{found['LnU']:.1f}",
-        cloud.overlap,
-        cloud.outside,
-        f"{cloud.seconds:.1f}",
-    ]
+def record(container: Container, weights: dict[str, float], cloud: Cloud) -> Manifest:
+    """A cloud's row, as manifests hold it; printed as it comes."""
+    found = {
+        "container": container.name,
+        "words": len(weights),
+        "program": cloud.program,
+        **figures(container, weights, cloud),
+        "overlap": cloud.overlap,
+        "outside": cloud.outside,
+        "certified": cloud.certified,
+        "seconds": cloud.seconds,
+    }
+    print(found, flush=True)
+    return found
 
 
-def rows(names: Sequence[str], counts: Sequence[int]) -> Iterator[list[str]]:
-    for count in counts:
-        weights = vocabulary(count)
-        for name in names:
-            container = read_container(name)
-            for program in (ours, our_free, peer, proportional_peer):
-                found = row(container, weights, program(container, weights))
-                print(" | ".join(found), file=sys.stderr, flush=True)
-                yield found
-
-
-def main(words: Sequence[str]) -> None:
-    names = [name for name in CONTAINERS if name in words] or list(CONTAINERS)
-    counts = [count for count in COUNTS if str(count) in words] or list(COUNTS)
-    pipeline.warm_up()
-    table = markdown_table(HEADER, list(rows(names, counts)))
-    print(table)
-    if not words:
-        write_page("benchmarks-words.md", PAGE, table=table, ratio=f"{SIZE_RATIO:g}")
-
-
-if __name__ == "__main__":
-    main(sys.argv[1:])
+def records(
+    containers: Sequence[Container | str], count: int, programs: Sequence[Any]
+) -> list[Manifest]:
+    """Rows of several containers, each by all programs in turn."""
+    weights = vocabulary(count)
+    found = []
+    for one in containers:
+        container = read_container(one) if isinstance(one, str) else one
+        found += [record(container, weights, make(container, weights)) for make in programs]
+    return found

@@ -1,0 +1,1 @@
+"""Words beside the ``wordcloud`` package, and in its place."""

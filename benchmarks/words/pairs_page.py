@@ -1,0 +1,112 @@
+"""docs/words-pairs.md, of its manifest."""
+
+from __future__ import annotations
+
+from benchmarks.kit.manifests import Manifest
+
+NAME, FILE = "words-pairs", "words-pairs.md"
+
+PAGE = """# Words: eleven pairs
+
+Made by `{command}` on {date}.
+{machine}; wordcloud {peer}.
+
+The examples of the `wordcloud` package, from its source distribution and unchanged, run once with
+that package and once with `packwork.wordcloud` under its name. **Left the peer's picture, right
+ours.** Most examples give no seed, so each run draws another picture; these are of one run, not
+the best of several. Where an example gives no font, each package takes its default: the peer a
+thin one of fixed width, ours a black one. How long each took, and all figures, are on
+[the page of word clouds](benchmarks-words.md#the-peers-own-examples).
+
+Under each pair stands whether we would choose ours, and if not, why; by eye.
+
+{pairs}
+
+## Sources
+
+The examples' code and texts are of the peer's source distribution (MIT); no file of it is in this
+repository, only what was drawn of it. Six of its examples take the shape or the colours of a
+picture by others: two stencils and a drawing "taken from" websites, a photograph, and an ink
+painting whose licence allows study alone. No licence that we know of lets us publish what is made
+of these. For them the same programs ran with pictures of ours of the same size in their place, as
+said at each; the verdicts are of what is shown here. The command also draws the eleven as they
+come, for looking at, into `build/words-pairs`.
+"""
+
+PAIR = """## {name}
+
+{stand_in}| wordcloud | packwork |
+| :---: | :---: |
+| {peer} | {ours} |
+
+{figures}
+
+{verdict}"""
+
+VERDICTS = {
+    "masked": """Ours: the cat is there at a glance, tail and ears filled. In its neck four large
+words stand turned beside each other; the peer's lie one above the other, which reads better.""",
+    "a_new_hope": """Ours: the outline is closed and the greys read. The smallest words, of 4 to
+5 px, are dust.""",
+    "colored": """Ours: petals, stem and leaves keep their colours and edges; the peer's are
+pale.""",
+    "parrot": """Ours: bright where the peer's is mostly ground. A column of long turned words
+in the right wing breaks the rows.""",
+    "wordcloud_cn": """Ours: half as many words again, and the guitar's waist shows.""",
+    "single_word": """Ours, by a little: the disc's rim is as round and the rows are strong. The
+peer has half as many words again, and is finer.""",
+    "simple": """Ours: the heaviest word is in the middle, sizes fall evenly, all but the smallest
+can be read. The words of 4 to 5 px between large letters cannot, in a face as black as ours.""",
+    "arabic": """Ours, by a little: bays of large letters are used, and it is even.""",
+    "emoji": """**The peer's.** Ours has its large words in the middle columns, and left and
+right of them black fields strewn with words of 6 px: sixty words of one frequency stay as small as
+the first that had to be, though there is room. The peer's are as small, but spread.""",
+    "colored_by_group": """Ours, by a little: dense and legible; but the heaviest word lies at the
+bottom, in the darkest green.""",
+    "frequency": """Only ours runs. The example cuts its text at blanks alone, so words hold line
+breaks, which Pillow does not measure for the peer.""",
+}
+"""By example: which of the two we would choose, and why not ours. Written after looking at the
+pictures that are there; to be written again with them."""
+
+NOT_SAID = "Not judged yet."
+
+
+def page(manifest: Manifest) -> str:
+    """All pairs, in the order in which they were made."""
+    return PAGE.format(
+        command=manifest["command"], date=manifest["date"], machine=manifest["machine"],
+        peer=manifest["peer"],
+        pairs="\n\n".join(_pair(name, one) for name, one in manifest["pairs"].items()),
+    )  # fmt: skip
+
+
+def _pair(name: str, one: Manifest) -> str:
+    programs = one["programs"]
+    stand_in = one["stands_in_for"]
+    return PAIR.format(
+        name=name,
+        stand_in=f"With a picture of ours in place of `{stand_in}`.\n\n" if stand_in else "",
+        peer=_picture(name, "wordcloud", programs["wordcloud"]),
+        ours=_picture(name, "packwork", programs["packwork"]),
+        figures=_figures(programs),
+        verdict=VERDICTS.get(name, NOT_SAID),
+    )
+
+
+def _picture(name: str, program: str, one: Manifest) -> str:
+    if "file" in one:
+        return f'<img src="{one["file"]}" width="380" alt="{name} by {program}">'
+    if "lacks" in one:
+        return f"not run: lacks {one['lacks']}"
+    return f"stops with `{one.get('fails', 'no picture')}`"
+
+
+def _figures(programs: Manifest) -> str:
+    """Words, sizes and ink of those that drew something."""
+    return " ".join(
+        f"{program}: {cloud['words']} words, largest over median "
+        f"{cloud['largest'] / cloud['median']:.1f}, ink {cloud['ink']:.2f}."
+        for program, one in programs.items()
+        for cloud in one.get("clouds", [])[:1]
+    )
