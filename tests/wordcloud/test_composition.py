@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.items import EM_PX, WORD_SPACE
 from packwork.wordcloud import WordCloud
-from packwork.wordcloud.setting import APART, EDGE, UPRIGHT
+from packwork.wordcloud.setting import EDGE, UPRIGHT
 
 WEIGHTS = {f"word{k}": 1 / (1 + k) for k in range(60)}
 
@@ -37,7 +37,7 @@ def test_words_keep_from_larger_ones_by_their_size(cloud: WordCloud) -> None:
     outlines, sizes = cloud.layout.outlines, cloud.layout.poses.scale * EM_PX
     for one, other in combinations(range(8), 2):
         smaller = min(sizes[one], sizes[other])
-        least = min(APART) / EM_PX * smaller
+        least = min(WORD_SPACE) / EM_PX * smaller
         # A pixel of the image on which words are placed.
         assert outlines[one].region.distance(outlines[other].region) > least - 1.0
 

@@ -101,6 +101,7 @@ class Beginning:
     limits: Limits
     is_tight: bool = False
     goes_on: bool = False
+    is_clean: bool = False
 
     @property
     def is_refined(self) -> bool:
@@ -137,7 +138,8 @@ class _Start:
         job, forces, outlines = self._job, self._forces, self._outlines
         if own := job.use.own_places:
             self._nominal = own.poses.scale
-            return self._beginning(own.poses, "first-fit", own.limits, is_tight=True)
+            begun = self._beginning(own.poses, "first-fit", own.limits, is_tight=True)
+            return replace(begun, is_clean=True)
         angles = first_angles(job, self._rng)
         thread = places_along_thread(job, self._region, outlines, self._nominal, angles, self._rng)
         if thread is not None:

@@ -63,6 +63,9 @@ LEAST_KEPT = 0.9
 less to grow by, smaller makes the small ones dwarfs, whose lines then set the width of all.
 Chosen."""
 
+ROUNDING = 1e-6
+"""Share of its size by which an item may be smaller than asked. Derived, far above rounding."""
+
 PRESSING = frozenset(
     {
         "containment",
@@ -170,7 +173,7 @@ def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished
     short = smallest / result.poses.scale
     for k in result.undersized:
         is_asked = "scale" in job.asked[k].values or "size" in job.asked[k].pin
-        if short[k] > 1:
+        if short[k] > 1 + ROUNDING:
             (real if is_asked or short[k] > DWARF else small).append(k)
     said = ""
     if small:
@@ -234,7 +237,7 @@ def _options(
         leans=tuple(leans[items].tolist()) if turning and leans.any() else None,
         trials=0 if keeps_order or is_settled else trials_for(job, len(items)),
         relieving=not is_settled,
-        refining=needs_no_levels(job) or start.is_refined,
+        refining=needs_no_levels(job) or start.is_refined or start.is_clean,
         staying=plan.stays or start.is_refined,
         seed=plan.seed,
     )

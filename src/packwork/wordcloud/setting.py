@@ -16,7 +16,7 @@ from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_shares
 from packwork.readers.unfit import UnfitError
-from packwork.readers.words.items import EM_PX, word_item
+from packwork.readers.words.items import EM_PX, WORD_SPACE, word_item
 from packwork.readers.words.word import Word
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
@@ -34,10 +34,6 @@ short words that would still fit. Chosen."""
 UPRIGHT = 10
 """Words, the first, that are not turned where most are not: one large turned word is what is seen
 first. By eye."""
-
-APART = (0.12 * EM_PX, 0.03 * EM_PX)
-"""Room that a word keeps from larger ones beside and above itself, in the units of its outline:
-words of one size side by side read as one with less. By eye."""
 
 EDGE = 0.01
 """Room along the edge of a canvas, as a share of its shorter side, where margins are narrower:
@@ -216,7 +212,7 @@ class _Reading:
             if item is None:
                 continue
             self.numbers.append(number)
-            yield Candidate(item.outline, step, self._angles_of(number), APART)
+            yield Candidate(item.outline, step, self._angles_of(number), WORD_SPACE)
             step = 1.0
 
     def _angles_of(self, number: int) -> tuple[float, ...]:

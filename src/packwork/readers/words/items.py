@@ -33,6 +33,10 @@ from packwork.scene.live_text import LiveText
 EM_PX = 100.0
 """Height of an em in an item's own units. Any number would do."""
 
+WORD_SPACE = (0.12 * EM_PX, 0.03 * EM_PX)
+"""Room that a word keeps from larger ones beside and above itself, where words give way: with less
+words of one size side by side read as one. By eye."""
+
 LONGEST = 100
 """Characters of one word; no more could be read. Chosen."""
 

@@ -22,7 +22,7 @@ from packwork.pipeline.first_places import needs_levels
 from packwork.pipeline.job import Job
 from packwork.pipeline.widest import lines_width
 from packwork.progress import Stop, never
-from packwork.readers.words.items import EM_PX
+from packwork.readers.words.items import EM_PX, WORD_SPACE
 from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -34,9 +34,14 @@ FULL = 0.62
 """Share of the container that words would cover in proportion to the first. Larger gives the
 first words more and lets the last give way more; with 0.5 hardly any has to. Tried, by eye."""
 
-NEARER = (1.0, 0.5, 0.0)
+NEARER = (1.0, 0.75, 0.5, 0.25, 0.0)
 """How much of the step from one weight to the next a size keeps, tried in turn: 1 all of it, 0
 none. As ``relative_scaling`` of the ``wordcloud`` package."""
+
+LEGIBLE, MOST = 0.005, 0.9
+"""Height of an em, as a share of the canvas' longer side, that most words are to have, and what
+share of them is most. Larger keeps less of the proportions. By eye: weights of a novel's thousand
+words are 400 to 1, and half of the words were specks."""
 
 ENOUGH = 0.35
 """Ink, as a share of the container, from which no step is made smaller. Chosen: three quarters of
@@ -89,8 +94,11 @@ def graded_places(job: Job, letters: Letters, stop: Stop = never) -> Places:
     _check(job)
     words = _Ranked.of(job)
     tried = list[tuple[float, Graded]]()
-    for share in NEARER:
-        found = _placed(job, letters, words, share, stop)
+    readable = LEGIBLE * job.container.side / EM_PX
+    kept = words.readable_share(readable)
+    sizes = words.sizes(kept)
+    for share in dict.fromkeys((kept, kept / 2, 0.0)):
+        found = _placed(job, letters, words, sizes, share, stop)
         ink = float((words.inks[found.placed] * found.poses.scale**2).sum())
         tried.append((ink, found))
         if stop() or ink >= ENOUGH * job.container.outline.area:
@@ -139,16 +147,19 @@ class _Ranked:
         ``(n,)`` numbers of the items.
     unit
         ``(n,)`` scale of each at which its em is ``EM_PX``.
-    true
-        ``(n,)`` sizes in proportion, at which all cover ``FULL``, as multiples of that.
+    ratios
+        ``(n,)`` true sizes over the one before, the first 1.
     inks
         ``(n,)`` area drawn at that scale.
+    room
+        Area that all are to cover, ``FULL`` of the container.
     """
 
     order: IntArray
     unit: FloatArray
-    true: FloatArray
+    ratios: FloatArray
     inks: FloatArray
+    room: float
 
     @classmethod
     def of(cls, job: Job) -> _Ranked:
@@ -159,11 +170,26 @@ class _Ranked:
         is_word = np.array([id(item) in words for item in job.items])
         unit = np.where(is_word, 1.0, EM_PX / np.sqrt(areas))
         scales = np.sqrt(job.weights / areas)
-        room = FULL * job.container.outline.area
-        true = scales / unit * math.sqrt(room / float((inks * scales**2).sum()))
+        true = scales / unit
         # Words of one weight keep their order, whatever the last digits are.
         order = np.argsort(-np.round(true / true.max(), 9), kind="stable")
-        return cls(order, unit[order], true[order], inks[order] * unit[order] ** 2)
+        ratios = np.append(1.0, true[order][1:] / true[order][:-1])
+        room = FULL * job.container.outline.area
+        return cls(order, unit[order], ratios, inks[order] * unit[order] ** 2, room)
+
+    def steps(self, share: float) -> FloatArray:
+        """``(n,)`` sizes over the one before with ``share`` of the steps of weights kept."""
+        return share * self.ratios + 1 - share
+
+    def sizes(self, share: float) -> FloatArray:
+        """``(n,)`` sizes of such steps, with which all cover the room."""
+        own = np.cumprod(self.steps(share))
+        return np.asarray(own * math.sqrt(self.room / float((self.inks * own**2).sum())))
+
+    def readable_share(self, least: float) -> float:
+        """How much of the steps is kept where most words can be read."""
+        kept = (share for share in NEARER if np.mean(self.sizes(share) >= least) >= MOST)
+        return next(kept, NEARER[-1])
 
     def places(self, found: Graded, letters: Letters, rotation: Rotation) -> Places:
         """The same in the items' own order, in their own units."""
@@ -183,12 +209,14 @@ class _Ranked:
         return Places(numbers[back], poses, limits)
 
 
-def _placed(job: Job, letters: Letters, words: _Ranked, share: float, stop: Stop) -> Graded:
+def _placed(
+    job: Job, letters: Letters, words: _Ranked, sizes: FloatArray, share: float, stop: Stop
+) -> Graded:
     """Items put one after another, ``share`` of the steps between their weights kept."""
-    first = float(words.true[0])
+    first = float(sizes[0])
     if letters.largest is not None:
         first = min(first, letters.largest / EM_PX)
-    least = letters.smallest / EM_PX if letters.smallest else DWARF * float(words.true[-1])
+    least = letters.smallest / EM_PX if letters.smallest else DWARF * float(sizes[-1])
     return graded_fit(
         job.container,
         _candidates(job, words, first, share),
@@ -203,12 +231,13 @@ def _placed(job: Job, letters: Letters, words: _Ranked, share: float, stop: Stop
 def _candidates(job: Job, words: _Ranked, first: float, share: float) -> Iterator[Candidate]:
     """Items in their order, each with the angles that it may have."""
     rng = np.random.default_rng(job.plan.seed)
-    steps = np.concatenate([[first], share * words.true[1:] / words.true[:-1] + 1 - share])
+    steps = words.steps(share)
+    steps[0] = first
     for k, unit, step in zip(words.order, words.unit, steps, strict=True):
         outline = job.items[k].outline
         if unit != 1:
             outline = outline.mapped(similarity(0.0, 0.0, 0.0, float(unit)))
-        yield Candidate(outline, float(step), _angles(job.plan.rotation, rng))
+        yield Candidate(outline, float(step), _angles(job.plan.rotation, rng), WORD_SPACE)
 
 
 def _angles(rotation: Rotation, rng: np.random.Generator) -> tuple[float, ...]:
