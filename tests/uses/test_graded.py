@@ -136,3 +136,20 @@ def test_the_finish_shrinks_no_word() -> None:
     places = graded_places(job, job.use.letters)  # type: ignore[attr-defined]
     layout = pw.words("ring", WEIGHTS, effort="draft", padding="1%")
     assert (layout.poses.scale >= places.poses.scale * (1 - 1e-6)).all()
+
+
+def test_a_large_word_among_small_ones_stays_large() -> None:
+    weights = {"lion": 9.0, **{f"ant{k}": 1 + 1 / (1 + k) for k in range(150)}}
+    layout = words("heart", weights)
+    sizes = layout.poses.scale * EM_PX
+    assert layout.items[0].name == "lion"
+    assert sizes[0] > 1.3 * sizes[1]
+    assert (np.diff(sizes) <= 1e-6).all()
+
+
+def test_proportions_give_way_until_words_can_be_read() -> None:
+    weights = {f"{NAMES[k % 5]}{k}": 100.0 / (1 + k) for k in range(80)}
+    layout = words("heart", weights)
+    true = layout.manifest["words"]["of_true"]
+    assert max(true.values()) > 1.5
+    assert np.mean(layout.poses.scale * EM_PX > 0.003 * layout.container.side) > 0.8

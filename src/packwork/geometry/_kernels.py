@@ -4,20 +4,16 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from packwork.compiled import kernel
 
 
 @kernel
-def clearance(points, starts, most):
+def clearance(points, starts, across, down, most):
     """Return the smallest distance of a vertex from another one or from an edge, ``most`` at most.
 
-    Vertices that lie on one another count as one. Vertices are sorted by x, so that an edge is
-    compared with those only beside which it runs.
+    ``across`` and ``down`` are the vertices' coordinates, sorted by the first, so that an edge is
+    compared with those only beside which it runs. Vertices that lie on one another count as one.
     """
-    order = np.argsort(points[:, 0])
-    across = points[:, 0][order]
     best = most
     for ring in range(len(starts) - 1):
         for v in range(starts[ring], starts[ring + 1]):
@@ -28,9 +24,15 @@ def clearance(points, starts, most):
             if squared == 0.0:
                 continue
             best = min(best, math.sqrt(squared))
-            k = np.searchsorted(across, min(ax, bx) - best)
+            k, after = 0, len(across)
+            while k < after:
+                middle = (k + after) // 2
+                if across[middle] < min(ax, bx) - best:
+                    k = middle + 1
+                else:
+                    after = middle
             while k < len(across) and across[k] <= max(ax, bx) + best:
-                px, py = across[k], points[order[k], 1]
+                px, py = across[k], down[k]
                 k += 1
                 is_end = (px == ax and py == ay) or (px == bx and py == by)
                 if is_end or py < min(ay, by) - best or py > max(ay, by) + best:

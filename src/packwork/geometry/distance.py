@@ -55,7 +55,9 @@ def clearance(region: Region, most: float) -> float:
     # The last vertex of a ring is its first.
     is_kept = np.append(ring[1:] == ring[:-1], False) if len(ring) else np.zeros(0, dtype=bool)
     starts = np.searchsorted(ring[is_kept], np.arange(len(rings) + 1))
-    return float(_kernels.clearance(points[is_kept], starts, float(most)))
+    kept = points[is_kept]
+    across, down = kept[np.argsort(kept[:, 0])].T.copy()
+    return float(_kernels.clearance(kept, starts, across, down, float(most)))
 
 
 def is_clear(region: Region, least: float) -> bool:

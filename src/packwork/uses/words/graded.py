@@ -22,7 +22,7 @@ from packwork.pipeline.first_places import needs_levels
 from packwork.pipeline.job import Job
 from packwork.pipeline.widest import lines_width
 from packwork.progress import Stop, never
-from packwork.readers.words.items import EM_PX, WORD_SPACE
+from packwork.readers.words.items import EM_PX
 from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -43,9 +43,9 @@ LEGIBLE, MOST = 0.005, 0.9
 share of them is most. Larger keeps less of the proportions. By eye: weights of a novel's thousand
 words are 400 to 1, and half of the words were specks."""
 
-ENOUGH = 0.35
-"""Ink, as a share of the container, from which no step is made smaller. Chosen: three quarters of
-what a fat shape comes to."""
+ENOUGH = 0.5
+"""Ink, as a share of the container, from which no step is made smaller. Smaller leaves the tips of
+shapes bare that hold the heaviest word down. By eye: what a fat shape comes to."""
 
 DWARF = 0.1
 """Size, as a share of its proportion, below which a word is left out unless a least size is given.
@@ -237,7 +237,7 @@ def _candidates(job: Job, words: _Ranked, first: float, share: float) -> Iterato
         outline = job.items[k].outline
         if unit != 1:
             outline = outline.mapped(similarity(0.0, 0.0, 0.0, float(unit)))
-        yield Candidate(outline, float(step), _angles(job.plan.rotation, rng), WORD_SPACE)
+        yield Candidate(outline, float(step), _angles(job.plan.rotation, rng))
 
 
 def _angles(rotation: Rotation, rng: np.random.Generator) -> tuple[float, ...]:
