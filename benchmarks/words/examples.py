@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from benchmarks.kit.manifests import Manifest, stamp
+from benchmarks.peers.peering import version
 from benchmarks.words.clouds import FONT
 from packwork.errors import ReadError
 
@@ -29,6 +30,12 @@ LIMIT = 600
 
 ROOT = Path(__file__).parents[2]
 RUN = "import sys; from benchmarks.words.one_example import main; main(*sys.argv[1:])"
+
+
+def peer_version() -> str | None:
+    """Of the peer, and of what draws its letters; None if it is not there."""
+    known = version("wordcloud")
+    return known and f"{known}, Pillow {version('pillow')}"
 
 
 def stamped() -> Manifest:

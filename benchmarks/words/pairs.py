@@ -10,9 +10,8 @@ from pathlib import Path
 from PIL import Image
 
 from benchmarks.kit.manifests import DOCS, Manifest, write_manifest, write_text
-from benchmarks.peers.peering import version
 from benchmarks.words import stand_ins
-from benchmarks.words.examples import EXAMPLES, copied, example, stamped
+from benchmarks.words.examples import EXAMPLES, copied, example, peer_version, stamped
 from benchmarks.words.pairs_page import FILE, NAME, page
 
 LOOKED_AT = DOCS.parent / "build" / NAME
@@ -40,7 +39,7 @@ def write(source: Path) -> None:
                 "stands_in_for": stand_in,
                 "programs": _with_pictures(name, shown, drawn if stand_in else LOOKED_AT),
             }
-    parts = {"peer": version("wordcloud"), "pairs": found}
+    parts = {"peer": peer_version(), "pairs": found}
     write_text(FILE, page(write_manifest(NAME, {**stamped(), **parts})))
 
 

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import textwrap
+
 from benchmarks.kit.manifests import Manifest
 
 NAME, FILE = "words-pairs", "words-pairs.md"
+LINE = 100
 
 PAGE = """# Words: eleven pairs
 
@@ -12,10 +15,11 @@ Made by `{command}` on {date}.
 {machine}; wordcloud {peer}.
 
 The examples of the `wordcloud` package, from its source distribution and unchanged, run once with
-that package and once with `packwork.wordcloud` under its name. **Left the peer's picture, right
-ours.** Most examples give no seed, so each run draws another picture; these are of one run, not
-the best of several. Where an example gives no font, each package takes its default: the peer a
-thin one of fixed width, ours a black one. How long each took, and all figures, are on
+that package and once with `packwork.wordcloud` under its name; in six of them a picture of ours
+[stands in](#sources) for one that may not be published. **Left the peer's picture, right ours.**
+Most examples give no seed, so each run draws another picture; these are of one run, not the best of
+several. Where an example gives no font, each package takes its default: the peer a thin one of
+fixed width, ours a black one. How long each took, and all figures, are on
 [the page of word clouds](benchmarks-words.md#the-peers-own-examples).
 
 Under each pair stands whether we would choose ours, and if not, why; by eye.
@@ -44,32 +48,68 @@ PAIR = """## {name}
 {verdict}"""
 
 VERDICTS = {
-    "masked": """Ours: the cat is there at a glance, tail and ears filled. In its neck four large
-words stand turned beside each other; the peer's lie one above the other, which reads better.""",
-    "a_new_hope": """Ours: the outline is closed and the greys read. The smallest words, of 4 to
-5 px, are dust.""",
-    "colored": """Ours: petals, stem and leaves keep their colours and edges; the peer's are
-pale.""",
-    "parrot": """Ours: bright where the peer's is mostly ground. A column of long turned words
-in the right wing breaks the rows.""",
-    "wordcloud_cn": """Ours: half as many words again, and the guitar's waist shows.""",
-    "single_word": """Ours, by a little: the disc's rim is as round and the rows are strong. The
-peer has half as many words again, and is finer.""",
-    "simple": """Ours: the heaviest word is in the middle, sizes fall evenly, all but the smallest
-can be read. The words of 4 to 5 px between large letters cannot, in a face as black as ours.""",
-    "arabic": """Ours, by a little: bays of large letters are used, and it is even.""",
-    "emoji": """**The peer's.** Ours has its large words in the middle columns, and left and
-right of them black fields strewn with words of 6 px: sixty words of one frequency stay as small as
-the first that had to be, though there is room. The peer's are as small, but spread.""",
-    "colored_by_group": """Ours, by a little: dense and legible; but the heaviest word lies at the
-bottom, in the darkest green.""",
-    "frequency": """Only ours runs. The example cuts its text at blanks alone, so words hold line
-breaks, which Pillow does not measure for the peer.""",
+    "masked": (
+        "6773ae61",
+        "Ours: the cat is there at a glance, tail and ears filled. In its neck four large words "
+        "stand turned beside each other; the peer's lie one above the other, which reads "
+        "better.",
+    ),
+    "a_new_hope": (
+        "c3b9868c",
+        "Ours: the outline is closed and the greys read. The smallest words, of 4 to 5 px, are "
+        "dust.",
+    ),
+    "colored": (
+        "d261b810",
+        "Ours: petals, stem and leaves keep their colours and edges; the peer's are pale.",
+    ),
+    "parrot": (
+        "fe7171f8",
+        "Ours: bright where the peer's is mostly ground. A column of long turned words in the "
+        "right wing breaks the rows.",
+    ),
+    "wordcloud_cn": (
+        "ff0be298",
+        "Ours: half as many words again, and the guitar's waist shows.",
+    ),
+    "single_word": (
+        "b0e99fbd",
+        "Ours, by a little: the disc's rim is as round and the rows are strong. The peer has "
+        "half as many words again, and is finer.",
+    ),
+    "simple": (
+        "840bfb7a",
+        "Ours: the heaviest word is in the middle, sizes fall evenly, all but the smallest can "
+        "be read. The words of 4 to 5 px between large letters cannot, in a face as black as "
+        "ours.",
+    ),
+    "arabic": (
+        "591d0d14",
+        "Ours, by a little: bays of large letters are used, and it is even.",
+    ),
+    "emoji": (
+        "54e1e1e9",
+        "**The peer's.** Ours has its large words in the middle columns, and left and right of "
+        "them black fields strewn with words of 6 px: sixty words of one frequency stay as "
+        "small as the first that had to be, though there is room. The peer's are as small, but "
+        "spread.",
+    ),
+    "colored_by_group": (
+        "9f5e0e75",
+        "Ours, by a little: dense and legible; but the heaviest word lies at the bottom, in the "
+        "darkest green.",
+    ),
+    "frequency": (
+        "7117902e",
+        "Only ours runs. The example cuts its text at blanks alone, so words hold line breaks, "
+        "which Pillow does not measure for the peer.",
+    ),
 }
-"""By example: which of the two we would choose, and why not ours. Written after looking at the
-pictures that are there; to be written again with them."""
+"""By example: how the SHA-256 of our picture begins that was judged, and which of the two we would
+choose, and why not ours. To be written again with the pictures."""
 
 NOT_SAID = "Not judged yet."
+EARLIER = "(Said of an earlier run's pictures.)"
 
 
 def page(manifest: Manifest) -> str:
@@ -90,8 +130,14 @@ def _pair(name: str, one: Manifest) -> str:
         peer=_picture(name, "wordcloud", programs["wordcloud"]),
         ours=_picture(name, "packwork", programs["packwork"]),
         figures=_figures(programs),
-        verdict=VERDICTS.get(name, NOT_SAID),
+        verdict=verdict(name, programs["packwork"].get("sha256", "")),
     )
+
+
+def verdict(name: str, sha256: str) -> str:
+    """What was said of a pair, and whether of these pictures."""
+    judged, text = VERDICTS.get(name, (sha256, NOT_SAID))
+    return textwrap.fill(text if sha256.startswith(judged) else f"{text} {EARLIER}", LINE)
 
 
 def _picture(name: str, program: str, one: Manifest) -> str:

@@ -19,7 +19,6 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 from benchmarks.kit.manifests import Manifest, known, write_manifest, write_text
 from benchmarks.kit.measuring import machine
-from benchmarks.peers.peering import version
 from benchmarks.words import clouds, drop_in, examples, pairs
 from benchmarks.words.thin_shapes import thin_shapes
 from benchmarks.words.words_page import page
@@ -90,13 +89,13 @@ def _check(asked: set[str]) -> None:
     if unknown:
         sys.exit(f"packwork: bench words: {', '.join(sorted(unknown))}: no such section; there are "
                  f"{', '.join(SECTIONS)}, examples=PATH, pairs=PATH")  # fmt: skip
-    if version("wordcloud") is None:
+    if examples.peer_version() is None:
         sys.exit("packwork: bench words: wordcloud is not installed; pip install '.[bench]'")
 
 
 def _keep(name: str, found: Manifest, is_short: bool) -> None:
     """A section into the manifest, the others as they were measured before; or printed."""
-    measured = {name: {**examples.stamped(), "peer": version("wordcloud"), **found}}
+    measured = {name: {**examples.stamped(), "peer": examples.peer_version(), **found}}
     if is_short:
         print(page({"sections": measured}))
         return

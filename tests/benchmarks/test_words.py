@@ -192,6 +192,13 @@ def test_pages_say_what_was_not_run() -> None:
     assert "stops with `ValueError: x`" in page
 
 
+def test_a_verdict_is_of_the_picture_that_it_was_said_of(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(pairs_page, "VERDICTS", {"simple": ("abc", "Ours.")})
+    assert pairs_page.verdict("simple", "abcdef") == "Ours."
+    assert pairs_page.verdict("simple", "fedcba") == f"Ours. {pairs_page.EARLIER}"
+    assert pairs_page.verdict("masked", "abcdef") == pairs_page.NOT_SAID
+
+
 def test_manifests_name_the_source_distribution_without_its_folder(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
