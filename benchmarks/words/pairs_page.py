@@ -73,8 +73,8 @@ VERDICTS = {
     ),
     "single_word": (
         "b3c3df5c",
-        "**Undecided.** Our rows are strong, but the peer has half as many words again, and its disc "
-        "is rounder: at our rim there are bays that no word of 4 px fills.",
+        "**Undecided.** Our rows are strong, but the peer has half as many words again, and its "
+        "disc is rounder: at our rim there are bays that no word of 4 px fills.",
     ),
     "simple": (
         "45b0f7a4",
