@@ -3,8 +3,8 @@
 Sections: fat, thin, default, thousand; all without a word. ``examples=PATH`` runs the peer's own
 examples by either package, ``pairs=PATH`` makes the page of pictures of them; PATH is the peer's
 source distribution, unpacked (``pip download --no-binary :all: --no-deps wordcloud``). ``short``
-only prints, with fewer words, shapes and rounds. The peer, and what its examples import, comes with
-``pip install '.[bench]'``. Writes docs/manifests/words.json, whose other sections stay as they
+only prints, with fewer words, shapes and rounds. The peer, and what its examples import but for
+jieba, comes with ``pip install '.[bench]'``. Writes docs/manifests/words.json, whose other sections stay as they
 were, and the page.
 """
 
