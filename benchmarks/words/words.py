@@ -4,8 +4,8 @@ Sections: fat, thin, default, thousand; all without a word. ``examples=PATH`` ru
 examples by either package, ``pairs=PATH`` makes the page of pictures of them; PATH is the peer's
 source distribution, unpacked (``pip download --no-binary :all: --no-deps wordcloud``). ``short``
 only prints, with fewer words, shapes and rounds. The peer, and what its examples import but for
-jieba, comes with ``pip install '.[bench]'``. Writes docs/manifests/words.json, whose other sections stay as they
-were, and the page.
+jieba, comes with ``pip install '.[bench]'``. Writes docs/manifests/words.json, whose other sections
+stay as they were, and the page.
 """
 
 from __future__ import annotations
