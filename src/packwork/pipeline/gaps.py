@@ -25,6 +25,7 @@ from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.result import Filling
 from packwork.pipeline.watch import Watch
 from packwork.progress import Observer, Stop, until_over
+from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.solve.stand_ins import stand_ins
 from packwork.start.angles import nearest_allowed
@@ -142,28 +143,13 @@ class _Filling:
 
     def result(self, ending: GapEnding) -> Placed:
         """What was placed, with all that was put into voids."""
-        job, start = self._job, self._start
+        job = self._job
         own = {id(item): one for item, one in zip(job.items, job.asked, strict=True)}
         by_name = dict(zip((item.name for item in job.items), job.asked, strict=True))
         new = [self._sorts[k] for k in self.added]
-        grown = replace(
-            job,
-            items=(*job.items, *new),
-            asked=(
-                *job.asked,
-                *(_styled(own.get(id(i)) or by_name.get(i.name, Asked())) for i in new),
-            ),
-            weights=np.append(job.weights, np.zeros(len(new))),
-        )
-        nominal = np.append(start.nominal, self.poses.scale[self._first :])
-        return replace(
-            self._placed,
-            job=grown,
-            start=replace(start, nominal=nominal, limits=start.limits.joined_by(len(new))),
-            exact=replace(self._exact, poses=self.poses),
-            filling=Filling(len(new), self._said(ending), self.coverage(), self._voids.target),
-            numbers=self._ids,
-        )
+        asked = [_styled(own.get(id(i)) or by_name.get(i.name, Asked())) for i in new]
+        filling = Filling(len(new), self._said(ending), self.coverage(), self._voids.target)
+        return joined_by(self._placed, new, asked, self.poses, self._ids, filling)
 
     def _said(self, ending: GapEnding) -> str:
         """The sentence of an ending, with the numbers of this run."""
@@ -252,6 +238,44 @@ class _Filling:
             np.append(smallest, self._smallest[self.added]),
             np.append(largest, self._largest[self.added]),
         )
+
+
+def joined_by(
+    placed: Placed,
+    new: Sequence[Item],
+    asked: Sequence[Asked],
+    poses: Poses,
+    numbers: IntArray,
+    filling: Filling,
+) -> Placed:
+    """What was placed, with items that were put between: their poses come last.
+
+    Parameters
+    ----------
+    asked
+        What rules ask of each of the new ones.
+    poses
+        Of all.
+    numbers
+        As of what was placed, of all.
+    """
+    job, start = placed.job, placed.start
+    grown = replace(
+        job,
+        items=(*job.items, *new),
+        asked=(*job.asked, *asked),
+        weights=np.append(job.weights, np.zeros(len(new))),
+    )
+    nominal = np.append(start.nominal, poses.scale[len(job.items) :])
+    limits = start.limits.joined_by(len(new))
+    return replace(
+        placed,
+        job=grown,
+        start=replace(start, nominal=nominal, limits=limits),
+        exact=replace(placed.exact, poses=poses),
+        filling=filling,
+        numbers=numbers,
+    )
 
 
 def corner_pairs(outlines: Sequence[Outline], poses: Poses) -> float:

@@ -27,6 +27,7 @@ from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels import distances, interior_point, outer_simplify, steps
 from packwork.compaction.kernels.steps import Objective
 from packwork.geometry.affine import similarity
+from packwork.geometry.distance import clearance
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
 from packwork.pipeline.result import find_unplaced
@@ -37,7 +38,7 @@ from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
 
-KERNELS = 26
+KERNELS = 27
 """Kernels that all parts compile; a test counts them."""
 
 SECONDS_BETWEEN = 0.05
@@ -223,6 +224,7 @@ def checks() -> None:
     near.distances(them, 1.0)
     steps.apply_step(near.board, np.arange(1), np.zeros((1, 4)), them, 0.0, 0.1)
     steps.clear_by_shrinking(near.board, np.arange(1), them, 0.0, 0.1, 1)
+    clearance(near.container.region, 1.0)
 
 
 PARTS: tuple[Part, ...] = (levels, pairs, contacts, programmes, checks)

@@ -101,6 +101,9 @@ class WordOptions(Options):
     """Font size of the largest word at most, a length as for the padding, such as 48pt or 10%;
     all others stay in proportion."""
 
+    repeat: Annotated[Literal["none", "auto"], _TYPE] = "none"
+    """auto: words are set again, smaller and grey, where nothing else finds a place."""
+
     color_by: Annotated[str | ColourOf | None, _TYPE] = None
     """weight (the palette from small to large), a column of the table, or a picture under
     the words; in Python also a function of a word. Default: neighbours unlike."""

@@ -186,6 +186,63 @@ def graded_fit(
     return Graded(np.array(placed, dtype=np.int64), Poses(x, y, angle, scale))
 
 
+def fit_between(
+    container: Container,
+    lying: Sequence[Outline],
+    candidates: Sequence[Candidate],
+    smallest: FloatArray,
+    rng: np.random.Generator,
+    *,
+    margin_cu: float = 0.0,
+    most: int = 1_000,
+    stop: Stop = never,
+) -> Graded:
+    """Poses of copies between items that lie already, each where there is most room.
+
+    Parameters
+    ----------
+    lying
+        In place; they meet nothing.
+    candidates
+        Sorts of copies, in turn again and again, as long as one finds a place; their steps are
+        their largest scales.
+    smallest
+        ``(n,)`` scale of each sort below which it finds none.
+    margin_cu
+        As for :func:`graded_fit`.
+    most
+        Copies at most.
+    stop
+        Asked before each copy.
+
+    Examples
+    --------
+    >>> tile = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> container = Container("", "", tile.mapped(similarity(50, 50, 0.0, 50)), 100.0, 100.0)
+    >>> lying = [tile.mapped(similarity(50, 50, 0.0, 30))]
+    >>> rng = np.random.default_rng(0)
+    >>> found = fit_between(container, lying, [Candidate(tile, 9.0)], np.array([8.0]), rng)
+    >>> len(found.placed), float(found.poses.scale.max())
+    (16, 9.0)
+    """
+    grading = _Grading(container, len(lying) + most, rng, margin_cu)
+    grading.is_loose = True
+    for outline in lying:
+        grading.lay(outline)
+    placed, rows = list[int](), list[_Pose]()
+    left = list(range(len(candidates)))
+    while left and len(placed) < most and not stop():
+        k = left.pop(0)
+        sizes = sizes_down(candidates[k].step, float(smallest[k]))
+        pose = grading.put(candidates[k], sizes)
+        if pose is not None:
+            left.append(k)
+            placed.append(k)
+            rows.append(pose)
+    x, y, angle, scale = np.array(rows).reshape(-1, 4).T
+    return Graded(np.array(placed, dtype=np.int64), Poses(x, y, angle, scale))
+
+
 def sizes_down(most: float, least: float, grid: float = 0.0, drop: float = 0.0) -> list[float]:
     """Sizes tried from the largest to the least, on a grid if there is one; none below the least.
 
@@ -216,7 +273,7 @@ def _inwards(clearance: FloatArray) -> FloatArray:
     all along.
     """
     widest = max(float(clearance.max()), 1.0)
-    wide = np.argwhere(clearance >= WIDE * widest)
+    wide = np.argwhere(clearance >= WIDE * clearance.max())
     middle = wide[np.argmin(np.linalg.norm(wide - wide.mean(axis=0), axis=1))]
     rows, columns = np.ogrid[: clearance.shape[0], : clearance.shape[1]]
     away = np.hypot(rows - middle[0], columns - middle[1])
@@ -244,6 +301,12 @@ class _Grading:
         self._occupancy = Occupancy(room, REACH)
         self._room, self._left = max(int(room.sum()), 1), int(room.sum())
         self._first = 0.0
+
+    def lay(self, outline: Outline) -> None:
+        """Take what an item covers that lies in place."""
+        posed = outline.mapped(similarity(0.0, 0.0, 0.0, self._px_per_cu))
+        stencil = cut_all({0: posed}, REACH)[0]
+        self._take(stencil, -stencil.origin[0], -stencil.origin[1])
 
     def put(self, candidate: Candidate, sizes: Sequence[float]) -> _Pose | None:
         """Pose of an item at the largest size at which it finds a place; None if at none.

@@ -237,10 +237,10 @@ def _candidates(job: Job, words: _Ranked, first: float, share: float) -> Iterato
         outline = job.items[k].outline
         if unit != 1:
             outline = outline.mapped(similarity(0.0, 0.0, 0.0, float(unit)))
-        yield Candidate(outline, float(step), _angles(job.plan.rotation, rng))
+        yield Candidate(outline, float(step), angles_of(job.plan.rotation, rng))
 
 
-def _angles(rotation: Rotation, rng: np.random.Generator) -> tuple[float, ...]:
+def angles_of(rotation: Rotation, rng: np.random.Generator) -> tuple[float, ...]:
     """Angles to try: one as likely as asked, then all others that there are."""
     if rotation.is_still or rotation.choices:
         first = float(start_angles(1, rotation.limit, rotation.choices, rng)[0])

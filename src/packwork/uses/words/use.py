@@ -44,10 +44,7 @@ from packwork.uses.words.letters import (
     letters_of,
     readable_count,
 )
-
-REPEATED = 0.75
-"""Height of a repeated word over that of the word itself, at most: so no weight is told
-wrong. Larger fills more. Chosen."""
+from packwork.uses.words.repeats import REPEATED, with_repeats
 
 WORDS_REACH = 0.6
 """Share of a container that smaller copies of words come to cover. Larger is not always reached,
@@ -77,8 +74,13 @@ class Words(Use):
     places: Places | None = None
 
     def run(self, job: Job, watch: Watch) -> Run:
-        """The common road."""
-        return measured(Unmeasured.of(along(job, watch)))
+        """The common road, and words set again in what is left."""
+        placed = along(job, watch)
+        if self.options.repeat == "auto" and placed.exact.clean and placed.job.plan.is_exact:
+            use = placed.job.use
+            count, paper = len(use.words), self.options.paper or "white"
+            placed = with_repeats(placed, count, self.letters, paper, watch.stop)
+        return measured(Unmeasured.of(placed))
 
     @property
     def words(self) -> Sequence[Item]:
@@ -204,7 +206,9 @@ class Words(Use):
         """Sizes as shares of their proportion to the heaviest, of words that gave way in turn."""
         if self.places is None:
             return {}
-        scales = {id(i): s for i, s in zip(layout.items, layout.poses.scale, strict=True)}
+        # The words themselves come first, copies of them last.
+        pairs = list(zip(layout.items, layout.poses.scale, strict=True))
+        scales = {id(item): scale for item, scale in reversed(pairs)}
         own = np.array([item.outline.area for item in self.read.items])
         true = np.sqrt(self.read.areas / own)
         first = scales.get(id(self.read.items[0]), np.nan) / true[0]

@@ -1,0 +1,92 @@
+"""Words set again, smaller and grey, where nothing else finds a place."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.compaction.options import HAIR
+from packwork.pipeline.gaps import joined_by
+from packwork.pipeline.placed import Placed
+from packwork.pipeline.plan.asked import Asked
+from packwork.pipeline.result import Filling
+from packwork.progress import Stop
+from packwork.readers.words.items import EM_PX, INK
+from packwork.recipe.rules import OWN_COLOURS
+from packwork.scene.contrast import between, contrast
+from packwork.scene.item import Item
+from packwork.scene.recolour import recoloured
+from packwork.start.first_fit.graded import Candidate, fit_between
+from packwork.uses.words.graded import LEGIBLE, angles_of
+from packwork.uses.words.letters import Letters
+
+REPEATED = 0.75
+"""Height of a repeated word over that of the word itself, at most: so no weight is told
+wrong. Larger fills more. Chosen."""
+
+EACH = 3
+"""How often each word is repeated at most, on average. More fill smaller gaps. Chosen."""
+
+PALE = 0.6
+"""How far the colour of repeated words is from that of ink to that of the paper. Larger hides
+them, smaller competes with the words themselves. By eye."""
+
+LIGHT = "#ffffff"
+"""Ink on dark paper."""
+
+ENDING = "no gap holds another one of {least:.3g} {unit}"
+ENOUGH = "more than {each} times as many as there are words would be too many"
+
+
+def with_repeats(placed: Placed, words: int, letters: Letters, paper: str, stop: Stop) -> Placed:
+    """What was placed, with copies of its first items, the words, between them.
+
+    Parameters
+    ----------
+    words
+        How many of the items are words.
+    paper
+        Colour behind them.
+    stop
+        Asked before each copy.
+    """
+    job = placed.job
+    least = max(letters.smallest or 0.0, LEGIBLE * job.container.side)
+    own = placed.exact.poses.scale[:words]
+    rng = np.random.default_rng(job.plan.seed)
+    # Light words first: the heavy ones are seen as it is.
+    order = np.argsort(own, kind="stable")
+    fitting = [int(k) for k in order if REPEATED * own[k] * EM_PX >= least]
+    found = fit_between(
+        job.container,
+        [i.outline.mapped(placed.exact.poses.matrix(k)) for k, i in enumerate(job.items)],
+        [
+            Candidate(job.items[k].outline, REPEATED * own[k], angles_of(job.plan.rotation, rng))
+            for k in fitting
+        ],
+        np.full(len(fitting), least / EM_PX),
+        rng,
+        margin_cu=job.plan.gap + HAIR * job.container.side,
+        most=EACH * words,
+        stop=stop,
+    )
+    ink = max((INK, LIGHT), key=lambda one: contrast(one, paper))
+    grey = between((ink, paper), PALE)
+    known: dict[int, Item] = {}
+    for k in map(int, np.unique(found.placed)):
+        known[k] = recoloured(job.items[fitting[k]], grey)
+    new = [known[int(k)] for k in found.placed]
+    numbers = placed.numbers
+    after = int(numbers.max(initial=-1)) + 1
+    poses = placed.exact.poses.followed_by(found.poses)
+    areas = np.array([i.outline.area for i in (*job.items, *new)]) * poses.scale**2
+    covered = float(areas.sum()) / job.container.outline.area
+    said = ENOUGH if len(new) == EACH * words else ENDING
+    ending = said.format(least=least, unit=job.container.unit, each=EACH)
+    return joined_by(
+        placed,
+        new,
+        [Asked(values={"color": OWN_COLOURS})] * len(new),
+        poses,
+        np.append(numbers, after + np.arange(len(new))),
+        Filling(len(new), ending, covered, None),
+    )
