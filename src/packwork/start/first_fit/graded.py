@@ -374,6 +374,8 @@ class _Grading:
         if self.is_loose:
             room = self._occupancy.clearance
             return room, ROOMY / max(self._occupancy.widest, 1.0), True
+        if not self._first:
+            return self._inward, ROOMY, True
         covered = 1 - self._left / self._room
         inward = INWARD * min(scale / (self._first or scale), 1.0) * max(1 - covered / COVERED, 0)
         is_drawn = inward > DRAWN
