@@ -163,7 +163,7 @@ def graded_fit(
     >>> tiles = [Candidate(tile, step) for step in (24.0, 1.0, 1.0, 1.0, 1.0)]
     >>> found = graded_fit(container, tiles, 5, np.random.default_rng(0), grid=1.0)
     >>> found.placed.tolist(), found.poses.scale.tolist()
-    ([0, 1, 2, 3, 4], [24.0, 24.0, 24.0, 24.0, 1.0])
+    ([0, 1, 2, 3, 4], [24.0, 12.0, 12.0, 12.0, 12.0])
     """
     grading = _Grading(container, count, rng, margin_cu)
     placed, rows, missed = list[int](), list[_Pose](), 0
