@@ -4,7 +4,7 @@ import sys
 
 
 def main() -> None:
-    """Do what the command line asks; Ctrl-C is one line."""
+    """Do what the command line asks; Ctrl-C is one line once the package is loaded."""
     try:
         from packwork.wordcloud.wordcloud_cli import run
 

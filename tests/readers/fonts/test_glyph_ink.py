@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
+
 import pytest
 
 from packwork.geometry.outline import Outline, centre_of_area
 from packwork.readers.fonts import lettering
+from packwork.readers.fonts.face import bundled_typeface
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.fonts.glyph_ink import ClearInk
 from packwork.readers.words.items import word_item
@@ -55,3 +58,12 @@ def test_words_are_remembered_by_what_the_font_holds() -> None:
     assert again.covered is first.covered
     other = open_fonts([]).lettering(["honeys"])
     assert other.covered is not first.covered
+
+
+def test_threads_that_share_a_face_get_their_own_words() -> None:
+    face = bundled_typeface()
+    texts = [letter * n for n, letter in enumerate("abcdefgh", start=1)]
+    expected = {text: face.shaped(text) for text in texts}
+    with ThreadPoolExecutor(8) as pool:
+        found = list(pool.map(lambda text: (text, face.shaped(text)), texts * 200))
+    assert all(shaped == expected[text] for text, shaped in found)

@@ -187,9 +187,11 @@ class Typeface:
         """
         key = run, is_leftward, language
         # Whether a run can be drawn is asked before it is.
-        if self._shaped is None or self._shaped[0] != key:
-            self._shaped = key, self._shape(run, is_leftward, language)
-        return self._shaped[1]
+        known = self._shaped
+        if known is None or known[0] != key:
+            # Another thread may put its own there meanwhile.
+            known = self._shaped = key, self._shape(run, is_leftward, language)
+        return known[1]
 
     def _shape(self, run: str, is_leftward: bool, language: str) -> Shaped:
         buffer = self._hb.Buffer()

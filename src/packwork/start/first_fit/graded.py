@@ -26,7 +26,7 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.occupancy import Occupancy
-from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all, stencil_of
+from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut, stencil_of
 from packwork.start.first_poses import container_image
 
 _Pose: TypeAlias = tuple[float, float, float, float]
@@ -305,7 +305,7 @@ class _Grading:
     def lay(self, outline: Outline) -> None:
         """Take what an item covers that lies in place."""
         posed = outline.mapped(similarity(0.0, 0.0, 0.0, self._px_per_cu))
-        stencil = cut_all({0: posed}, REACH)[0]
+        stencil = cut(posed, REACH)
         self._take(stencil, -stencil.origin[0], -stencil.origin[1])
 
     def put(self, candidate: Candidate, sizes: Sequence[float]) -> _Pose | None:
@@ -343,7 +343,7 @@ class _Grading:
             posed = candidate.outline.mapped(similarity(0.0, 0.0, angle, scale * self._px_per_cu))
             if self._is_larger(posed):
                 continue
-            stencil = cut_all({0: posed}, REACH)[0]
+            stencil = cut(posed, REACH)
             wide = self._with_room(stencil, candidate.apart, scale, angle)
             found = self._occupancy.best_place(wide, self._noise, is_everywhere, field, pull)
             if found is not None:

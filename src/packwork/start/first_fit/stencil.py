@@ -60,11 +60,11 @@ def cut_all(outlines_px: Mapping[Key, Outline], reach: int) -> dict[Key, Stencil
     >>> one.mask.tolist(), one.origin, len(one.fringe)
     ([[True, True, True], [True, True, True]], (1, 1), 14)
     """
-    return {key: _cut(outline, reach) for key, outline in outlines_px.items()}
+    return {key: cut(outline, reach) for key, outline in outlines_px.items()}
 
 
-def _cut(outline_px: Outline, reach: int) -> Stencil:
-    """Stencil of one outline."""
+def cut(outline_px: Outline, reach: int) -> Stencil:
+    """Stencil of one outline; as for :func:`cut_all`."""
     left, top, right, bottom = outline_px.bounds
     column, row = math.floor(left), math.floor(top)
     width, height = max(math.ceil(right) - column, 1), max(math.ceil(bottom) - row, 1)
