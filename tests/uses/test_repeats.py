@@ -8,7 +8,7 @@ import pytest
 import packwork as pw
 from packwork.readers.words.items import EM_PX
 from packwork.uses.words.graded import LEGIBLE
-from packwork.uses.words.repeats import EACH, REPEATED
+from packwork.uses.words.repeats import AT_LEAST, REPEATED
 
 WEIGHTS = {"honey": 8.0, "bear": 5.0, "bee": 3.0, "wood": 2.0, "fox": 1.0}
 QUICK = {"effort": "draft", "rotate": "mixed", "seed": 1}
@@ -20,7 +20,7 @@ def test_words_are_repeated_smaller_where_nothing_else_fits(sizes: str) -> None:
     layout = pw.words("heart", WEIGHTS, sizes=sizes, repeat="auto", **QUICK)  # type: ignore[arg-type]
     count = len(WEIGHTS)
     assert layout.manifest["certified"]
-    assert len(alone.items) == count < len(layout.items) <= (1 + EACH) * count
+    assert len(alone.items) == count < len(layout.items) <= count + AT_LEAST
     assert np.array_equal(layout.poses.scale[:count], alone.poses.scale)
     own = dict(zip(WEIGHTS, alone.poses.scale, strict=True))
     for item, scale in zip(layout.items[count:], layout.poses.scale[count:], strict=True):

@@ -23,8 +23,9 @@ REPEATED = 0.75
 """Height of a repeated word over that of the word itself, at most: so no weight is told
 wrong. Larger fills more. Chosen."""
 
-EACH = 3
-"""How often each word is repeated at most, on average. More fill smaller gaps. Chosen."""
+EACH, AT_LEAST = 3, 100
+"""Copies of each word at most, on average, and of few words in all before that counts. More fill
+smaller gaps. Chosen: eight words show an apple."""
 
 PALE = 0.6
 """How far the colour of repeated words is from that of ink to that of the paper. Larger hides
@@ -34,7 +35,7 @@ LIGHT = "#ffffff"
 """Ink on dark paper."""
 
 ENDING = "no gap holds another one of {least:.3g} {unit}"
-ENOUGH = "more than {each} times as many as there are words would be too many"
+ENOUGH = "{most} are as many as there may be"
 
 
 def with_repeats(placed: Placed, words: int, letters: Letters, paper: str, stop: Stop) -> Placed:
@@ -51,6 +52,7 @@ def with_repeats(placed: Placed, words: int, letters: Letters, paper: str, stop:
     """
     job = placed.job
     least = max(letters.smallest or 0.0, LEGIBLE * job.container.side)
+    most = max(EACH * words, AT_LEAST)
     own = placed.exact.poses.scale[:words]
     rng = np.random.default_rng(job.plan.seed)
     # Light words first: the heavy ones are seen as it is.
@@ -66,7 +68,7 @@ def with_repeats(placed: Placed, words: int, letters: Letters, paper: str, stop:
         np.full(len(fitting), least / EM_PX),
         rng,
         margin_cu=job.plan.gap + HAIR * job.container.side,
-        most=EACH * words,
+        most=most,
         stop=stop,
     )
     ink = max((INK, LIGHT), key=lambda one: contrast(one, paper))
@@ -80,8 +82,8 @@ def with_repeats(placed: Placed, words: int, letters: Letters, paper: str, stop:
     poses = placed.exact.poses.followed_by(found.poses)
     areas = np.array([i.outline.area for i in (*job.items, *new)]) * poses.scale**2
     covered = float(areas.sum()) / job.container.outline.area
-    said = ENOUGH if len(new) == EACH * words else ENDING
-    ending = said.format(least=least, unit=job.container.unit, each=EACH)
+    said = ENOUGH if len(new) == most else ENDING
+    ending = said.format(least=least, unit=job.container.unit, most=most)
     return joined_by(
         placed,
         new,
