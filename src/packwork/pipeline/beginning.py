@@ -89,6 +89,8 @@ class Beginning:
         Whether nothing overlaps, and the levels have nothing to add.
     goes_on
         Whether items keep their order, as those of an earlier layout that is no mere heap do.
+    is_clean
+        Whether nothing meets in exact geometry, gap included: the finish only refines.
     """
 
     job: Job
