@@ -312,6 +312,7 @@ def test_bench_runs_a_script_of_the_checkout(folder: Path, packwork: Command) ->
     (folder / "benchmarks" / "engine" / "speed.py").write_text(script, encoding="utf-8")
     (folder / "benchmarks" / "engine" / "helper.py").write_text("x = 1\n", encoding="utf-8")
     assert packwork("bench speed fast twice").stdout == "fast twice"
+    assert packwork("bench speed --fast twice").stdout == "--fast twice"
     unknown = packwork("bench unknown")
     assert unknown.exit_code == 2
     assert unknown.stderr == "packwork: unknown: no such benchmark; there are speed\n"

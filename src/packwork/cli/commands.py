@@ -56,7 +56,8 @@ class Commands(Mapping[str, Any]):
 def _load(name: str) -> Any:
     function = getattr(importlib.import_module(f"packwork.cli.{name}"), name)
     alone = typer.Typer(add_completion=False, rich_markup_mode=MARKUP)
-    alone.command()(function)
+    # What a benchmark's script is given is its own.
+    alone.command(context_settings={"ignore_unknown_options": name == "bench"})(function)
     return typer.main.get_command(alone)
 
 
