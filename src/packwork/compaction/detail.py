@@ -8,7 +8,8 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.outer_simplify import inner_simplified, outer_simplified
+from packwork.compaction.covers import Covers
+from packwork.compaction.outer_simplify import inner_simplified
 from packwork.geometry.outline import Outline
 from packwork.scene.pose import Poses
 
@@ -56,10 +57,10 @@ class Detail:
     def covers(self, tolerance: float) -> Detail:
         """The same with fewer vertices: ``tolerance`` in shares of each item's extent."""
         known: dict[int, Outline] = {}
+        covers = Covers()
         for outline in self._outlines:
             if id(outline) not in known:
-                cover = outer_simplified(outline.region, tolerance * outline.extent)
-                known[id(outline)] = Outline.from_region(cover)
+                known[id(outline)] = covers.cover(outline, tolerance * outline.extent)
         outlines = [known[id(outline)] for outline in self._outlines]
         sizes = [outline.extent for outline in self._outlines] * self._poses.scale
         slack = tolerance * float(np.median(sizes))
