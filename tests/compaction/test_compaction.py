@@ -14,6 +14,7 @@ from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.blocks import blocks
 from packwork.compaction.compact import compact, worth
+from packwork.compaction.detail import Detail
 from packwork.compaction.kernels.steps import LEAST_GROWTH, MOST_GROWTH
 from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize
 from packwork.compaction.outer_simplify import inner_simplified, outer_simplified
@@ -22,6 +23,7 @@ from packwork.compaction.separate import separate, separate_evenly
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import union
 from packwork.readers.container import read_container
+from packwork.scene.pose import Poses
 from scenes import box, disc, square, star
 from strategies import generators, star_rings
 
@@ -295,3 +297,10 @@ def test_specks_neither_vanish_nor_jump() -> None:
         grown = two.places[:, 3] - before
         assert grown.max() <= MOST_GROWTH
         assert two.places[:, 3].min() >= LEAST_GROWTH
+
+
+def test_covers_that_are_stopped_are_the_outlines_themselves() -> None:
+    poses = Poses(np.zeros(2), np.zeros(2), np.zeros(2), np.ones(2))
+    detail = Detail([disc(3.0), square(1.0)], box(-9, -9, 9, 9), poses)
+    assert detail.covers(0.1, lambda: True) is detail
+    assert detail.covers(0.1) is not detail

@@ -14,7 +14,7 @@ from strategies import SEEDS, generators
 
 def blob(rng: np.random.Generator) -> Outline:
     """Star-shaped polygon about its origin, sometimes with a hole."""
-    count = int(rng.integers(3, 12))
+    count = int(rng.integers(3, 50))
     turns = 2 * np.pi * (np.arange(count) + rng.uniform(0, 0.7, count)) / count
     spokes = np.column_stack([np.cos(turns), np.sin(turns)])
     rings = [rng.uniform(0.5, 1.5, count)[:, None] * spokes]

@@ -13,7 +13,7 @@ from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.angles import nearest_allowed, start_angles
-from packwork.start.first_poses import first_poses, start_resolution
+from packwork.start.first_poses import first_poses, poses_apart, start_resolution
 from packwork.start.options import StartOptions
 from scenes import box, disc, placed, round_container, share_inside, square, star
 
@@ -112,3 +112,16 @@ def test_angles_of_an_earlier_layout_turn_to_the_nearest_allowed() -> None:
         nearest_allowed(angles, 0.5, None), [0.1, 0.5, -0.5, 6.2 - 2 * np.pi, -0.5]
     )
     assert nearest_allowed(angles, None, (0.0, np.pi)).tolist() == [0, np.pi, np.pi, 0, np.pi]
+
+
+def test_poses_apart_meet_nothing_though_one_item_is_far_larger() -> None:
+    container = round_container()
+    outlines = [disc(), square(), star()] * 10
+    scales = np.array([60.0] + [2.0] * 29)
+    poses = poses_apart(container, outlines, scales, np.linspace(-1, 1, 30))
+    assert poses is not None
+    np.testing.assert_allclose(poses.scale / poses.scale[1], scales / scales[1])
+    ends = placed(outlines, poses)
+    assert min(share_inside(outline, container) for outline in ends) == pytest.approx(1)
+    union = shapely.union_all([outline.region for outline in ends])
+    assert union.area == pytest.approx(sum(outline.area for outline in ends))

@@ -11,6 +11,7 @@ from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.covers import Covers
 from packwork.compaction.outer_simplify import inner_simplified
 from packwork.geometry.outline import Outline
+from packwork.progress import Stop, never
 from packwork.scene.pose import Poses
 
 COARSE, FINE = 4e-3, 3e-4
@@ -54,12 +55,17 @@ class Detail:
         extents = [outline.extent for outline in self._outlines] * self._poses.scale
         return float(np.clip(distance_cu / np.median(extents), least, max(least, ROUGHEST)))
 
-    def covers(self, tolerance: float) -> Detail:
-        """The same with fewer vertices: ``tolerance`` in shares of each item's extent."""
+    def covers(self, tolerance: float, stop: Stop = never) -> Detail:
+        """The same with fewer vertices: ``tolerance`` in shares of each item's extent.
+
+        Itself once ``stop``, asked before each, says so: hundreds of words take seconds.
+        """
         known: dict[int, Outline] = {}
         covers = Covers()
         for outline in self._outlines:
             if id(outline) not in known:
+                if stop():
+                    return self
                 known[id(outline)] = covers.cover(outline, tolerance * outline.extent)
         outlines = [known[id(outline)] for outline in self._outlines]
         sizes = [outline.extent for outline in self._outlines] * self._poses.scale

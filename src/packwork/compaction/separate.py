@@ -21,8 +21,9 @@ CUT = 0.004
 """Logarithm of size that an item in conflict loses at a time. Larger gives room away,
 smaller needs more checks. Tried."""
 
-HURRIED_CUT = 0.05
-"""The same once a run is to stop. Chosen."""
+HURRIED_CUT, HURRY = 0.05, 2.0
+"""The same once a run is to stop, and by how much it grows with each check from then on: checks of
+hundreds of words in a coast take a second each. Chosen."""
 
 PATIENT, HASTE = 150, 1.03
 """Checks after which that loss grows with each check, and by how much, so that even hopeless
@@ -77,6 +78,7 @@ def separate(
     first = arrangement.places[:, 3].copy()
     moved: list[int] = []
     near = arrangement.pairs(gap)
+    hurried = 0
     for check in range(MOST_CHECKS):
         bad = arrangement.conflicts(near, gap)
         if len(bad) == 0:
@@ -85,8 +87,11 @@ def separate(
         places = arrangement.places[items]
         if (places[:, 3] <= LEAST_GROWTH).all():
             break
-        cut = HURRIED_CUT if hurries() else CUT
-        places[:, 3] -= cut * HASTE ** max(check - PATIENT, 0)
+        if hurries():
+            places[:, 3] -= HURRIED_CUT * HURRY**hurried
+            hurried += 1
+        else:
+            places[:, 3] -= CUT * HASTE ** max(check - PATIENT, 0)
         places[:, 3] = np.maximum(places[:, 3], LEAST_GROWTH)
         arrangement.put(items, places)
         worn = arrangement.places[:, 3] < first - hopeless_at

@@ -181,12 +181,9 @@ class _Finish:
         tolerance = COARSE if options.sizes == "free" else COMMON_COARSE
         tolerance = exact.tolerance(tolerance, COARSE_OF_GAP * options.gap_cu)
         is_exact = options.sizes == "fixed" or options.refining
-        if stop() and not is_exact:
-            # Nothing will grow into what finer ones leave.
-            self._fine = self._coarse = exact.covers(tolerance)
-        else:
-            self._fine = exact.covers(exact.tolerance(FINE, FINE_OF_GAP * options.gap_cu))
-            self._coarse = self._fine if is_exact else self._fine.covers(tolerance)
+        # To be stopped asks for no covers: nothing will grow into what they would waste.
+        self._fine = exact.covers(exact.tolerance(FINE, FINE_OF_GAP * options.gap_cu), stop)
+        self._coarse = self._fine if is_exact else self._fine.covers(tolerance, stop)
         self._first_trust = REFINING_TRUST if options.refining else FIRST_TRUST
         zero = np.zeros(len(poses))
         self.arrangement = self._coarse.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))
@@ -210,7 +207,7 @@ class _Finish:
                 break
             before = self.arrangement.places.copy()
             relocate(self.arrangement, laggards, self.gap)
-            separate(self.arrangement, self.gap)
+            separate(self.arrangement, self.gap, hurries=self._stop)
             self._compact(range(count // 2, count))
             if self._is_shared and self.arrangement.places[:, 3].min() < before[:, 3].min():
                 self.arrangement.put(np.arange(len(before)), before)
@@ -262,7 +259,7 @@ class _Finish:
 
     def refine(self) -> None:
         """Grow from a clean layout, on fine outlines and in small steps."""
-        separate(self.arrangement, self.gap, self._options.hopeless)
+        separate(self.arrangement, self.gap, self._options.hopeless, self._stop)
         self._compact(range(self._planned))
 
     def anneal(self) -> None:
@@ -293,7 +290,7 @@ class _Finish:
     def fine(self) -> None:
         """Grow into what the coarse outlines left."""
         self.arrangement = self._fine.arrangement(self.arrangement.places)
-        separate(self.arrangement, self.gap)
+        separate(self.arrangement, self.gap, hurries=self._stop)
         self._compact(range(round(COARSE_SHARE * self._planned), self._planned))
 
     def _compact(self, rounds: range) -> None:

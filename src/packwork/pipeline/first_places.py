@@ -23,7 +23,7 @@ from packwork.scene.pose import Poses
 from packwork.start.angles import spread_angles
 from packwork.start.erosion import is_thread, scales_within, spread_along
 from packwork.start.first_fit.first_fit import first_fit
-from packwork.start.first_poses import FirstPoses, disc_radii, first_poses
+from packwork.start.first_poses import FirstPoses, disc_radii, first_poses, poses_apart
 
 ATTEMPTS = {"draft": 1, "normal": 4, "best": 24}
 """Orders tried for each size, by effort. More find a little more, ever less so. Tried."""
@@ -82,6 +82,12 @@ def first_places(
         )
         if poses is not None:
             return FirstPoses(poses, "first-fit")
+        # Once a run is to stop, there is no time to take apart what others leave overlapping.
+        apart = (
+            None if limits.binds or not stop() else poses_apart(container, outlines, scales, angles)
+        )
+        if apart is not None:
+            return FirstPoses(apart, "distance-field")
     return first_poses(container, outlines, scales, angles, plan.start_options(), rng, limits)
 
 

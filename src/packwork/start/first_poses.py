@@ -9,6 +9,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
+from packwork.fields.clearance import Clearance
+from packwork.fields.voids import largest_voids
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.raster.coverage import Rasteriser
@@ -30,6 +32,10 @@ items; more items need smaller pixels. Larger is slower and no better. Tried."""
 HULL_SHARE = 0.85
 """How much an item's hull counts against its area for the disc that stands for it:
 0 the area alone, 1 the hull alone. Tried."""
+
+APART, MOST_SIZES = 0.8, 60
+"""Factor between the sizes tried until discs about all items find room, and how many are tried at
+most: a millionth of the first is nothing that anyone would see. Chosen."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,6 +89,55 @@ def first_poses(
         return _round_given(image, px_per_cu, outlines, scales, angles, options, rng, limits)
     x, y, method = _places(image, px_per_cu, disc_radii(outlines, scales), options, rng)
     return FirstPoses(Poses(x, y, angles, scales), method)
+
+
+def poses_apart(
+    container: Container, outlines: Sequence[Outline], scales: FloatArray, angles: FloatArray
+) -> Poses | None:
+    """Poses at which nothing meets, found at once: discs about the outlines, all in proportion.
+
+    None if there is no room for so many even then. What there is where the search for the largest
+    common size was ended before it found any.
+
+    Parameters
+    ----------
+    container
+        The region to fill.
+    outlines
+        One per item, item units.
+    scales, angles
+        ``(n,)``; the scales are made smaller by one factor.
+
+    Examples
+    --------
+    >>> square = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
+    >>> wall = square.mapped(np.array([[50.0, 0, 50], [0, 50.0, 50]]))
+    >>> container = Container("", "", wall, 100.0, 100.0)
+    >>> found = poses_apart(container, [square] * 2, np.full(2, 80.0), np.zeros(2))
+    >>> bool(np.hypot(*np.diff([found.x, found.y])) > 2 * np.sqrt(2) * found.scale[0])
+    True
+    """
+    image, px_per_cu = container_image(container, start_resolution(len(outlines)))
+    arms = np.array([np.hypot(*outline.points.T).max() for outline in outlines])
+    for _ in range(MOST_SIZES):
+        # A pixel more: so far the image's edge may be from the container's.
+        centres = _centres_apart(image, arms * scales * px_per_cu + 1.0)
+        if centres is not None:
+            x, y = centres / px_per_cu
+            return Poses(x, y, angles, scales)
+        scales = scales * APART
+    return None
+
+
+def _centres_apart(image: Image, radii_px: FloatArray) -> FloatArray | None:
+    """``(2, n)`` x and y of discs that do not meet, the largest first; None without room."""
+    found = np.empty((2, len(radii_px)))
+    order = np.argsort(-radii_px, kind="stable")
+    for void in largest_voids(Clearance(image > 0.5), order, lambda k, _: float(radii_px[k])):
+        if void.radius < radii_px[void.item]:
+            return None
+        found[:, void.item] = void.x, void.y
+    return found
 
 
 def _round_given(
