@@ -11,6 +11,7 @@ import math
 import numpy as np
 
 from packwork.compaction.kernels import distances
+from packwork.compaction.kernels import edges as edge_kernels
 from packwork.compiled import helper
 
 
@@ -68,8 +69,8 @@ def _describe(board, kept, count, edges):
         edges[0, k], edges[1, k] = dx / max(length, 1e-300), dy / max(length, 1e-300)
         edges[2, k] = length
         edges[3, k], edges[4, k] = ex / max(other, 1e-300), ey / max(other, 1e-300)
-        edges[5, k] = distances.side(points, u, v, w)
-        edges[6, k] = distances.side(points, v, w, board.after[w])
+        edges[5, k] = edge_kernels.side(points, u, v, w)
+        edges[6, k] = edge_kernels.side(points, v, w, board.after[w])
         edges[7, k], edges[8, k] = points[v, 0], points[v, 1]
 
 

@@ -9,7 +9,7 @@ import math
 
 import numpy as np
 
-from packwork.compaction.kernels import distances
+from packwork.compaction.kernels import edges
 from packwork.compiled import helper, kernel
 
 
@@ -21,12 +21,12 @@ def _change(points, after, before, v, corner):
     they meet in ``corner``. Infinite where neither can be.
     """
     u, w = before[v], after[v]
-    bend = distances.side(points, u, v, w)
+    bend = edges.side(points, u, v, w)
     if bend <= 0.0:
         length = math.hypot(points[w, 0] - points[u, 0], points[w, 1] - points[u, 1])
         return -bend / length if length > 0.0 else 0.0
     x = after[w]
-    if distances.side(points, v, w, x) <= 0.0:
+    if edges.side(points, v, w, x) <= 0.0:
         return np.inf
     ax, ay = points[v, 0] - points[u, 0], points[v, 1] - points[u, 1]
     bx, by = points[w, 0] - points[x, 0], points[w, 1] - points[x, 1]
@@ -90,7 +90,7 @@ def simplify_outward(points, tolerance):
         v = best[1]
         if costs[v] > tolerance:
             break
-        if distances.side(points, before[v], v, after[v]) <= 0.0:
+        if edges.side(points, before[v], v, after[v]) <= 0.0:
             gone = v
         else:
             gone = after[v]
