@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import packwork
-from packwork.compiled import holds_kernels
+from packwork.compiled import called_by, holds_kernels
 
 SOURCE = Path(packwork.__file__).parent
 MODULES = sorted(SOURCE.rglob("*.py"))
@@ -47,6 +47,14 @@ each_module = pytest.mark.parametrize(
 def test_the_scan_sees_a_forbidden_import() -> None:
     tree = ast.parse("def f():\n    from numba import njit\n    import numba.typed\n")
     assert [name.split(".")[0] for name in imported(tree)] == ["numba", "numba"]
+
+
+@pytest.mark.parametrize("path", [path for path in MODULES if is_compiled(path)])
+def test_no_import_of_a_kernel_escapes_its_fingerprint(path: Path) -> None:
+    name = ".".join(("packwork", *path.relative_to(SOURCE).with_suffix("").parts))
+    importlib.import_module(name)
+    expected = set(filter(holds_kernels, imported(parse(path))))
+    assert called_by(path.read_text(encoding="utf-8")) == expected
 
 
 @each_module

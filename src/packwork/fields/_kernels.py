@@ -1,8 +1,10 @@
-"""Running sums over windows."""
+"""Running sums over windows; distance transforms; connected components."""
 
 from __future__ import annotations
 
-from packwork.compiled import kernel
+import numpy as np
+
+from packwork.compiled import helper, kernel
 
 
 @kernel
@@ -46,3 +48,121 @@ def box_sum_down(image, reach, factor, out):
     for r in range(height):
         for c in range(width):
             out[r, c] *= factor
+
+
+@kernel
+def distance_to(mask, out):
+    """Distance of each pixel from the nearest True one, of which there is at least one."""
+    height, width = mask.shape
+    rows = _nearest_in_columns(mask)
+    away = np.empty(width, np.int64)
+    columns = np.empty(width, np.int64)
+    for r in range(height):
+        _nearest_in_row(rows[r], r, away, columns)
+        for c in range(width):
+            across = columns[c] - c
+            out[r, c] = np.sqrt(np.float64(away[columns[c]] + across * across))
+
+
+@kernel
+def nearest_to(mask, nearest_row, nearest_column):
+    """Row and column of the True pixel, one at least, that is nearest to each."""
+    height, width = mask.shape
+    rows = _nearest_in_columns(mask)
+    away = np.empty(width, np.int64)
+    columns = np.empty(width, np.int64)
+    for r in range(height):
+        _nearest_in_row(rows[r], r, away, columns)
+        for c in range(width):
+            nearest_row[r, c] = rows[r, columns[c]]
+            nearest_column[r, c] = columns[c]
+
+
+@helper
+def _nearest_in_columns(mask):
+    """Row of the True pixel nearest in each pixel's own column, the upper of two; -1 for none."""
+    height, width = mask.shape
+    rows = np.empty((height, width), np.int32)
+    for r in range(height):
+        for c in range(width):
+            rows[r, c] = r if mask[r, c] else (rows[r - 1, c] if r > 0 else -1)
+    for r in range(height - 2, -1, -1):
+        for c in range(width):
+            above, below = rows[r, c], rows[r + 1, c]
+            if below > r and (above < 0 or below - r < r - above):
+                rows[r, c] = below
+    return rows
+
+
+@helper
+def _nearest_in_row(rows, r, away, columns):
+    """Column in which the True pixel nearest to each pixel of a row lies.
+
+    Parameters
+    ----------
+    rows, r
+        Of the nearest in each column, and the row's own.
+    away, columns
+        Overwritten: squared distance down each column (-1 for none), and what is asked for.
+    """
+    width = len(rows)
+    for c in range(width):
+        away[c] = -1 if rows[c] < 0 else np.int64(rows[c] - r) ** 2
+    # Columns that are nearest to some point of the row.
+    stack = np.empty(width, np.int64)
+    last = -1
+    for c in range(width):
+        if away[c] < 0:
+            continue
+        while last >= 1 and _is_hidden(stack[last - 1], stack[last], c, away):
+            last -= 1
+        last += 1
+        stack[last] = c
+    k = 0
+    for c in range(width):
+        while k < last:
+            here, after = stack[k] - c, stack[k + 1] - c
+            if away[stack[k]] + here * here <= away[stack[k + 1]] + after * after:
+                break
+            k += 1
+        columns[c] = stack[k]
+
+
+@helper
+def _is_hidden(left, middle, right, away):
+    """Whether no point of the row is nearest to the middle one of three columns."""
+    a, b = middle - left, right - middle
+    return (a + b) * (away[middle] - a * b) > b * away[left] + a * away[right]
+
+
+@kernel
+def label_parts(mask, labels):
+    """Number the parts of a mask from 1 on, in ``labels``, all 0 before; pixels join by sides.
+
+    Returns
+    -------
+    int
+        How many there are.
+    """
+    height, width = mask.shape
+    waiting = np.empty(mask.size, np.int64)
+    count = 0
+    for first in range(mask.size):
+        if not mask[first // width, first % width] or labels[first // width, first % width]:
+            continue
+        count += 1
+        labels[first // width, first % width] = count
+        waiting[0] = first
+        many = 1
+        while many > 0:
+            many -= 1
+            r, c = waiting[many] // width, waiting[many] % width
+            for side in range(4):
+                i = r + (side == 0) - (side == 1)
+                j = c + (side == 2) - (side == 3)
+                is_new = 0 <= i < height and 0 <= j < width and mask[i, j] and labels[i, j] == 0
+                if is_new:
+                    labels[i, j] = count
+                    waiting[many] = i * width + j
+                    many += 1
+    return count

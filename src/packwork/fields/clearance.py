@@ -6,9 +6,9 @@ From a Euclidean distance transform; after each disc only a window round it is u
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.fields.distance_transform import distance_to
 
 
 def distance_inside(mask: BoolArray) -> FloatArray:
@@ -22,7 +22,7 @@ def distance_inside(mask: BoolArray) -> FloatArray:
     [0.5, 1.5, 0.5]
     """
     padded = np.pad(mask, 1)
-    distance = ndimage.distance_transform_edt(padded)[1:-1, 1:-1]
+    distance = distance_to(~padded)[1:-1, 1:-1]
     return np.asarray(np.maximum(distance - 0.5, 0.0))
 
 

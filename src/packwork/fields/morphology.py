@@ -1,4 +1,4 @@
-"""Opening and closing of regions by discs, through distance transforms.
+"""Opening and closing of regions by discs, through distance transforms; erosion by sides.
 
 J. Serra, "Image Analysis and Mathematical Morphology", Academic Press 1982.
 """
@@ -6,22 +6,9 @@ J. Serra, "Image Analysis and Mathematical Morphology", Academic Press 1982.
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
 
-from packwork.arrays import BoolArray, FloatArray
-
-
-def distance_to(mask: BoolArray) -> FloatArray:
-    """Distance ``(rows, columns)``, px, of pixels from the nearest True one; infinite without one.
-
-    Examples
-    --------
-    >>> distance_to(np.array([[True, False, False]])).tolist()
-    [[0.0, 1.0, 2.0]]
-    """
-    if not mask.any():
-        return np.full(mask.shape, np.inf)
-    return np.asarray(ndimage.distance_transform_edt(~mask))
+from packwork.arrays import BoolArray
+from packwork.fields.distance_transform import distance_to
 
 
 def closed(mask: BoolArray, radius_px: float) -> BoolArray:
@@ -57,3 +44,20 @@ def opened(mask: BoolArray, radius_px: float) -> BoolArray:
     # Centres and edges of pixels lie half a pixel apart.
     core = room - 0.5 >= radius_px
     return np.asarray(mask & (distance_to(core) <= radius_px))
+
+
+def eroded(mask: BoolArray, steps: int) -> BoolArray:
+    """Mask ``(rows, columns)`` without what some steps from side to side lead out of.
+
+    What lies off the image counts as outside.
+
+    Examples
+    --------
+    >>> eroded(np.ones((3, 4), dtype=bool), 1).astype(int).tolist()
+    [[0, 0, 0, 0], [0, 1, 1, 0], [0, 0, 0, 0]]
+    """
+    for _ in range(steps):
+        padded = np.pad(mask, 1)
+        across = padded[1:-1, :-2] & padded[1:-1, 2:]
+        mask = mask & across & padded[:-2, 1:-1] & padded[2:, 1:-1]
+    return mask

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.fields.morphology import distance_to
+from packwork.fields.distance_transform import distance_to
 
 STEPS = 20
 """Radii looked at, each the same factor larger than the last. More tell the thickness finer and

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from scipy import ndimage
 
 from packwork.arrays import FloatArray, Image
+from packwork.fields.distance_transform import nearest_to
 from packwork.losses import _kernels
 from packwork.losses.term import PoseTerm
 
@@ -37,8 +37,7 @@ class Recall:
         if not inside.any():
             # Thinner than half a pixel everywhere: its thickest parts stand for it.
             inside = container >= container.max() / 2
-        _, nearest = ndimage.distance_transform_edt(~inside, return_indices=True)
-        self._nearest_row, self._nearest_column = nearest
+        self._nearest_row, self._nearest_column = nearest_to(inside)
         self._inside = inside
         self._px_per_cu = px_per_cu
 

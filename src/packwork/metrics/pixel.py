@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
 
 from packwork.arrays import BoolArray, IntArray
+from packwork.fields.distance_transform import distance_to
 from packwork.geometry.outline import Outline, joined
 from packwork.raster.membership import centre_count
 from packwork.raster.pyramid import image_shape
@@ -86,6 +86,6 @@ def _non_uniformity(covered: BoolArray, inside: BoolArray) -> float:
     gaps = inside & ~covered
     if not gaps.any() or not covered.any():
         return 0.0
-    distance = ndimage.distance_transform_edt(~covered)
+    distance = distance_to(covered)
     in_canvas = distance[gaps] * (DISTANCE_CANVAS / RESOLUTION)
     return float(np.mean(in_canvas**2))

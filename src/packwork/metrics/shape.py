@@ -6,10 +6,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
 
 from packwork.arrays import BoolArray
-from packwork.fields.morphology import closed, distance_to
+from packwork.fields.distance_transform import distance_to, parts_of
+from packwork.fields.morphology import closed
 from packwork.geometry.outline import Outline, joined
 from packwork.raster.membership import centre_count
 from packwork.scene.container import Container
@@ -94,7 +94,7 @@ def _images(outlines: Sequence[Outline], container: Outline) -> tuple[BoolArray,
 
 
 def _parts(inside: BoolArray, covered: BoolArray) -> tuple[int, int]:
-    labels, count = ndimage.label(inside)
+    labels, count = parts_of(inside)
     sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
     held = np.bincount(labels[covered & inside], minlength=count + 1)[1:]
     counts = sizes >= SPECK * RESOLUTION**2

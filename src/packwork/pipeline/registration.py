@@ -14,7 +14,6 @@ from dataclasses import replace
 
 import numpy as np
 import shapely
-from scipy.spatial import cKDTree
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
@@ -105,6 +104,9 @@ def _coarse_turn(before: FloatArray, after: FloatArray) -> float:
 
 def _refined(before: FloatArray, after: FloatArray, turn: float) -> float:
     """The turn after a few steps of iterative closest points, along the normals."""
+    # Takes half a second to load.
+    from scipy.spatial import cKDTree
+
     tree = cKDTree(after)
     way = np.roll(after, -1, axis=0) - np.roll(after, 1, axis=0)
     normals = np.column_stack([way[:, 1], -way[:, 0]])

@@ -30,6 +30,7 @@ from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
+from packwork.metrics.shape import shape_metrics
 from packwork.pipeline.result import find_unplaced
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
@@ -38,7 +39,7 @@ from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
 
-KERNELS = 27
+KERNELS = 30
 """Kernels that all parts compile; a test counts them."""
 
 SECONDS_BETWEEN = 0.05
@@ -201,6 +202,7 @@ def pairs() -> None:
     layout = Layout(_container(), (item,), _poses(), np.ones(1))
     find_unplaced(layout)
     pixel_metrics(layout.outlines, layout.container)
+    shape_metrics(layout.outlines, layout.container)
 
 
 def contacts() -> None:

@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import ndimage
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.fields.clearance import distance_inside
@@ -179,6 +178,9 @@ def void_centres(distance: FloatArray, most: int) -> IntArray:
     >>> void_centres(distance_inside(mask), 5).tolist()
     [[4, 4], [4, 13]]
     """
+    # Takes half a second to load.
+    from scipy import ndimage
+
     peaks = (distance == ndimage.maximum_filter(distance, NEAREST_PX)) & (distance > 0)
     found = np.argwhere(peaks)
     order = np.argsort(-distance[peaks], kind="stable")

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 from PIL import Image
-from scipy import ndimage
 
 from packwork.arrays import BoolArray, FloatArray
+from packwork.fields.morphology import eroded
 from packwork.phrasing import number_of
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.contrast import oklabs
@@ -143,7 +143,7 @@ def _edge(item: Item) -> FloatArray:
     with Image.open(io.BytesIO(png)) as picture:
         pixels = np.asarray(picture.convert("RGBA"))
     solid: BoolArray = np.pad(pixels[..., 3] >= _SOLID, 1)
-    inner = ndimage.binary_erosion(solid, iterations=EDGE_PX)
+    inner = eroded(solid, EDGE_PX)
     return oklabs(pixels[(solid & ~inner)[1:-1, 1:-1]][:, :3] / 255)
 
 

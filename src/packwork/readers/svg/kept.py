@@ -13,12 +13,12 @@ import logging
 import sys
 from collections.abc import Callable
 from dataclasses import fields
+from importlib import metadata
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import resvg_py
-import scipy
 import shapely
 
 from packwork import folders
@@ -80,8 +80,10 @@ def read_once(
 @functools.cache
 def reader_version() -> str:
     """One word for all code that reads drawings."""
-    versions = (np, scipy, shapely, resvg_py)
+    versions = (np, shapely, resvg_py)
     numbers = [str(getattr(module, "__version__", "")) for module in versions]
+    # Loading it takes a while, and which one it is can be read.
+    numbers.append(metadata.version("scipy"))
     whole = hashlib.sha256(repr((sys.version, shapely.geos_version, numbers)).encode())
     root = Path(folders.__file__).parent
     paths = [*root.glob("*.py"), *(p for f in FOLDERS for p in (root / f).rglob("*.py"))]

@@ -15,7 +15,6 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
-from scipy import ndimage
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.fields.clearance import distance_inside
@@ -359,6 +358,9 @@ class _Grading:
         across, down = np.rint(turned @ apart * scale * self._px_per_cu).astype(int)
         if not (across or down):
             return stencil
+        # Takes half a second to load.
+        from scipy import ndimage
+
         mask = np.pad(stencil.mask, ((down, down), (across, across)))
         mask = ndimage.maximum_filter(mask, (2 * down + 1, 2 * across + 1))
         return stencil_of(mask, (stencil.origin[0] + down, stencil.origin[1] + across), REACH)

@@ -5,10 +5,10 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy import ndimage
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_to
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.stencil import Stencil
 
@@ -136,6 +136,6 @@ class Occupancy:
         near = self.taken[rows.start + m : rows.stop + m, columns.start + m : columns.stop + m]
         window = clearance[rows, columns]
         # Not ``distance_inside``: the window's own edge is no edge.
-        away = ndimage.distance_transform_edt(near == 0) - 0.5
+        away = distance_to(near != 0) - 0.5
         np.minimum(window, np.maximum(away, 0.0), out=window)
         self.widest = float(clearance.max())

@@ -10,7 +10,6 @@ from collections.abc import Sequence
 
 import numpy as np
 import shapely
-from scipy.ndimage import maximum_filter
 from shapely.geometry import Polygon
 
 from packwork.arrays import FloatArray
@@ -163,6 +162,9 @@ def _traced(
         strongest = 1.0 if shapes else float(opacity.max())
         opacity = opacity / max(strongest, _FAINTEST)
         if shapes:
+            # Takes half a second to load.
+            from scipy.ndimage import maximum_filter
+
             is_solid = maximum_filter(opacity, 3) >= 1 / 2
             opacity[touched(shapes, part, opacity.shape) & ~is_solid] = 1.0
         if side < TRACE_PX:
