@@ -68,6 +68,17 @@ def test_a_kernel_that_was_kept_calls_the_others_as_they_are_now(package: Path) 
 
 
 @NEEDS_JIT
+def test_a_kernel_that_was_kept_can_be_compiled_into_another(package: Path) -> None:
+    alone = CALLED.replace("helper", "kernel").format("int(abs(-3))")
+    (package / "called" / "_kernels.py").write_text(alone)
+    first = "from somekernels.called._kernels import called; print(called())"
+    assert call(package, first)[0] == "3"
+    both = f"{first}; {PROGRAM}"
+    assert call(package, both)[0].split() == ["3", "3"]
+    assert call(package, both) == ("3\n3", "")
+
+
+@NEEDS_JIT
 def test_the_same_kernels_elsewhere_are_not_compiled_again(package: Path, tmp_path: Path) -> None:
     call(package)
     elsewhere = tmp_path / "another" / package.name

@@ -18,9 +18,11 @@ import pickle
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from typing import Any, Protocol
+from dataclasses import dataclass
+from typing import Any, Protocol, final
 
 import llvmlite.binding
+import llvmlite.ir
 import numba
 from numba import njit
 from numba.core import serialize
@@ -30,7 +32,7 @@ from numba.core.runtime import rtsys
 
 from packwork.folders import Store
 
-FORM = 1
+FORM = 2
 """Number of the form in which kernels are kept; a new one forgets all."""
 
 MOST_BYTES = 200_000_000
@@ -159,13 +161,16 @@ class KernelCache(NullCache):  # type: ignore[misc]
         # All that a compiled kernel needs. To refresh the context would load what Numba knows of
         # every function of NumPy, SciPy's linear algebra among it: longer than all kernels.
         rtsys.initialize(target_context)
-        return CompileResult._rebuild(target_context, *pickle.loads(kept))  # noqa: S301
+        state, bitcode = pickle.loads(kept)  # noqa: S301
+        loaded = CompileResult._rebuild(target_context, *state)
+        loaded.library._shared_module = Bitcode(bitcode)
+        return loaded
 
     def save_overload(self, sig: Any, cres: Any) -> None:
         """Keep what was compiled."""
         key = self._key(sig, cres.codegen)
         if key is not None and not cres.library.has_dynamic_globals:
-            STORE.put(key, serialize.dumps(cres._reduce()))
+            STORE.put(key, serialize.dumps(_parted(cres)))
         _tell(self._name, is_done=True)
 
     def _key(self, sig: Any, codegen: Any) -> str | None:
@@ -179,6 +184,46 @@ class KernelCache(NullCache):  # type: ignore[misc]
             tuple(map(repr, sig)), codegen.magic_tuple(), VERSIONS,
         )  # fmt: skip
         return repr(parts)
+
+
+@final
+@dataclass(frozen=True)
+class Bitcode:
+    """Code of a kernel for others that call it; read only if one of them is compiled.
+
+    Parameters
+    ----------
+    data
+        As LLVM writes it.
+    """
+
+    data: bytes
+
+    def clone(self) -> Any:
+        """LLVM's module, as Numba links it into another one."""
+        return llvmlite.binding.parse_bitcode(self.data)
+
+    def as_bitcode(self) -> bytes:
+        """The code itself, as Numba keeps it."""
+        return self.data
+
+
+def _parted(compiled: Any) -> tuple[tuple[Any, ...], bytes]:
+    """What is needed to call a kernel, and its bitcode; without, it is loaded twice as fast."""
+    library, *rest = compiled._reduce()
+    name, kind, (machine_code, bitcode) = library
+    names = compiled.fndesc.llvm_func_name, compiled.fndesc.llvm_cpython_wrapper_name
+    return ((name, kind, (machine_code, _names_alone(names))), *rest), bitcode
+
+
+def _names_alone(names: Iterable[str]) -> bytes:
+    """Bitcode that holds nothing but the names by which machine code is found."""
+    module = llvmlite.ir.Module()
+    for name in names:
+        kind = llvmlite.ir.FunctionType(llvmlite.ir.VoidType(), ())
+        block = llvmlite.ir.Function(module, kind, name).append_basic_block()
+        llvmlite.ir.IRBuilder(block).ret_void()
+    return bytes(llvmlite.binding.parse_assembly(str(module)).as_bitcode())
 
 
 @functools.cache

@@ -1,13 +1,15 @@
 """Five uses of one road: icons, words, photographs, charts and piles; here runs begin.
 
 Each use reads what it places, and answers the questions of ``pipeline.use.Use`` in which it
-differs from the others.
+differs from the others. What one use alone needs is loaded when it is asked for.
 """
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.read import Material, job_of, read_room
@@ -17,18 +19,14 @@ from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.uses.charts.recipe import chart_recipe
-from packwork.uses.charts.use import read_marks
 from packwork.uses.icons import read_icons
-from packwork.uses.photos.recipe import photos_recipe
-from packwork.uses.photos.use import read_collage
-from packwork.uses.piles.pile import Heap
-from packwork.uses.piles.recipe import pile_recipe
-from packwork.uses.piles.room import PileRoom
-from packwork.uses.piles.use import Pile
 from packwork.uses.room import NO_CONTAINER, Room
-from packwork.uses.words.recipe import words_recipe
-from packwork.uses.words.use import read_cloud
+
+if TYPE_CHECKING:
+    from packwork.uses.charts.recipe import chart_recipe
+    from packwork.uses.photos.recipe import photos_recipe
+    from packwork.uses.piles.recipe import pile_recipe
+    from packwork.uses.words.recipe import words_recipe
 
 __all__ = [
     "chart_recipe",
@@ -38,6 +36,20 @@ __all__ = [
     "read",
     "words_recipe",
 ]
+
+_HOMES = {
+    "chart_recipe": "charts",
+    "photos_recipe": "photos",
+    "pile_recipe": "piles",
+    "words_recipe": "words",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Load how a use's recipe is made when that is first used."""
+    if name in _HOMES:
+        return getattr(importlib.import_module(f"packwork.uses.{_HOMES[name]}.recipe"), name)
+    raise AttributeError(f"module 'packwork.uses' has no attribute {name!r}")
 
 
 def fill(
@@ -86,6 +98,10 @@ def _material(
     recipe: Recipe, items: Sequence[Item] | None, container: Container | None
 ) -> Material:
     if recipe.pile is not None:
+        from packwork.uses.piles.pile import Heap
+        from packwork.uses.piles.room import PileRoom
+        from packwork.uses.piles.use import Pile
+
         room = PileRoom.of_recipe(recipe, recipe.pile, container)
         material = _content(recipe, room, items)
         heap = Heap(recipe.pile, room.mouths)
@@ -96,9 +112,15 @@ def _material(
 
 def _content(recipe: Recipe, room: Room, items: Sequence[Item] | None) -> Material:
     if recipe.chart is not None:
+        from packwork.uses.charts.use import read_marks
+
         return read_marks(recipe, recipe.chart, room.container)
     if recipe.words is not None:
+        from packwork.uses.words.use import read_cloud
+
         return read_cloud(recipe, recipe.words, room, items)
     if recipe.photos is not None:
+        from packwork.uses.photos.use import read_collage
+
         return read_collage(recipe, room, items)
     return read_icons(recipe, room, items)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import xml.etree.ElementTree as ET
 import zlib
-from xml.sax.saxutils import escape, quoteattr
 
 from packwork.readers.account import one_budget
 from packwork.readers.budget.expansion import bound_expansion, check_size
@@ -97,6 +96,9 @@ def serialised(element: ET.Element) -> str:
     >>> serialised(ET.Element("g", {"id": 'a"b'}))
     '<g id=\'a"b\'/>'
     """
+    # Loads the web client of Python with it; drawings that were read before need neither.
+    from xml.sax.saxutils import escape, quoteattr
+
     attributes = "".join(f" {name}={quoteattr(value)}" for name, value in element.attrib.items())
     inside = escape(element.text or "") + "".join(serialised(child) for child in element)
     tail = escape(element.tail or "")
