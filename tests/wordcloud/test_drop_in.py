@@ -219,6 +219,11 @@ def test_texts_become_words_and_pairs() -> None:
     assert (alone["white"], alone["rabbits"], alone["bees"]) == (3, 1, 1)
 
 
+def test_a_variation_selector_alone_is_no_word() -> None:
+    found = WordCloud(collocations=False, regexp=r"[^\s\w]").process_text("\u263a\ufe0f")
+    assert set(found) == {"\u263a"}
+
+
 @pytest.mark.parametrize(
     ("options", "expected"),
     [

@@ -22,7 +22,8 @@ from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.start.first_fit.graded import Candidate, graded_fit
+from packwork.start.first_fit.graded import graded_fit
+from packwork.start.first_fit.grading import Candidate
 
 SMALLEST_CANVAS = 4
 """Pixels on a side below which nothing is tried. Chosen."""

@@ -20,6 +20,9 @@ STOPWORDS: set[str] = set(
 """The 192 words that the other package leaves out: the usual short list of English (ranks.nl) and
 some of web pages. Programs add to it; ``packwork words`` has longer ones, of many languages."""
 
+_VARIANTS = frozenset(map(chr, range(0xFE00, 0xFE10)))
+"""Marks that choose how the letter before them is drawn; alone they are no words."""
+
 _PLAIN, _LONGER = r"\w[\w']*", r"\w[\w']+"
 
 
@@ -38,6 +41,7 @@ def tokens(
     else:
         (found,) = found_in(regexp, [text], groups=True)
     words = [word[:-2] if word.lower().endswith("'s") else word for word in found]
+    words = [word for word in words if not (word and _VARIANTS.issuperset(word))]
     if not include_numbers:
         words = [word for word in words if not word.isdigit()]
     return [word for word in words if len(word) >= min_word_length]

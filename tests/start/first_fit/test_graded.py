@@ -7,10 +7,13 @@ from itertools import combinations
 import numpy as np
 import pytest
 
+from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.scene.container import Container
-from packwork.start.first_fit.graded import Candidate, Graded, graded_fit, sizes_down
+from packwork.start.first_fit.graded import Graded, graded_fit, sizes_down
+from packwork.start.first_fit.grading import Candidate
+from scenes import box
 
 
 def shapes(count: int) -> list[Outline]:
@@ -92,3 +95,20 @@ def test_sizes_end_at_the_least() -> None:
     assert sizes_down(1.0, 2.0) == []
     assert sizes_down(2.0, 2.0) == [2.0]
     assert min(sizes_down(3.0, 1.1)) == 1.1
+
+
+def test_a_long_item_does_not_hold_all_later_ones_down(monkeypatch: pytest.MonkeyPatch) -> None:
+    container = Container("", "", box(0, 0, 200, 100), 200.0, 100.0)
+    square, bar = box(-1, -1, 1, 1), box(-9, -0.5, 9, 0.5)
+    asked = [Candidate(square, 60.0), Candidate(square, 1.0), Candidate(bar, 1.0)]
+    asked += [Candidate(square, 1.0)] * 7
+
+    def scales() -> FloatArray:
+        return graded_fit(container, asked, 10, np.random.default_rng(0)).poses.scale
+
+    found = scales()
+    monkeypatch.setattr("packwork.start.first_fit.graded.JAMMED", 0.0)
+    held_down = scales()
+    assert held_down[-1] < 0.1 * held_down[0]
+    assert found[-1] > 3 * held_down[-1]
+    assert (np.diff(found) <= 0).all()

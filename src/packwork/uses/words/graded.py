@@ -27,7 +27,8 @@ from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.start.angles import spread_angles, start_angles
-from packwork.start.first_fit.graded import Candidate, Graded, graded_fit
+from packwork.start.first_fit.graded import Graded, graded_fit
+from packwork.start.first_fit.grading import Candidate
 from packwork.uses.words.letters import Letters
 
 FULL = 0.62

@@ -15,7 +15,8 @@ from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.contrast import between, contrast
 from packwork.scene.item import Item
 from packwork.scene.recolour import recoloured
-from packwork.start.first_fit.graded import Candidate, fit_between
+from packwork.start.first_fit.graded import fit_between
+from packwork.start.first_fit.grading import Candidate
 from packwork.uses.words.graded import LEGIBLE, angles_of
 from packwork.uses.words.letters import Letters
 

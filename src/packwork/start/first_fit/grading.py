@@ -1,0 +1,233 @@
+"""The image on which items are put one after another, each as large as it finds a place.
+
+Looks at all places at once, on rows of bits, and takes the best: large items where the
+container is wide, all others where they touch most of what is there already.
+"""
+
+from __future__ import annotations
+
+import copy
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.fields.clearance import distance_inside
+from packwork.geometry.affine import similarity
+from packwork.geometry.outline import Outline
+from packwork.scene.container import Container
+from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.occupancy import Occupancy
+from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut, stencil_of
+from packwork.start.first_poses import container_image
+
+PoseRow: TypeAlias = tuple[float, float, float, float]
+"""x, y, angle, scale."""
+
+PIXELS_EACH = 45
+"""Pixels of the image's side for each item of a row of them. More waste less room between items and
+take longer. Tried."""
+
+LEAST_PX, MOST_PX = 600, 1_000
+"""Sides of that image at least and at most. As above."""
+
+REACH = 3
+"""Width of the fringe, pixels, in which taken pixels are counted. As in ``first_fit``."""
+
+CORNERS = math.sqrt(2)
+"""Pixels between the centres of two pixels beyond which the pixels themselves are apart."""
+
+INWARD = 0.6
+"""Score, beside the touched share of 0 to 1, for lying where the container is widest, of an item
+of the first one's size while nothing lies there; less by as much as an item is smaller, and
+as more is covered. Larger heaps large ones in the middle, smaller puts them at the edge. By eye."""
+
+WIDE = 0.9
+"""Clearance, as a share of the largest, from which on a place is one of the widest. Chosen."""
+
+COVERED = 0.5
+"""Share of the container, margins taken in, from which on nothing is drawn inwards. Chosen."""
+
+DRAWN = 0.1
+"""Such score from which places are judged that touch nothing, too. Smaller takes longer. Chosen."""
+
+ROOMY = 2.0
+"""Score of the place with most room for such items; what they touch, of 0 to 1, then says little.
+Tried."""
+
+NOISE = 0.01
+"""Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """An item that is to be put next.
+
+    Parameters
+    ----------
+    outline
+        Item units.
+    step
+        How many times the scale of the last one placed it may have; of the first, its scale.
+    angles
+        That it may have, radians, the preferred ones first: of those at which it fits in one
+        size, the first is taken.
+    apart
+        Room that it keeps, along and across itself, from those that were put before it, in item
+        units: beside the margin of all.
+    """
+
+    outline: Outline
+    step: float
+    angles: Sequence[float] = (0.0,)
+    apart: tuple[float, float] = (0.0, 0.0)
+
+
+def _inwards(clearance: FloatArray) -> FloatArray:
+    """How far each pixel is inwards, 0 to 1: in the middle of where the container is widest.
+
+    Half of it for the room there, half for being near that middle: a long container is as wide
+    all along.
+    """
+    widest = max(float(clearance.max()), 1.0)
+    wide = np.argwhere(clearance >= WIDE * clearance.max())
+    middle = wide[np.argmin(np.linalg.norm(wide - wide.mean(axis=0), axis=1))]
+    rows, columns = np.ogrid[: clearance.shape[0], : clearance.shape[1]]
+    away = np.hypot(rows - middle[0], columns - middle[1])
+    farthest = max(float(away[clearance > 0].max(initial=0.0)), 1.0)
+    return np.asarray((clearance / widest + 1 - away / farthest) / 2)
+
+
+class Grading:
+    """The image on which items are put one after another.
+
+    Parameters
+    ----------
+    container
+        The region to fill.
+    count
+        About how many items there are: the more, the finer the image.
+    rng
+        For the random part of the scores.
+    margin_cu
+        Room that every item keeps from others and from the edge, canvas units.
+    """
+
+    is_loose = False
+    """Whether items now go where there is most room."""
+
+    def __init__(
+        self, container: Container, count: int, rng: np.random.Generator, margin_cu: float
+    ) -> None:
+        side = int(np.clip(round(PIXELS_EACH * math.sqrt(count)), LEAST_PX, MOST_PX))
+        image, self._px_per_cu = container_image(container, side)
+        self._reach = margin_cu * self._px_per_cu + CORNERS
+        clearance = distance_inside(image > 1 - TOUCHED)
+        self._inward = _inwards(clearance)
+        self._noise = NOISE * rng.random(image.shape)
+        # From a pixel's centre to its corner; the edge lies beyond the pixels that are inside.
+        self._free = clearance > self._reach - CORNERS / 2
+        self._occupancy = Occupancy(self._free, REACH)
+        self._room = self._left = int(self._free.sum())
+        self._first = 0.0
+
+    def emptied(self) -> Grading:
+        """The same image before anything was put on it."""
+        other = copy.copy(self)
+        other._occupancy = Occupancy(self._free, REACH)
+        other._left, other._first, other.is_loose = self._room, 0.0, False
+        return other
+
+    def lay(self, outline: Outline) -> None:
+        """Take what an item covers that lies in place."""
+        posed = outline.mapped(similarity(0.0, 0.0, 0.0, self._px_per_cu))
+        stencil = cut(posed, REACH)
+        self._take(stencil, -stencil.origin[0], -stencil.origin[1])
+
+    def put(self, candidate: Candidate, sizes: Sequence[float]) -> PoseRow | None:
+        """Pose of an item at the largest size at which it finds a place; None if at none.
+
+        Steps down the sizes double until one fits; the one between is sought by halves.
+        """
+        low, high, found = -1, 0, None
+        while found is None:
+            if high >= len(sizes):
+                return None
+            found = self._place(candidate, sizes[high])
+            if found is None:
+                last = high == len(sizes) - 1
+                low, high = high, len(sizes) if last else min(max(2 * high, 1), len(sizes) - 1)
+        while high - low > 1:
+            middle = (low + high) // 2
+            larger = self._place(candidate, sizes[middle])
+            if larger is None:
+                low = middle
+            else:
+                found, high = larger, middle
+        stencil, row, column, angle = found
+        self._take(stencil, row - stencil.origin[0], column - stencil.origin[1])
+        self._first = self._first or sizes[high]
+        return column / self._px_per_cu, row / self._px_per_cu, angle, sizes[high]
+
+    def _place(self, candidate: Candidate, scale: float) -> tuple[Stencil, int, int, float] | None:
+        """Stencil of an item of that scale, row and column of its origin, and its angle.
+
+        At its best place, at the first of its angles that has one.
+        """
+        field, pull, is_everywhere = self._drawn(scale)
+        for angle in candidate.angles:
+            posed = candidate.outline.mapped(similarity(0.0, 0.0, angle, scale * self._px_per_cu))
+            if self._is_larger(posed):
+                continue
+            stencil = cut(posed, REACH)
+            wide = self._with_room(stencil, candidate.apart, scale, angle)
+            found = self._occupancy.best_place(wide, self._noise, is_everywhere, field, pull)
+            if found is not None:
+                row, column = np.array(found[1:]) + wide.origin
+                return stencil, int(row), int(column), angle
+        return None
+
+    def _with_room(
+        self, stencil: Stencil, apart: tuple[float, float], scale: float, angle: float
+    ) -> Stencil:
+        """The stencil with the room that its item keeps along and across itself."""
+        turned = np.abs([[np.cos(angle), np.sin(angle)], [np.sin(angle), np.cos(angle)]])
+        across, down = np.rint(turned @ apart * scale * self._px_per_cu).astype(int)
+        if not (across or down):
+            return stencil
+        # Takes half a second to load.
+        from scipy import ndimage
+
+        mask = np.pad(stencil.mask, ((down, down), (across, across)))
+        mask = ndimage.maximum_filter(mask, (2 * down + 1, 2 * across + 1))
+        return stencil_of(mask, (stencil.origin[0] + down, stencil.origin[1] + across), REACH)
+
+    def _is_larger(self, outline_px: Outline) -> bool:
+        """Whether an outline is higher or wider than the image."""
+        left, top, right, bottom = outline_px.bounds
+        height, width = self._occupancy.shape
+        return bool(right - left > width or bottom - top > height)
+
+    def _drawn(self, scale: float) -> tuple[FloatArray, float, bool]:
+        """What draws an item of that scale, how much, and whether to places that touch nothing."""
+        if self.is_loose:
+            room = self._occupancy.clearance
+            return room, ROOMY / max(self._occupancy.widest, 1.0), True
+        if not self._first:
+            return self._inward, ROOMY, True
+        covered = 1 - self._left / max(self._room, 1)
+        inward = INWARD * min(scale / (self._first or scale), 1.0) * max(1 - covered / COVERED, 0)
+        is_drawn = inward > DRAWN
+        return self._inward, inward if is_drawn else 0.0, is_drawn
+
+    def _take(self, stencil: Stencil, row: int, column: int) -> None:
+        """Take the pixels of a stencil and those round it that are nearer than the margin."""
+        wide = math.ceil(self._reach)
+        near = _kernels.grown(stencil.mask, wide, self._reach)
+        origin = (stencil.origin[0] + wide, stencil.origin[1] + wide)
+        margin = Stencil(near, origin, stencil.runs, stencil.fringe)
+        self._occupancy.take(margin, row - wide, column - wide)
+        self._left -= int(near.sum())
