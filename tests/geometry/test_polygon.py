@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from numerics import winding_numbers
@@ -17,8 +17,18 @@ from packwork.geometry.polygon import (
     polygon_parts,
     region,
     signed_area,
+    silhouette,
+    silhouette_area,
 )
-from strategies import SEEDS, lattice_rings, rounded, rounded_sets, star_rings, wild_rings
+from strategies import (
+    SEEDS,
+    generators,
+    lattice_rings,
+    rounded,
+    rounded_sets,
+    star_rings,
+    wild_rings,
+)
 
 RULES = pytest.mark.parametrize("rule", ["nonzero", "evenodd"])
 BOW_TIE = np.array([[0, 0], [2, 2], [2, 0], [0, 2.0]])
@@ -187,3 +197,13 @@ def test_polygon_parts_of_mixtures() -> None:
         ]
     )
     assert [p.area for p in polygon_parts(mixture)] == [1.0, 1.0, 1.0]
+
+
+@given(generators())
+@settings(deadline=None, max_examples=40)
+def test_the_area_of_a_silhouette_is_that_area(rng: np.random.Generator) -> None:
+    boxes = [shapely.box(x, y, x + w, y + w) for x, y, w in rng.uniform(1, 9, (6, 3))]
+    shape = shapely.union_all(boxes[:3]) - shapely.union_all(boxes[3:5])
+    assert silhouette_area(shape) == pytest.approx(silhouette(shape).area)
+    ring = shapely.box(0, 0, 30, 30) - shapely.box(0.5, 0.5, 29, 29)
+    assert silhouette_area(ring.union(shape)) == pytest.approx(900)

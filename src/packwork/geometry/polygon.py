@@ -23,6 +23,9 @@ from packwork.geometry.overlay import quiet, union
 
 FillRule: TypeAlias = Literal["nonzero", "evenodd"]
 
+FEW_PARTS = 100
+"""Parts up to which all their boxes are compared with each other. Chosen."""
+
 
 def region(rings: Iterable[FloatArray], rule: FillRule = "nonzero") -> Region:
     """Area that closed ``rings`` fill under ``rule``; valid, possibly empty.
@@ -98,6 +101,25 @@ def silhouette(shape: Region) -> Region:
     if not any(part.interiors for part in parts):
         return shape
     return union([Polygon(part.exterior) for part in parts])
+
+
+def silhouette_area(shape: Region) -> float:
+    """Area of :func:`silhouette`, without a union where no part can lie in a hole.
+
+    Examples
+    --------
+    >>> silhouette_area(shapely.box(0, 0, 3, 3) - shapely.box(1, 1, 2, 2))
+    9.0
+    """
+    parts = polygon_parts(shape)
+    if len(parts) > FEW_PARTS or _has_box_in_box(shapely.bounds(parts)):
+        return float(silhouette(shape).area)
+    return float(shapely.area(shapely.polygons(shapely.get_exterior_ring(parts))).sum())
+
+
+def _has_box_in_box(boxes: FloatArray) -> bool:
+    low, high = boxes[:, None, :2] <= boxes[None, :, :2], boxes[:, None, 2:] >= boxes[None, :, 2:]
+    return bool((low & high).all(axis=2).sum() > len(boxes))
 
 
 def oriented_rings(shape: Region) -> list[FloatArray]:

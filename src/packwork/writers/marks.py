@@ -12,7 +12,7 @@ import shapely
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference
-from packwork.geometry.polygon import polygon_parts, silhouette
+from packwork.geometry.polygon import polygon_parts, silhouette, silhouette_area
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.notation import attributes, matrix_text, path_data
@@ -113,10 +113,10 @@ def _filled_bays(item: Item) -> Outline | None:
     outline = item.outline.region
     if item.outline.has_holes:
         return None
-    seen = silhouette(item.ink.region)
     least = LEAST_BAY * outline.area
-    if seen.area > outline.area - least:
+    if silhouette_area(item.ink.region) > outline.area - least:
         return None
+    seen = silhouette(item.ink.region)
     bays = [part for part in polygon_parts(difference(outline, seen)) if part.area > least]
     return Outline.from_region(shapely.MultiPolygon(bays)) if bays else None
 
