@@ -10,12 +10,12 @@ import shapely
 from hypothesis import given, settings
 from shapely.geometry import Polygon
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.blocks import blocks
-from packwork.compaction.compact import compact, worth
+from packwork.compaction.compact import compact
 from packwork.compaction.detail import Detail
-from packwork.compaction.kernels.steps import LEAST_GROWTH, MOST_GROWTH
+from packwork.compaction.kernels.steps import LEAST_GROWTH, MOST_GROWTH, RETURN_WEIGHT, Objective
 from packwork.compaction.objective import FixedSize, FreeSizes, SharedSize
 from packwork.compaction.outer_simplify import inner_simplified, outer_simplified
 from packwork.compaction.relocate_stuck import relocate
@@ -204,6 +204,15 @@ def test_an_item_without_a_void_stays() -> None:
     )
     relocate(arrangement, np.array([1]), GAP)
     assert arrangement.places[1].tolist() == [2.0, 2.0, 0.5, 0.1]
+
+
+def worth(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:
+    """Worth of items, less for those out of their bounds, as kernels count it."""
+    growth = arrangement.places[items, 3]
+    value = objective.weights[items] * np.exp(objective.power * growth)
+    below = np.maximum(objective.smallest[items] - growth, 0.0)
+    above = np.maximum(growth - objective.largest[items], 0.0)
+    return float((value / objective.power - RETURN_WEIGHT * value * (below + above)).sum())
 
 
 @given(generators())

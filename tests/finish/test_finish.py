@@ -267,11 +267,10 @@ def test_steps_go_by_items_that_are_far_smaller_than_their_shares(
     """Else each looks at all edges of a spiral that lie within a share of the whole."""
     trusts: list[float] = []
 
-    def noted(*given: object) -> bool:
+    def noted(*given: object) -> None:
         trusts.append(float(str(given[3])))
-        return False
 
-    monkeypatch.setattr(import_module("packwork.finish.finish"), "compact", noted)
+    monkeypatch.setattr(import_module("packwork.finish.finish"), "compact_all", noted)
     container = square_container(100.0)
     for scale in (0.01, 10.0):
         start = poses([20, 20, 80, 80], [20, 80, 20, 80], scale=scale)

@@ -89,6 +89,7 @@ BAD: dict[str, list[Any]] = {
     "smallest": ["wide", "0", "-1", 0, NAN],
     "filler": [7, ["star", 3]],
     "time": [0, -1, NAN, INF, "soon", 1e9],
+    "threads": [0, -1, 1.5, 100_000],
     "preset": ["Paper", "", None],
     "losses": ["overlap", {"overlap": "much"}, {"overlap": NAN}, {"overlap": INF}],
     "film": ["a.gif", {"fps": 0}, {"speed": 2}, {"seconds": NAN}, {"easing": "bouncy"}],

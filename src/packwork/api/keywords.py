@@ -147,6 +147,10 @@ class _Every(TypedDict, total=False):
     seed: int
     """Same seed, same machine, same versions: same layout. Default: 0."""
 
+    threads: int | None
+    """Threads that the run may use; default: as many as there are cores for it. The result is the
+    same with any number; 1 where several runs share a machine."""
+
     start: str | Path | Layout | Poses | None
     """How the first places are found: distance-field (into the largest room), medial-axis (along
     the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;

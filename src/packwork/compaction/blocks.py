@@ -49,3 +49,33 @@ def blocks(positions: FloatArray, turn: int, most: int = MOST_IN_BLOCK) -> list[
         cut = int(np.clip(round(fraction * len(items)), 1, len(items) - 1))
         waiting += [items[cut:], items[:cut]]
     return found
+
+
+def colours(found: list[IntArray], boxes: FloatArray, reach: float) -> list[list[IntArray]]:
+    """Blocks in groups of which no two come within ``reach``, in the order of their firsts.
+
+    Greedy colouring of the graph of neighbours (D. Welsh and M. Powell, "An upper bound for the
+    chromatic number of a graph", The Computer Journal 10 (1967), 85-86), without their order.
+
+    Parameters
+    ----------
+    found
+        Blocks.
+    boxes
+        ``(n, 4)`` left, top, right, bottom of all items.
+
+    Examples
+    --------
+    >>> side_by_side = np.array([[x, 0.0, x + 1, 1.0] for x in range(4)])
+    >>> [len(group) for group in colours([np.array([k]) for k in range(4)], side_by_side, 0.5)]
+    [2, 2]
+    """
+    least = np.array([boxes[block, :2].min(axis=0) for block in found]) - reach
+    most = np.array([boxes[block, 2:].max(axis=0) for block in found])
+    begins_before = (least[:, None] <= most[None]).all(axis=2)
+    meets = np.logical_and(begins_before, begins_before.T)
+    colour = np.zeros(len(found), np.int64)
+    for k in range(1, len(found)):
+        taken = set(colour[:k][meets[k, :k]].tolist())
+        colour[k] = next(one for one in range(k + 1) if one not in taken)
+    return [[found[k] for k in np.flatnonzero(colour == one)] for one in range(colour.max() + 1)]

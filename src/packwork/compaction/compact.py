@@ -21,8 +21,14 @@ import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.kernels import distances, interior_point, steps
-from packwork.compaction.kernels.steps import ACCURACY, RETURN_WEIGHT, TRAVEL, Objective
+from packwork.compaction.blocks import blocks, colours
+from packwork.compaction.kernels import distances
+from packwork.compaction.kernels.steps import TRAVEL, Objective
+from packwork.compaction.kernels.trials import Rounds, Trial, attempt
+from packwork.threads import at_once
+
+NONE = np.empty(0, np.int64)
+"""No items."""
 
 
 def compact(
@@ -52,32 +58,43 @@ def compact(
     hair
         The part of it that was not asked for.
     """
-    board = arrangement.board
-    pairs = distances.pairs_of(board.boxes, items, gap + TRAVEL * trust)
-    # One after another, not in one kernel: what several steps share is compiled once.
-    rows = steps.rows_of(board, items, pairs, trust, gap, hair)
-    z = interior_point.maximise(
-        rows, *steps.gains_and_bounds(board, objective, items, trust), ACCURACY
-    )
-    step = steps.step_of(board, items, z, trust)
-    return bool(steps.apply_step(board, items, step, pairs, gap, trust) >= 0)
+    near = distances.nearby(arrangement.board.boxes, items, gap + TRAVEL * trust)
+    return _compacted(arrangement, objective, items, near, trust, gap, hair)
 
 
-def worth(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:
-    """Worth of items ``(m,)`` together; less for those out of their bounds.
+def compact_all(
+    arrangement: Arrangement, objective: Objective, turn: int, trust: float, gap: float, hair: float
+) -> None:
+    """Move all items by blocks of neighbours, those at once that do not touch.
 
-    Examples
-    --------
-    >>> from packwork.geometry.outline import Outline
-    >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
-    >>> one = Arrangement([box], box, np.zeros((1, 4)))
-    >>> free = np.full(1, 9.0)
-    >>> areas = Objective(-free, free, -free, free, 2 * np.full(1, box.area), 2.0, np.zeros((1, 2)))
-    >>> worth(one, areas, np.array([0]))
-    4.0
+    Parameters
+    ----------
+    turn
+        Number of the round: others are cut elsewhere.
     """
-    growth = arrangement.places[items, 3]
-    value = objective.weights[items] * np.exp(objective.power * growth)
-    below = np.maximum(objective.smallest[items] - growth, 0.0)
-    above = np.maximum(growth - objective.largest[items], 0.0)
-    return float((value / objective.power - RETURN_WEIGHT * value * (below + above)).sum())
+    boxes = arrangement.board.boxes
+    # What stands still is looked at from as far as two items come nearer; what moves, farther.
+    reach = gap + 2 * TRAVEL * trust
+    for group in colours(blocks(arrangement.places[:, :2], turn), boxes, reach):
+        near = [distances.nearby(boxes, items, gap + TRAVEL * trust) for items in group]
+        calls = [
+            (arrangement, objective, items, about, trust, gap, hair)
+            for items, about in zip(group, near, strict=True)
+        ]
+        at_once(_compacted, calls)
+
+
+def _compacted(
+    arrangement: Arrangement,
+    objective: Objective,
+    items: IntArray,
+    near: IntArray,
+    trust: float,
+    gap: float,
+    hair: float,
+) -> bool:
+    """Move some items, of which no others than ``near`` ones are near; False if nowhere."""
+    board = arrangement.board
+    plain = Trial(NONE, np.empty((0, 0, 4)), items, near, np.empty((0, 4)))
+    rounds = Rounds(trust, np.full(1, trust), np.full(1, np.inf))
+    return bool(attempt(board, objective, plain, rounds, np.inf, -np.inf, gap, hair) > -np.inf)

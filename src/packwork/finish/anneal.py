@@ -11,20 +11,23 @@ ends early where it has fallen far behind, and where sizes are common only gains
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
-from packwork.arrays import FloatArray, IntArray
+from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.blocks import blocks
-from packwork.compaction.compact import compact, worth
-from packwork.compaction.kernels import distances, steps
-from packwork.compaction.kernels.steps import Objective
+from packwork.compaction.compact import compact_all
+from packwork.compaction.kernels.neighbourhoods import disjoint
+from packwork.compaction.kernels.steps import TRAVEL, Objective
+from packwork.compaction.kernels.trials import Rounds, Trial, attempt
 from packwork.compaction.objective import AREA_POWER
+from packwork.finish.proposals import Proposal, at_angles, destination, pools_of, proposed
 from packwork.finish.pulling import Pulling
 from packwork.progress import Stop, never
+from packwork.threads import at_once
 
 NEIGHBOURS = 6
 """Items that may give way in a trial, beside those that are moved. More gain more in a
@@ -37,28 +40,8 @@ TRUST = (0.05, 0.01)
 """Trust region of the first and the last of them, shares of the side of an item's share
 of the container. Tried."""
 
-ANGLES = 5
-"""Angles of which the best is tried, by how far the moved items grow alone. More find
-better ones and cost more. Tried."""
-
-ANGLE_TRUST = (0.08,)
-"""Trust regions of the rounds in which they grow alone, as above. Tried."""
-
-EXCHANGES = 0.5
-"""Share of trials that exchange two items instead of turning one. Tried."""
-
-ALIKE = 24
-"""How many items nearest in size are considered for an exchange. Tried."""
-
-WITH_FORCES = 0.5
-"""Share of exchanges with the item that forces like best there, where there are forces. Tried."""
-
-BEHIND, BEHIND_SHARE = 0.125, 0.7
-"""Where the smallest is worth most: which share of the items are the smallest, and share
-of the turns that are theirs. Larger shares leave no turn to their neighbours. Tried."""
-
-LOSS = 0.1
-"""Logarithm of size that moved items begin with less. Tried."""
+ANGLE_TRUST = 0.08
+"""Trust region of the round in which they grow alone, as above. Tried."""
 
 PATIENCE, HASTE = 0.8, 0.55
 """Area that may be missing when a trial's first round begins, shares of an item's share of
@@ -75,11 +58,13 @@ SWEEPS, SWEEP_ROUNDS = 3, 4
 """Linear programmes over all items after as many trials as there are items, or so many times
 in all if that is oftener: what trials free here lets others grow there. Tried."""
 
-ROUNDING = 1e-9
-"""Logarithm of size by which steps may end off their bounds. Derived."""
+AT_ONCE, AHEAD = 16, 32
+"""Trials made at once at most, and among how many next ones they are looked for. What they are
+depends on no number of threads. More keep more cores busy, and know less of each other. Chosen."""
 
-CUT, CHECKS = 0.06, 25
-"""Further such loss at a time while they are in conflict, and how often. Chosen."""
+ROOM = 0.25
+"""How far an item may go in such a trial, shares of the side of an item's share of the
+container; a trial that would go farther is undone. Larger lets fewer be made at once. Chosen."""
 
 
 @dataclass(frozen=True)
@@ -135,216 +120,161 @@ def anneal(
     pulling
         Forces that count beside sizes; None for none.
     """
-    objective = objective_at(arrangement.places)
-    can_turn = bool((objective.backmost < objective.foremost).any())
-    if arrangement.count < 2 and not can_turn:
+    search = _Search(arrangement, objective_at, lengths, rng, pulling)
+    if not search.has_choice:
         return 0
-    kept = 0
+    done = kept = 0
     every = max(min(arrangement.count, trials // SWEEPS), 1)
-    for trial in range(trials):
-        if stop():
-            break
-        moved, places = _proposed(arrangement, objective, can_turn, rng, pulling)
-        heat = HEAT * lengths.spacing**2 * (1 - trial / trials)
-        kept += _kept(arrangement, objective, moved, places, lengths, heat, rng, pulling)
-        if tell is not None:
-            tell(trial)
-        if (trial + 1) % every == 0:
-            _sweep(arrangement, objective, lengths, trial)
-        # How far an item may grow depends on how large the smallest is now.
-        objective = objective_at(arrangement.places)
+    while done < trials and not stop():
+        most = min(AT_ONCE, every - done % every, trials - done)
+        heat = HEAT * lengths.spacing**2 * (1 - done / trials)
+        gained = search.made(most, heat)
+        kept += sum(gained)
+        for _ in gained:
+            if tell is not None:
+                tell(done)
+            done += 1
+        if done % every == 0:
+            search.sweep(done - 1)
     return kept
 
 
-def _proposed(
-    arrangement: Arrangement,
-    objective: Objective,
-    can_turn: bool,
-    rng: np.random.Generator,
-    pulling: Pulling | None,
-) -> tuple[IntArray, FloatArray]:
-    """Items ``(m,)`` that a trial moves, and their places ``(m, 4)``: an exchange or a turn."""
-    if arrangement.count > 1 and (not can_turn or rng.random() < EXCHANGES):
-        return _exchanged(arrangement, rng, pulling)
-    return _turned(arrangement, objective.power < 0, rng)
+class _Search:
+    """Trials that wait, and those that are made."""
+
+    def __init__(
+        self,
+        arrangement: Arrangement,
+        objective_at: Callable[[FloatArray], Objective],
+        lengths: Lengths,
+        rng: np.random.Generator,
+        pulling: Pulling | None,
+    ) -> None:
+        self._arrangement, self._objective_at, self._lengths = arrangement, objective_at, lengths
+        self._rng, self._pulling = rng, pulling
+        self._waiting: list[Proposal] = []
+        self._objective = objective_at(arrangement.places)
+        self._least = -np.inf
+        self._is_area = self._objective.power == AREA_POWER
+        together = np.geomspace(*TRUST, ROUNDS) * lengths.spacing
+        missing = PATIENCE * lengths.spacing**2 * HASTE ** np.arange(ROUNDS)
+        if not self._is_area:
+            missing[:] = np.inf
+        self._rounds = Rounds(ANGLE_TRUST * lengths.spacing, together, missing)
+        self._can_turn = bool((self._objective.backmost < self._objective.foremost).any())
+
+    @property
+    def has_choice(self) -> bool:
+        """Whether there is anything to be tried."""
+        return self._arrangement.count > 1 or self._can_turn
+
+    def made(self, most: int, heat: float) -> list[bool]:
+        """Make some trials at once, ``most`` at most; whether each was kept.
+
+        ``heat``: mean of what each may lose, squared canvas units, where all area is worth the
+        same.
+        """
+        # How far an item may grow depends on how large the smallest is now.
+        self._objective = self._objective_at(self._arrangement.places)
+        self._least = -np.inf
+        if self._objective.power < 0:
+            # Where the smallest counts, what all the others gain does not make up for it.
+            self._least = self._arrangement.places[:, 3].min()
+        if self._pulling is not None:
+            return [self._pulled(heat, self._pulling)]
+        self._waiting += islice(self._proposed(), AHEAD - len(self._waiting))
+        trials = self._disjoint(most)
+        gains = at_once(
+            self._gain, [(trial, heat * one.heat * self._is_area) for one, trial in trials]
+        )
+        return [gain > -np.inf for gain in gains]
+
+    def sweep(self, turn: int) -> None:
+        """Rounds of compaction over all items."""
+        _sweep(self._arrangement, self._objective, self._lengths, turn)
+
+    def _proposed(self) -> Iterator[Proposal]:
+        """Trials without end, of the items as they are now."""
+        arrangement, pulling = self._arrangement, self._pulling
+        pools = pools_of(arrangement, self._objective.power < 0, pulling is not None)
+        while True:
+            yield proposed(arrangement, pools, self._can_turn, self._rng, pulling)
+
+    def _disjoint(self, most: int) -> list[tuple[Proposal, Trial]]:
+        """The first trials that wait whose neighbourhoods do not meet; they wait no more."""
+        lengths = self._lengths
+        moved = np.full((len(self._waiting), 2), -1)
+        places = np.zeros((len(self._waiting), 2, 4))
+        for k, one in enumerate(self._waiting):
+            moved[k, : len(one.moved)] = one.moved
+            places[k, : len(one.moved)] = destination(self._arrangement, one.moved)
+        room = ROOM * lengths.spacing
+        margin = lengths.gap + TRAVEL * max(*TRUST, ANGLE_TRUST) * lengths.spacing
+        chosen = disjoint(
+            self._arrangement.board,
+            self._arrangement.radii,
+            moved,
+            places,
+            NEIGHBOURS,
+            room,
+            margin,
+            most,
+        )
+        found = []
+        for k, trial in enumerate(chosen.trials):
+            (begin, near), (end, last) = chosen.begins[k : k + 2]
+            one = self._waiting[trial]
+            put = at_angles(places[trial, : len(one.moved)], one.moved, self._objective, one.draws)
+            reach = chosen.items[begin:end], chosen.near[near:last], chosen.bounds[begin:end]
+            found.append((one, Trial(one.moved, put, *reach)))
+        gone = set(chosen.trials.tolist())
+        self._waiting = [one for k, one in enumerate(self._waiting) if k not in gone]
+        return found
+
+    def _gain(self, trial: Trial, allowed: float) -> float:
+        """What a trial gained, though it may lose what is allowed; -inf if it was undone."""
+        return made(
+            self._arrangement, self._objective, trial, self._rounds, self._lengths, allowed,
+            self._least,
+        )  # fmt: skip
+
+    def _pulled(self, heat: float, pulling: Pulling) -> bool:
+        """Make one trial where forces count, which act on all items; whether it was kept."""
+        arrangement = self._arrangement
+        self._waiting = [next(self._proposed())]
+        ((one, trial),) = self._disjoint(1)
+        allowed = heat * one.heat * self._is_area
+        there = arrangement.places.copy()
+        before, cost = there[trial.items], pulling.cost(there)
+        there[one.moved] = destination(arrangement, one.moved)
+        gain = self._gain(trial, allowed - (pulling.cost(there) - cost))
+        if gain - (pulling.cost(arrangement.places) - cost) > -allowed:
+            return True
+        if gain > -np.inf:
+            arrangement.put(trial.items, before)
+        return False
 
 
-def _kept(
+def made(
     arrangement: Arrangement,
     objective: Objective,
-    moved: IntArray,
-    places: FloatArray,
+    trial: Trial,
+    rounds: Rounds,
     lengths: Lengths,
-    heat: float,
-    rng: np.random.Generator,
-    pulling: Pulling | None,
-) -> bool:
-    """Make one trial and let what lies about it grow; False, and undone, if that does not gain.
-
-    Parameters
-    ----------
-    moved, places
-        ``(m,)`` items and ``(m, 4)`` where they are put.
-    heat
-        Mean of what may be lost, squared canvas units, where all area is worth the same.
-    """
-    items = _about(arrangement, moved)
-    before = arrangement.places[items]
-    target = _value(arrangement, objective, items, pulling)
-    if objective.power == AREA_POWER:
-        target -= heat * rng.exponential()
-    candidates = at_angles(places, moved, objective, rng)
-    least, short = arrangement.places[:, 3].min(), _shortfall(arrangement, objective, items)
-    gains = put_best(arrangement, objective, moved, candidates, lengths) and _grow(
-        arrangement, objective, items, lengths, target, pulling
-    )
-    # Where the smallest counts, what all the others gain does not make up for it; nor
-    # for an item below the size that it should have at least.
-    gains &= objective.power > 0 or arrangement.places[items, 3].min() >= least
-    if gains and _shortfall(arrangement, objective, items) <= short:
-        return True
-    arrangement.put(items, before)
-    return False
-
-
-def _value(
-    arrangement: Arrangement, objective: Objective, items: IntArray, pulling: Pulling | None
+    allowed: float = np.inf,
+    least: float = -np.inf,
 ) -> float:
-    """Worth of some items together, less the cost of forces on all."""
-    cost = 0.0 if pulling is None else pulling.cost(arrangement.places)
-    return worth(arrangement, objective, items) - cost
+    """Make a trial; what it gained, -inf if it was undone since it lost more than ``allowed``.
 
-
-def _shortfall(arrangement: Arrangement, objective: Objective, items: IntArray) -> float:
-    """Sum of how far some items are below their smallest sizes, logarithms."""
-    growth = arrangement.places[items, 3]
-    return float(np.maximum(objective.smallest[items] - growth - ROUNDING, 0.0).sum())
+    ``least``: logarithm of size below which none may end.
+    """
+    board = arrangement.board
+    return float(
+        attempt(board, objective, trial, rounds, allowed, least, lengths.gap, lengths.hair)
+    )
 
 
 def _sweep(arrangement: Arrangement, objective: Objective, lengths: Lengths, turn: int) -> None:
     """Rounds of compaction over all items."""
     for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * lengths.spacing):
-        for block in blocks(arrangement.places[:, :2], turn + index):
-            compact(arrangement, objective, block, trust, lengths.gap, lengths.hair)
-
-
-def put_best(
-    arrangement: Arrangement,
-    objective: Objective,
-    moved: IntArray,
-    candidates: FloatArray,
-    lengths: Lengths,
-) -> bool:
-    """Put items ``(m,)`` to the best of candidate places ``(k, m, 4)``; False if none fits.
-
-    The best is the one where they grow to the largest worth in a few rounds, all others
-    standing still.
-    """
-    best, places = -np.inf, candidates[0]
-    for candidate in candidates:
-        arrangement.put(moved, candidate)
-        pairs = distances.pairs_of(arrangement.board.boxes, moved, lengths.gap)
-        if not steps.clear_by_shrinking(arrangement.board, moved, pairs, lengths.gap, CUT, CHECKS):
-            continue
-        for trust in ANGLE_TRUST:
-            compact(
-                arrangement, objective, moved, trust * lengths.spacing, lengths.gap, lengths.hair
-            )
-        found = worth(arrangement, objective, moved)
-        if found > best:
-            best, places = found, arrangement.places[moved]
-    arrangement.put(moved, places)
-    return best > -np.inf
-
-
-def _grow(
-    arrangement: Arrangement,
-    objective: Objective,
-    items: IntArray,
-    lengths: Lengths,
-    target: float,
-    pulling: Pulling | None,
-) -> bool:
-    """Let ``items`` grow, while that may lead to a value above ``target``."""
-    for index, trust in enumerate(np.geomspace(*TRUST, ROUNDS)):
-        missing = target - _value(arrangement, objective, items, pulling)
-        patience = PATIENCE * lengths.spacing**2 * HASTE**index
-        if objective.power == AREA_POWER and missing > patience:
-            return False
-        compact(arrangement, objective, items, trust * lengths.spacing, lengths.gap, lengths.hair)
-    return _value(arrangement, objective, items, pulling) > target
-
-
-def _turned(
-    arrangement: Arrangement, smallest_first: bool, rng: np.random.Generator
-) -> tuple[IntArray, FloatArray]:
-    """Trial that turns one item; mostly one of the smallest, if those come first."""
-    pool = np.arange(arrangement.count)
-    if smallest_first and rng.random() < BEHIND_SHARE:
-        order = np.argsort(arrangement.places[:, 3], kind="stable")
-        pool = order[: max(round(BEHIND * arrangement.count), 1)]
-    k = rng.choice(pool, size=1)
-    return k, arrangement.places[k] - np.array([0.0, 0.0, 0.0, LOSS])
-
-
-def _exchanged(
-    arrangement: Arrangement, rng: np.random.Generator, pulling: Pulling | None
-) -> tuple[IntArray, FloatArray]:
-    """Trial that exchanges two items of like size, each as large as the other was."""
-    radii = arrangement.radii
-    i = int(rng.integers(arrangement.count))
-    alike = least_of(np.abs(np.log(radii / radii[i])), ALIKE + 1)
-    alike = alike[alike != i]
-    j = int(rng.choice(alike))
-    if pulling is not None and rng.random() < WITH_FORCES:
-        j = int(alike[np.argmax(pulling.gains(arrangement.places, i, alike))])
-    pair = np.array([i, j])
-    places = arrangement.places[pair[::-1]]
-    places[:, 2] = arrangement.places[pair, 2]
-    places[:, 3] = np.log(radii[pair[::-1]] / arrangement.board.arms[pair]) - LOSS
-    return pair, places
-
-
-def least_of(values: FloatArray, count: int) -> IntArray:
-    """Indices of the smallest of values ``(n,)``, in order; of equal ones the first.
-
-    Examples
-    --------
-    >>> least_of(np.array([3.0, 1.0, 2.0, 1.0]), 3).tolist()
-    [1, 3, 2]
-    """
-    if count < len(values):
-        among = np.flatnonzero(values <= np.partition(values, count - 1)[count - 1])
-    else:
-        among = np.arange(len(values))
-    return among[np.argsort(values[among], kind="stable")][:count]
-
-
-def at_angles(
-    places: FloatArray, moved: IntArray, objective: Objective, rng: np.random.Generator
-) -> FloatArray:
-    """``(angles, items, 4)``: the places, turned evenly apart with random beginnings.
-
-    Items with a turn limit take angles within it; if none may turn, there is one place.
-    """
-    back, on = objective.backmost[moved], objective.foremost[moved]
-    if (back >= on).all():
-        return places[None]
-    shares = (np.arange(ANGLES)[:, None] + rng.random((ANGLES, len(places)))) / ANGLES
-    candidates = np.repeat(places[None], ANGLES, axis=0)
-    is_free = np.isinf(back)
-    candidates[:, is_free, 2] += 2 * np.pi * shares[:, is_free]
-    bound = ~is_free
-    candidates[:, bound, 2] = back[bound] + (on - back)[bound] * shares[:, bound]
-    return candidates
-
-
-def _about(arrangement: Arrangement, moved: IntArray) -> IntArray:
-    """The moved items and their neighbours, in the order of their x."""
-    centres, radii = arrangement.places[:, :2], arrangement.radii
-    away = np.full(arrangement.count, np.inf)
-    for k in moved:
-        away = np.minimum(away, np.hypot(*(centres - centres[k]).T) - radii)
-    wanted = min(len(moved) * (NEIGHBOURS + 1), arrangement.count)
-    items = np.union1d(np.argpartition(away, wanted - 1)[:wanted], moved)
-    return items[np.argsort(centres[items, 0], kind="stable")]
+        compact_all(arrangement, objective, turn + index, trust, lengths.gap, lengths.hair)

@@ -11,9 +11,11 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.steps import Objective
+from packwork.compaction.kernels.trials import Rounds, Trial
 from packwork.compaction.relocate_stuck import free_room
 from packwork.fields.voids import largest_voids
-from packwork.finish.anneal import Lengths, at_angles, put_best
+from packwork.finish.anneal import ANGLE_TRUST, Lengths, made
+from packwork.finish.proposals import ANGLES, at_angles
 
 LOWEST, MOST_SUSPECTS = 3, 10
 """How many of the smallest items, and how many of them and of those they touch, are taken for
@@ -85,15 +87,19 @@ def relocate_bottleneck(
 ) -> bool:
     """Relocate an item, turned, to the void in which it grows most; False for nowhere.
 
-    All others stand still. Where False, the arrangement may have conflicts.
+    All others stand still.
     """
     moved = np.array([item])
     candidates = [
-        at_angles(places, moved, objective, rng) for places in _in_voids(arrangement, moved)
+        at_angles(places, moved, objective, rng.random((ANGLES, 1)))
+        for places in _in_voids(arrangement, moved)
     ]
     if not candidates:
         return False
-    return put_best(arrangement, objective, moved, np.concatenate(candidates), lengths)
+    everywhere = np.arange(arrangement.count)
+    trial = Trial(moved, np.concatenate(candidates), moved, everywhere, np.empty((0, 4)))
+    rounds = Rounds(ANGLE_TRUST * lengths.spacing, np.empty(0), np.empty(0))
+    return made(arrangement, objective, trial, rounds, lengths) > -np.inf
 
 
 def _in_voids(arrangement: Arrangement, moved: IntArray) -> list[FloatArray]:

@@ -10,8 +10,7 @@ from functools import partial
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.compaction.blocks import blocks
-from packwork.compaction.compact import compact
+from packwork.compaction.compact import compact_all
 from packwork.compaction.conflicts import find_conflicts
 from packwork.compaction.detail import COARSE, COARSE_OF_GAP, FINE, FINE_OF_GAP, Detail
 from packwork.compaction.kernels.steps import MOST_GROWTH, Objective
@@ -317,8 +316,7 @@ class _Finish:
         )
 
     def _blocks(self, objective: Objective, trust: float) -> None:
-        for block in blocks(self.arrangement.places[:, :2], self.rounds):
-            compact(self.arrangement, objective, block, trust, self.gap, self.hair)
+        compact_all(self.arrangement, objective, self.rounds, trust, self.gap, self.hair)
 
     def result(self) -> Poses:
         """Poses as they are now; one common factor where that was asked."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from shapely.errors import GEOSException
 
+from packwork import threads
 from packwork.errors import ReadError, UnresolvedError
 from packwork.pipeline.attempts import Attempts, most_promising
 from packwork.pipeline.beginning import begin
@@ -38,7 +39,8 @@ def run(job: Job, observer: Observer = NOBODY, stop: Stop = never, record: bool 
     """
     try:
         onward = Onward(observer)
-        done = job.use.run(job, Watch(onward, stop, record))
+        with threads.using(job.recipe.threads):
+            done = job.use.run(job, Watch(onward, stop, record))
     except (UnresolvedError, GEOSException) as error:
         why = error if isinstance(error, UnresolvedError) else f"cannot be resolved: {error}"
         raise ReadError(job.container.source, str(why)) from error

@@ -25,7 +25,9 @@ import numpy as np
 from packwork import compiled
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels import distances, interior_point, outer_simplify, steps
+from packwork.compaction.kernels.neighbourhoods import disjoint
 from packwork.compaction.kernels.steps import Objective
+from packwork.compaction.kernels.trials import Rounds, Trial, attempt
 from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance
 from packwork.geometry.outline import Outline
@@ -39,7 +41,7 @@ from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
 
-KERNELS = 30
+KERNELS = 31
 """Kernels that all parts compile; a test counts them."""
 
 SECONDS_BETWEEN = 0.05
@@ -191,11 +193,10 @@ def levels() -> None:
 
 
 def pairs() -> None:
-    """Pairs of near items, simpler outlines, bounds of a step, the measures."""
+    """Pairs of near items, simpler outlines, the measures."""
     near = _arrangement()
     near.pairs(1.0)
     distances.pairs_of(near.board.boxes, np.arange(1), 1.0)
-    steps.gains_and_bounds(near.board, _objective(), np.arange(1), 0.1)
     steps.step_of(near.board, np.arange(1), np.zeros(4), 0.1)
     outer_simplify.simplify_outward(_square(1.0).rings[0], 0.01)
     item = Item("warm-up", "", _square(1.0), _square(1.0), FlatArt())
@@ -220,17 +221,29 @@ def programmes() -> None:
 
 
 def checks() -> None:
-    """Distances, and steps as far as they go."""
+    """Distances, and what makes room."""
     near = _arrangement()
     them = near.pairs(1.0)
     near.distances(them, 1.0)
-    steps.apply_step(near.board, np.arange(1), np.zeros((1, 4)), them, 0.0, 0.1)
     steps.clear_by_shrinking(near.board, np.arange(1), them, 0.0, 0.1, 1)
     clearance(near.container.region, 1.0)
 
 
-PARTS: tuple[Part, ...] = (levels, pairs, contacts, programmes, checks)
-"""All parts; what shares helpers is one part, since each process compiles its own."""
+def trials() -> None:
+    """Compaction, and trials of a finish, after what they are made of."""
+    near = _arrangement()
+    one, box = np.arange(1), np.array([[0.0, 0.0, 8.0, 8.0]])
+    trial = Trial(one, near.places[None].copy(), one, one, box)
+    rounds = Rounds(0.1, np.full(1, 0.1), np.full(1, np.inf))
+    attempt(near.board, _objective(), trial, rounds, np.inf, -np.inf, 0.0, 0.01)
+    distances.nearby(near.board.boxes, one, 1.0)
+    moved, places = np.array([[0, -1]]), np.zeros((1, 2, 4))
+    disjoint(near.board, near.radii, moved, places, 6, 1.0, 1.0, 1)
+
+
+PARTS: tuple[Part, ...] = (levels, checks, trials, pairs, contacts, programmes)
+"""All parts; what shares helpers is one part, since each process compiles its own. Trials are made
+of contacts and programmes, which a second process has ready then."""
 
 
 def _arrangement() -> Arrangement:

@@ -61,6 +61,9 @@ EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
 APART = 0.5
 """Weight of the loss that keeps kinds apart. Larger parts more and fills less. Tried."""
 
+MAX_THREADS = 1_024
+"""Threads of one run at most. Chosen."""
+
 MAX_SECONDS = 86_400.0
 """Longest time for one run. Chosen."""
 
@@ -217,6 +220,14 @@ class Recipe(Pictured, Moving, TableFormat, Interpreted):
     time: Annotated[Seconds | None, _LEVELS] = None
     """Seconds for the whole run, instead of a number of iterations: results then depend on
     the machine."""
+
+    threads: Annotated[
+        Annotated[int, Field(ge=1, le=MAX_THREADS)] | None,
+        Field(exclude=True),
+        Offer(group=Group.SOLVED, after="time"),
+    ] = None
+    """Threads that the run may use; default: as many as there are cores for it. The result is the
+    same with any number; 1 where several runs share a machine."""
 
     preset: Annotated[Literal["default", "paper"], Offer(group=Group.SOLVED, verbs=Verbs.FILL)] = (
         "default"

@@ -10,8 +10,7 @@ import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.blocks import blocks
-from packwork.compaction.compact import compact
+from packwork.compaction.compact import compact_all
 from packwork.compaction.kernels.steps import MOST_GROWTH
 from packwork.compaction.objective import FixedSize
 from packwork.compaction.separate import separate
@@ -51,8 +50,7 @@ def separate_fixed(arrangement: Arrangement, gap: float, hair: float) -> IntArra
         objective = sizing.objective(
             growth, min(trust / float(np.median(arrangement.radii)), MOST_GROWTH)
         )
-        for block in blocks(arrangement.places[:, :2], turn):
-            compact(arrangement, objective, block, trust, gap, hair)
+        compact_all(arrangement, objective, turn, trust, gap, hair)
     short = np.flatnonzero(arrangement.places[:, 3] < 0)
     places = arrangement.places.copy()
     places[short] = first[short]

@@ -92,12 +92,18 @@ def near_pairs(boxes, order, reach, found):
 
 @helper
 def are_apart(boxes, i, j, reach):
+    """Whether two of some boxes are farther apart than ``reach`` along an axis."""
+    return are_apart_boxes(boxes[i], boxes[j], reach)
+
+
+@helper
+def are_apart_boxes(one, other, reach):
     """Whether two boxes are farther apart than ``reach`` along an axis."""
     return (
-        boxes[j, 0] > boxes[i, 2] + reach
-        or boxes[i, 0] > boxes[j, 2] + reach
-        or boxes[j, 1] > boxes[i, 3] + reach
-        or boxes[i, 1] > boxes[j, 3] + reach
+        other[0] > one[2] + reach
+        or one[0] > other[2] + reach
+        or other[1] > one[3] + reach
+        or one[1] > other[3] + reach
     )
 
 
@@ -130,8 +136,8 @@ def _two_boxes(boxes, items):
     return found
 
 
-@helper
-def _nearby(boxes, items, reach):
+@kernel
+def nearby(boxes, items, reach):
     """Items whose boxes may be within ``reach`` of one of ``items``, in their order."""
     about = _two_boxes(boxes, items)
     near = np.empty(boxes.shape[0] - 1, np.int64)
@@ -150,9 +156,9 @@ def _nearby(boxes, items, reach):
     return near[:count]
 
 
-@kernel
-def pairs_of(boxes, items, reach):
-    """Pairs of boxes within ``reach`` of which one at least is among ``items``.
+@helper
+def pairs_among(boxes, items, near, reach):
+    """Pairs of boxes within ``reach``, of each of ``items`` with those of ``near``.
 
     Smaller index first; then each of the items with the last box, the container's.
     """
@@ -160,7 +166,6 @@ def pairs_of(boxes, items, reach):
     chosen = np.zeros(last, np.bool_)
     for k in range(items.shape[0]):
         chosen[items[k]] = True
-    near = _nearby(boxes, items, reach)
     found = np.empty((16 * items.shape[0] + 16, 2), np.int64)
     count = 0
     for k in range(items.shape[0]):
@@ -179,6 +184,15 @@ def pairs_of(boxes, items, reach):
             found[count, 0], found[count, 1] = min(i, j), max(i, j)
             count += 1
     return found[:count]
+
+
+@kernel
+def pairs_of(boxes, items, reach):
+    """Pairs of boxes within ``reach`` of which one at least is among ``items``.
+
+    Smaller index first; then each of the items with the last box, the container's.
+    """
+    return pairs_among(boxes, items, nearby(boxes, items, reach), reach)
 
 
 @helper
@@ -272,14 +286,9 @@ def most_points(starts, pairs):
 
 
 @helper
-def _sticks_out(boxes, i, j):
+def sticks_out(inner, outer):
     """Whether a box is not within another one."""
-    return (
-        boxes[i, 0] < boxes[j, 0]
-        or boxes[i, 1] < boxes[j, 1]
-        or boxes[i, 2] > boxes[j, 2]
-        or boxes[i, 3] > boxes[j, 3]
-    )
+    return inner[0] < outer[0] or inner[1] < outer[1] or inner[2] > outer[2] or inner[3] > outer[3]
 
 
 @helper
@@ -293,7 +302,7 @@ def distance(board, i, j, reach, room):
     first, second = room[0], room[1]
     count_j = cull(board, j, board.boxes[i], reach, second)
     if j == board.starts.shape[0] - 2:
-        if _sticks_out(board.boxes, i, j):
+        if sticks_out(board.boxes[i], board.boxes[j]):
             return 0.0
         if count_j == 0:
             # All inside or all outside.

@@ -147,7 +147,7 @@ def constraint_rows(board, pairs, pair_of, numbers, where, trust, gap):
     return interior_point.Rows(first[:count], second[:count], coefficients[:count], limits[:count])
 
 
-@kernel
+@helper
 def gains_and_bounds(board, objective, items, trust):
     """Gains and bounds of the unknowns, lengths in units of ``trust``."""
     n = items.shape[0]
@@ -240,7 +240,7 @@ def _apply_share(board, items, before, step, share, pairs, gap, unit):
     return False
 
 
-@kernel
+@helper
 def apply_step(board, items, step, pairs, gap, trust):
     """Move ``items`` by as much of ``step`` as leaves no conflict; how many halvings.
 
