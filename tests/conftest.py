@@ -10,6 +10,7 @@ from made_fonts import make_font_folders
 from packwork import compiled
 from packwork.display import bar
 from packwork.fonts import FOLDERS
+from packwork.readers.fonts import kept_glyphs
 from packwork.readers.svg import kept
 
 # Kernels compile on their first call, and run uncompiled under NUMBA_DISABLE_JIT=1: no
@@ -33,17 +34,18 @@ def _no_notice_of_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 class _OfThisSession(dict[str, bytes]):
-    """Drawings read by these tests: what other runs left on this machine decides nothing."""
+    """What these tests read: what other runs left on this machine decides nothing."""
 
     put = dict.__setitem__
 
 
-_DRAWINGS = _OfThisSession()
+_DRAWINGS, _GLYPHS = _OfThisSession(), _OfThisSession()
 
 
 @pytest.fixture(autouse=True)
 def _no_drawings_of_other_runs(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kept, "STORE", _DRAWINGS)
+    monkeypatch.setattr(kept_glyphs, "STORE", _GLYPHS)
 
 
 @pytest.fixture

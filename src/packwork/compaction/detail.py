@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -11,7 +11,6 @@ from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.covers import Covers
 from packwork.compaction.outer_simplify import inner_simplified
 from packwork.geometry.outline import Outline
-from packwork.progress import Stop, never
 from packwork.scene.pose import Poses
 
 COARSE, FINE = 4e-3, 3e-4
@@ -55,7 +54,7 @@ class Detail:
         extents = [outline.extent for outline in self._outlines] * self._poses.scale
         return float(np.clip(distance_cu / np.median(extents), least, max(least, ROUGHEST)))
 
-    def covers(self, tolerance: float, stop: Stop = never) -> Detail:
+    def covers(self, tolerance: float, stop: Callable[[], bool] = bool) -> Detail:
         """The same with fewer vertices: ``tolerance`` in shares of each item's extent.
 
         Itself once ``stop``, asked before each, says so: hundreds of words take seconds.

@@ -16,10 +16,11 @@ from packwork.arrays import FloatArray
 from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance, distance
 from packwork.geometry.outline import Outline, joined
-from packwork.geometry.polygon import Region, region, silhouette
+from packwork.geometry.polygon import region, silhouette
 from packwork.readers.fonts.curves import rings_of
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.guard import check_glyph
+from packwork.readers.fonts.kept_glyphs import GlyphInk, kept_glyph
 from packwork.readers.fonts.remembered import remembered_by_font
 
 CLEAR = 1e-3
@@ -28,26 +29,6 @@ times what readers follow curves to."""
 
 MOST_KNOWN = 4096
 """Glyphs that are remembered: those of a long Chinese text. Chosen."""
-
-
-@dataclass(frozen=True, eq=False)
-class GlyphInk:
-    """What a glyph covers about its origin, in its font's units.
-
-    Parameters
-    ----------
-    region
-        The same as a region; empty for a space.
-    ink, silhouette
-        Its rings, and those of its silhouette, without holes; None for a space.
-    clearance
-        By how much a vertex may move before rings meet; ``CLEAR`` of its extent at most.
-    """
-
-    region: Region
-    ink: Outline | None
-    silhouette: Outline | None
-    clearance: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,6 +131,10 @@ def glyph_ink(face: Typeface, number: int, tolerance: float) -> GlyphInk:
     >>> len(found.ink.rings), len(found.silhouette.rings)
     (2, 1)
     """
+    return kept_glyph((face.identity, number, tolerance), lambda: _drawn(face, number, tolerance))
+
+
+def _drawn(face: Typeface, number: int, tolerance: float) -> GlyphInk:
     rings = rings_of(face.drawing(number), tolerance)
     check_glyph(rings)
     covered = region(rings, "nonzero")

@@ -16,13 +16,13 @@ from packwork.geometry.polygon import Region, united
 from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Typeface
 from packwork.readers.fonts.glyph_ink import (
     ClearInk,
-    GlyphInk,
     GlyphPath,
     clear_ink,
     glyph_ink,
     glyph_path,
 )
 from packwork.readers.fonts.itemise import Piece, visual_order
+from packwork.readers.fonts.kept_glyphs import GlyphInk
 from packwork.readers.fonts.pictures import GlyphPicture, picture_of
 from packwork.readers.fonts.remembered import remembered_by_font
 from packwork.readers.unfit import UnfitError

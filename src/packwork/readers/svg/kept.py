@@ -6,26 +6,20 @@ memory. It comes back bit for bit.
 
 from __future__ import annotations
 
-import functools
 import hashlib
 import json
 import logging
-import sys
 from collections.abc import Callable
 from dataclasses import fields
-from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 import numpy as np
-import resvg_py
-import shapely
 
-from packwork import folders
 from packwork.errors import ShapeError
 from packwork.folders import Store
 from packwork.geometry.outline import Outline
 from packwork.readers.pages import PageFate, Read
+from packwork.readers.version import reader_version
 from packwork.scene.item import Item, VectorArt
 
 MOST_BYTES = 300_000_000
@@ -34,9 +28,6 @@ MOST_BYTES = 300_000_000
 NOT_KEPT = (b"\0", b"text", b"TEXT")
 """What drawings hold whose reading may differ elsewhere: letters are drawn by the fonts that are
 installed. A zero is of encodings in which that could not be seen."""
-
-FOLDERS = ("readers", "geometry", "raster", "fields", "fit", "scene")
-"""Parts of the package that say what a drawing is read as."""
 
 STORE = Store("drawings", MOST_BYTES)
 
@@ -75,22 +66,6 @@ def read_once(
         if bytes_ is not None:
             STORE.put(key, bytes_)
     return fresh
-
-
-@functools.cache
-def reader_version() -> str:
-    """One word for all code that reads drawings."""
-    versions = (np, shapely, resvg_py)
-    numbers = [str(getattr(module, "__version__", "")) for module in versions]
-    # Loading it takes a while, and which one it is can be read.
-    numbers.append(metadata.version("scipy"))
-    whole = hashlib.sha256(repr((sys.version, shapely.geos_version, numbers)).encode())
-    root = Path(folders.__file__).parent
-    paths = [*root.glob("*.py"), *(p for f in FOLDERS for p in (root / f).rglob("*.py"))]
-    for path in sorted(paths):
-        whole.update(path.relative_to(root).as_posix().encode())
-        whole.update(path.read_bytes())
-    return whole.hexdigest()
 
 
 def packed(read: Read) -> bytes | None:

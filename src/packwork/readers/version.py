@@ -1,0 +1,34 @@
+"""Version of the code that reads: what was kept by another one is not what it would read."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+import sys
+from importlib import metadata
+from pathlib import Path
+
+import numpy as np
+import resvg_py
+import shapely
+
+from packwork import folders
+
+FOLDERS = ("readers", "geometry", "raster", "fields", "fit", "scene")
+"""Parts of the package that say what a drawing or a letter is read as."""
+
+
+@functools.cache
+def reader_version() -> str:
+    """One word for all code that reads drawings and letters."""
+    versions = (np, shapely, resvg_py)
+    numbers = [str(getattr(module, "__version__", "")) for module in versions]
+    # Loading it takes a while, and which one it is can be read.
+    numbers.append(metadata.version("scipy"))
+    whole = hashlib.sha256(repr((sys.version, shapely.geos_version, numbers)).encode())
+    root = Path(folders.__file__).parent
+    paths = [*root.glob("*.py"), *(p for f in FOLDERS for p in (root / f).rglob("*.py"))]
+    for path in sorted(paths):
+        whole.update(path.relative_to(root).as_posix().encode())
+        whole.update(path.read_bytes())
+    return whole.hexdigest()
