@@ -61,8 +61,8 @@ EASY_POINTS = 70.0
 takes longer. Larger spends more on words than they gain. Tried."""
 
 COMMON_ROUNDS = 3
-"""Times as many rounds where sizes are common: growth must get round from loose to tight
-places. Tried."""
+"""Times as many rounds where sizes are common and the layout is not clean yet: growth must get
+round from loose to tight places. Tried: of clean ones as much ink with 15 rounds as with 72."""
 
 LEVELLING_TRUST = (0.0006, 0.01)
 """Smallest and largest trust region, as above, of the last rounds where sizes are shared,
@@ -135,8 +135,7 @@ def finish(
     run = _Finish(container, outlines, poses, options, observer, stop, is_enough, forces)
     if options.refining:
         run.refine()
-        if options.staying:
-            run.level()
+        run.level()
     elif run.begin():
         run.coarse()
         run.anneal()
@@ -170,7 +169,8 @@ class _Finish:
         self.gap = options.gap_cu + self.hair
         self.rounds = 0
         self._is_trying = False
-        self._planned = options.rounds * (1 if options.sizes == "free" else COMMON_ROUNDS)
+        is_short = options.sizes == "free" or options.refining
+        self._planned = options.rounds * (1 if is_short else COMMON_ROUNDS)
         self._share = float(np.sqrt(self._area / len(poses)))
         own = np.array([outline.area for outline in outlines])
         self._sizing = sizing_of(poses, own * poses.scale**2, options)

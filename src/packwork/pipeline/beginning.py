@@ -14,7 +14,12 @@ from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.earlier import new_items, who_is_who
-from packwork.pipeline.first_places import first_places, needs_levels, places_along_thread
+from packwork.pipeline.first_places import (
+    first_places,
+    is_only_refined,
+    needs_levels,
+    places_along_thread,
+)
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.limits import check_poses, held_to, item_limits, pinned_scales
@@ -90,7 +95,8 @@ class Beginning:
     goes_on
         Whether items keep their order, as those of an earlier layout that is no mere heap do.
     is_clean
-        Whether nothing meets in exact geometry, gap included: the finish only refines.
+        Whether nothing meets in exact geometry, gap included, but for pixels that are only grazed:
+        the finish only refines.
     """
 
     job: Job
@@ -155,7 +161,8 @@ class _Start:
         poses = first.poses
         if forces.acts and not is_tight:
             poses = _by_forces(outlines, poses, limits, forces)
-        return self._beginning(poses, str(first.method), limits, is_tight=is_tight)
+        begun = self._beginning(poses, str(first.method), limits, is_tight=is_tight)
+        return replace(begun, is_clean=is_tight and is_only_refined(job, forces))
 
     def from_layout(self, earlier: Layout) -> Beginning:
         """The poses of an earlier layout, as near as what is asked now allows."""

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.detail import FINE
 from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
 from packwork.finish.finish import COMMON_COARSE
@@ -73,7 +74,7 @@ def first_places(
             _angles(job, angles, limits),
             np.random.default_rng(plan.seed),
             margin_cu=plan.gap / 2 + HAIR * job.container.side,
-            slack=COMMON_COARSE,
+            slack=FINE if is_only_refined(job, forces) else COMMON_COARSE,
             attempts=ATTEMPTS[plan.effort],
             limits=limits,
             fields=_fields(job),
@@ -129,6 +130,15 @@ def needs_levels(job: Job, forces: Forces) -> bool:
         or plan.keeps_apart
         or bool(forces.bonds)
     )
+
+
+def is_only_refined(job: Job, forces: Forces) -> bool:
+    """Whether a few small steps of the finish do with what first fit has put down.
+
+    So it is where items keep their angles: those that turn gain by as many larger ones.
+    """
+    is_told = forces.acts or job.is_limited or job.plan.effort == "best"
+    return job.plan.sizes == "shared" and job.plan.rotation.is_still and not is_told
 
 
 def _suits(job: Job, forces: Forces) -> bool:
