@@ -76,13 +76,13 @@ def test_the_metrics_are_those_of_the_layout(three: pipeline.Run) -> None:
 
 
 def test_the_report_has_the_promised_keys(three: pipeline.Run) -> None:
-    report = three.report(write_seconds=1.0)
+    report = three.report(write_seconds=1.0, start_up_seconds=2.0)
     assert report.keys() >= {
         "metrics", "seconds", "items", "placed", "unplaced", "certified", "seed",
     }  # fmt: skip
     assert report["metrics"].keys() >= {"LC", "LC_ratio", "OO", "EA", "LnU", "exact"}
     assert report["metrics"]["exact"].keys() >= {"overlap_area", "outside_area", "min_gap"}
-    assert report["seconds"].keys() >= {"read", "start", "levels", "write", "total"}
+    assert report["seconds"].keys() >= {"start-up", "read", "start", "levels", "write", "total"}
     parts = sum(v for part, v in report["seconds"].items() if part != "total")
     assert report["seconds"]["total"] == pytest.approx(parts)
     assert (report["items"], report["placed"], report["certified"]) == (7, 7, True)

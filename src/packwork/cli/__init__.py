@@ -11,6 +11,7 @@ import typer
 
 from packwork.cli.commands import MARKUP, LazyGroup
 from packwork.cli.notices import NOTICES
+from packwork.cli.start_up import START_UP as START_UP  # its import reads the clock
 
 app = typer.Typer(
     name="packwork",

@@ -31,6 +31,7 @@ from packwork.cli.show import (
     seconds_line,
     words_line,
 )
+from packwork.cli.start_up import START_UP
 from packwork.cli.terminal import printable, say
 from packwork.cli.watch import WATCH
 from packwork.display.bar import TerminalBar
@@ -196,6 +197,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         The exit code: 0; 1 if an item was not placed, the result is not certified or one of its
         files could not be drawn; 130 after Ctrl-C.
     """
+    START_UP.end()
     outputs.check()
     recipe = with_room(recipe, outputs.kiss)
     console = Paper(quiet=quiet, highlight=False)
@@ -210,7 +212,8 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         from packwork.display.saliency import write_saliency
 
         write_saliency(recipe, outputs.saliency)
-    compile_kernels(TerminalBar(console, quiet))
+    with START_UP.more():
+        compile_kernels(TerminalBar(console, quiet))
     bar = TerminalBar(console, quiet)
     interrupt = Interrupt()
     with interrupt.listening():
@@ -222,7 +225,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         was_stopped = was_cut_short or len(films) < len(outputs.films)
         drawn, undrawn = _drawn(run, outputs)
         written = [*drawn, *saved, *films]
-        results = run.report(time.perf_counter() - began)
+        results = run.report(time.perf_counter() - began, START_UP.told())
         if not was_cut_short:
             # Looks at pictures of all items, for which nobody waits who wants it to end.
             results["advice"] += _hard_to_see(run, outputs)

@@ -164,9 +164,18 @@ class Run:
         placed = len(self.layout.items) + self.left_out
         return max([placed, *(one.index + 1 for one in self.unplaced)])
 
-    def report(self, write_seconds: float = 0.0) -> dict[str, Any]:
-        """Plain values for ``--report``."""
-        seconds = {"finish": 0.0, **self.seconds, "write": write_seconds}
+    def report(self, write_seconds: float = 0.0, start_up_seconds: float = 0.0) -> dict[str, Any]:
+        """Plain values for ``--report``.
+
+        Parameters
+        ----------
+        write_seconds
+            What files took.
+        start_up_seconds
+            What the process took to load.
+        """
+        seconds = {"start-up": start_up_seconds, **self.seconds, "write": write_seconds}
+        seconds.setdefault("finish", 0.0)
         seconds["total"] = sum(seconds.values())
         return {
             "canvas": self.layout.container.canvas,
