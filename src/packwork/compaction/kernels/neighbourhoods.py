@@ -7,7 +7,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from packwork.compaction.kernels import distances
 from packwork.compiled import helper, kernel
 
 
@@ -93,12 +92,39 @@ def _bound(board, item, moved, places, room, bound):
 
 
 @helper
-def _meet(boxes, count, others, begin, end, margin):
-    """Whether some boxes come within a margin of others."""
-    for a in range(count):
-        for b in range(begin, end):
-            if not distances.are_apart_boxes(boxes[a], others[b], margin):
-                return True
+def _hull(boxes, count, hull):
+    """Write the box about some boxes."""
+    for c in range(4):
+        hull[c] = boxes[0, c]
+    for k in range(1, count):
+        hull[0], hull[1] = min(hull[0], boxes[k, 0]), min(hull[1], boxes[k, 1])
+        hull[2], hull[3] = max(hull[2], boxes[k, 2]), max(hull[3], boxes[k, 3])
+
+
+@helper
+def _comes_near(boxes, begin, end, left, top, right, bottom):
+    """Whether some boxes meet the one between these bounds."""
+    for b in range(begin, end):
+        if (
+            boxes[b, 0] <= right
+            and boxes[b, 2] >= left
+            and boxes[b, 1] <= bottom
+            and boxes[b, 3] >= top
+        ):
+            return True
+    return False
+
+
+@helper
+def _meet(boxes, count, hull, others, begin, end, margin):
+    """Whether some boxes, all in a hull, come within a margin of others."""
+    for b in range(begin, end):
+        left, top = others[b, 0] - margin, others[b, 1] - margin
+        right, bottom = others[b, 2] + margin, others[b, 3] + margin
+        if hull[0] > right or hull[2] < left or hull[1] > bottom or hull[3] < top:
+            continue
+        if _comes_near(boxes, np.int64(0), count, left, top, right, bottom):
+            return True
     return False
 
 
@@ -124,7 +150,7 @@ def disjoint(board, radii, moved, places, neighbours, room, margin, most):
     # Where the moved items were counts too.
     reached, ends = np.empty((most * (width + 2), 4)), np.zeros(most + 1, np.int64)
     near = np.empty(16 * most * width, np.int64)
-    here, boxes = np.empty(width, np.int64), np.empty((width + 2, 4))
+    here, boxes, hull = np.empty(width, np.int64), np.empty((width + 2, 4)), np.empty(4)
     chosen = 0
     for p in range(moved.shape[0]):
         if chosen == most:
@@ -135,7 +161,8 @@ def disjoint(board, radii, moved, places, neighbours, room, margin, most):
             _bound(board, here[k], moved[p, :pair], places[p], room, boxes[k])
         for k in range(pair):
             boxes[held + k] = board.boxes[moved[p, k]]
-        if _meet(boxes, held + pair, reached, np.int64(0), ends[chosen], margin):
+        _hull(boxes, held + pair, hull)
+        if _meet(boxes, held + pair, hull, reached, np.int64(0), ends[chosen], margin):
             continue
         trials[chosen] = p
         begin, last = begins[chosen, 0], begins[chosen, 1]
@@ -144,11 +171,12 @@ def disjoint(board, radii, moved, places, neighbours, room, margin, most):
         for k in range(held):
             items[begin + k], bounds[begin + k] = here[k], boxes[k]
         for j in range(count):
-            is_near = j == moved[p, 0] or j == moved[p, 1]
-            for k in range(held):
-                if is_near:
-                    break
-                is_near = not distances.are_apart_boxes(boxes[k], board.boxes[j], margin)
+            left, top = board.boxes[j, 0] - margin, board.boxes[j, 1] - margin
+            right, bottom = board.boxes[j, 2] + margin, board.boxes[j, 3] + margin
+            is_near = hull[0] <= right and hull[2] >= left and hull[1] <= bottom and hull[3] >= top
+            if is_near:
+                is_near = _comes_near(boxes, np.int64(0), held, left, top, right, bottom)
+            is_near |= j == moved[p, 0] or j == moved[p, 1]
             if is_near:
                 if last == near.shape[0]:
                     near = _longer(near, last)
