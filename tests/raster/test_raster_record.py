@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.arrays import FloatArray, Image, IntArray
-from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback
+from packwork.raster.coverage import BANDS, Rasteriser, coverage, coverage_pullback
 from packwork.raster.kernels import coverage as kernels
 from strategies import SHAPES
 
@@ -32,12 +32,14 @@ coordinates = st.one_of(
 def _assert_stays_inside(points: FloatArray, starts: IntArray, shape: tuple[int, int]) -> None:
     for dtype in (np.float32, np.float64):
         rasteriser = Rasteriser(shape, dtype)
-        rasteriser._reserve(points, len(starts) - 1)
-        room, deposits = len(rasteriser._cells), rasteriser._deposits.size
+        rasteriser._points, rasteriser._starts = points, starts
+        rasteriser._reserve()
+        (record,) = rasteriser._used
+        room, deposits = len(record.cells), rasteriser._deposits.size
         cells = np.full(room + GUARD, UNTOUCHED, dtype=np.int32)
         leaves: Image = np.full(room + GUARD, UNTOUCHED, dtype=dtype)
         buffer = np.zeros(deposits + 2 * GUARD, dtype=dtype)
-        first = rasteriser._first
+        first = record.first
         # Compiled or not, extreme quotients overflow to infinity and are clamped.
         with np.errstate(all="ignore"):
             kernels.sweep(
@@ -118,6 +120,41 @@ def test_the_record_grows_with_the_points_and_is_kept() -> None:
     rasteriser.sweep(small, np.array([0, 3]))
     large = np.tile(np.array([[-9.0, -9], [20, 20], [20, -9], [-9, 20]]), (9, 1))
     rasteriser.sweep(large, np.array([0, 36]))
-    room = len(rasteriser._cells)
+    room = len(rasteriser._used[0].cells)
     rasteriser.sweep(small, np.array([0, 3]))
-    assert len(rasteriser._cells) == room >= int(rasteriser._first[-1])
+    assert len(rasteriser._used[0].cells) == room >= int(rasteriser._first[-1])
+
+
+@given(
+    points=st.lists(st.tuples(coordinates, coordinates), min_size=6, max_size=40),
+    shape=st.tuples(st.integers(1, 60), st.integers(1, 9)),
+)
+def test_bands_deposit_in_their_rows_alone_and_change_nothing(
+    points: list[tuple[float, float]], shape: tuple[int, int]
+) -> None:
+    several = np.array(points)
+    # Down the image, which is higher than others here.
+    several[:, 1] += np.linspace(0, shape[0], len(several)) * (np.abs(several[:, 1]) < 1e4)
+    starts = np.array([*range(0, len(several) - 2, 3), len(several)])
+    adjoint = np.random.default_rng(0).random(shape, dtype=np.float32)
+    whole, parted = Rasteriser(shape), Rasteriser(shape)
+    with np.errstate(all="ignore"):
+        whole.sweep(several, starts)
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("packwork.raster.coverage.PARTED", 0)
+            parted.sweep(several, starts)
+        gradients = [one.pullback(adjoint, 0.5).copy() for one in (whole, parted)]
+    assert len(parted._used) == BANDS + 1
+    height = -(-shape[0] // BANDS)
+    for k, record in enumerate(parted._used[:-1]):
+        cells = record.cells[: record.first[_edges(starts, record.order)]]
+        rows = cells[cells >= 0] // shape[1]
+        # A deposit goes to the row below too, and a walk may err by one at a corner.
+        assert ((rows >= k * height + 2) | (k == 0)).all()
+        assert ((rows < (k + 1) * height - 2) | (k == BANDS - 1)).all()
+    np.testing.assert_array_equal(gradients[0], gradients[1])
+    np.testing.assert_array_equal(whole.density(), parted.density())
+
+
+def _edges(starts: IntArray, rings: IntArray) -> int:
+    return int((starts[rings + 1] - starts[rings]).sum())

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from packwork.arrays import FloatArray, Image, IntArray, as_image, as_points, as_starts
 from packwork.errors import ShapeError
 from packwork.raster.kernels import coverage as kernels
+from packwork.threads import at_once
 
 _AREA_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 44}
 """Deposits are multiples of 2**-bits pixel. More bits: finer coverage, but sums stay
@@ -31,6 +32,39 @@ MAX_SIDE_PX = 8_192
 CACHE_BYTES = 2**21
 """Images larger than this are swept from top to bottom: a second-level cache holds less.
 Larger leaves big images to chance, smaller sorts where nothing is gained. Tried."""
+
+
+BANDS = 4
+"""Bands of rows whose rings are swept at once. More keep more cores busy and have more rings on
+their borders, which are swept after. Chosen."""
+
+PARTED = 200_000
+"""Length of the record, at most, from which rings are swept so: 0.6 ms of one core. Smaller parts
+what is done before another thread has begun. Measured."""
+
+APART = 3
+"""Rows between a ring swept with one band and the next: what a walk deposits beyond its cells.
+Derived."""
+
+
+class Record:
+    """Walk of some rings: which, the cells that they crossed, and where they left them."""
+
+    def __init__(self, dtype: np.dtype[Any]) -> None:
+        self.order: IntArray = np.zeros(0, dtype=np.int64)
+        self.first: IntArray = np.zeros(1, dtype=np.int64)
+        self.cells = np.zeros(0, dtype=np.int32)
+        self.leaves: Image = np.zeros(0, dtype=dtype)
+
+    def reserve(self, order: IntArray, edges: int, need: int) -> None:
+        """Make room for rings ``(m,)`` of so many edges, whose record is as long as needed."""
+        self.order = order
+        if len(self.first) < edges + 1:
+            self.first = np.zeros(edges + 1, dtype=np.int64)
+        if need > len(self.cells):
+            room = need + need // 4
+            self.cells = np.zeros(room, dtype=np.int32)
+            self.leaves = np.zeros(room, dtype=self.leaves.dtype)
 
 
 class Rasteriser:
@@ -66,14 +100,14 @@ class Rasteriser:
         self.accumulation: Image = self._deposits[: rows + 1]
         """Swept areas, waiting for their running sum down the columns."""
         self._is_large = self.accumulation.nbytes > CACHE_BYTES
-        self._order = np.zeros(0, dtype=np.int64)
+        self._records = [Record(self.dtype) for _ in range(BANDS + 1)]
+        self._used = self._records[:1]
         self._magic = tuple(1.5 * 2.0 ** (52 - bits[self.dtype]) for bits in (_X_BITS, _AREA_BITS))
         self._points = np.zeros((0, 2))
         self._starts = np.zeros(1, dtype=np.int64)
-        self._first = np.zeros(1, dtype=np.int64)
+        self._rows = np.zeros((0, 2), dtype=np.int64)
+        self._bounds = np.zeros(0, dtype=np.int64)
         self._gradient = np.zeros((0, 2))
-        self._cells = np.zeros(0, dtype=np.int32)
-        self._leaves: Image = np.zeros(0, dtype=self.dtype)
 
     def sweep(self, points_px: FloatArray, starts: IntArray) -> None:
         """Walk every edge once: deposit its swept areas and record the cells it crosses.
@@ -87,12 +121,17 @@ class Rasteriser:
         starts
             ``(rings + 1,)`` int64.
         """
-        self._reserve(points_px, len(starts) - 1)
         self._points, self._starts = points_px, starts
-        self._order = self._visiting_order()
+        self._reserve()
+        if len(self._used) > 1:
+            # What lies in one band alone goes at once; deposits of the rest may be anywhere.
+            at_once(self._sweep, [(record,) for record in self._used[:-1]])
+        self._sweep(self._used[-1])
+
+    def _sweep(self, record: Record) -> None:
         kernels.sweep(
-            points_px, starts, self._order, self._is_large, *self.shape, *self._magic,
-            self._deposits.reshape(-1), self._cells, self._leaves, self._first,
+            self._points, self._starts, record.order, self._is_large, *self.shape, *self._magic,
+            self._deposits.reshape(-1), record.cells, record.leaves, record.first,
         )  # fmt: skip
 
     def density(self, out: Image | None = None) -> Image:
@@ -123,12 +162,15 @@ class Rasteriser:
         FloatArray
             ``(n, 2)``; a buffer that the next call reuses.
         """
-        kernels.pullback(
-            self._points, self._starts, self._order, self._is_large, self.shape[1],
-            self._cells, self._leaves, self._first,
-            adjoint.reshape(-1), beyond, self._gradient,
-        )  # fmt: skip
+        flat = adjoint.reshape(-1)
+        at_once(self._pull_back, [(record, flat, beyond) for record in self._used])
         return self._gradient
+
+    def _pull_back(self, record: Record, adjoint: Image, beyond: float) -> None:
+        kernels.pullback(
+            self._points, self._starts, record.order, self._is_large, self.shape[1],
+            record.cells, record.leaves, record.first, adjoint, beyond, self._gradient,
+        )  # fmt: skip
 
     def ring_integrals(self, image: Image) -> FloatArray:
         """Integral of ``image`` (constant in each pixel, zero off it) inside each ring.
@@ -143,10 +185,11 @@ class Rasteriser:
         prefix = np.zeros((self.shape[0] + 1, self.shape[1]))
         np.cumsum(image, axis=0, dtype=np.float64, out=prefix[1:])
         totals = np.zeros(len(self._starts) - 1)
-        kernels.ring_integrals(
-            self._points, self._starts, self._order, self._cells, self._leaves, self._first,
-            image, prefix, totals,
-        )  # fmt: skip
+        for record in self._used:
+            kernels.ring_integrals(
+                self._points, self._starts, record.order, record.cells, record.leaves, record.first,
+                image, prefix, totals,
+            )  # fmt: skip
         return totals
 
     def _visiting_order(self) -> IntArray:
@@ -159,20 +202,34 @@ class Rasteriser:
         first = np.minimum(self._starts[:-1], len(self._points) - 1)
         return np.argsort(self._points[first, 1], kind="stable")
 
-    def _reserve(self, points_px: FloatArray, rings: int) -> None:
-        """Make room for the record: a walk crosses a grid line once per pixel it spans."""
-        count = len(points_px)
-        if len(self._first) != count + 1:
-            self._first = np.zeros(count + 1, dtype=np.int64)
-            self._gradient = np.zeros((count, 2))
-        spanned = kernels.record_bound(points_px, *self.shape)
-        # The closing edge of a ring is as long as its other edges together at most,
-        # the links between rings are counted too; eight covers cuts and rounding per edge.
-        need = int(2 * spanned) + 8 * count + rings
-        if need > len(self._cells):
-            room = need + need // 4
-            self._cells = np.zeros(room, dtype=np.int32)
-            self._leaves = np.zeros(room, dtype=self.dtype)
+    def _reserve(self) -> None:
+        """Make room for the records of all rings, in bands where that is worth it."""
+        rings = len(self._starts) - 1
+        if len(self._gradient) != len(self._points) or len(self._bounds) != rings:
+            self._gradient = np.zeros((len(self._points), 2))
+            self._rows = np.zeros((rings, 2), dtype=np.int64)
+            self._bounds = np.zeros(rings, dtype=np.int64)
+        need = kernels.record_bounds(
+            self._points, self._starts, *self.shape, self._rows, self._bounds
+        )
+        order = self._visiting_order()
+        if need < PARTED:
+            self._used = self._records[:1]
+            self._used[0].reserve(order, len(self._points), int(need))
+            return
+        self._used = self._records
+        band = self._bands()[order]
+        for k, record in enumerate(self._used):
+            mine = order[band == k]
+            edges = int((self._starts[mine + 1] - self._starts[mine]).sum())
+            record.reserve(mine, edges, int(self._bounds[mine].sum()))
+
+    def _bands(self) -> IntArray:
+        """``(rings,)`` band of rows that each ring lies in, ``BANDS`` for none alone."""
+        height = -(-self.shape[0] // BANDS)
+        first = np.maximum(self._rows[:, 0] - APART, 0) // height
+        last = np.minimum((self._rows[:, 1] + APART) // height, BANDS - 1)
+        return np.where(first == last, first, BANDS)
 
 
 def coverage(

@@ -193,6 +193,15 @@ def _lowest_row(points, begin, end, height):
     return min(int(min(lowest, float(height))) + ROWS_AHEAD, height)
 
 
+@helper
+def _first_row(points, starts, order, height):
+    """Row at which the first ring begins, on the canvas."""
+    if order.shape[0] == 0 or points.shape[0] == 0:
+        return 0
+    y = points[min(starts[order[0]], points.shape[0] - 1), 1]
+    return int(min(max(y, 0.0), float(height)))
+
+
 @helper(forceinline=True)
 def _fetch(image, reached, until):
     """Read one pixel of each cache line from ``reached`` to ``until``; return their sum.
@@ -221,7 +230,7 @@ def sweep(
     # A plain 0 has a type of its own, for which what is called would be compiled once more.
     k = np.int64(0)
     edge = 0
-    reached = 0
+    reached = _first_row(points, starts, order, height) * width
     fetched = 0.0
     for visit in range(order.shape[0]):
         begin = starts[order[visit]]
@@ -271,16 +280,28 @@ def sweep(
 
 
 @kernel
-def record_bound(points, height, width):
-    """Upper bound of the record's length for these points, all rings closed anywhere."""
+def record_bounds(points, starts, height, width, rows, bounds):
+    """Write the first and the last row of each ring, and how long its record is at most.
+
+    ``rows``: ``(rings, 2)``, on the canvas; ``bounds``: ``(rings,)``. A walk crosses a grid line
+    once for each pixel it spans; eight cover cuts and rounding of an edge. Returns their sum.
+    """
     total = 0.0
-    n = points.shape[0]
-    for v in range(n):
-        x = min(max(points[v, 0], 0.0), float(width))
-        y = min(max(points[v, 1], 0.0), float(height))
-        w = v - 1 if v > 0 else n - 1
-        total += abs(x - min(max(points[w, 0], 0.0), float(width)))
-        total += abs(y - min(max(points[w, 1], 0.0), float(height)))
+    for ring in range(starts.shape[0] - 1):
+        begin, end = starts[ring], starts[ring + 1]
+        top, bottom, spanned = float(height), 0.0, 0.0
+        if end > begin:
+            last_x = min(max(points[end - 1, 0], 0.0), float(width))
+            last_y = min(max(points[end - 1, 1], 0.0), float(height))
+        for v in range(begin, end):
+            x = min(max(points[v, 0], 0.0), float(width))
+            y = min(max(points[v, 1], 0.0), float(height))
+            spanned += abs(x - last_x) + abs(y - last_y)
+            top, bottom = min(top, y), max(bottom, y)
+            last_x, last_y = x, y
+        rows[ring, 0], rows[ring, 1] = int(top), int(bottom)
+        bounds[ring] = int(spanned) + 8 * (end - begin) + 1
+        total += bounds[ring]
     return total
 
 
@@ -309,17 +330,16 @@ def pullback(
     For an edge a -> b with outward normal n (unnormalised):
     dL/da = n * integral of A (1 - u) du, dL/db = n * integral of A u du.
     """
-    n = points.shape[0]
-    for v in range(n):
-        gradient[v, 0] = 0.0
-        gradient[v, 1] = 0.0
     size = adjoint.shape[0]
     edge = 0
-    reached = 0
+    reached = _first_row(points, starts, order, size // width) * width
     fetched = 0.0
     for visit in range(order.shape[0]):
         begin = starts[order[visit]]
         end = starts[order[visit] + 1]
+        for v in range(begin, end):
+            gradient[v, 0] = 0.0
+            gradient[v, 1] = 0.0
         if descends:
             until = _lowest_row(points, begin, end, size // width) * width
             fetched += _fetch(adjoint, reached, until)
