@@ -122,7 +122,7 @@ def test_the_record_grows_with_the_points_and_is_kept() -> None:
     rasteriser.sweep(large, np.array([0, 36]))
     room = len(rasteriser._used[0].cells)
     rasteriser.sweep(small, np.array([0, 3]))
-    assert len(rasteriser._used[0].cells) == room >= int(rasteriser._first[-1])
+    assert len(rasteriser._used[0].cells) == room >= rasteriser._used[0].first[3]
 
 
 @given(
