@@ -20,7 +20,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.compact import compact_all
-from packwork.compaction.kernels.neighbourhoods import disjoint
+from packwork.compaction.kernels.neighbourhoods import disjoint, room_for
 from packwork.compaction.kernels.steps import TRAVEL, Objective
 from packwork.compaction.kernels.trials import Rounds, Trial, attempt
 from packwork.compaction.objective import AREA_POWER
@@ -210,24 +210,19 @@ class _Search:
             places[k, : len(one.moved)] = destination(self._arrangement, one.moved)
         room = ROOM * lengths.spacing
         margin = lengths.gap + TRAVEL * max(*TRUST, ANGLE_TRUST) * lengths.spacing
-        chosen = disjoint(
-            self._arrangement.board,
-            self._arrangement.radii,
-            moved,
-            places,
-            NEIGHBOURS,
-            room,
-            margin,
-            most,
-        )
+        chosen = room_for(most, NEIGHBOURS, self._arrangement.count)
+        count = disjoint(
+            self._arrangement.board, self._arrangement.radii, moved, places, NEIGHBOURS, room,
+            margin, chosen,
+        )  # fmt: skip
         found = []
-        for k, trial in enumerate(chosen.trials):
-            (begin, near), (end, last) = chosen.begins[k : k + 2]
+        for k, trial in enumerate(chosen.trials[:count]):
+            (begin, near, _), (end, last, _) = chosen.begins[k : k + 2]
             one = self._waiting[trial]
             put = at_angles(places[trial, : len(one.moved)], one.moved, self._objective, one.draws)
             reach = chosen.items[begin:end], chosen.near[near:last], chosen.bounds[begin:end]
             found.append((one, Trial(one.moved, put, *reach)))
-        gone = set(chosen.trials.tolist())
+        gone = set(chosen.trials[:count].tolist())
         self._waiting = [one for k, one in enumerate(self._waiting) if k not in gone]
         return found
 

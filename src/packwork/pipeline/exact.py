@@ -37,14 +37,13 @@ from packwork.solve.solver import scale_bounds
 
 _LOG = logging.getLogger(__name__)
 
-TRIALS = {"draft": 0, "normal": 4, "best": 40}
-"""Turns and exchanges tried for each item, by effort: 4 ms each. More fill better, ever less
-so. Measured in docs/benchmarks-quality."""
+TRIALS = {"draft": 0, "normal": 3, "best": 40}
+"""Turns and exchanges tried for each item, by effort: 2 ms each. More fill better, ever less
+so. Measured in docs/benchmarks-quality and decision 0030."""
 
-MOST_TRIALS = {"draft": 0, "normal": 3_000, "best": 20_000}
-"""Such trials at most: what a person waits for must not grow with the items for ever. With
-500, four containers of 1,000 items took 15 s each and ended at a mean LC of 0.805; with 3,000
-they take 25 s and end at 0.812; 100 items end at 0.811. Measured."""
+MOST_TRIALS = {"draft": 0, "normal": 2_500, "best": 20_000}
+"""Such trials at most: what a person waits for must not grow with the items for ever. With 2,250,
+three containers of 1,000 items end at a mean LC of 0.8126, with 3,000 at 0.8142. Measured."""
 
 MANY, MOST_OF_MANY = 2_000, {"draft": 0, "normal": 1_500, "best": 20_000}
 """Items above which there are so many at most: each trial then gains little of the whole.

@@ -25,7 +25,7 @@ import numpy as np
 from packwork import compiled
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels import distances, interior_point, outer_simplify, steps
-from packwork.compaction.kernels.neighbourhoods import disjoint
+from packwork.compaction.kernels.neighbourhoods import disjoint, room_for
 from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.kernels.trials import Rounds, Trial, attempt
 from packwork.geometry.affine import similarity
@@ -238,7 +238,7 @@ def trials() -> None:
     attempt(near.board, _objective(), trial, rounds, np.inf, -np.inf, 0.0, 0.01)
     distances.nearby(near.board.boxes, one, 1.0)
     moved, places = np.array([[0, -1]]), np.zeros((1, 2, 4))
-    disjoint(near.board, near.radii, moved, places, 6, 1.0, 1.0, 1)
+    disjoint(near.board, near.radii, moved, places, 6, 1.0, 1.0, room_for(1, 6, 1))
 
 
 PARTS: tuple[Part, ...] = (levels, checks, trials, pairs, contacts, programmes)

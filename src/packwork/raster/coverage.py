@@ -16,6 +16,7 @@ import numpy.typing as npt
 from packwork.arrays import FloatArray, Image, IntArray, as_image, as_points, as_starts
 from packwork.errors import ShapeError
 from packwork.raster.kernels import coverage as kernels
+from packwork.raster.kernels.bounds import record_bounds
 from packwork.threads import at_once
 
 _AREA_BITS = {np.dtype(np.float32): 16, np.dtype(np.float64): 44}
@@ -209,9 +210,7 @@ class Rasteriser:
             self._gradient = np.zeros((len(self._points), 2))
             self._rows = np.zeros((rings, 2), dtype=np.int64)
             self._bounds = np.zeros(rings, dtype=np.int64)
-        need = kernels.record_bounds(
-            self._points, self._starts, *self.shape, self._rows, self._bounds
-        )
+        need = record_bounds(self._points, self._starts, *self.shape, self._rows, self._bounds)
         order = self._visiting_order()
         if need < PARTED:
             self._used = self._records[:1]

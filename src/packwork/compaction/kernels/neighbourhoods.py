@@ -11,25 +11,37 @@ from packwork.compiled import helper, kernel
 
 
 class Chosen(NamedTuple):
-    """Trials that may be made at once, and where each of them may reach.
+    """Room for what is chosen: trials that may be made at once, and where each may reach.
 
     ``trials``: ``(c,)`` which of those that were asked for; ``items``: of all of them one after
     another, from ``begins[k, 0]`` on those of the k-th, which ``bounds`` are the boxes of that they
-    must not leave; ``near``: from ``begins[k, 1]`` on what they may come near, ascending.
+    must not leave; ``near``: from ``begins[k, 1]`` on what they may come near, ascending;
+    ``reached``: from ``begins[k, 2]`` on all boxes that they may be in.
     """
 
     trials: np.ndarray
+    begins: np.ndarray
     items: np.ndarray
     bounds: np.ndarray
     near: np.ndarray
-    begins: np.ndarray
+    reached: np.ndarray
+
+
+def room_for(most: int, neighbours: int, count: int) -> Chosen:
+    """Room for so many trials, with so many neighbours of each moved item, among so many items."""
+    width = 2 * neighbours + 4
+    return Chosen(
+        np.empty(most, np.int64), np.zeros((most + 1, 3), np.int64),
+        np.empty(most * width, np.int64), np.empty((most * width, 4)),
+        np.empty(most * count, np.int64), np.empty((most * (width + 2), 4)),
+    )  # fmt: skip
 
 
 @helper
-def _away(places, j, moved):
+def _away(places, j, moved, pair):
     """Squared distance of an item from the nearest of those that are moved."""
     least = np.inf
-    for k in range(moved.shape[0]):
+    for k in range(pair):
         x = places[j, 0] - places[moved[k], 0]
         y = places[j, 1] - places[moved[k], 1]
         least = min(least, x * x + y * y)
@@ -37,7 +49,7 @@ def _away(places, j, moved):
 
 
 @helper
-def _about(board, radii, moved, wanted, found):
+def _about(board, radii, moved, pair, wanted, found):
     """Write the moved items and those nearest to them, by their x; returns how many.
 
     What is nearest goes by distances of centres less radii, ``(n,)``.
@@ -45,7 +57,7 @@ def _about(board, radii, moved, wanted, found):
     away = np.empty(wanted)
     held, farthest = 0, np.inf
     for j in range(radii.shape[0]):
-        squared = _away(board.places, j, moved)
+        squared = _away(board.places, j, moved, pair)
         if held == wanted and squared >= (farthest + radii[j]) ** 2 and farthest + radii[j] > 0.0:
             continue
         far = math.sqrt(squared) - radii[j]
@@ -58,7 +70,7 @@ def _about(board, radii, moved, wanted, found):
             k -= 1
         away[k], found[k] = far, j
         farthest = away[held - 1]
-    for k in range(moved.shape[0]):
+    for k in range(pair):
         is_new = True
         for h in range(held):
             is_new &= found[h] != moved[k]
@@ -79,12 +91,12 @@ def _about(board, radii, moved, wanted, found):
 
 
 @helper
-def _bound(board, item, moved, places, room, bound):
+def _bound(board, item, moved, pair, places, room, bound):
     """Write the box that an item must not leave: about its disc where it is put, or its own."""
     box = board.boxes[item]
     for c in range(4):
         bound[c] = box[c] + (room if c > 1 else -room)
-    for k in range(moved.shape[0]):
+    for k in range(pair):
         if moved[k] == item:
             reach = board.arms[item] * math.exp(places[k, 3]) + room
             bound[0], bound[1] = places[k, 0] - reach, places[k, 1] - reach
@@ -92,11 +104,11 @@ def _bound(board, item, moved, places, room, bound):
 
 
 @helper
-def _hull(boxes, count, hull):
+def _hull(boxes, begin, end, hull):
     """Write the box about some boxes."""
-    for c in range(4):
-        hull[c] = boxes[0, c]
-    for k in range(1, count):
+    hull[0] = hull[1] = np.inf
+    hull[2] = hull[3] = -np.inf
+    for k in range(begin, end):
         hull[0], hull[1] = min(hull[0], boxes[k, 0]), min(hull[1], boxes[k, 1])
         hull[2], hull[3] = max(hull[2], boxes[k, 2]), max(hull[3], boxes[k, 3])
 
@@ -116,76 +128,70 @@ def _comes_near(boxes, begin, end, left, top, right, bottom):
 
 
 @helper
-def _meet(boxes, count, hull, others, begin, end, margin):
-    """Whether some boxes, all in a hull, come within a margin of others."""
-    for b in range(begin, end):
-        left, top = others[b, 0] - margin, others[b, 1] - margin
-        right, bottom = others[b, 2] + margin, others[b, 3] + margin
+def _meet(boxes, begin, end, hull, margin):
+    """Whether some boxes, all in a hull, come within a margin of those before them."""
+    for b in range(begin):
+        left, top = boxes[b, 0] - margin, boxes[b, 1] - margin
+        right, bottom = boxes[b, 2] + margin, boxes[b, 3] + margin
         if hull[0] > right or hull[2] < left or hull[1] > bottom or hull[3] < top:
             continue
-        if _comes_near(boxes, np.int64(0), count, left, top, right, bottom):
+        if _comes_near(boxes, begin, end, left, top, right, bottom):
             return True
     return False
 
 
 @helper
-def _longer(found, count):
-    longer = np.empty(2 * count, np.int64)
-    for k in range(count):
-        longer[k] = found[k]
-    return longer
+def _add_near(boxes, begin, end, hull, solids, moved, margin, near, count):
+    """Write which solids come within a margin of some boxes, all in a hull, or are moved."""
+    for j in range(solids.shape[0] - 1):
+        left, top = solids[j, 0] - margin, solids[j, 1] - margin
+        right, bottom = solids[j, 2] + margin, solids[j, 3] + margin
+        is_near = hull[0] <= right and hull[2] >= left and hull[1] <= bottom and hull[3] >= top
+        if is_near:
+            is_near = _comes_near(boxes, begin, end, left, top, right, bottom)
+        if is_near or j == moved[0] or j == moved[1]:
+            near[count] = j
+            count += 1
+    return count
 
 
 @kernel
-def disjoint(board, radii, moved, places, neighbours, room, margin, most):
-    """The first of some trials and those after it whose neighbourhoods do not meet, ``most``.
+def disjoint(board, radii, moved, places, neighbours, room, margin, chosen):
+    """Choose the first of some trials and those after it whose neighbourhoods do not meet.
 
-    ``radii``: ``(n,)`` of all items; ``moved``: ``(p, 2)`` those that are put elsewhere, the second
-    -1 for one alone; ``places``: ``(p, 2, 4)`` where; ``neighbours``: how many give way for each of
-    these; ``room``: how far each may go; ``margin``: how near to what else.
+    As many as there is room for; returns how many. ``radii``: ``(n,)`` of all items; ``moved``:
+    ``(p, 2)`` those that are put elsewhere, the second -1 for one alone; ``places``: ``(p, 2, 4)``
+    where; ``neighbours``: how many give way for each of these; ``room``: how far each may go;
+    ``margin``: how near to what else.
     """
-    count, width = board.places.shape[0], 2 * neighbours + 4
-    trials, begins = np.empty(most, np.int64), np.zeros((most + 1, 2), np.int64)
-    items, bounds = np.empty(most * width, np.int64), np.empty((most * width, 4))
-    # Where the moved items were counts too.
-    reached, ends = np.empty((most * (width + 2), 4)), np.zeros(most + 1, np.int64)
-    near = np.empty(16 * most * width, np.int64)
-    here, boxes, hull = np.empty(width, np.int64), np.empty((width + 2, 4)), np.empty(4)
-    chosen = 0
+    begins, reached = chosen.begins, chosen.reached
+    hull = np.empty(4)
+    count = 0
     for p in range(moved.shape[0]):
-        if chosen == most:
+        if count == chosen.trials.shape[0]:
             break
+        begin, last = begins[count, 0], begins[count, 2]
+        here = chosen.items[begin:]
         pair = 2 if moved[p, 1] >= 0 else 1
-        held = _about(board, radii, moved[p, :pair], min(pair * (neighbours + 1), count), here)
+        wanted = min(pair * (neighbours + 1), radii.shape[0])
+        held = _about(board, radii, moved[p], pair, wanted, here)
         for k in range(held):
-            _bound(board, here[k], moved[p, :pair], places[p], room, boxes[k])
+            _bound(board, here[k], moved[p], pair, places[p], room, reached[last + k])
         for k in range(pair):
-            boxes[held + k] = board.boxes[moved[p, k]]
-        _hull(boxes, held + pair, hull)
-        if _meet(boxes, held + pair, hull, reached, np.int64(0), ends[chosen], margin):
+            for c in range(4):
+                reached[last + held + k, c] = board.boxes[moved[p, k], c]
+        end = last + held + pair
+        _hull(reached, last, end, hull)
+        if _meet(reached, last, end, hull, margin):
             continue
-        trials[chosen] = p
-        begin, last = begins[chosen, 0], begins[chosen, 1]
-        for k in range(held + pair):
-            reached[ends[chosen] + k] = boxes[k]
         for k in range(held):
-            items[begin + k], bounds[begin + k] = here[k], boxes[k]
-        for j in range(count):
-            left, top = board.boxes[j, 0] - margin, board.boxes[j, 1] - margin
-            right, bottom = board.boxes[j, 2] + margin, board.boxes[j, 3] + margin
-            is_near = hull[0] <= right and hull[2] >= left and hull[1] <= bottom and hull[3] >= top
-            if is_near:
-                is_near = _comes_near(boxes, np.int64(0), held, left, top, right, bottom)
-            is_near |= j == moved[p, 0] or j == moved[p, 1]
-            if is_near:
-                if last == near.shape[0]:
-                    near = _longer(near, last)
-                near[last] = j
-                last += 1
-        ends[chosen + 1] = ends[chosen] + held + pair
-        begins[chosen + 1, 0], begins[chosen + 1, 1] = begin + held, last
-        chosen += 1
-    return Chosen(
-        trials[:chosen], items[: begins[chosen, 0]], bounds[: begins[chosen, 0]],
-        near[: begins[chosen, 1]], begins[: chosen + 1],
-    )  # fmt: skip
+            for c in range(4):
+                chosen.bounds[begin + k, c] = reached[last + k, c]
+        chosen.trials[count] = p
+        count += 1
+        begins[count, 0], begins[count, 2] = begin + held, end
+        begins[count, 1] = _add_near(
+            reached, last, last + held, hull, board.boxes, moved[p], margin, chosen.near,
+            begins[count - 1, 1],
+        )  # fmt: skip
+    return count
