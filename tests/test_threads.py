@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import multiprocessing
 import threading
+import time
 
 import pytest
 
@@ -31,6 +32,43 @@ def test_what_fails_at_once_fails() -> None:
 
     with threads.using(4), pytest.raises(ValueError, match="seven"):
         threads.at_once(fail, [(k,) for k in range(20)])
+
+
+def test_calls_are_made_at_once() -> None:
+    both = threading.Barrier(2, timeout=30)
+    with threads.using(2):
+        threads.at_once(both.wait, [(), ()])
+
+
+def test_after_a_failure_no_call_begins() -> None:
+    made: list[int] = []
+
+    def fail(k: int) -> None:
+        made.append(k)
+        raise ValueError(k)
+
+    with threads.using(2), pytest.raises(ValueError, match=r"\d"):
+        threads.at_once(fail, [(k,) for k in range(50)])
+    assert len(made) <= 2
+
+
+def test_without_more_threads_one_makes_all(monkeypatch: pytest.MonkeyPatch) -> None:
+    def none_left(*_: object) -> None:
+        raise RuntimeError("can't start new thread")
+
+    monkeypatch.setattr(threading.Thread, "start", none_left)
+    monkeypatch.setattr(threads, "_pools", {})
+    with threads.using(4):
+        assert threads.at_once(abs, [(-k,) for k in range(9)]) == list(range(9))
+
+
+def test_threads_are_kept_and_no_more_than_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(threads, "_pools", {})
+    before = threading.active_count()
+    with threads.using(4):
+        for count in range(2, 12):
+            threads.at_once(time.sleep, [(0.001,)] * count)
+    assert threading.active_count() - before <= 3
 
 
 def _forked() -> None:

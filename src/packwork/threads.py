@@ -9,7 +9,7 @@ from __future__ import annotations
 import contextlib
 import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor, wait
+from concurrent.futures import Future, ThreadPoolExecutor, wait
 from contextvars import ContextVar
 from typing import Any, TypeVar
 
@@ -67,12 +67,20 @@ def at_once(call: Callable[..., Result], arguments: Sequence[tuple[Any, ...]]) -
 
     def work() -> None:
         # Python's lock lets one thread at a time take the next number.
-        for k in waiting:
-            found[k] = call(*arguments[k])
+        try:
+            for k in waiting:
+                found[k] = call(*arguments[k])
+        finally:
+            # Once a call has failed, none begins any more.
+            for _ in waiting:
+                pass
 
-    pool = _pool(helpers)
-    helping = [pool.submit(work) for _ in range(helpers)]
+    helping = list[Future[None]]()
     try:
+        # A process that ends, or one that may have no more threads, grants none: then without.
+        with contextlib.suppress(RuntimeError):
+            for _ in range(helpers):
+                helping.append(_pool(thread_count() - 1).submit(work))
         work()
     finally:
         # Those that have not begun would find nothing left to do.
@@ -84,6 +92,7 @@ def at_once(call: Callable[..., Result], arguments: Sequence[tuple[Any, ...]]) -
 
 
 def _pool(helpers: int) -> ThreadPoolExecutor:
+    """Threads that help: one pool for each number that runs may use, kept for later calls."""
     if helpers not in _pools:
         _pools[helpers] = ThreadPoolExecutor(helpers, "packwork")
     return _pools[helpers]

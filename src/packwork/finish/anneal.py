@@ -114,7 +114,7 @@ def anneal(
     rng
         The only source of randomness.
     stop
-        Asked before each trial; True ends the search.
+        Asked before each batch of trials that are made at once; True ends the search.
     tell
         Called with the number of each trial, once it has been kept or undone.
     pulling

@@ -5,11 +5,11 @@ from __future__ import annotations
 import functools
 import hashlib
 import sys
-from importlib import metadata
 from pathlib import Path
 
 import numpy as np
 import resvg_py
+import scipy
 import shapely
 
 from packwork import folders
@@ -21,10 +21,9 @@ FOLDERS = ("readers", "geometry", "raster", "fields", "fit", "scene")
 @functools.cache
 def reader_version() -> str:
     """One word for all code that reads drawings and letters."""
-    versions = (np, shapely, resvg_py)
+    # Of SciPy this loads no part that computes.
+    versions = (np, scipy, shapely, resvg_py)
     numbers = [str(getattr(module, "__version__", "")) for module in versions]
-    # Loading it takes a while, and which one it is can be read.
-    numbers.append(metadata.version("scipy"))
     whole = hashlib.sha256(repr((sys.version, shapely.geos_version, numbers)).encode())
     root = Path(folders.__file__).parent
     paths = [*root.glob("*.py"), *(p for f in FOLDERS for p in (root / f).rglob("*.py"))]

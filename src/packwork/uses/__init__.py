@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from packwork import threads
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.read import Material, job_of, read_room
 from packwork.pipeline.result import Run
@@ -90,7 +91,7 @@ def read(
 ) -> Job:
     """Read what a recipe names; the first half of :func:`fill`."""
     clock = Clock()
-    with clock.time("read"):
+    with clock.time("read"), threads.using(recipe.threads):
         return job_of(recipe, _material(recipe, items, container), clock)
 
 

@@ -112,3 +112,32 @@ def test_a_long_item_does_not_hold_all_later_ones_down(monkeypatch: pytest.Monke
     assert held_down[-1] < 0.1 * held_down[0]
     assert found[-1] > 3 * held_down[-1]
     assert (np.diff(found) <= 0).all()
+
+
+@pytest.mark.parametrize("unit", [0.01, 1.0, 100.0])
+def test_steps_go_on_through_items_that_find_no_place(unit: float) -> None:
+    container = Container("", "", box(0, 0, 100 * unit, 100 * unit), 100 * unit, 100 * unit)
+    square, bar = box(-1, -1, 1, 1), box(-40, -0.5, 40, 0.5)
+    asked = [Candidate(bar, 20 * unit), Candidate(square, 0.5), Candidate(bar, 0.5)]
+    asked += [Candidate(square, 0.8), Candidate(bar, 0.9), Candidate(square, 1.0)]
+    found = graded_fit(container, asked, 6, np.random.default_rng(0), smallest=1.5 * unit)
+    assert found.placed.tolist() == [1, 3, 5]
+    assert found.poses.scale / unit == pytest.approx([10.0, 4.0, 3.6])
+
+
+def test_the_unit_does_not_matter() -> None:
+    """Also where some items are put a second time, and other numbers of them find a place."""
+    square, bar = box(-1, -1, 1, 1), box(-18, -0.5, 18, 0.5)
+    asked = [Candidate(square, 1.0), Candidate(bar, 1.0), *[Candidate(square, 1.0)] * 6]
+
+    def placed(unit: float) -> Graded:
+        container = Container("", "", box(0, 0, 200 * unit, 100 * unit), 200 * unit, 100 * unit)
+        first = Candidate(square, 45 * unit)
+        rng = np.random.default_rng(0)
+        return graded_fit(container, [first, *asked], 9, rng, smallest=4 * unit)
+
+    ours = placed(1.0)
+    for unit in (2.0**-7, 2.0**7):
+        other = placed(unit)
+        assert other.placed.tolist() == ours.placed.tolist()
+        assert other.poses.scale / unit == pytest.approx(ours.poses.scale)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import glob
 import logging
-import os
 import warnings
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -24,6 +23,7 @@ from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.photo import read_photo
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.scene.item import Item
+from packwork.threads import thread_count
 
 MOST_AT_ONCE = 4
 """Photos decoded at a time. More need more memory: a broken header's worth of pixels each.
@@ -139,7 +139,7 @@ def _here(read: Callable[P, R]) -> Callable[P, R]:
 
 
 def _threads() -> int:
-    return min(MOST_AT_ONCE, os.cpu_count() or 1)
+    return min(MOST_AT_ONCE, thread_count())
 
 
 def _files(source: str, unread: list[ReadError]) -> list[_Named]:

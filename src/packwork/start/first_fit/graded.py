@@ -131,6 +131,7 @@ class _Descent:
         self._smallest, self.grid, self._drop = smallest, grid, drop
         self.placed, self.rows = list[int](), list[PoseRow]()
         self._number = self._missed = 0
+        self._most = 0.0
         self.least_share = 1.0
         """Smallest size over the one that an item might have had."""
 
@@ -147,9 +148,9 @@ class _Descent:
             self._number += 1
 
     def _put(self, candidate: Candidate) -> None:
-        last = self.rows[-1][3] if self.rows else 0.0
-        asked = _on_grid(last * candidate.step, self.grid)
-        most = min(last, asked) if self.rows else candidate.step
+        # Steps go on through items that find no place.
+        asked = _on_grid(self._most * candidate.step, self.grid)
+        most = self._most = min(self._most, asked) if self._number else candidate.step
         least = self._smallest or LEAST_SHARE * (self.rows[0][3] if self.rows else most)
         self._grading.is_loose = self._number >= TOUCHING * self._count
         sizes = sizes_down(most, max(least, self.grid), self.grid, self._drop)
@@ -160,17 +161,15 @@ class _Descent:
         self._missed = 0
         if self.rows:
             self.least_share = min(self.least_share, pose[3] / most)
+        self._most = pose[3]
         self.placed.append(self._number)
         self.rows.append(pose)
 
     def is_beyond(self, other: _Descent) -> bool:
         """Whether no fewer items are placed, and plainly larger ones."""
-        gain = self._sum_of_logarithms - other._sum_of_logarithms
-        return len(self.rows) >= len(other.rows) and gain > PLAINLY * len(self.rows)
-
-    @property
-    def _sum_of_logarithms(self) -> float:
-        return sum(math.log(row[3]) for row in self.rows)
+        mine, its = (dict(zip(one.placed, one.rows, strict=True)) for one in (self, other))
+        gains = [math.log(mine[k][3] / its[k][3]) for k in mine.keys() & its.keys()]
+        return len(mine) >= len(its) and math.fsum(gains) > PLAINLY * len(gains)
 
 
 def _opened(

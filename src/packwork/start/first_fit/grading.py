@@ -71,7 +71,8 @@ class Candidate:
     outline
         Item units.
     step
-        How many times the scale of the last one placed it may have; of the first, its scale.
+        How many times the scale that the one before had, or might have had where it found no
+        place, it may have; of the first, its scale.
     angles
         That it may have, radians, the preferred ones first: of those at which it fits in one
         size, the first is taken.
