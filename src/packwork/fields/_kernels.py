@@ -107,7 +107,8 @@ def _nearest_in_row(rows, r, away, columns):
     """
     width = len(rows)
     for c in range(width):
-        away[c] = -1 if rows[c] < 0 else np.int64(rows[c] - r) ** 2
+        down = np.int64(rows[c] - r)
+        away[c] = -1 if rows[c] < 0 else down * down
     # Columns that are nearest to some point of the row.
     stack = np.empty(width, np.int64)
     last = -1

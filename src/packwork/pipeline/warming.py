@@ -8,6 +8,7 @@ list; what it compiles comes back by way of the cache.
 from __future__ import annotations
 
 import contextlib
+import gc
 import json
 import os
 import signal
@@ -43,6 +44,23 @@ from packwork.solve.solver import solve
 
 KERNELS = 31
 """Kernels that all parts compile; a test counts them."""
+
+MODULES = (
+    "packwork.compaction.kernels.distances",
+    "packwork.compaction.kernels.interior_point",
+    "packwork.compaction.kernels.neighbourhoods",
+    "packwork.compaction.kernels.outer_simplify",
+    "packwork.compaction.kernels.steps",
+    "packwork.compaction.kernels.trials",
+    "packwork.fields._kernels",
+    "packwork.geometry._kernels",
+    "packwork.losses._kernels",
+    "packwork.raster.kernels.coverage",
+    "packwork.raster.kernels.membership",
+    "packwork.solve._kernels",
+)
+"""Modules of these kernels; a test compares them. Once all are kept, no second process is started,
+whatever else a verb has loaded."""
 
 SECONDS_BETWEEN = 0.05
 """Time between two looks at the second process. Chosen."""
@@ -103,6 +121,8 @@ def warm_up(counted: Counted | None = None, second: bool = False) -> None:
 def help_out(claims: str) -> None:
     """Compile parts that are not claimed yet, last ones first; what a second process does."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    # A tenth of the time goes into looking for garbage, of which there is little.
+    gc.set_threshold(50_000)
 
     def follow() -> None:
         # The other end is closed when the parent process has ended, however that was.
@@ -164,10 +184,8 @@ def _may_have_help() -> bool:
 
 def _mark() -> str | None:
     """What is kept beside the kernels once all parts are; None where texts are not to be had."""
-    ours = [name for name in sys.modules if name.startswith("packwork.")]
-    names = [name for name in ours if compiled.holds_kernels(name)]
     try:
-        return compiled.mark_of(names)
+        return compiled.mark_of(MODULES)
     except OSError:
         return None
 
@@ -236,14 +254,20 @@ def trials() -> None:
     trial = Trial(one, near.places[None].copy(), one, one, box)
     rounds = Rounds(0.1, np.full(1, 0.1), np.full(1, np.inf))
     attempt(near.board, _objective(), trial, rounds, np.inf, -np.inf, 0.0, 0.01)
-    distances.nearby(near.board.boxes, one, 1.0)
+
+
+def neighbourhoods() -> None:
+    """Which trials may be made at once."""
+    near = _arrangement()
+    distances.nearby(near.board.boxes, np.arange(1), 1.0)
     moved, places = np.array([[0, -1]]), np.zeros((1, 2, 4))
     disjoint(near.board, near.radii, moved, places, 6, 1.0, 1.0, room_for(1, 6, 1))
 
 
-PARTS: tuple[Part, ...] = (levels, checks, trials, pairs, contacts, programmes)
-"""All parts; what shares helpers is one part, since each process compiles its own. Trials are made
-of contacts and programmes, which a second process has ready then."""
+PARTS: tuple[Part, ...] = (levels, checks, trials, neighbourhoods, pairs, contacts, programmes)
+"""All parts; what shares helpers is one part, since each process compiles its own. Trials share
+some with checks, which the same process does before, and are made of contacts and programmes,
+which a second, at work from the end, has ready then."""
 
 
 def _arrangement() -> Arrangement:
