@@ -9,15 +9,16 @@ from hypothesis import strategies as st
 
 from packwork.arrays import BoolArray
 from packwork.fields.clearance import distance_inside
+from packwork.geometry.outline import Outline
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.occupancy import Occupancy
-from packwork.start.first_fit.stencil import Stencil
+from packwork.start.first_fit.stencil import TALLEST, Stencil, cut, stencil_of
 
 REACH = 2
 
 
 def _stencil(mask: BoolArray) -> Stencil:
-    return Stencil(mask, (0, 0), _kernels.runs_of(mask), _kernels.fringe_of(mask, REACH))
+    return stencil_of(mask, (0, 0), REACH)
 
 
 def _touching(mask: BoolArray, free: BoolArray, row: int, column: int) -> float | None:
@@ -106,7 +107,7 @@ def test_an_origin_comes_only_where_it_may(is_everywhere: bool) -> None:
     worth = np.full(free.shape, -np.inf)
     worth[9, 65] = worth[1, 30] = 0.0
     mask = np.ones((3, 4), dtype=bool)
-    stencil = Stencil(mask, (1, 2), _kernels.runs_of(mask), _kernels.fringe_of(mask, REACH))
+    stencil = stencil_of(mask, (1, 2), REACH)
     occupancy = Occupancy(free, REACH)
     found = []
     while (place := occupancy.best_place(stencil, worth, is_everywhere)) is not None:
@@ -126,15 +127,51 @@ def test_what_lies_off_the_occupancy_is_not_kept() -> None:
 
 
 @given(st.integers(0, 2**32), st.integers(1, 200))
-def test_smeared_rows_tell_of_any_pixel_within_their_length(seed: int, width: int) -> None:
+def test_smeared_rows_tell_of_any_pixel_within_their_box(seed: int, width: int) -> None:
     rng = np.random.default_rng(seed)
-    taken = rng.random(width) < 0.1
-    occupancy = Occupancy(~taken[None, :], 1)
-    beyond = np.concatenate([taken, np.ones(600, dtype=bool)])
-    bits = np.unpackbits(occupancy._rows[0].view(np.uint8), axis=1, bitorder="little")
-    for level, row in enumerate(bits):
-        want = [beyond[x : x + 2**level].any() for x in range(width)]
-        assert row[:width].astype(bool).tolist() == want
+    taken = rng.random((12, width)) < 0.05
+    occupancy = Occupancy(~taken, 1)
+    # What is taken later is smeared upwards too.
+    occupancy.take(_stencil(np.ones((2, 1), dtype=bool)), 9, width // 2)
+    taken[9:11, width // 2] = True
+    beyond = np.pad(taken, ((0, 0), (0, 600)), constant_values=True)
+    rows = occupancy._rows[..., : -(-width // 64)].copy()
+    bits = np.unpackbits(rows.view(np.uint8), axis=-1, bitorder="little")[..., :width]
+    for tall in range(TALLEST + 1):
+        for level in range(bits.shape[2]):
+            y, x = rng.integers(12), rng.integers(width)
+            want = beyond[y : y + 2**tall, x : x + 2**level].any()
+            assert bool(bits[y, tall, level, x]) == want
+
+
+@given(st.integers(0, 2**32))
+def test_boxes_cover_a_mask_and_nothing_else(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    mask = rng.random(rng.integers(1, 40, size=2)) < rng.choice([0.5, 0.95, 1.0])
+    covered = np.zeros_like(mask)
+    for row, first, tall, wide, j, k in _kernels.boxes_of(mask, TALLEST):
+        covered[row : row + tall, first : first + wide] = True
+        # Two of these heights and widths cover the box.
+        assert 2**j <= tall <= 2 ** (j + 1)
+        assert j <= TALLEST
+        assert 2**k <= wide < 2 ** (k + 1)
+    assert (covered == mask).all()
+
+
+@pytest.mark.parametrize("margin", [0.3, 1.0, 2.0, 3.0])
+def test_a_margin_takes_what_is_near_the_outline(margin: float) -> None:
+    """All that a buffer covers, and not much more; holes get smaller."""
+    tall = np.array([[0.0, 0], [20, 0], [20, 30], [12, 30], [12, 8], [8, 8], [8, 30], [0, 30]])
+    hole = np.array([[2.0, 2], [2, 6], [6, 6], [6, 2]])
+    outline = Outline.from_rings([tall + 0.25, hole + 0.25])
+    mask = cut(outline, 1, margin)
+    want = cut(Outline.from_region(outline.region.buffer(margin)), 1)
+    down, along = np.subtract(mask.origin, want.origin)
+    grown = np.zeros_like(mask.mask)
+    height, width = want.mask.shape
+    grown[down : down + height, along : along + width] = want.mask
+    assert not (grown & ~mask.mask).any()
+    assert np.count_nonzero(mask.mask) <= 1.1 * np.count_nonzero(grown)
 
 
 def test_clearance_is_kept_up() -> None:

@@ -2,64 +2,87 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 
 from packwork.compiled import helper, kernel
 
 ALL = np.uint64(0xFFFFFFFFFFFFFFFF)
-ONE = np.uint64(1)
+ONE, LAST = np.uint64(1), np.uint64(63)
+TINY = 1e-300
+SHARP = 0.5
+"""1 plus the cosine of the turn from which on an offset's corners are twice the distance off."""
 
 
 @kernel
-def smear(rows, top, bottom):
-    """Write ``rows[y, k, x] = any(rows[y, 0, x : x + 2**k])``; taken beyond the last word."""
-    levels, words = rows.shape[1], rows.shape[2]
+def smear(rows, words, top, bottom):
+    """Write whether any pixel of a box is taken, for rows from ``top`` to before ``bottom``.
+
+    ``rows[y, j, k, x] = any(rows[y : y + 2**j, 0, 0, x : x + 2**k])`` in the first ``words``; all
+    is taken in the words after them, and free below the last row. Rows above ``top`` whose boxes
+    reach down there are written as well.
+    """
+    height, tall, levels = rows.shape[:3]
     for y in range(top, bottom):
         for k in range(1, levels):
             shift = 1 << (k - 1)
             whole, part = shift >> 6, np.uint64(shift & 63)
             for i in range(words):
-                rows[y, k, i] = rows[y, k - 1, i] | _from(rows[y, k - 1], i + whole, part)
-
-
-@helper
-def _from(row, i, part):
-    """Return 64 pixels of a row, from bit ``part`` of its word ``i`` on."""
-    words = len(row)
-    here = row[i] if i < words else ALL
-    if part == np.uint64(0):
-        return here
-    after = row[i + 1] if i + 1 < words else ALL
-    return (here >> part) | (after << (np.uint64(64) - part))
+                row = rows[y, 0, k - 1]
+                ahead = (row[i + whole] >> part) | ((row[i + whole + 1] << ONE) << (LAST - part))
+                rows[y, 0, k, i] = row[i] | ahead
+    for j in range(1, tall):
+        below = 1 << (j - 1)
+        for y in range(max(top - 2 * below + 1, 0), bottom):
+            for k in range(levels):
+                for i in range(words):
+                    rows[y, j, k, i] = rows[y, j - 1, k, i]
+                    if y + below < height:
+                        rows[y, j, k, i] |= rows[y + below, j - 1, k, i]
 
 
 @kernel
-def find_free(rows, runs, height, free):
-    """Set a bit of ``free`` where no run of the stencil, moved there, meets a taken pixel."""
+def find_free(rows, boxes, height, free):
+    """Set a bit of ``free`` where no box of the stencil, moved there, meets a taken pixel."""
     words = free.shape[1]
     for y in range(free.shape[0]):
         if y + height > rows.shape[0]:
-            for i in range(words):
-                free[y, i] = np.uint64(0)
+            free[y] = np.uint64(0)
             continue
-        for i in range(words):
-            free[y, i] = ALL
-        for r in range(len(runs)):
-            row, first, length, level = runs[r]
-            last = first + length - (1 << level)
-            whole_a, part_a = first >> 6, np.uint64(first & 63)
-            whole_b, part_b = last >> 6, np.uint64(last & 63)
-            smeared = rows[y + row, level]
-            left = np.uint64(0)
-            for i in range(words):
-                if free[y, i] != np.uint64(0):
-                    taken = _from(smeared, i + whole_a, part_a)
-                    if last != first:
-                        taken |= _from(smeared, i + whole_b, part_b)
-                    free[y, i] &= ~taken
-                    left |= free[y, i]
+        free[y] = ALL
+        # Only from the first to the last word in which something is free.
+        begin, end = 0, words
+        for r in range(len(boxes)):
+            row, first, tall, wide, j, k = boxes[r]
+            last = first + wide - (1 << k)
+            lowest = row + tall - (1 << j)
+            left = _without(rows[y + row, j, k, begin:], first, last, free[y, begin:end])
+            if lowest != row and left != np.uint64(0):
+                left = _without(rows[y + lowest, j, k, begin:], first, last, free[y, begin:end])
             if left == np.uint64(0):
                 break
+            while free[y, begin] == np.uint64(0):
+                begin += 1
+            while free[y, end - 1] == np.uint64(0):
+                end -= 1
+
+
+@helper
+def _without(smeared, first, last, free):
+    """Clear bits of ``free`` where ``smeared`` is taken so far on; what is left, 0 if nothing."""
+    # No branches: several words go through at once.
+    one, behind = smeared[first >> 6 :], smeared[(first >> 6) + 1 :]
+    other, beyond = smeared[last >> 6 :], smeared[(last >> 6) + 1 :]
+    near, far = np.uint64(first & 63), np.uint64(last & 63)
+    left = np.uint64(0)
+    for i in range(len(free)):
+        taken = (one[i] >> near) | ((behind[i] << ONE) << (LAST - near))
+        taken |= (other[i] >> far) | ((beyond[i] << ONE) << (LAST - far))
+        here = free[i] & ~taken
+        free[i] = here
+        left |= here
+    return left
 
 
 @kernel
@@ -160,26 +183,61 @@ def _is_amid(mask, y, x):
 
 
 @kernel
-def runs_of(mask):
-    """Return runs of a mask, ``(r, 4)``: row, first column, length, log2 of it rounded down."""
-    runs = np.empty((mask.size // 2 + mask.shape[0] + 1, 4), np.int64)
+def offset(points, starts, distance):
+    """Return vertices moved outwards until edges are ``distance`` off, sharp corners less far."""
+    moved = points.copy()
+    for r in range(len(starts) - 1):
+        begin, end = starts[r], starts[r + 1]
+        for v in range(begin, end):
+            u = v - 1 if v > begin else end - 1
+            w = v + 1 if v + 1 < end else begin
+            ax, ay = points[v, 0] - points[u, 0], points[v, 1] - points[u, 1]
+            bx, by = points[w, 0] - points[v, 0], points[w, 1] - points[v, 1]
+            a, b = max(math.hypot(ax, ay), TINY), max(math.hypot(bx, by), TINY)
+            ax, ay, bx, by = ax / a, ay / a, bx / b, by / b
+            # Twice the distance at most.
+            step = distance / max(1.0 + ax * bx + ay * by, SHARP)
+            moved[v, 0] += step * (ay + by)
+            moved[v, 1] -= step * (ax + bx)
+    return moved
+
+
+@kernel
+def boxes_of(mask, tallest):
+    """Return boxes that cover a mask and nothing else, ``(r, 6)``.
+
+    Row, first column, height, width, and log2 of both rounded down, of the height ``tallest`` at
+    most. Each run of a row goes down as far as the mask has all of it; what is covered so begins no
+    box.
+    """
+    height, width = mask.shape
+    boxes = np.empty((mask.size // 2 + height + 1, 6), np.int64)
+    is_covered = np.zeros((height, width), np.bool_)
     found = 0
-    for y in range(mask.shape[0]):
+    for y in range(height):
         x = 0
-        while x < mask.shape[1]:
+        while x < width:
             if not mask[y, x]:
                 x += 1
                 continue
-            first = x
-            while x < mask.shape[1] and mask[y, x]:
+            first, is_new = x, False
+            while x < width and mask[y, x]:
+                is_new = is_new or not is_covered[y, x]
                 x += 1
-            length = x - first
-            level = 0
-            while (2 << level) <= length:
-                level += 1
-            runs[found] = (y, first, length, level)
+            if not is_new:
+                continue
+            tall = 1
+            while tall < 2 << tallest and y + tall < height and mask[y + tall, first:x].all():
+                tall += 1
+            is_covered[y : y + tall, first:x] = True
+            j, k = 0, 0
+            while j < tallest and (2 << j) <= tall:
+                j += 1
+            while (2 << k) <= x - first:
+                k += 1
+            boxes[found] = (y, first, tall, x - first, j, k)
             found += 1
-    return runs[:found].copy()
+    return boxes[:found].copy()
 
 
 @kernel

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TypeAlias
 
 import numpy as np
@@ -19,7 +20,6 @@ from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.forces.forces import FieldForce
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
-from packwork.geometry.simplify import grown
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
@@ -27,34 +27,68 @@ from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import allowed_pixels
 from packwork.start.first_fit.kind_penalty import KindPenalty
 from packwork.start.first_fit.occupancy import Occupancy
-from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut_all
+from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut
 from packwork.start.first_poses import container_image
 
 Key: TypeAlias = tuple[int, float, float]
 """Which outline, its scale, its angle."""
 
-PIXELS_EACH = 28
-"""Pixels of the image's side for each item of a row of them. More waste less room at the
-edges of pixels and take longer. Tried."""
 
-LEAST_PX, MOST_PX = 280, 600
-"""Sides of that image at least and at most. As above."""
+@dataclass(frozen=True)
+class Grain:
+    """How finely places and sizes are sought. All tried.
 
-REACH = 3
-"""Width of the fringe, pixels, in which taken pixels are counted; 5 and 8 are no better. Tried."""
+    Parameters
+    ----------
+    pixels_each, least_px
+        Pixels of the image's side for each item of a row of them, and its side at least. More waste
+        less room at the edges of pixels and take longer.
+    reach, most_fringe
+        Width of the fringe, pixels, in which taken pixels are counted, and how many of them are
+        looked at. More tell better which place is best, up to a point, and take longer.
+    first_share
+        Share of the container that the first try's items cover. Any other takes more tries.
+    stride, close
+        Factor between the first two sizes tried, squared with each one until one fits and one does
+        not; and the factor between those two at which the search ends. Smaller finds more.
+    """
 
-FIRST_SHARE = 0.45
-"""Share of the container that the first try's items cover. Any other takes more tries."""
+    pixels_each: float
+    least_px: int
+    reach: int
+    most_fringe: int
+    first_share: float
+    stride: float
+    close: float
 
-STRIDE, CLOSE = 1.12, 1.02
-"""Factor between sizes tried until one fits and one does not, and the factor between those
-two at which the search ends. Smaller finds more, which the finish would find as well. Chosen."""
+
+TURNING = Grain(28, 280, 3, 96, 0.45, 1.12, 1.02)
+"""Of items that are tried at several angles, each of which takes as long as one item."""
+
+ROUGH = Grain(28, 300, 3, 96, 0.5, 1.06, 1.03)
+"""Of items of one angle, to begin with."""
+
+AFTER_ROUGH = Grain(60, 600, 6, 300, 0.5, 1.02, 1.01)
+"""Of the same, once a size is known that fits on the coarser image."""
+
+UPRIGHT = Grain(60, 600, 3, 96, 0.5, 1.06, 1.01)
+"""Of so many items of one angle, few pixels each, that the coarser image says too little."""
+
+MOST_ROUGH = 144
+"""How many items begin on the coarser image. Larger begins many with a size far off. Chosen."""
+
+FINER = 1.04
+"""How much larger items fit on the fine image than on that one. Larger or smaller takes more tries.
+Measured on five shapes."""
+
+MOST_PX = 600
+"""Side of an image at most. Larger takes longer. Tried."""
 
 MOST_SIZES = 24
 """Sizes tried at most: should nothing fit at a tenth of the first, nothing will. Chosen."""
 
-SPARE = 1.15
-"""How much wider a margin is drawn than needed, so that it need not be drawn anew. Chosen."""
+MOST_STRIDE = 1.12
+"""Factor between two sizes tried, at most. Chosen."""
 
 URGENCY = 2.0
 """Factor on the area by which items are ordered, for one that found no place. Chosen."""
@@ -106,7 +140,8 @@ def first_fit(
         More of it, as a share of the item's extent: what later stages take it for may be
         as much wider.
     attempts
-        Orders tried for each size: the item that found no place comes earlier the next time.
+        Orders tried for each size: the item that found no place comes earlier the next time. Of
+        items of one angle, placed more closely, half as many; of many of those a quarter.
     limits
         Which items have to lie where.
     fields
@@ -129,10 +164,22 @@ def first_fit(
     """
     own = np.array([outline.area for outline in outlines])
     share = float((own * scales**2).sum()) / container.outline.area
-    fitting = _Fitting(
-        container, outlines, scales, angles, rng, margin_cu, slack, limits, fields, kinds
-    )
-    return fitting.largest(math.sqrt(FIRST_SHARE / share), attempts, stop)
+
+    def fitting(grain: Grain) -> _Fitting:
+        return _Fitting(
+            grain, container, outlines, scales, angles, rng, margin_cu, slack, limits, fields, kinds
+        )
+
+    def first(grain: Grain) -> float:
+        return math.sqrt(grain.first_share / share)
+
+    if max(map(len, angles)) > 1:
+        return fitting(TURNING).loosened(first(TURNING), attempts, stop)
+    if len(outlines) > MOST_ROUGH:
+        return fitting(UPRIGHT).loosened(first(UPRIGHT), -(-attempts // 4), stop)
+    rough = fitting(ROUGH).largest(first(ROUGH), 1, stop)
+    factor = first(AFTER_ROUGH) if rough is None else FINER * rough[0]
+    return fitting(AFTER_ROUGH).loosened(factor, -(-attempts // 2), stop)
 
 
 class _Fitting:
@@ -140,6 +187,7 @@ class _Fitting:
 
     def __init__(
         self,
+        grain: Grain,
         container: Container,
         outlines: Sequence[Outline],
         scales: FloatArray,
@@ -152,12 +200,12 @@ class _Fitting:
         kinds: IntArray | None,
     ) -> None:
         count = len(outlines)
-        side = int(np.clip(round(PIXELS_EACH * math.sqrt(count)), LEAST_PX, MOST_PX))
+        self._grain = grain
+        side = int(np.clip(round(grain.pixels_each * math.sqrt(count)), grain.least_px, MOST_PX))
         image, self._px_per_cu = container_image(container, side)
         self._inside: BoolArray = image > 1 - TOUCHED
         self._outlines, self._scales, self._angles = outlines, scales, angles
         self._margin_cu, self._slack = margin_cu, slack
-        self._wide: dict[int, tuple[float, Outline]] = {}
         self._areas = np.array([outline.area for outline in outlines]) * scales**2
         self._urgency, self._kinds = self._areas, kinds
         self._penalty: KindPenalty | None = None
@@ -169,31 +217,34 @@ class _Fitting:
         self._heights = _heights(fields, image.shape, self._px_per_cu)
         self._homes = allowed_pixels(limits, image, self._px_per_cu)
 
-    def largest(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
-        """Poses at the largest factor found, beginning with one."""
-        low, high = 0.0, math.inf
+    def largest(self, factor: float, attempts: int, stop: Stop) -> tuple[float, Poses] | None:
+        """The largest factor found, beginning with one, and poses at it."""
+        low, high, stride = 0.0, math.inf, self._grain.stride
         found: Poses | None = None
         for _ in range(MOST_SIZES):
-            if stop() or high <= low * CLOSE:
+            if stop() or high <= low * self._grain.close:
                 break
             poses = self._put_all(factor, attempts, stop)
             if poses is None:
                 high = factor
             else:
                 low, found = factor, poses
-            if found is None:
-                factor = high / STRIDE
-            elif high == math.inf:
-                factor = low * STRIDE
+            if found is None or high == math.inf:
+                factor = high / stride if found is None else low * stride
+                stride = min(stride**2, MOST_STRIDE)
             else:
                 factor = math.sqrt(low * high)
-        return found if found is None else self._loosened(found, stop)
+        return found if found is None else (low, found)
 
-    def _loosened(self, tight: Poses, stop: Stop) -> Poses:
-        """The same sizes, the last and smallest where there is most room.
+    def loosened(self, factor: float, attempts: int, stop: Stop) -> Poses | None:
+        """Poses at the largest factor found, the last and smallest where there is most room.
 
         What is left over is else one large void, where the last items would have come.
         """
+        best = self.largest(factor, attempts, stop)
+        if best is None:
+            return None
+        tight = best[1]
         stencils = self._stencils(tight.scale, stop)
         if stencils is None:
             return tight
@@ -242,7 +293,7 @@ class _Fitting:
         The last of the order, ``loose`` of them, go where there is most room.
         """
         is_loose = np.isin(np.arange(len(order)), order[len(order) - loose :])
-        occupancy = Occupancy(self._inside, REACH)
+        occupancy = Occupancy(self._inside, self._grain.reach, self._grain.most_fringe)
         self._penalty = None if self._kinds is None else KindPenalty(self._inside, self._kinds)
         x, y, angle = np.zeros((3, len(scales)))
         poses = Poses(x, y, angle, scales)
@@ -300,28 +351,18 @@ class _Fitting:
 
     def _stencils(self, scales: FloatArray, stop: Stop) -> dict[Key, Stencil] | None:
         """Stencils of all items at all their angles, equal ones cut once; None if stopped."""
-        wanted: dict[Key, Outline] = {}
+        found: dict[Key, Stencil] = {}
         for k, outline in enumerate(self._outlines):
             if stop():
                 return None
-            scale = scales[k]
+            scale = float(scales[k])
+            margin_px = (self._margin_cu + self._slack * outline.extent * scale) * self._px_per_cu
             for turn in self._angles[k]:
                 key = self._key(k, scale, turn)
-                if key not in wanted:
-                    wide = self._with_margin(outline, float(scale))
-                    wanted[key] = wide.mapped(similarity(0.0, 0.0, turn, scale * self._px_per_cu))
-        return cut_all(wanted, REACH)
-
-    def _with_margin(self, outline: Outline, scale: float) -> Outline:
-        """The outline with its margin, or a little more: one that serves several sizes."""
-        needed = self._margin_cu / scale + self._slack * outline.extent
-        if needed == 0:
-            return outline
-        margin, wide = self._wide.get(id(outline), (0.0, outline))
-        if not needed <= margin <= SPARE**2 * needed:
-            wide = grown(outline, SPARE * needed)
-            self._wide[id(outline)] = (SPARE * needed, wide)
-        return wide
+                if key not in found:
+                    posed = outline.mapped(similarity(0.0, 0.0, turn, scale * self._px_per_cu))
+                    found[key] = cut(posed, self._grain.reach, margin_px)
+        return found
 
     def _key(self, item: int, scale: float, turn: float) -> Key:
         return id(self._outlines[item]), float(scale), float(turn)

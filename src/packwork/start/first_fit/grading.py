@@ -229,6 +229,6 @@ class Grading:
         wide = math.ceil(self._reach)
         near = _kernels.grown(stencil.mask, wide, self._reach)
         origin = (stencil.origin[0] + wide, stencil.origin[1] + wide)
-        margin = Stencil(near, origin, stencil.runs, stencil.fringe)
+        margin = Stencil(near, origin, stencil.boxes, stencil.fringe)
         self._occupancy.take(margin, row - wide, column - wide)
         self._left -= int(near.sum())

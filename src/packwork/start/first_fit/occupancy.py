@@ -10,13 +10,13 @@ from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.clearance import distance_inside
 from packwork.fields.distance_transform import distance_to
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.stencil import Stencil
+from packwork.start.first_fit.stencil import TALLEST, Stencil
 
 LEVELS = 10
-"""Lengths of runs that are looked at in one step: powers of two up to 512."""
+"""Widths of boxes that are looked at in one step: powers of two up to 512."""
 
 MOST_FRINGE = 96
-"""Pixels round a stencil that are looked at, at most: every so manieth of a longer fringe."""
+"""The same unless more are asked for."""
 
 
 class Occupancy:
@@ -28,13 +28,15 @@ class Occupancy:
         ``(rows, columns)`` the pixels that may be taken.
     margin
         Pixels by which a fringe may reach out of a box.
+    most_fringe
+        Pixels round a stencil that are looked at, at most: every so manieth of a longer fringe.
 
     Examples
     --------
     >>> from packwork.geometry.outline import Outline
-    >>> from packwork.start.first_fit.stencil import cut_all
+    >>> from packwork.start.first_fit.stencil import cut
     >>> tile = Outline.from_rings([np.array([[0.0, 0], [2, 0], [2, 2], [0, 2]])])
-    >>> stencil = cut_all({"tile": tile}, 1)["tile"]
+    >>> stencil = cut(tile, 1)
     >>> occupancy = Occupancy(np.ones((2, 5), dtype=bool), 1)
     >>> worth = np.zeros((2, 5))
     >>> while (place := occupancy.best_place(stencil, worth)) is not None:
@@ -45,15 +47,17 @@ class Occupancy:
     0.83 0 2
     """
 
-    def __init__(self, free: BoolArray, margin: int) -> None:
+    def __init__(self, free: BoolArray, margin: int, most_fringe: int = MOST_FRINGE) -> None:
         height, width = free.shape
         self.shape = (height, width)
-        self._margin = margin
+        self._margin, self._most_fringe = margin, most_fringe
         # Beyond the picture all is taken; bits, and bytes to count touched ones on.
         self.taken = np.ones((height + 2 * margin, width + 2 * margin), dtype=np.uint8)
         self.taken[margin : margin + height, margin : margin + width] = ~free
         self._words = -(-width // 64)
-        self._rows = np.full((height, LEVELS, self._words), _kernels.ALL, dtype=np.uint64)
+        self._rows = np.full(
+            (height, TALLEST + 1, LEVELS, 2 * self._words + 1), _kernels.ALL, dtype=np.uint64
+        )
         self._free = np.empty((height, self._words), dtype=np.uint64)
         self._clearance: FloatArray | None = None
         self.widest = 0.0
@@ -65,8 +69,10 @@ class Occupancy:
         inner = self.taken[self._margin : self._margin + height, self._margin :][:, :width]
         bits = np.ones((bottom - top, self._words * 64), dtype=np.uint8)
         bits[:, :width] = inner[top:bottom]
-        self._rows[top:bottom, 0] = np.packbits(bits, axis=1, bitorder="little").view("<u8")
-        _kernels.smear(self._rows, top, bottom)
+        self._rows[top:bottom, 0, 0, : self._words] = np.packbits(
+            bits, axis=1, bitorder="little"
+        ).view("<u8")
+        _kernels.smear(self._rows, self._words, top, bottom)
 
     def best_place(
         self,
@@ -89,10 +95,10 @@ class Occupancy:
             ``(rows, columns)`` that is added as well, so many times; None for none.
         """
         height = stencil.mask.shape[0]
-        _kernels.find_free(self._rows, stencil.runs, height, self._free)
+        _kernels.find_free(self._rows, stencil.boxes, height, self._free)
         fringe = stencil.fringe
-        if len(fringe) > MOST_FRINGE:
-            fringe = fringe[:: -(-len(fringe) // MOST_FRINGE)]
+        if len(fringe) > self._most_fringe:
+            fringe = fringe[:: -(-len(fringe) // self._most_fringe)]
         steps = fringe[:, 0] * self.taken.shape[1] + fringe[:, 1]
         origin = np.array(stencil.origin)
         score, row, column = _kernels.best_touching(
