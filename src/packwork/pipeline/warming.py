@@ -55,6 +55,7 @@ MODULES = (
     "packwork.fields._kernels",
     "packwork.geometry._kernels",
     "packwork.losses._kernels",
+    "packwork.raster.kernels.bounds",
     "packwork.raster.kernels.coverage",
     "packwork.raster.kernels.membership",
     "packwork.solve._kernels",
