@@ -143,10 +143,12 @@ def needs_levels(job: Job, forces: Forces) -> bool:
 def is_only_refined(job: Job, forces: Forces) -> bool:
     """Whether a few small steps of the finish do with what first fit has put down.
 
-    So it is where many items keep their angles: those that turn gain by as many larger ones.
+    So it is where many words keep their angles: those that turn, and icons, gain by as many larger
+    ones.
     """
     is_told = forces.acts or job.is_limited or job.plan.effort == "best"
-    is_still = job.plan.rotation.is_still and len(job.items) > FEW
+    are_words = len(job.use.words) == len(job.items) > FEW
+    is_still = job.plan.rotation.is_still and are_words
     return job.plan.sizes == "shared" and is_still and not is_told
 
 
