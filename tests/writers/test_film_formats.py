@@ -209,6 +209,23 @@ def test_same_film_same_bytes_and_somebody_is_told(make_film: MakeFilm, ending: 
     assert told[-1] == 1.0
 
 
+@pytest.mark.parametrize("ending", [".mp4", ".webm"])
+def test_memory_that_nobody_has_written_is_in_no_video(
+    make_film: MakeFilm, ending: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    noise = np.random.default_rng(0)
+    film = make_film(film_pixels=100)
+    frame = Projector(film, is_even=True).frame
+    pictures = noise.integers(0, 255, (6, frame.rows, frame.columns, 3), dtype=np.uint8)
+    monkeypatch.setattr("packwork.writers.film.video._held", lambda *_: iter(pictures))
+    made = set()
+    for _ in range(12):
+        dirt = [noise.bytes(size) for size in noise.integers(1_000, 200_000, 20)]
+        del dirt[::2]
+        made.add(film_bytes(film, f"a{ending}"))
+    assert len(made) == 1
+
+
 def test_every_ending_has_a_test_here() -> None:
     assert set(FILMS) == {".svg", ".gif", ".apng", ".webp", ".mp4", ".webm", ".json"}
 
