@@ -12,22 +12,16 @@ from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.losses.evenness import evenness
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
-from packwork.losses.recall import Recall
 from packwork.losses.registry import find_loss, find_pose_loss, loss_name
 from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, checked_term
 from packwork.progress import Objective
 from packwork.raster.coverage import Rasteriser
-from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.solve.ensemble import Ensemble
+from packwork.solve.ground import Ground
 from packwork.solve.zones import ZonePull
-
-RECALL_PX = 200
-"""Finest image on which the way back to the container is looked up. Larger costs a
-distance transform that no item notices. Chosen."""
-
 
 class Level:
     """Renders all items at one resolution and reads the losses' pose gradients.
@@ -48,6 +42,8 @@ class Level:
         Zones that items stay in and kinds to keep apart.
     forces
         What pulls items about.
+    ground
+        What there is to fill; of the container unless given.
     """
 
     def __init__(
@@ -59,19 +55,20 @@ class Level:
         nominal: FloatArray | None = None,
         limits: Limits = NO_LIMITS,
         forces: Forces = NO_FORCES,
+        ground: Ground | None = None,
     ) -> None:
         self._forces = forces
         self.resolution = resolution
         self.px_per_cu = resolution / container.side
-        shape = image_shape(container.width, container.height, resolution)
+        ground = ground or Ground.of(container, resolution)
+        self.container_image, self._recall = ground.room, ground.recall
+        shape = self.container_image.shape
         self.rasteriser = Rasteriser(shape, np.float32)
-        self.container_image = region_image(container.outline, self.rasteriser, self.px_per_cu)
         self.ensemble = Ensemble(outlines)
         self.areas = np.array([o.area for o in outlines])
         """``(n,)`` areas of the outlines as this level sees them, item units squared."""
         self._fused = FusedAdjoint(self.container_image, len(outlines))
         self._container_area = container.outline.area
-        self._recall = _recall(container, min(resolution, RECALL_PX))
         self._nominal = np.ones(len(outlines)) if nominal is None else nominal
         self._kinds = limits.kinds if limits.binds else np.arange(len(outlines))
         self.zones = [ZonePull(zone, outlines, shape, self.px_per_cu) for zone in limits.zones]
@@ -221,9 +218,3 @@ def _add(by_pose: FloatArray, term: PoseTerm, weight: float) -> None:
     by_pose[:, 1] += weight * term.y
     if term.log_scale is not None:
         by_pose[:, 3] += weight * term.log_scale
-
-
-def _recall(container: Container, resolution: int) -> Recall:
-    px_per_cu = resolution / container.side
-    rasteriser = Rasteriser(image_shape(container.width, container.height, resolution))
-    return Recall(region_image(container.outline, rasteriser, px_per_cu), px_per_cu)
