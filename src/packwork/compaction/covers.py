@@ -10,6 +10,7 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.compaction.outer_simplify import outer_simplified
+from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 
 ALIKE = 1e-6
@@ -19,6 +20,9 @@ two what rounding has moved; larger would be seen in the gaps. Chosen."""
 STEPS = 2
 """Tolerances of parts for each factor of 2, rounded down to them. More keep nearer to what was
 asked and find less that recurs. Chosen."""
+
+_Shape: TypeAlias = tuple[bytes, bytes]
+"""Starts and points of an outline of extent 1, in parts of the tolerance."""
 
 _Key: TypeAlias = tuple[int, bytes]
 """Number of a tolerance, and a ring about its first vertex."""
@@ -39,6 +43,32 @@ class Covers:
     def __init__(self) -> None:
         self.known: dict[_Key, list[FloatArray]] = {}
         """Rings of the covers of parts, about the part's first vertex."""
+        self._scaled: dict[_Shape, tuple[float, Outline]] = {}
+
+    def cover_of_shape(self, outline: Outline, tolerance: float) -> Outline:
+        """Cover of an outline, ``tolerance`` in its extents; what differs in size is made once.
+
+        Always called with one tolerance.
+
+        Examples
+        --------
+        >>> tile = np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.01], [0, 4]])
+        >>> one, two = (Outline.from_rings([size * tile]) for size in (1, 3))
+        >>> covers = Covers()
+        >>> small, large = covers.cover_of_shape(one, 0.02), covers.cover_of_shape(two, 0.02)
+        >>> bool(np.allclose(3 * small.points, large.points)), large.region.covers(two.region)
+        (True, True)
+        """
+        extent = outline.extent
+        if tolerance <= 0:
+            return self.cover(outline, tolerance)
+        shape = np.rint(outline.points / (ALIKE * tolerance * extent)).astype(np.int64)
+        key = outline.starts.tobytes(), shape.tobytes()
+        if key not in self._scaled:
+            self._scaled[key] = extent, self.cover(outline, tolerance * extent)
+        first, cover = self._scaled[key]
+        # There and back would move vertices by a rounding.
+        return cover if extent == first else cover.mapped(similarity(0.0, 0.0, 0.0, extent / first))
 
     def cover(self, outline: Outline, tolerance: float) -> Outline:
         """Outline with fewer vertices that holds all of ``outline``; as ``outer_simplified``."""

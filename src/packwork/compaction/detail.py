@@ -65,7 +65,7 @@ class Detail:
             if id(outline) not in known:
                 if stop():
                     return self
-                known[id(outline)] = covers.cover(outline, tolerance * outline.extent)
+                known[id(outline)] = covers.cover_of_shape(outline, tolerance)
         outlines = [known[id(outline)] for outline in self._outlines]
         sizes = [outline.extent for outline in self._outlines] * self._poses.scale
         slack = tolerance * float(np.median(sizes))

@@ -26,8 +26,9 @@ def compactness(outlines: Sequence[Outline]) -> dict[str, float]:
     if len(outlines) == 0:
         return {"hull": 0.0, "circle": 0.0, "box": 0.0}
     covered = sum(outline.area for outline in outlines)
-    points = shapely.MultiPoint(np.concatenate([outline.points for outline in outlines]))
-    hull = shapely.convex_hull(points)
+    # The hull of a line through all points is theirs, and no geometry is made of each.
+    line = shapely.linestrings(np.concatenate([outline.points for outline in outlines]))
+    hull = shapely.convex_hull(line)
     left, top, right, bottom = hull.bounds
     return {
         "hull": covered / hull.area,

@@ -38,6 +38,10 @@ REST = 3e-5
 """Mean way down of a round, as a share of the canvas, below which all is at rest at the last
 bound. Derived: a thirtieth of what counts as lying lower (a thousandth of the canvas)."""
 
+ROUND_REST = 4 * REST
+"""The same where a pack is to be round, with what a smaller circle is worth. Smaller takes up to
+twice as many rounds for a thousand circles, for 0.0005 of the circle at most. Tried."""
+
 TILT = 0.5
 """Turn of the way down, rad, to one side and the other in turn, while bounds are wide: what
 stands on a point slides off. Larger pushes items up each other's sides. Tried."""
@@ -107,11 +111,14 @@ class Settling:
 
     def mean_height(self) -> float:
         """Area-weighted mean height of the active items, canvas units."""
-        return self.pull().value / max(float(self.areas[self.active].sum()), 1e-300)
+        return self._mean(self.pull())
 
-    def _cost(self, items: IntArray) -> float:
+    def _mean(self, now: Pull) -> float:
+        return now.value / max(float(self.areas[self.active].sum()), 1e-300)
+
+    def _cost(self, now: Pull, items: IntArray) -> float:
         """Mean height, and the circle that holds some items where that counts."""
-        return self.mean_height() + ROUNDNESS * self.circle(items)
+        return self._mean(now) + ROUNDNESS * self.circle(items)
 
     def circle(self, items: IntArray | None = None) -> float:
         """Radius, canvas units, of the circle that holds items ``(m,)``; 0 if none is asked."""
@@ -145,7 +152,8 @@ class Settling:
             tell(self.arrangement.places)
             is_last = trust <= trusts[1]
             reach = self._farthest() / (trust * self._spacing)
-            if is_last and gained < REST * self._side and reach < WORTHWHILE:
+            rest = REST if self.centre is None else ROUND_REST
+            if is_last and gained < rest * self._side and reach < WORTHWHILE:
                 return rounds + 1
             if reach < WORTHWHILE:
                 trust = max(trust * NARROWING, trusts[1])
@@ -161,21 +169,21 @@ class Settling:
         turn
             Number of the round: others cut blocks elsewhere.
         """
-        before, circle = self._cost(self.active), self.circle()
-        low = self._lows()
+        now = self.pull()
+        before, circle, low = self._cost(now, self.active), self.circle(), self._lows(now)
         tilt = (
             TILT * (1 - 2 * (turn // SWAY % 2)) if self.is_swaying and trust > TILTED_TRUST else 0.0
         )
         found = blocks(self.arrangement.places[self.active, :2], turn)
         for block in sorted(found, key=lambda items: float(low[items].mean())):
-            self._step(block, trust * self._spacing, tilt)
-        self._drops = low - self._lows()
+            now = self._step(block, trust * self._spacing, tilt, now)
+        self._drops = low - self._lows(now)
         self._narrowed = circle - self.circle()
-        return before - self._cost(self.active)
+        return before - self._cost(now, self.active)
 
-    def _lows(self) -> FloatArray:
+    def _lows(self, now: Pull) -> FloatArray:
         """Height of each active item, by its area."""
-        return np.asarray(self.pull().parts / self.areas[self.active])
+        return np.asarray(now.parts / self.areas[self.active])
 
     def _farthest(self) -> float:
         """How far the tenth that went farthest down came in the last round, canvas units.
@@ -189,17 +197,20 @@ class Settling:
         """Whether a round gained less than ``least`` sides of an item's square."""
         return gained < least * self._spacing
 
-    def _step(self, block: IntArray, trust: float, tilt: float) -> None:
-        """One step of some of the active items, the way down turned by ``tilt``."""
+    def _step(self, block: IntArray, trust: float, tilt: float, now: Pull) -> Pull:
+        """One step of some of the active items, the way down turned by ``tilt``.
+
+        ``now``: heights and slopes before it; returns those after it.
+        """
         board = self.arrangement.board
-        slopes = self.pull().slopes[block]
+        slopes = now.slopes[block]
         if not slopes.any():
-            return
+            return now
         items = self.active[block]
         cosine, sine = np.cos(tilt), np.sin(tilt)
         slopes = slopes @ np.array([[cosine, sine], [-sine, cosine]])
         before = self.arrangement.places[items].copy()
-        height = self._cost(items)
+        height = self._cost(now, items)
         pairs = distances.pairs_of(board.boxes, items, self._gap + TRAVEL * trust)
         if self.centre is None:
             step = downward(board, slopes, self._turns, items, pairs, trust, self._gap, self._hair)
@@ -210,6 +221,9 @@ class Settling:
                 self.centre, worth,
             )  # fmt: skip
         descent.move(board, items, step, pairs, self._gap)
-        if self._cost(items) > height:
+        after = self.pull()
+        if self._cost(after, items) > height:
             # Near a point the slope turns within a step.
             self.arrangement.put(items, before)
+            return now
+        return after
