@@ -20,6 +20,11 @@ CALLING = (
     "from somekernels.called._kernels import called\nfrom packwork.compiled import kernel\n\n\n"
     "@kernel\ndef calling():\n    return called()\n"
 )
+RAISING = (
+    "from packwork.compiled import helper, shared\n\n\n"
+    "@helper\ndef raising():\n    raise ValueError('met')\n    return 1\n\n\n"
+    "@{}\ndef called():\n    return raising()\n"
+)
 PROGRAM = "from somekernels.calling._kernels import calling; print(calling())"
 
 
@@ -68,7 +73,25 @@ def test_a_kernel_that_was_kept_calls_the_others_as_they_are_now(package: Path) 
 
 
 @NEEDS_JIT
-def test_a_kernel_that_was_kept_can_be_compiled_into_another(package: Path) -> None:
+@pytest.mark.parametrize("kind", ["kernel", "shared"])
+def test_a_kernel_that_calls_another_is_kept_beside_it(package: Path, kind: str) -> None:
+    called = package / "called" / "_kernels.py"
+    called.write_text(CALLED.replace("helper", kind).format("int(abs(-3))"))
+    assert call(package)[0] == "3"
+    both = kept(package)
+    assert len(both) == 2
+    assert call(package) == ("3", "")
+    for entry in both:
+        # A symbol's number tells how many functions were compiled before.
+        entry.unlink()
+        numbers = "import numba; numba.njit(lambda: 1)(); "
+        assert call(package, numbers + PROGRAM) == ("3", f"{compiled.NOTICE}\n")
+        assert kept(package) == both
+        assert call(package) == ("3", "")
+
+
+@NEEDS_JIT
+def test_a_kernel_that_was_kept_is_called_by_one_compiled_later(package: Path) -> None:
     alone = CALLED.replace("helper", "kernel").format("int(abs(-3))")
     (package / "called" / "_kernels.py").write_text(alone)
     first = "from somekernels.called._kernels import called; print(called())"
@@ -76,6 +99,17 @@ def test_a_kernel_that_was_kept_can_be_compiled_into_another(package: Path) -> N
     both = f"{first}; {PROGRAM}"
     assert call(package, both)[0].split() == ["3", "3"]
     assert call(package, both) == ("3\n3", "")
+
+
+@NEEDS_JIT
+@pytest.mark.parametrize("kind", ["helper", "shared"])
+def test_errors_come_through_what_a_kernel_calls(package: Path, kind: str) -> None:
+    (package / "called" / "_kernels.py").write_text(RAISING.format(kind))
+    program = PROGRAM.replace(
+        "print(calling())", "\ntry: calling()\nexcept ValueError as e: print(e)"
+    )
+    assert call(package, program)[0] == "met"
+    assert call(package, program)[0] == "met"
 
 
 @NEEDS_JIT

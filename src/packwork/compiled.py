@@ -5,6 +5,10 @@ it took over into a kernel from those that it calls, in other files, it does not
 an installation may not be written to it looks for a home that a service may not have. So we keep
 them ourselves: one file a kernel and types, named by all that went into it, in a private folder
 (``packwork.folders``), since what is loaded from there is run.
+
+Numba compiles each function to machine code, and once more inside each that calls it. Here a kernel
+calls another one's machine code, as it calls the C library; helpers are compiled inside kernels
+only.
 """
 
 from __future__ import annotations
@@ -18,8 +22,7 @@ import pickle
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
-from typing import Any, Protocol, final
+from typing import Any, NamedTuple, Protocol, final
 
 import llvmlite.binding
 import llvmlite.ir
@@ -27,12 +30,13 @@ import numba
 from numba import njit
 from numba.core import serialize
 from numba.core.caching import NullCache
-from numba.core.compiler import CompileResult
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
 from numba.core.runtime import rtsys
 
 from packwork.folders import Store
 
-FORM = 2
+FORM = 3
 """Number of the form in which kernels are kept; a new one forgets all."""
 
 MOST_BYTES = 200_000_000
@@ -40,9 +44,6 @@ MOST_BYTES = 200_000_000
 
 OUTER = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
 """Options of kernels that Python calls: without its lock, divisions by zero as in NumPy."""
-
-INNER = {**OUTER, "no_cpython_wrapper": True}
-"""Options of those that only kernels call, which need no way in from Python."""
 
 VERSIONS = (numba.config.OPT, numba.__version__, llvmlite.__version__, sys.version)
 
@@ -70,6 +71,8 @@ _listeners: list[Listener] = []
 def kernel(function: Any = None, /, **options: Any) -> Any:
     """Compile a function when it is first called, once for each installation.
 
+    Kernels that call it call its machine code.
+
     Parameters
     ----------
     function
@@ -79,11 +82,27 @@ def kernel(function: Any = None, /, **options: Any) -> Any:
     """
     if function is None:
         return functools.partial(kernel, **options)
-    compiled = njit(function, **{**OUTER, **options})
+    options = {**OUTER, **options}
+    compiled = njit(function, **options)
     # Where compiling is switched off, that is the function itself.
     if compiled is not function:
-        compiled._cache = KernelCache(function, {**OUTER, **options})
+        compiled._cache = KernelCache(function, options)
     return compiled
+
+
+def shared(function: Any = None, /, **options: Any) -> Any:
+    """Compile a function once for all kernels that call its machine code; Python cannot call it.
+
+    For what is long and what several kernels call: a call costs some 50 ns more than a helper's.
+
+    Parameters
+    ----------
+    function
+        What is compiled; None where options are given.
+    **options
+        Of ``numba.njit``, beside ``OUTER``.
+    """
+    return kernel(function, no_cpython_wrapper=True, **options)
 
 
 def helper(function: Any = None, /, **options: Any) -> Any:
@@ -94,11 +113,12 @@ def helper(function: Any = None, /, **options: Any) -> Any:
     function
         What is compiled; None where options are given.
     **options
-        Of ``numba.njit``, beside ``INNER``.
+        Of ``numba.njit``, beside ``OUTER``.
     """
     if function is None:
         return functools.partial(helper, **options)
-    return njit(function, **{**INNER, **options})
+    inner = {"no_cpython_wrapper": True, "pipeline_class": HelperCompiler}
+    return njit(function, **{**OUTER, **inner, **options})
 
 
 def as_python(compiled: Any) -> Any:
@@ -154,24 +174,32 @@ class KernelCache(NullCache):  # type: ignore[misc]
         """Kernel for some types of arguments; None if it has to be compiled."""
         key = self._key(sig, target_context.codegen())
         kept = None if key is None else STORE.get(key)
-        if kept is None:
+        loaded = None if kept is None else _loaded(kept, target_context)
+        if loaded is None:
             target_context.refresh()
             _tell(self._name, is_done=False)
             return None
-        # All that a compiled kernel needs. To refresh the context would load what Numba knows of
-        # every function of NumPy, SciPy's linear algebra among it: longer than all kernels.
-        rtsys.initialize(target_context)
-        state, bitcode = pickle.loads(kept)  # noqa: S301
-        loaded = CompileResult._rebuild(target_context, *state)
-        loaded.library._shared_module = Bitcode(bitcode)
+        self._add(loaded)
         return loaded
 
     def save_overload(self, sig: Any, cres: Any) -> None:
         """Keep what was compiled."""
+        # Those of helpers; of a kernel that is loaded, Numba does the same.
+        for environment in cres._find_referenced_environments():
+            cres.codegen.set_env(environment.env_name, environment)
+        self._add(cres)
         key = self._key(sig, cres.codegen)
         if key is not None and not cres.library.has_dynamic_globals:
-            STORE.put(key, serialize.dumps(_parted(cres)))
+            STORE.put(key, serialize.dumps((_calls_of(cres.library), _state(cres))))
         _tell(self._name, is_done=True)
+
+    def _add(self, compiled: Any) -> None:
+        """Let other kernels call its machine code, and not compile it once more."""
+        compiled.library._shared_module = NoCode()
+        _, _, name = self._name.rpartition(".")
+        symbol = compiled.fndesc.llvm_func_name
+        place = self._function.__module__, name, tuple(compiled.signature.args)
+        _kernels[symbol] = Call(symbol, *place)
 
     def _key(self, sig: Any, codegen: Any) -> str | None:
         """All that a compiled kernel depends on; None where its text is not to be had."""
@@ -186,34 +214,99 @@ class KernelCache(NullCache):  # type: ignore[misc]
         return repr(parts)
 
 
+class Call(NamedTuple):
+    """Kernel that another one calls: its symbol, and where it stands with which types."""
+
+    symbol: str
+    module: str
+    name: str
+    types: tuple[Any, ...]
+
+
+_kernels: dict[str, Call] = {}
+"""All kernels of this process, by their symbols."""
+
+
 @final
-@dataclass(frozen=True)
-class Bitcode:
-    """Code of a kernel for others that call it; read only if one of them is compiled.
-
-    Parameters
-    ----------
-    data
-        As LLVM writes it.
-    """
-
-    data: bytes
+class NoCode:
+    """What a kernel adds to another that calls it: nothing, it is found by its symbol."""
 
     def clone(self) -> Any:
         """LLVM's module, as Numba links it into another one."""
-        return llvmlite.binding.parse_bitcode(self.data)
+        return llvmlite.binding.parse_assembly("")
 
     def as_bitcode(self) -> bytes:
-        """The code itself, as Numba keeps it."""
-        return self.data
+        """The same, as Numba keeps it."""
+        return b""
 
 
-def _parted(compiled: Any) -> tuple[tuple[Any, ...], bytes]:
-    """What is needed to call a kernel, and its bitcode; without, it is loaded twice as fast."""
+@final
+class HelperLibrary(JITCodeLibrary):  # type: ignore[misc]
+    """Code of a helper as it is compiled into kernels: not optimised, which they do, nor run."""
+
+    @property
+    def codegen(self) -> Any:
+        """What takes the helper's environment, which its kernels take over."""
+        return NoEnvironments()
+
+    def get_pointer_to_function(self, name: str) -> int:
+        """Address of machine code: none."""
+        self._ensure_finalized()
+        return 0
+
+    def _optimize_final_module(self) -> None:
+        pass
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+
+@final
+class NoEnvironments:
+    """Part of Numba's code generator that a helper needs nothing of."""
+
+    def set_env(self, name: str, environment: Any) -> None:
+        """Nothing is done."""
+
+
+@final
+class HelperCompiler(CompilerBase):  # type: ignore[misc]
+    """Compiles helpers: as Numba does, but for what becomes of their code."""
+
+    def define_pipelines(self) -> list[Any]:
+        """Numba's passes."""
+        state = self.state
+        state.library = HelperLibrary(state.targetctx.codegen(), state.func_id.func_qualname)
+        return [DefaultPassBuilder.define_nopython_pipeline(state)]
+
+
+def _calls_of(library: Any) -> tuple[Call, ...]:
+    """Kernels that the code of one calls."""
+    names = (one.name for one in library._final_module.functions if one.is_declaration)
+    return tuple(_kernels[name] for name in names if name in _kernels)
+
+
+def _loaded(kept: bytes, target_context: Any) -> Any:
+    """A kernel that was kept; None if what it calls is not what it was compiled for."""
+    calls, state = pickle.loads(kept)  # noqa: S301
+    for call in calls:
+        getattr(sys.modules[call.module], call.name).compile(call.types)
+        # Numba numbers the symbols of a process. One that is missing would end the process.
+        if call.symbol not in _kernels:
+            return None
+    # All that a compiled kernel needs. To refresh the context would load what Numba knows of
+    # every function of NumPy, SciPy's linear algebra among it: longer than all kernels.
+    rtsys.initialize(target_context)
+    return CompileResult._rebuild(target_context, *state)
+
+
+def _state(compiled: Any) -> tuple[Any, ...]:
+    """What is needed to call a kernel."""
     library, *rest = compiled._reduce()
-    name, kind, (machine_code, bitcode) = library
+    name, kind, (machine_code, _) = library
     names = compiled.fndesc.llvm_func_name, compiled.fndesc.llvm_cpython_wrapper_name
-    return ((name, kind, (machine_code, _names_alone(names))), *rest), bitcode
+    return (name, kind, (machine_code, _names_alone(names))), *rest
 
 
 def _names_alone(names: Iterable[str]) -> bytes:

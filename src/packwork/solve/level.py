@@ -23,6 +23,7 @@ from packwork.solve.ensemble import Ensemble
 from packwork.solve.ground import Ground
 from packwork.solve.zones import ZonePull
 
+
 class Level:
     """Renders all items at one resolution and reads the losses' pose gradients.
 

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from packwork.compaction.kernels.edges import least_squared
-from packwork.compiled import helper, kernel
+from packwork.compiled import helper, kernel, shared
 
 
 class Board(NamedTuple):
@@ -299,6 +299,12 @@ def distance(board, i, j, reach, room):
     """
     if j < board.starts.shape[0] - 2 and are_apart(board.boxes, i, j, reach):
         return reach
+    return _near_distance(board, i, j, reach, room)
+
+
+@shared
+def _near_distance(board, i, j, reach, room):
+    """Distance of two solids whose boxes are within reach."""
     first, second = room[0], room[1]
     count_j = cull(board, j, board.boxes[i], reach, second)
     if j == board.starts.shape[0] - 2:
