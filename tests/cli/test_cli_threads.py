@@ -3,42 +3,77 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from functools import partial
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 from PIL import Image
 from typer.testing import Result
 
+from packwork.compaction.blocks import blocks
+from packwork.threads import at_once
+
 Command = Callable[..., Result]
 
+QUICK = "--epochs 6 --levels 32,64"
+EVERYWHERE = {"anneal", "compact", "coverage"}
 VERBS = {
-    "fill": "fill circle icons -n 60 --epochs 40 --seed 3",
-    "shared": "fill bear icons -n 40 --epochs 40 --sizes shared",
-    "gaps": "fill heart icons -n 20 --epochs 40 --max-items 60",
-    "forces": "fill square star heart -n 30 --epochs 40 --force down",
-    "words": "words heart words.txt -n 40 --epochs 40",
-    "photos": "photos circle a.png b.png -n 20 --epochs 40",
-    "chart": "chart circle data.csv --size-by size --epochs 40",
-    "pile": "pile square star moon -n 20",
-    "best": "fill star icons -n 30 --effort best --epochs 40",
+    "fill": (f"fill circle star drop -n 24 {QUICK} --seed 3", EVERYWHERE),
+    "shared": (f"fill bear star drop -n 16 {QUICK} --sizes shared", EVERYWHERE),
+    "gaps": (f"fill heart star drop -n 12 {QUICK} --max-items 24", {"compact", "coverage"}),
+    "forces": (f"fill square star heart -n 16 {QUICK} --force down", {"compact", "coverage"}),
+    "words": (f"words heart words.txt -n 20 {QUICK}", EVERYWHERE),
+    "photos": (f"photos circle a.png b.png -n 16 {QUICK}", EVERYWHERE),
+    "chart": (f"chart circle data.csv --size-by size {QUICK}", EVERYWHERE),
+    "pile": ("pile square star moon -n 20", {"coverage"}),
+    "best": (f"fill star heart moon -n 12 --effort best {QUICK}", EVERYWHERE),
 }
-"""Command lines, by what they are for; enough items for several to be tried at once."""
+"""Command lines, by what they are for, and the modules that share their work among threads."""
+
+
+@pytest.fixture
+def sharing(monkeypatch: pytest.MonkeyPatch) -> set[str]:
+    """Small runs share their work as large ones do; modules that have shared some."""
+    found = set[str]()
+
+    def shared(name: str, call: Callable[..., Any], calls: Sequence[tuple[Any, ...]]) -> list[Any]:
+        if len(calls) > 1:
+            found.add(name)
+        return at_once(call, calls)
+
+    anneal, compact, coverage = (
+        import_module(f"packwork.{name}")
+        for name in ("finish.anneal", "compaction.compact", "raster.coverage")
+    )
+    for module in (anneal, compact, coverage):
+        name = module.__name__.rpartition(".")[2]
+        monkeypatch.setattr(module, "at_once", partial(shared, name))
+    monkeypatch.setattr(anneal, "NEIGHBOURS", 1)
+    monkeypatch.setattr(compact, "blocks", partial(blocks, most=4))
+    monkeypatch.setattr(coverage, "PARTED", 1)
+    return found
 
 
 @pytest.mark.parametrize("verb", VERBS)
-def test_bytes_do_not_depend_on_threads(verb: str, folder: Path, packwork: Command) -> None:
+def test_bytes_do_not_depend_on_threads(
+    verb: str, folder: Path, packwork: Command, sharing: set[str]
+) -> None:
     words = " ".join(f"word{k}" for k in range(60) for _ in range(60 - k))
     (folder / "words.txt").write_text(words, encoding="utf-8")
-    rows = "".join(f"r{k},{1 + k % 7}\n" for k in range(40))
+    rows = "".join(f"r{k},{1 + k % 7}\n" for k in range(24))
     (folder / "data.csv").write_text("name,size\n" + rows, encoding="utf-8")
     for name, width in (("a", 40), ("b", 70)):
         Image.new("RGB", (width, 50), (width, 90, 120)).save(folder / f"{name}.png")
+    line, modules = VERBS[verb]
     found = set()
     for count in (1, 2, 8):
-        done = packwork(f"{VERBS[verb]} -q --threads {count} -o {count}.svg -o {count}.geojson")
+        done = packwork(f"{line} -q --threads {count} -o {count}.svg -o {count}.geojson")
         assert done.exit_code in (0, 1), done.stderr
         layout = json.loads((folder / f"{count}.geojson").read_text(encoding="utf-8"))
         # How long it took is another number each time.
         found.add(((folder / f"{count}.svg").read_bytes(), json.dumps(layout["features"])))
     assert len(found) == 1
+    assert sharing == modules

@@ -120,13 +120,13 @@ def test_tables_are_read(tmp_path: Path, name: str, text: str) -> None:
 
 def test_a_long_table_is_cut_and_what_reads_the_same_is_added_up(tmp_path: Path) -> None:
     file = tmp_path / "a.csv"
-    file.write_text("".join(f"w{k % 60_000},{1 + k}\n" for k in range(100_000)), encoding="utf-8")
+    file.write_text("".join(f"w{k % 6_000},{1 + k}\n" for k in range(10_000)), encoding="utf-8")
     read = read_word_items(WordOptions(source=str(file), count=2))
     assert {one.text: one.weight for one in read.words} == {
-        "w39999": 140_000.0,
-        "w39998": 139_998.0,
+        "w3999": 14_000.0,
+        "w3998": 13_998.0,
     }
-    assert read.found == 60_000
+    assert read.found == 6_000
 
 
 @pytest.mark.parametrize(
