@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from packwork.api.layout import Layout
     from packwork.api.placement import Placement
     from packwork.api.recipes import run
+    from packwork.api.session import Session
     from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
     from packwork.fit.fitted import FittedOutline, fit_outline
@@ -54,6 +55,7 @@ __all__ = [
     "Poses",
     "ReadError",
     "RecipeError",
+    "Session",
     "ShapeError",
     "Step",
     "Term",
@@ -91,6 +93,7 @@ _HOMES = {
     "Poses": "packwork.scene.pose:Poses",
     "ReadError": "packwork.errors:ReadError",
     "RecipeError": "packwork.errors:RecipeError",
+    "Session": "packwork.api.session:Session",
     "ShapeError": "packwork.errors:ShapeError",
     "Step": "packwork.progress:Step",
     "Term": "packwork.losses.term:Term",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, fields
 from functools import cached_property, partial
 from pathlib import Path
@@ -29,6 +29,7 @@ from packwork.metrics.measure import Metrics, measure
 from packwork.readers.layouts.read import read_written
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import refusal
+from packwork.scene import item as scene_item
 from packwork.scene import layout as scene
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
@@ -36,6 +37,8 @@ from packwork.writers.options import DrawingOptions
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from pandas import DataFrame
+
+    from packwork.api.session import Session
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -110,11 +113,18 @@ class Layout(scene.Layout):
             yield Placement(item, Pose(*row[:-1]), outline, row[-1])
 
     @classmethod
-    def load(cls, path: str | Path) -> Layout:
+    def load(cls, path: str | Path, items: Iterable[scene_item.Item] = ()) -> Layout:
         """Layout from a file that was saved as ``.geojson``; also from an SVG or a DXF of ours.
 
         The items come back as flat shapes in their mean colour: pictures and drawings stay in
         their files. SVG and DXF hold shapes in place, and no poses.
+
+        Parameters
+        ----------
+        path
+            The file.
+        items
+            Drawings to have in place of shapes of the same names, as :func:`read_items` gives them.
 
         Raises
         ------
@@ -132,7 +142,13 @@ class Layout(scene.Layout):
         >>> bool(abs(again.poses.angle - layout.poses.angle).max() < 1e-9)
         True
         """
-        return public(read_written(path))
+        found = read_written(path)
+        drawings = list(items)
+        if drawings:
+            from packwork.pipeline.registration import drawn_by
+
+            found = drawn_by(found, drawings)
+        return public(found)
 
     @of_model(DrawingOptions)
     def save(
@@ -267,6 +283,22 @@ class Layout(scene.Layout):
         with shown(bar):
             told = writers.tell_nobody if bar is None else partial(bar.tell, text="film")
             writers.write_atomic(path, writers.film_bytes(film, path, told))
+
+    def edit(self) -> Session:
+        """A session in which items are moved, held, added, and all others make room.
+
+        Examples
+        --------
+        >>> from packwork import fill
+        >>> layout = fill("circle", ["star", "hexagon"], count=6, effort="draft", levels="50")
+        >>> with layout.edit() as session:
+        ...     session.move("star#2", 300, 200)
+        >>> session.layout.certified, float(session.layout.poses.y[2])
+        (True, 200.0)
+        """
+        from packwork.api.session import session_of
+
+        return session_of(self)
 
     def to_dataframe(self) -> DataFrame:
         """Pandas data frame: one row per item, in the layout's order.

@@ -174,7 +174,17 @@ def turn_ranges(angle: FloatArray, options: MoveOptions) -> tuple[FloatArray, Fl
     >>> back, on = turn_ranges(np.array([0.1]), MoveOptions(turn_limit=0.5))
     >>> back.round(6).tolist(), on.round(6).tolist()
     ([-0.6], [0.4])
+    >>> turn_ranges(np.zeros(2), MoveOptions(still=(True, False)))[1].tolist()
+    [0.0, inf]
     """
+    back, on = _ranges_of_all(angle, options)
+    if options.still is None:
+        return back, on
+    still = np.array(options.still, dtype=bool)
+    return np.where(still, 0.0, back), np.where(still, 0.0, on)
+
+
+def _ranges_of_all(angle: FloatArray, options: MoveOptions) -> tuple[FloatArray, FloatArray]:
     if not options.turning:
         return np.zeros_like(angle), np.zeros_like(angle)
     if options.turn_limit is None or options.turn_limit >= math.pi:

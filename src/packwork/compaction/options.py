@@ -34,5 +34,8 @@ class MoveOptions(Options):
     leans: tuple[float, ...] | None = None
     """With a limit: least tilt of each item, rad, to the side of its sign; 0 for either side."""
 
+    still: tuple[bool, ...] | None = None
+    """Items that keep their angle; None for none."""
+
     seed: Annotated[int, Field(ge=0)] = 0
     """Of the trials."""

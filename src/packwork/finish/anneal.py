@@ -24,7 +24,14 @@ from packwork.compaction.kernels.neighbourhoods import disjoint, room_for
 from packwork.compaction.kernels.steps import TRAVEL, Objective
 from packwork.compaction.kernels.trials import Rounds, Trial, attempt
 from packwork.compaction.objective import AREA_POWER
-from packwork.finish.proposals import Proposal, at_angles, destination, pools_of, proposed
+from packwork.finish.proposals import (
+    EXCHANGES,
+    Proposal,
+    at_angles,
+    destination,
+    pools_of,
+    proposed,
+)
 from packwork.finish.pulling import Pulling
 from packwork.progress import Stop, never
 from packwork.threads import at_once
@@ -95,6 +102,7 @@ def anneal(
     stop: Stop = never,
     tell: Callable[[int], None] | None = None,
     pulling: Pulling | None = None,
+    exchanges: float = EXCHANGES,
 ) -> int:
     """Anneal a compacted layout by turns and exchanges of items; how many trials were kept.
 
@@ -119,8 +127,10 @@ def anneal(
         Called with the number of each trial, once it has been kept or undone.
     pulling
         Forces that count beside sizes; None for none.
+    exchanges
+        Share of trials that exchange items; with 0 each stays about where it is.
     """
-    search = _Search(arrangement, objective_at, lengths, rng, pulling)
+    search = _Search(arrangement, objective_at, lengths, rng, pulling, exchanges)
     if not search.has_choice:
         return 0
     done = kept = 0
@@ -149,7 +159,9 @@ class _Search:
         lengths: Lengths,
         rng: np.random.Generator,
         pulling: Pulling | None,
+        exchanges: float,
     ) -> None:
+        self._exchanges = exchanges
         self._arrangement, self._objective_at, self._lengths = arrangement, objective_at, lengths
         self._rng, self._pulling = rng, pulling
         self._waiting: list[Proposal] = []
@@ -166,7 +178,7 @@ class _Search:
     @property
     def has_choice(self) -> bool:
         """Whether there is anything to be tried."""
-        return self._arrangement.count > 1 or self._can_turn
+        return self._can_turn or (self._arrangement.count > 1 and self._exchanges > 0)
 
     def made(self, most: int, heat: float) -> list[bool]:
         """Make some trials at once, ``most`` at most; whether each was kept.
@@ -198,7 +210,7 @@ class _Search:
         arrangement, pulling = self._arrangement, self._pulling
         pools = pools_of(arrangement, self._objective.power < 0, pulling is not None)
         while True:
-            yield proposed(arrangement, pools, self._can_turn, self._rng, pulling)
+            yield proposed(arrangement, pools, self._can_turn, self._rng, pulling, self._exchanges)
 
     def _disjoint(self, most: int) -> list[tuple[Proposal, Trial]]:
         """The first trials that wait whose neighbourhoods do not meet; they wait no more."""

@@ -22,6 +22,7 @@ from packwork.finish import bottlenecks
 from packwork.finish.anneal import Lengths, anneal
 from packwork.finish.finished import Finished
 from packwork.finish.options import FinishOptions
+from packwork.finish.proposals import EXCHANGES
 from packwork.finish.pulling import pulling_of
 from packwork.finish.sizing import sizing_of
 from packwork.forces.forces import NO_FORCES, Forces
@@ -135,6 +136,7 @@ def finish(
     run = _Finish(container, outlines, poses, options, observer, stop, is_enough, forces)
     if options.refining:
         run.refine()
+        run.anneal()
         run.level()
     elif run.begin():
         run.coarse()
@@ -181,9 +183,11 @@ class _Finish:
         tolerance = exact.tolerance(tolerance, COARSE_OF_GAP * options.gap_cu)
         is_exact = options.sizes == "fixed" or options.refining
         # To be stopped asks for no covers: nothing will grow into what they would waste.
-        self._fine = exact.covers(exact.tolerance(FINE, FINE_OF_GAP * options.gap_cu), stop)
+        fine = exact.tolerance(FINE, FINE_OF_GAP * options.gap_cu)
+        self._fine = exact if options.covered else exact.covers(fine, stop)
         self._coarse = self._fine if is_exact else self._fine.covers(tolerance, stop)
-        self._first_trust = REFINING_TRUST if options.refining else FIRST_TRUST
+        is_small = options.refining and not options.loosened
+        self._first_trust = REFINING_TRUST if is_small else FIRST_TRUST
         zero = np.zeros(len(poses))
         self.arrangement = self._coarse.arrangement(np.column_stack([poses.x, poses.y, zero, zero]))
 
@@ -281,6 +285,7 @@ class _Finish:
             self._is_enough,
             tell,
             self._pulling,
+            EXCHANGES if self._options.exchanging else 0.0,
         )
 
     def _points_each(self) -> float:

@@ -31,14 +31,24 @@ class FinishOptions(MoveOptions):
     """Linear programmes of each item in one compaction. More fills a little better."""
 
     refining: bool = False
-    """The layout is clean already: small steps, so that nothing is lost, and no trials."""
+    """The layout is clean already: small steps, so that nothing is lost."""
 
     staying: bool = False
     """With ``refining``: the layout is clean but for a few items, which were made larger or
     are new; where sizes are shared, all end at one."""
 
+    loosened: bool = False
+    """With ``refining``: items have lost room, and first steps are as wide as in any finish."""
+
+    covered: bool = False
+    """The outlines are simplified covers of the items, and the container's is of those about them:
+    nothing is simplified again."""
+
     trials: Annotated[int, Field(ge=0, le=1_000_000)] = 0
     """Turns and exchanges of items that are tried after the first compaction."""
+
+    exchanging: bool = True
+    """Whether such trials exchange items; else each is only turned where it is."""
 
     relieving: bool = True
     """Where sizes are shared: try whether all can grow once those that hold them back lie in

@@ -88,9 +88,10 @@ def proposed(
     can_turn: bool,
     rng: np.random.Generator,
     pulling: Pulling | None,
+    exchanges: float = EXCHANGES,
 ) -> Proposal:
-    """An exchange or a turn; ``can_turn``: whether any item may."""
-    if arrangement.count > 1 and (not can_turn or rng.random() < EXCHANGES):
+    """An exchange or a turn; ``can_turn``: whether any item may; ``exchanges``: their share."""
+    if arrangement.count > 1 and (not can_turn or rng.random() < exchanges):
         moved = _exchanged(arrangement, pools, rng, pulling)
     else:
         moved = _turned(arrangement.count, pools, rng)

@@ -55,20 +55,22 @@ def violations(
     edge = whole.boundary
     shapely.prepare(edge)
     near = ~shapely.covers(whole, regions) | shapely.dwithin(edge, regions, gap)
-    found = [_violation(i, j, regions[i], regions[j]) for i, j in pairs]
-    found += [_sticking_out(int(k), regions[k], whole, gap) for k in np.flatnonzero(near)]
+    found = [meeting(i, j, regions[i], regions[j]) for i, j in pairs]
+    found += [sticking_out(int(k), regions[k], whole, gap) for k in np.flatnonzero(near)]
     return tuple(
         one for one in sorted(found, key=lambda one: one.item)
         if one.overlap_cu2 > 0 or one.gap_cu < gap
     )  # fmt: skip
 
 
-def _violation(i: int, j: int, first: Region, second: Region) -> Violation:
+def meeting(i: int, j: int, first: Region, second: Region) -> Violation:
+    """How far two regions are from keeping a distance."""
     shared = float(intersection(first, second).area)
     return Violation(i, j, shared, distance(first, second))
 
 
-def _sticking_out(k: int, one: Region, whole: Region, gap: float) -> Violation:
+def sticking_out(k: int, one: Region, whole: Region, gap: float) -> Violation:
+    """How far a region is from keeping a distance to the edge of another, inside it."""
     # What is nearer than asked lies within that gap.
     near = part_about(whole, one, gap)
     outside = float(difference(one, near).area)

@@ -41,6 +41,11 @@ lay a hair apart may meet. Larger gives more to grow back, smaller makes conflic
 STEPS = 6
 """Steps of the refinement; three are enough for all that was tried. Chosen."""
 
+ALIKE = 1e-5
+"""Difference of two boxes, shares of an item's extent, up to which its shape in a file is the
+item's own. Larger takes a shape for another one's, smaller the rounding of files for a
+difference. Chosen."""
+
 ROUND = 1e-6
 """Mean squared lever, of an outline of area 1, below which it has no turn to speak of: a disc.
 Chosen."""
@@ -67,6 +72,26 @@ def registered(layout: Layout, items: Sequence[Item]) -> Layout:
         angles[k] = turn_of(own[k].outline, shape)
     poses = replace(layout.poses, angle=angles, scale=scales)
     return replace(layout, items=tuple(own), poses=poses)
+
+
+def drawn_by(layout: Layout, items: Sequence[Item]) -> Layout:
+    """The layout with items in place of plain shapes of the same names; poses that fit are kept.
+
+    Where a file holds poses, they are those of the items that it was made of; where it holds shapes
+    alone, as drawings do, poses are found as by :func:`registered`.
+    """
+    known = {item.name: item for item in items}
+    found = [known.get(item.name, item) for item in layout.items]
+    same = [_is_alike(one, shape) for one, shape in zip(found, layout.items, strict=True)]
+    if all(same):
+        return replace(layout, items=tuple(found))
+    return registered(layout, found)
+
+
+def _is_alike(item: Item, shape: Item) -> bool:
+    """Whether an item's outline is the shape's, in the same units."""
+    own, other = np.array(item.outline.bounds), np.array(shape.outline.bounds)
+    return bool(np.abs(own - other).max() <= ALIKE * item.outline.extent)
 
 
 def turn_of(before: Outline, after: Outline) -> float:

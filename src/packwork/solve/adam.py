@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.solve import _kernels
 
 STILLNESS = 1.5e-2
@@ -62,3 +62,19 @@ class Adam:
         """Start the moments of these items anew, after they were moved by force."""
         self._mean[items] = 0.0
         self._square[items] = np.mean(self._square)
+
+    def go_on_from(self, other: Adam, mine: IntArray, theirs: IntArray) -> None:
+        """Take over what another has learnt about some items: ``theirs`` there, ``mine`` here.
+
+        Examples
+        --------
+        >>> one, two = Adam((1, 1)), Adam((3, 1))
+        >>> step = one.step(np.array([[3.0]]), 1.0)
+        >>> two.go_on_from(one, np.array([2]), np.array([0]))
+        >>> two.step(np.zeros((3, 1)), 1.0)[:, 0].round(1).tolist()
+        [-0.0, -0.0, -0.6]
+        """
+        self._mean[mine] = other._mean[theirs]
+        self._square[:] = np.mean(other._square)
+        self._square[mine] = other._square[theirs]
+        self._count = other._count

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -27,8 +28,21 @@ the first of them. Larger makes thousands of outlines for thousands of marks, sm
 wrong by more than the 9 % that they may differ now; the exact finish keeps them in full. Chosen."""
 
 
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """Outlines that were simplified before, kept with those that they were made of."""
+
+    shaped: dict[tuple[int, float], Outline] = field(default_factory=dict)
+    made: dict[tuple[int, int], Outline] = field(default_factory=dict)
+    given_back: dict[tuple[int, float], Outline] = field(default_factory=dict)
+
+
 def seen_posed(
-    outlines: Sequence[Outline], poses: Poses, px_per_cu: float, margin_cu: float = 0.0
+    outlines: Sequence[Outline],
+    poses: Poses,
+    px_per_cu: float,
+    margin_cu: float = 0.0,
+    before: Seen | None = None,
 ) -> list[Outline]:
     """Outlines simplified to a level's pixels in the shape and size of their poses.
 
@@ -45,6 +59,9 @@ def seen_posed(
         Pixels of the level per canvas unit.
     margin_cu
         Every outline is grown by this much all round, canvas units.
+    before
+        What was made in earlier calls for the same level and margin, of outlines that are
+        still in use; more is added.
 
     Examples
     --------
@@ -58,12 +75,18 @@ def seen_posed(
     # Items within a factor of two of one shape share one outline, as sizes do; but a
     # margin has the same width whatever the shape.
     ratios = poses.stretch if margin_cu > 0 else 2.0 ** np.rint(np.log2(poses.stretch))
-    shaped = _stretched_once(outlines, ratios)
-    return _stretched_once(seen_at(shaped, poses.scale, px_per_cu, margin_cu), 1 / ratios)
+    before = before or Seen()
+    shaped = _stretched_once(outlines, ratios, before.shaped)
+    seen = seen_at(shaped, poses.scale, px_per_cu, margin_cu, before.made)
+    return _stretched_once(seen, 1 / ratios, before.given_back)
 
 
 def seen_at(
-    outlines: Sequence[Outline], scales: FloatArray, px_per_cu: float, margin_cu: float = 0.0
+    outlines: Sequence[Outline],
+    scales: FloatArray,
+    px_per_cu: float,
+    margin_cu: float = 0.0,
+    known: dict[tuple[int, int], Outline] | None = None,
 ) -> list[Outline]:
     """Outlines simplified to a level's pixels; copies of about one size are made once.
 
@@ -78,8 +101,10 @@ def seen_at(
         ``(n,)`` canvas units per item unit.
     px_per_cu, margin_cu
         As for :func:`seen_posed`.
+    known
+        What was made before, by outline and size; more is added.
     """
-    done: dict[tuple[int, int], Outline] = {}
+    done = {} if known is None else known
     seen = []
     for outline, scale in zip(outlines, scales, strict=True):
         # Items whose pixels are within a factor of two share one outline, but a margin
@@ -100,9 +125,10 @@ def _seen(outline: Outline, pixel: float, margin: float) -> Outline:
     return simplified(closed(grown(rough, margin), CLEFT_PX * pixel), 0.5 * DETAIL_PX * pixel)
 
 
-def _stretched_once(outlines: Sequence[Outline], ratios: FloatArray) -> list[Outline]:
+def _stretched_once(
+    outlines: Sequence[Outline], ratios: FloatArray, done: dict[tuple[int, float], Outline]
+) -> list[Outline]:
     """Stretched outlines; copies stretched alike are made once, others left as they are."""
-    done: dict[tuple[int, float], Outline] = {}
     result = []
     for outline, ratio in zip(outlines, ratios.tolist(), strict=True):
         key = (id(outline), ratio)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.scene.leaning import turn_sides
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
@@ -53,6 +53,8 @@ class Motion:
         self._free: FloatArray | None = None
         self.floor: FloatArray | None = None
         """``(n,)`` logarithms of growth that shared sizes do not fall below; None for any."""
+        self.pace: FloatArray | None = None
+        """``(n,)`` factors on the moves and turns of single items; None for 1."""
         if limits.binds:
             self._bound_items(limits)
         decay = (options.momentum, options.memory)
@@ -75,10 +77,13 @@ class Motion:
         if self._free is not None:
             gradient = gradient * self._free
         move = self._moves.step(gradient[:, :2], options.position_rate * self._side * factor)
+        if self.pace is not None:
+            move = move * self.pace[:, None]
         self.x += move[:, 0]
         self.y += move[:, 1]
         if options.turn_rate > 0:
-            self.angle += self._turns.step(gradient[:, 2:3], options.turn_rate * factor)[:, 0]
+            turn = self._turns.step(gradient[:, 2:3], options.turn_rate * factor)[:, 0]
+            self.angle += turn if self.pace is None else turn * self.pace
             if self._turn_range is not None:
                 np.clip(self.angle, *self._turn_range, out=self.angle)
         self._resize(gradient[:, 3:4], options.size_rate * factor)
@@ -121,3 +126,19 @@ class Motion:
             adam.forget(items)
         if self._options.sizes == "free":
             self._sizes.forget(items)
+
+    def put(self, items: IntArray, poses: Poses) -> None:
+        """Put items ``(m,)`` to poses, as many; moments stay."""
+        self.x[items], self.y[items], self.angle[items] = poses.x, poses.y, poses.angle
+        self._growth[items] = np.log(poses.scale) - self._nominal[items]
+
+    def go_on_from(self, other: Motion, mine: IntArray, theirs: IntArray) -> None:
+        """Take over the moments of items ``theirs`` of another for items ``mine`` of this.
+
+        ``(m,)`` indices each; both of free or both of other sizes.
+        """
+        columns = ((self._moves, other._moves), (self._turns, other._turns))
+        for own, theirs_adam in (*columns, (self._shapes, other._shapes)):
+            own.go_on_from(theirs_adam, mine, theirs)
+        if self._options.sizes == "free":
+            self._sizes.go_on_from(other._sizes, mine, theirs)

@@ -1,0 +1,218 @@
+"""``packwork edit``: a saved layout changed here and there, the rest making room."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TypeAlias, cast
+
+import typer
+
+from packwork.cli import options as shared
+from packwork.cli.failure import SHORTFALL, clear_errors
+from packwork.cli.terminal import printable, say
+from packwork.errors import RecipeError
+
+if TYPE_CHECKING:
+    from packwork.api.session import Session
+    from packwork.live.document import Property
+
+_FORMS = {
+    "replace": "ITEM=FILE", "recolor": "ITEM=COLOR", "exchange": "ITEM=ITEM",
+    "turn": "ITEM=DEGREES", "scale": "ITEM=FACTOR", "move": "ITEM=X,Y such as owl=50%,120",
+}  # fmt: skip
+
+_OF_MANY = frozenset({"remove", "hold", "recolor"})
+"""Edits of all items of a name."""
+
+Specs: TypeAlias = list[str]
+
+DEFAULT_OUTPUT = Path("edited.svg")
+"""File to write where none is named."""
+
+_WHICH = "an item is NAME, NAME#2 for the second of several, or * for any letters"
+
+
+def _specs(flag: str, metavar: str, text: str) -> typer.models.OptionInfo:
+    """An option that may be given several times."""
+    return typer.Option(  # type: ignore[no-any-return]
+        flag, metavar=metavar, help=f"{text} May be given several times."
+    )
+
+
+@shared.by_name
+def edit(
+    layout: Annotated[
+        Path,
+        typer.Argument(
+            metavar="LAYOUT", help="A layout that was saved, as .geojson, .svg or .dxf."
+        ),
+    ],
+    items: Annotated[
+        Specs,
+        _specs("--items", "ITEM", "Drawings of the layout's items, by name: it holds shapes."),
+    ] = [],  # noqa: B006
+    hold: Annotated[
+        Specs, _specs("--hold", "ITEM[=place,angle,size]", f"Keep exactly as it is: {_WHICH}.")
+    ] = [],  # noqa: B006
+    move: Annotated[
+        Specs, _specs("--move", "ITEM=X,Y", "Put an item's middle there, as owl=50%,120.")
+    ] = [],  # noqa: B006
+    turn: Annotated[
+        Specs, _specs("--turn", "ITEM=DEGREES", "Turn an item to that angle from upright.")
+    ] = [],  # noqa: B006
+    scale: Annotated[
+        Specs, _specs("--scale", "ITEM=FACTOR", "Make an item so many times as large.")
+    ] = [],  # noqa: B006
+    exchange: Annotated[
+        Specs, _specs("--exchange", "ITEM=ITEM", "Let two items change places.")
+    ] = [],  # noqa: B006
+    add: Annotated[
+        Specs,
+        _specs("--add", "FILE[@X,Y]", "Bring an item more, there or where most room is."),
+    ] = [],  # noqa: B006
+    remove: Annotated[Specs, _specs("--remove", "ITEM", "Take items away.")] = [],  # noqa: B006
+    replace: Annotated[
+        Specs, _specs("--replace", "ITEM=FILE", "Put another item in an item's place.")
+    ] = [],  # noqa: B006
+    recolor: Annotated[Specs, _specs("--recolor", "ITEM=COLOR", "Give items one colour.")] = [],  # noqa: B006
+    padding: Annotated[
+        str | None,
+        typer.Option("--padding", help="Gap between items and to the container's edge."),
+    ] = None,
+    container: Annotated[
+        str | None, typer.Option("--container", help="Fill another container, on that canvas.")
+    ] = None,
+    *,
+    output: tuple[Path, ...] | None,
+    report: Path | None,
+    pixels: int,
+    no_clobber: bool,
+    quiet: bool,
+) -> None:
+    """Change a saved layout here and there; the rest makes room, and all is certified again.
+
+    Exit code 1 if that cannot be: what is in the way is named.
+
+    [bold]packwork edit bear.geojson --items icons/ --hold owl --move fox=50%,45% -o new.svg[/]
+
+    [bold]packwork edit heart.geojson --add star.svg --remove "cat#2" --recolor "fish=teal"[/]
+    """
+    with clear_errors():
+        from packwork import writers
+        from packwork.api.layout import Layout
+        from packwork.api.verbs import read_items
+        from packwork.cli.show import Paper, certificate_line, metrics_table, printing
+        from packwork.inputs import check_no_input
+
+        outputs = list(output or [DEFAULT_OUTPUT])
+        sides = [] if report is None else [report]
+        for path in outputs:
+            writers.check_output(path)
+        for side in sides:
+            writers.check_writable(side)
+        writers.check_outputs([*outputs, *sides])
+        if no_clobber:
+            writers.check_new([*outputs, *sides])
+        found = Layout.load(layout, read_items(items) if items else ())
+        session = found.edit()
+        for path in (*outputs, *sides):
+            check_no_input(path)
+        asked = {
+            "remove": remove, "replace": replace, "recolor": recolor, "exchange": exchange,
+            "turn": turn, "scale": scale, "move": move, "hold": hold,
+        }  # fmt: skip
+        # Names mean what they meant in the file, whatever is taken away before.
+        edits = [_planned(session, flag, spec) for flag, specs in asked.items() for spec in specs]
+        if container is not None:
+            session.set_container(container)
+        if padding is not None:
+            session.set(padding=padding)
+        for make in edits:
+            make()
+        for spec in add:
+            with _about("add"):
+                _added(session, spec)
+        done = session.finish()
+        made = session.layout
+        files = [
+            (path, writers.encoded(made, path, writers.write_options(pixels=pixels)))
+            for path in outputs
+        ]
+        said = {"metrics": made.metrics, "items": len(made), "certified": done.certified,
+                "in_the_way": done.in_the_way, "moved": done.moved}  # fmt: skip
+        files += [(side, writers.json_bytes(said)) for side in sides]
+        writers.write_all(files)
+        console = Paper(quiet=quiet, highlight=False)
+        with printing():
+            console.print(metrics_table(made.metrics, made.container.unit))
+            console.print(certificate_line(True, done.certified), soft_wrap=True)
+            names = ", ".join(printable(str(path)) for path, _ in files)
+            console.print(f"wrote {names}", soft_wrap=True)
+        for line in done.in_the_way:
+            say(line)
+        if not done.certified:
+            raise typer.Exit(SHORTFALL)
+
+
+def _planned(session: Session, flag: str, spec: str) -> Callable[[], None]:
+    """What one option asks for, of items that are there now."""
+    which, sign, value = (part.strip() for part in spec.partition("="))
+    if flag not in {"remove", "hold"} and not (sign and which and value):
+        raise RecipeError(flag, f"must be {_FORMS[flag]}, not {spec[:60]!r}")
+    with _about(flag):
+        numbers = session.find(which) if flag in _OF_MANY else (session.one(which),)
+        others = (session.one(value),) if flag == "exchange" else ()
+
+    def make() -> None:
+        with _about(flag):
+            for number in numbers:
+                _made(session, flag, number, value, others)
+
+    return make
+
+
+def _made(session: Session, flag: str, item: int, value: str, others: tuple[int, ...]) -> None:
+    """Make one edit of one item."""
+    if flag == "move":
+        x, comma, y = value.partition(",")
+        if not comma:
+            raise RecipeError(flag, f"must be {_FORMS[flag]}, not {value[:40]!r}")
+        session.move(item, x, y)
+    elif flag == "hold":
+        ends = [end.strip() for end in value.split(",") if end]
+        session.hold(item, *cast("list[Property]", ends))
+    elif flag == "exchange":
+        session.exchange(item, *others)
+    elif flag == "remove":
+        session.remove(item)
+    elif flag in {"turn", "scale"}:
+        getattr(session, flag)(item, _number(flag, value))
+    else:
+        getattr(session, flag)(item, value)
+
+
+def _number(flag: str, text: str) -> float:
+    try:
+        return float(text)
+    except ValueError:
+        raise RecipeError(flag, f"must be a number, not {text[:40]!r}") from None
+
+
+def _added(session: Session, spec: str) -> None:
+    source, sign, place = spec.rpartition("@")
+    x, comma, y = place.partition(",")
+    if sign and source and comma and not Path(spec).exists():
+        session.add(source, x, y)
+    else:
+        session.add(spec)
+
+
+@contextlib.contextmanager
+def _about(flag: str) -> Iterator[None]:
+    """Have errors be about the flag that people have typed."""
+    try:
+        yield
+    except RecipeError as error:
+        raise RecipeError(flag, error.problem) from error

@@ -1,0 +1,81 @@
+"""The certificate of a document, at a cost that follows what has changed."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from packwork.live.change import Change, Stale
+from packwork.live.document import Document
+from packwork.metrics.certificate import Promise, off_shares
+from packwork.metrics.standing import Standing
+from packwork.metrics.violations import Violation
+from packwork.pipeline.left_out import reason
+
+
+class Certificate:
+    """What exact geometry finds of one document after another.
+
+    Examples
+    --------
+    >>> from packwork import fill
+    >>> document = Document.of(fill("circle", "star", count=3, effort="draft", levels="50"))
+    >>> Certificate().in_the_way(document)
+    ()
+    """
+
+    def __init__(self) -> None:
+        self._seen: Document | None = None
+        self._standing: Standing | None = None
+
+    def violations(self, document: Document) -> tuple[Violation, ...]:
+        """What is in conflict, items by their numbers."""
+        return self._brought_to(document).violations
+
+    def in_the_way(self, document: Document) -> tuple[str, ...]:
+        """What keeps a document from its certificate, a sentence each."""
+        place = {number: k for k, number in enumerate(document.ids.tolist())}
+        said = []
+        for one in self._brought_to(document).violations:
+            other = None if one.other is None else place[one.other]
+            placed = replace(one, item=place[one.item], other=other)
+            name = document.items[placed.item].name
+            said.append(f"{name} {reason(placed, document.items, document.container.unit)}")
+        return (*said, *off_shares(promise_of(document), document.layout))
+
+    def _brought_to(self, now: Document) -> Standing:
+        """Look at what has changed since it was last looked at."""
+        before, standing = self._seen, self._standing
+        if now is before and standing is not None:
+            return standing
+        if standing is None or before is None or _is_all_stale(before, now):
+            gap = promise_of(now).least_gap(now.container.side)
+            standing, before = Standing(now.container.outline, gap), None
+        was = {} if before is None else {k: n for n, k in enumerate(before.ids.tolist())}
+        gone = dict.fromkeys(was.keys() - set(now.ids.tolist()))
+        changed = [
+            (k, number) for k, number in enumerate(now.ids.tolist())
+            if before is None or number not in was or _is_elsewhere(before, was[number], now, k)
+        ]  # fmt: skip
+        placed = {n: now.items[k].outline.mapped(now.poses.matrix(k)) for k, n in changed}
+        standing.change({**gone, **placed})
+        self._standing, self._seen = standing, now
+        return standing
+
+
+def promise_of(document: Document) -> Promise:
+    """Smallest gap and shares of area that a document is to keep."""
+    given = Promise.of(document.manifest) or Promise()
+    shares = given.areas_in_shares and document.options.sizes == "shared"
+    return Promise(document.options.padding, shares)
+
+
+def _is_all_stale(before: Document, now: Document) -> bool:
+    return Change.between(before, now).stale == Stale.EVERYTHING
+
+
+def _is_elsewhere(before: Document, i: int, now: Document, k: int) -> bool:
+    one, other = before.poses, now.poses
+    return before.items[i].outline is not now.items[k].outline or any(
+        getattr(one, name)[i] != getattr(other, name)[k]
+        for name in ("x", "y", "angle", "scale", "stretch")
+    )

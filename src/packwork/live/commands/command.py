@@ -1,0 +1,105 @@
+"""What all commands are, and what they look up."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Annotated, TypeAlias, TypeVar
+
+from pydantic import Field
+
+from packwork.errors import RecipeError
+from packwork.live.document import Document
+from packwork.options import Options
+from packwork.recipe.refusals import validated
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+
+FARTHEST = 1e6
+"""Coordinates at most, in sides of the canvas: farther is nowhere. Chosen."""
+
+Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
+
+ItemId: TypeAlias = Annotated[int, Field(ge=0)]
+"""Number by which an item is called, :attr:`Document.ids`."""
+
+ItemIds: TypeAlias = Annotated[tuple[ItemId, ...], Field(min_length=1)]
+
+
+@dataclass(frozen=True)
+class Library:
+    """What commands bring into a document, by the names that they call it.
+
+    Parameters
+    ----------
+    items, containers
+        Values that were read, by a name of their content.
+    """
+
+    items: dict[str, Item] = field(default_factory=dict)
+    containers: dict[str, Container] = field(default_factory=dict)
+
+
+_Command = TypeVar("_Command", bound="Command")
+
+
+class Command(Options):
+    """One edit of a document."""
+
+    kind: str
+    """What it does, as a log names it."""
+
+    @abstractmethod
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document after it.
+
+        Raises
+        ------
+        RecipeError
+            If it has no meaning there.
+        """
+
+
+def made(command: type[_Command], **values: object) -> _Command:
+    """A command of plain values.
+
+    Raises
+    ------
+    RecipeError
+        Naming the value that has no meaning.
+    """
+    return validated(command, values)
+
+
+def index_of(document: Document, number: int, what: str) -> int:
+    """Where an item stands in the arrays.
+
+    Raises
+    ------
+    RecipeError
+        If there is none of that number.
+    """
+    found = document.index(number)
+    if found is None:
+        raise RecipeError(what, f"there is no item {number}; {_numbers(document)}")
+    return found
+
+
+def _numbers(document: Document) -> str:
+    if not len(document):
+        return "the layout is empty"
+    return f"numbers go from {document.ids.min()} to {document.ids.max()}"
+
+
+def known(values: Mapping[str, Item] | Mapping[str, Container], name: str, what: str) -> object:
+    """A value of a library.
+
+    Raises
+    ------
+    RecipeError
+        If it has none of that name.
+    """
+    if name not in values:
+        raise RecipeError(what, f"nothing was read under the name {name[:40]!r}")
+    return values[name]

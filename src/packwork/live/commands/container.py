@@ -1,0 +1,107 @@
+"""Commands that change what is to be filled, and the numbers for all."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Annotated, Any, Literal, cast
+
+import numpy as np
+from pydantic import Field
+
+from packwork.errors import RecipeError, ShapeError
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
+from packwork.live.commands.command import FARTHEST, Command, Library, Number, known
+from packwork.live.document import Document
+from packwork.live.options import LiveOptions
+from packwork.recipe.refusals import validated
+from packwork.scene.container import Container
+
+MOST_POINTS = 100_000
+"""Points of an outline at most. Chosen."""
+
+
+class SetContainer(Command):
+    """Fill another container; the items keep their places on the canvas."""
+
+    kind: Literal["set_container"] = "set_container"
+    asset: str
+    """Name of the container in the library."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the container."""
+        new = cast(Container, known(library.containers, self.asset, "container"))
+        return replace(document, container=new)
+
+
+class Reshape(Command):
+    """Give the container other vertices."""
+
+    kind: Literal["reshape"] = "reshape"
+    rings: Annotated[
+        tuple[tuple[tuple[Number, Number], ...], ...], Field(min_length=1, max_length=10_000)
+    ]
+    """Canvas units; outer rings and holes."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the outline."""
+        if sum(map(len, self.rings)) > MOST_POINTS:
+            raise RecipeError("reshape", f"more than {MOST_POINTS} points; use fewer")
+        arrays = [np.array(ring, dtype=np.float64).reshape(-1, 2) for ring in self.rings]
+        if max(float(np.abs(ring).max(initial=0.0)) for ring in arrays) > (
+            FARTHEST * document.container.side
+        ):
+            raise RecipeError("reshape", "points are nowhere near the canvas")
+        try:
+            outline = Outline.from_region(Outline.from_rings(arrays).region.buffer(0))
+        except (ShapeError, ValueError) as error:
+            raise RecipeError("reshape", "the outline has no area; give three points") from error
+        return replace(document, container=_outlined(document.container, outline))
+
+
+class PlaceContainer(Command):
+    """Move and scale the container on its canvas."""
+
+    kind: Literal["place_container"] = "place_container"
+    x: Number = 0.0
+    """By how much to the right, canvas units."""
+    y: Number = 0.0
+    """By how much down."""
+    factor: Annotated[Number, Field(ge=0.01, le=100)] = 1.0
+    """By how much larger, about the middle of its box."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the container there."""
+        container = document.container
+        if max(abs(self.x), abs(self.y)) > FARTHEST * container.side:
+            raise RecipeError("container", f"{self.x:g}, {self.y:g} is nowhere near the canvas")
+        left, top, right, bottom = container.outline.bounds
+        x, y = (left + right) / 2, (top + bottom) / 2
+        place = affine.similarity(
+            x * (1 - self.factor) + self.x, y * (1 - self.factor) + self.y, 0.0, self.factor
+        )
+        return replace(document, container=_outlined(container, container.outline.mapped(place)))
+
+
+class SetOption(Command):
+    """Set a number or a choice that holds for all items."""
+
+    kind: Literal["set_option"] = "set_option"
+    name: str
+    """Such as ``padding``, ``sizes``, ``size_ratio``, ``rotate``."""
+    value: float | str
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the option."""
+        if self.name not in LiveOptions.model_fields:
+            choices = ", ".join(LiveOptions.model_fields)
+            raise RecipeError(self.name[:40], f"is no option of a session; use one of {choices}")
+        values: dict[str, Any] = {**dict(document.options), self.name: self.value}
+        options = validated(LiveOptions, values)
+        if options.padding > document.container.side:
+            raise RecipeError("padding", f"{options.padding:g} is more than the canvas is long")
+        return document.with_ranges(options)
+
+
+def _outlined(container: Container, outline: Outline) -> Container:
+    return replace(container, outline=outline, backdrop=None, walls=None)

@@ -1,0 +1,213 @@
+"""Commands that bring items, take them away or change what they are."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import Annotated, Literal, cast
+
+import numpy as np
+from pydantic import Field
+
+from packwork.arrays import IntArray
+from packwork.errors import RecipeError
+from packwork.live.commands.command import (
+    FARTHEST,
+    Command,
+    ItemId,
+    ItemIds,
+    Library,
+    Number,
+    index_of,
+    known,
+)
+from packwork.live.document import PROPERTIES, Document
+from packwork.scene.colour import hex_colour, parse_colour
+from packwork.scene.item import Item
+from packwork.scene.label import Label
+from packwork.scene.pose import Poses
+from packwork.scene.recolour import recoloured
+
+MOST_ITEMS = 100_000
+"""Items of a document at most, as of a recipe."""
+
+OFFSET = 0.02
+"""How far beside its original a copy is put, as a share of the canvas. Chosen."""
+
+
+class Add(Command):
+    """Bring one item more."""
+
+    kind: Literal["add"] = "add"
+    asset: str
+    """Name of the item in the library."""
+    x: Number
+    """Where its middle is put, canvas units."""
+    y: Number
+    """As above, down."""
+    area: Annotated[Number, Field(gt=0)]
+    """How large it begins, squared canvas units."""
+    angle: Number = 0.0
+    """Degrees, clockwise."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the item, the last of all."""
+        item = cast(Item, known(library.items, self.asset, "add"))
+        if max(abs(self.x), abs(self.y)) > FARTHEST * document.container.side:
+            raise RecipeError("add", f"{self.x:g}, {self.y:g} is nowhere near the canvas")
+        scale = math.sqrt(self.area / item.outline.area)
+        pose = Poses([self.x], [self.y], math.radians(self.angle), scale)
+        return _joined(document, item, pose, item.weight)
+
+
+class Duplicate(Command):
+    """Bring a copy of an item, a little beside it."""
+
+    kind: Literal["duplicate"] = "duplicate"
+    item: ItemId
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the copy, the last of all."""
+        k = index_of(document, self.item, "duplicate")
+        pose, beside = document.poses.some(np.array([k])), OFFSET * document.container.side
+        pose = replace(pose, x=pose.x + beside, y=pose.y + beside)
+        return _joined(document, document.items[k], pose, float(document.weights[k]))
+
+
+class Remove(Command):
+    """Take items away."""
+
+    kind: Literal["remove"] = "remove"
+    items: ItemIds
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document without them; the others keep their numbers."""
+        gone = [index_of(document, number, "remove") for number in self.items]
+        left = np.setdiff1d(np.arange(len(document)), gone)
+        if len(left) == 0:
+            raise RecipeError("remove", "nothing would be left; keep one item at least")
+        return replace(
+            document,
+            items=tuple(document.items[k] for k in left),
+            poses=document.poses.some(left),
+            **{name: getattr(document, name)[left] for name in _COLUMNS},
+        )
+
+
+class Replace(Command):
+    """Put another item in an item's place, as large as it was; its number stays."""
+
+    kind: Literal["replace"] = "replace"
+    item: ItemId
+    asset: str
+    """Name of the new one in the library."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the other item."""
+        k = index_of(document, self.item, "replace")
+        new = cast(Item, known(library.items, self.asset, "replace"))
+        factor = math.sqrt(document.items[k].outline.area / new.outline.area)
+        columns = {name: getattr(document, name).copy() for name in ("smallest", "largest")}
+        for values in columns.values():
+            values[k] *= factor
+        scale = document.poses.scale.copy()
+        scale[k] *= factor
+        changed = _with_item(document, k, new)
+        return replace(changed, poses=replace(document.poses, scale=scale), **columns)
+
+
+class Weigh(Command):
+    """Give items another weight; they grow or shrink accordingly."""
+
+    kind: Literal["weigh"] = "weigh"
+    items: ItemIds
+    weight: Annotated[Number, Field(gt=0)]
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with other weights and sizes."""
+        rows = [index_of(document, number, "weigh") for number in self.items]
+        weights, scale = document.weights.copy(), document.poses.scale.copy()
+        before = np.where(weights[rows] > 0, weights[rows], 1.0)
+        factor = np.sqrt(self.weight / before)
+        weights[rows] = self.weight
+        scale[rows] *= factor
+        columns = {name: getattr(document, name).copy() for name in ("smallest", "largest")}
+        for values in columns.values():
+            values[rows] *= factor
+        poses = replace(document.poses, scale=scale)
+        return replace(document, weights=weights, poses=poses, **columns)
+
+
+class Rename(Command):
+    """Give an item another name, in files and tooltips too."""
+
+    kind: Literal["rename"] = "rename"
+    item: ItemId
+    name: Annotated[str, Field(min_length=1)]
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the name."""
+        k = index_of(document, self.item, "rename")
+        item = document.items[k]
+        label = Label(self.name, item.label.link, item.label.title)
+        return _with_item(document, k, _changed(item, name=self.name, label=label))
+
+
+class Recolour(Command):
+    """Give items one colour."""
+
+    kind: Literal["recolour"] = "recolour"
+    items: ItemIds
+    colour: str
+    """Any CSS colour."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the colour."""
+        colour = hex_colour(parse_colour("recolour", self.colour))
+        made: dict[int, Item] = {}
+        for number in self.items:
+            k = index_of(document, number, "recolour")
+            item = document.items[k]
+            if id(item) not in made:
+                made[id(item)] = recoloured(item, colour)
+            document = _with_item(document, k, made[id(item)])
+        return document
+
+
+_COLUMNS = ("ids", "weights", "smallest", "largest", "held")
+
+
+def _joined(document: Document, item: Item, pose: Poses, weight: float) -> Document:
+    if len(document) >= MOST_ITEMS:
+        raise RecipeError("add", f"{MOST_ITEMS} items are the most; remove one first")
+    joined = replace(
+        document,
+        items=(*document.items, item),
+        ids=np.append(document.ids, document.next_id),
+        poses=document.poses.followed_by(pose),
+        weights=np.append(document.weights, weight),
+        smallest=np.append(document.smallest, pose.scale),
+        largest=np.append(document.largest, pose.scale),
+        held=np.vstack([document.held, np.zeros((1, len(PROPERTIES)), dtype=bool)]),
+        next_id=document.next_id + 1,
+    )
+    return _ranged(joined, np.array([len(document)]))
+
+
+def _ranged(document: Document, rows: IntArray) -> Document:
+    """The document with sizes of some items as free as those of any other."""
+    found = document.with_ranges(document.options)
+    smallest, largest = document.smallest.copy(), document.largest.copy()
+    smallest[rows], largest[rows] = found.smallest[rows], found.largest[rows]
+    return replace(document, smallest=smallest, largest=largest)
+
+
+def _with_item(document: Document, k: int, item: Item) -> Document:
+    items: Sequence[Item] = document.items
+    return replace(document, items=(*items[:k], item, *items[k + 1 :]))
+
+
+def _changed(item: Item, **values: object) -> Item:
+    """A copy of an item with some fields replaced; its geometry is the same object."""
+    return replace(item, **values)  # type: ignore[arg-type]

@@ -1,0 +1,110 @@
+"""Commands that put items elsewhere."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Annotated, Literal
+
+import numpy as np
+from pydantic import Field
+
+from packwork.errors import RecipeError
+from packwork.live.commands.command import (
+    FARTHEST,
+    Command,
+    ItemId,
+    Library,
+    Number,
+    index_of,
+)
+from packwork.live.document import Document
+from packwork.scene.pose import Poses
+
+NEARLY = 1.1
+"""By how much an item that was given a size may be larger or smaller than that. Chosen."""
+
+
+class Move(Command):
+    """Put an item's middle somewhere."""
+
+    kind: Literal["move"] = "move"
+    item: ItemId
+    x: Number
+    """Canvas units."""
+    y: Number
+    """As above, down."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the item there."""
+        k = index_of(document, self.item, "move")
+        if max(abs(self.x), abs(self.y)) > FARTHEST * document.container.side:
+            raise RecipeError("move", f"{self.x:g}, {self.y:g} is nowhere near the canvas")
+        return _posed(document, k, x=self.x, y=self.y)
+
+
+class Turn(Command):
+    """Turn an item to an angle."""
+
+    kind: Literal["turn"] = "turn"
+    item: ItemId
+    angle: Number
+    """Degrees from upright, clockwise."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the item turned."""
+        k = index_of(document, self.item, "turn")
+        return _posed(document, k, angle=math.radians(math.fmod(self.angle, 360.0)))
+
+
+class Scale(Command):
+    """Make an item larger or smaller; it then keeps about that size."""
+
+    kind: Literal["scale"] = "scale"
+    item: ItemId
+    factor: Annotated[Number, Field(ge=0.01, le=100)]
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the item of another size."""
+        k = index_of(document, self.item, "scale")
+        scale = float(document.poses.scale[k]) * self.factor
+        extent = document.items[k].outline.extent * scale
+        if not 1e-6 < extent / document.container.side < FARTHEST:
+            raise RecipeError("scale", f"an item {extent:g} {document.container.unit} long is none")
+        smallest, largest = document.smallest.copy(), document.largest.copy()
+        is_free = document.options.sizes == "free"
+        smallest[k] = scale / NEARLY if is_free else scale
+        largest[k] = scale * NEARLY if is_free else scale
+        document = replace(document, smallest=smallest, largest=largest)
+        return _posed(document, k, scale=scale)
+
+
+class Exchange(Command):
+    """Let two items change places; each becomes as large as the other was."""
+
+    kind: Literal["exchange"] = "exchange"
+    first: ItemId
+    second: ItemId
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the two exchanged."""
+        i, j = (index_of(document, one, "exchange") for one in (self.first, self.second))
+        if i == j:
+            raise RecipeError("exchange", f"{self.first} is one item; give two")
+        poses, areas = document.poses, document.own_areas
+        here, there = np.array([i, j]), np.array([j, i])
+        other = poses.some(there)
+        scale = poses.scale[here]
+        if document.options.sizes == "free":
+            scale = other.scale * np.sqrt(areas[there] / areas[here])
+        changed = replace(poses.some(here), x=other.x, y=other.y, scale=scale)
+        return document.with_poses(poses.with_some(here, changed))
+
+
+def _posed(document: Document, k: int, **values: float) -> Document:
+    """The document with some numbers of one pose replaced."""
+    poses: Poses = document.poses
+    columns = {name: getattr(poses, name).copy() for name in values}
+    for name, value in values.items():
+        columns[name][k] = value
+    return document.with_poses(replace(poses, **columns))

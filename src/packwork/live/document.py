@@ -1,0 +1,144 @@
+"""A layout under the hand: an immutable value with all that a person may change."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from typing import Any, Literal, TypeAlias, get_args
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.live.options import LiveOptions
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+
+Property: TypeAlias = Literal["place", "angle", "size"]
+"""What of an item can be held, each by itself."""
+
+PROPERTIES: tuple[Property, ...] = get_args(Property)
+"""In the order of the columns of :attr:`Document.held`."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Document:
+    """Container, items, poses, what is held and the numbers for all; nothing else is in a session.
+
+    Commands make new documents, which share what has not changed. Arrays are read-only.
+
+    Parameters
+    ----------
+    container
+        The region to fill.
+    items
+        One per number; copies repeat the same ``Item``.
+    ids
+        ``(n,)`` numbers by which commands call the items; an item keeps its own for ever.
+    poses
+        As many as items.
+    weights
+        ``(n,)`` share of area asked for each.
+    smallest, largest
+        ``(n,)`` scales between which an item's size may vary.
+    held
+        ``(n, 3)`` whether place, angle and size stay exactly as they are.
+    options
+        Gap, sizes and turns.
+    next_id
+        Number of the next item that is added.
+    manifest
+        What is known of where the layout came from.
+
+    Examples
+    --------
+    >>> from packwork import fill
+    >>> document = Document.of(fill("circle", "star", count=3, effort="draft", levels="50"))
+    >>> document.ids.tolist(), document.held.any()
+    ([0, 1, 2], np.False_)
+    """
+
+    container: Container
+    items: tuple[Item, ...]
+    ids: IntArray
+    poses: Poses
+    weights: FloatArray
+    smallest: FloatArray
+    largest: FloatArray
+    held: BoolArray
+    options: LiveOptions
+    next_id: int
+    manifest: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        put = object.__setattr__
+        for name in ("ids", "weights", "smallest", "largest", "held"):
+            put(self, name, _frozen(getattr(self, name)))
+        columns = (getattr(self.poses, column.name) for column in fields(Poses))
+        put(self, "poses", Poses(*(_frozen(values) for values in columns)))
+
+    @classmethod
+    def of(cls, layout: Layout) -> Document:
+        """Document of a layout: nothing held, sizes as free as its run had them."""
+        count = len(layout.items)
+        options = LiveOptions.of(layout.manifest)
+        document = cls(
+            container=layout.container,
+            items=layout.items,
+            ids=np.arange(count),
+            poses=layout.poses,
+            weights=layout.weights,
+            smallest=layout.poses.scale,
+            largest=layout.poses.scale,
+            held=np.zeros((count, len(PROPERTIES)), dtype=bool),
+            options=options,
+            next_id=count,
+            manifest=layout.manifest,
+        )
+        return document.with_ranges(options)
+
+    def __len__(self) -> int:
+        return len(self.items)
+
+    @property
+    def layout(self) -> Layout:
+        """The layout as it is now; of its manifest what does not depend on places."""
+        return Layout(self.container, self.items, self.poses, self.weights, self.manifest)
+
+    @property
+    def own_areas(self) -> FloatArray:
+        """``(n,)`` areas of the outlines, squared item units."""
+        return np.array([item.outline.area for item in self.items])
+
+    def with_ranges(self, options: LiveOptions) -> Document:
+        """The same with other options, and sizes that vary as these say.
+
+        Free sizes are between those of the typical item, which is as large as the mean, over and
+        times the ratio; an item that is outside them already may stay as it is.
+        """
+        scale = self.poses.scale
+        smallest = largest = scale
+        if options.sizes == "free" and len(self):
+            areas = self.own_areas
+            typical = np.sqrt(np.mean(areas * scale**2) / areas)
+            smallest = np.minimum(typical / options.size_ratio, scale)
+            largest = np.maximum(typical * options.size_ratio, scale)
+        return replace(self, options=options, smallest=smallest, largest=largest)
+
+    def with_poses(self, poses: Poses) -> Document:
+        """The same with the items elsewhere."""
+        return replace(self, poses=poses)
+
+    def index(self, number: int) -> int | None:
+        """Where an item stands in the arrays, by its number; None if there is none such."""
+        found = np.flatnonzero(self.ids == number)
+        return int(found[0]) if len(found) else None
+
+
+def _frozen(values: Any) -> Any:
+    if not values.flags.writeable:
+        return values
+    copy = np.array(values)
+    copy.flags.writeable = False
+    return copy

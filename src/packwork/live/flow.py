@@ -1,0 +1,258 @@
+"""Flow: epochs of the solver from where a layout is, on those items alone that a gesture reaches.
+
+The levels of a run (Wang and Lu 2025, see :mod:`packwork.solve.solver`) on a part of the items:
+all others stand still, and are taken off the room that there is to fill.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.arrays import BoolArray, IntArray
+from packwork.geometry.outline import Outline
+from packwork.live.document import Document
+from packwork.live.touching import Touching
+from packwork.pipeline.plan.padding import padded
+from packwork.raster.coverage import Rasteriser
+from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
+from packwork.solve.detail import Seen, seen_posed
+from packwork.solve.ensemble import Ensemble
+from packwork.solve.ground import Ground
+from packwork.solve.level import Level
+from packwork.solve.motion import Motion
+from packwork.solve.options import ImageLossFunction, SolveOptions
+
+RINGS = 3
+"""Neighbours of neighbours that a gesture reaches. More share out what it takes and stir more
+items. Chosen."""
+
+FADE = 0.6
+"""Factor on the steps of an item for each ring that it is away. Larger moves far items more,
+smaller leaves all to the nearest. Chosen."""
+
+LINGER = 60
+"""Epochs that an item goes on after the last gesture was near. Fewer leave gaps where an item was
+dragged past, more stir long trails. Chosen."""
+
+REVIEW = 5
+"""Epochs after which it is looked anew which items are reached. More are faster and react later.
+Chosen."""
+
+PIXELS = 12.0
+"""Pixels across the usual item at the level at which something is moved. Larger is finer and
+slower. Chosen."""
+
+COARSEST, FINEST = 100, 800
+"""Levels at which flow works, px on the longer side. Chosen."""
+
+SIZE_STEP = 0.008
+"""Longest change of the logarithm of size in an epoch. Larger shrinks what is only passed by.
+Tried."""
+
+STEP = 0.12
+"""Longest move in an epoch, in sides of the square that has the usual item's area. Larger gets
+faster out of the way and trembles. Chosen."""
+
+CALMEST = 0.1
+"""Factor on steps in the last of those epochs: items come to rest. Larger trembles, smaller gets
+nowhere. Chosen."""
+
+WEIGHTS: Mapping[str | ImageLossFunction, float] = {
+    "containment": 12.0, "overlap": 12.0, "filling": 1.0
+}  # fmt: skip
+"""Of the losses. With 200 in place of 12 a gesture among 100 icons costs 1.4 % of the coverage,
+with 60 1.1 %, with 20 and 8 0.8 to 0.9 %: what shrinks at once does not grow back. Tried."""
+
+RECALL = 12.0
+"""Weight of what calls items back into the container; as above."""
+
+
+class Flow:
+    """Buffers and moments of the solver between the frames of a session.
+
+    Parameters
+    ----------
+    document
+        Where it begins; given to :meth:`turn_to` when something else than poses has changed.
+    """
+
+    def __init__(self, document: Document) -> None:
+        self.turn_to(document)
+
+    def turn_to(self, document: Document) -> None:
+        """Go on with another document; nothing moves until something is stirred."""
+        self._document = document
+        self.poses = document.poses
+        self.touching = Touching(document)
+        self._left = np.zeros(len(document), dtype=np.int64)
+        self._given: IntArray = np.zeros(0, dtype=np.int64)
+        self._grounds: dict[int, Ground] = {}
+        self._known: dict[int, Seen] = {}
+        self._active: IntArray = np.zeros(0, dtype=np.int64)
+        self._working: tuple[Level, Motion] | None = None
+        self._is_held: BoolArray = np.zeros((0, 3), dtype=bool)
+        self._since = 0
+        self._ring: IntArray = np.zeros(len(document), dtype=np.int64)
+        self._region = padded(document.container, document.options.padding)
+        self._outlines = [item.outline for item in document.items]
+        areas = document.own_areas * document.poses.scale**2
+        self._share = float(np.sqrt(np.median(areas))) if len(areas) else document.container.side
+        self.moved: BoolArray = np.zeros(len(document), dtype=bool)
+        """``(n,)`` which items were given other places, or have flowed, since the last turn."""
+
+    @property
+    def resolution(self) -> int:
+        """Pixels of the level at which something is moved: such that the usual item is resolved."""
+        pixels = PIXELS * self._document.container.side / self._share
+        return int(np.clip(round(pixels), COARSEST, FINEST))
+
+    @property
+    def is_at_rest(self) -> bool:
+        """Whether nothing would move."""
+        return not self._left.any()
+
+    def give(self, items: IntArray, poses: Poses) -> None:
+        """Put items ``(m,)`` where the hand has them, ``poses`` of all: others make room."""
+        self._given, self.poses = items, poses
+        self.moved[items] = True
+        self.touching.follow(items, poses)
+        _, mine, theirs = np.intersect1d(items, self._active, return_indices=True)
+        if self._working is not None and len(mine) == len(items):
+            self._working[1].put(theirs, poses.some(items[mine]))
+        else:
+            self._since = REVIEW
+        self._reach(items, RINGS, LINGER)
+
+    def hold(self, items: IntArray) -> None:
+        """Keep items ``(m,)`` where they are, and no others: what the hand has put there."""
+        self._given = items
+        self._since = REVIEW
+
+    def stir(self, items: IntArray) -> None:
+        """Let items ``(m,)`` flow, and those beside them."""
+        self._reach(items, 1, LINGER)
+        self._since = REVIEW
+
+    def rule(self, document: Document) -> None:
+        """Go on with other rules, names or colours; poses and outlines are the same."""
+        self._document = document
+        self._since = REVIEW
+
+    def review(self) -> None:
+        """Bring the neighbours up to date."""
+        self.touching.follow(np.flatnonzero(self.moved), self.poses)
+
+    def run(self, epochs: int, resolution: int | None = None) -> None:
+        """Run some epochs; at rest none does anything."""
+        resolution = resolution or self.resolution
+        for _ in range(epochs):
+            if self.is_at_rest:
+                return
+            working = self._working
+            if working is None or working[0].resolution != resolution or self._since >= REVIEW:
+                working = self._rebuilt(resolution)
+            self._epoch(*working)
+
+    def _epoch(self, level: Level, motion: Motion) -> None:
+        gradient = level.gradient(motion.poses, WEIGHTS, RECALL)
+        motion.follow(gradient, max(int(self._left.max()) / LINGER, CALMEST))
+        self.poses = self._kept(motion.poses)
+        self._since += 1
+        self._left = np.maximum(self._left - 1, 0)
+
+    def _kept(self, moved: Poses) -> Poses:
+        """All poses after those that are active have moved; what is held, bit for bit as it was."""
+        active, held, before = self._active, self._is_held, self.poses.some(self._active)
+        columns = (
+            (held[:, 0], "x"), (held[:, 0], "y"), (held[:, 1], "angle"), (held[:, 2], "scale")
+        )  # fmt: skip
+        kept = {n: np.where(m, getattr(before, n), getattr(moved, n)) for m, n in columns}
+        return self.poses.with_some(active, replace(before, **kept))
+
+    def _reach(self, items: IntArray, most: int, left: int) -> None:
+        """Have what is within some rings of items ``(m,)`` go on for so many epochs at least."""
+        if len(self._active):
+            self.touching.follow(self._active, self.poses)
+        found = self.touching.rings(items, most)
+        reached = found >= 0
+        self._ring = np.where(reached, found, self._ring)
+        self._left[reached] = np.maximum(self._left[reached], left)
+
+    def _rebuilt(self, resolution: int) -> tuple[Level, Motion]:
+        """Level and motion of the items that go on now."""
+        self._since = 0
+        if len(self._given):
+            self._reach(self._given, RINGS, int(self._left.max()))
+        before, was, document = self._working, self._active, self._document
+        active = self._active = np.flatnonzero(self._left)
+        self._is_held = document.held[active] | np.isin(active, self._given)[:, None]
+        some, side = self.poses.some(active), document.container.side
+        level = Level(
+            document.container, self._seen_of(active, resolution), resolution, WEIGHTS,
+            ground=self._room(active, resolution),
+        )  # fmt: skip
+        motion = Motion(some, some.scale, side, self._options(), self._limits(active))
+        motion.pace = FADE ** self._ring[active].astype(np.float64)
+        if before is not None:
+            _, mine, theirs = np.intersect1d(active, was, return_indices=True)
+            motion.go_on_from(before[1], mine, theirs)
+        self.moved[active] = True
+        self._working = (level, motion)
+        return self._working
+
+    def _seen_of(self, items: IntArray, resolution: int) -> list[Outline]:
+        """Outlines of some items as a level sees them."""
+        document = self._document
+        known = self._known.setdefault(resolution, Seen())
+        outlines = [self._outlines[k] for k in items]
+        px_per_cu, margin = resolution / document.container.side, document.options.padding / 2
+        return seen_posed(outlines, self.poses.some(items), px_per_cu, margin, known)
+
+    def _room(self, active: IntArray, resolution: int) -> Ground:
+        """What the items that stand still leave free."""
+        if resolution not in self._grounds:
+            self._grounds[resolution] = Ground.of(self._region, resolution)
+        ground = self._grounds[resolution]
+        still = np.setdiff1d(np.arange(len(self._outlines)), active)
+        if len(still) == 0:
+            return ground
+        ensemble = Ensemble(self._seen_of(still, resolution))
+        rasteriser = Rasteriser(ground.room.shape)
+        points = ensemble.place(self.poses.some(still), resolution / self._document.container.side)
+        rasteriser.sweep(points, ensemble.ring_starts)
+        return ground.less(rasteriser.density())
+
+    def _limits(self, active: IntArray) -> Limits:
+        document, count, held = self._document, len(active), self._is_held
+        some = self.poses.some(active)
+        free = Limits.free(count)
+        turns = document.options.rotation.farthest
+        return replace(
+            free,
+            x=np.where(held[:, 0], some.x, np.nan),
+            y=np.where(held[:, 0], some.y, np.nan),
+            angle=np.where(held[:, 1], some.angle, np.nan),
+            turn_limit=np.where(held[:, 1], np.inf, max(turns, float(np.abs(some.angle).max()))),
+            smallest=np.where(
+                held[:, 2], some.scale, np.minimum(document.smallest[active], some.scale)
+            ),
+            largest=np.where(
+                held[:, 2], some.scale, np.maximum(document.largest[active], some.scale)
+            ),
+        )
+
+    def _options(self) -> SolveOptions:
+        document = self._document
+        options = document.options
+        return SolveOptions(
+            sizes="free" if options.sizes == "free" else "fixed",
+            size_ratio=100,
+            turn_rate=0.08 if options.turns else 0.0,
+            position_rate=min(STEP * self._share / document.container.side, 1.0),
+            size_rate=SIZE_STEP,
+            margin=options.padding / 2,
+        )

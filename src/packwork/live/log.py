@@ -1,0 +1,149 @@
+"""Log: all that was done to a document, one line each, so that it can be done again.
+
+No line holds a time: of the flow it says how many epochs were run, so that a replay gives the
+same bytes.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import IO, Any, TypeAlias
+
+from pydantic import ValidationError
+
+from packwork.errors import ReadError
+from packwork.live.commands.any_command import COMMANDS, AnyCommand
+
+Entry: TypeAlias = tuple[str, Any]
+"""``do`` a command; ``flow`` of a level, so many epochs; ``settle``; ``polish`` by trials;
+``undo``; ``redo``."""
+
+MOST_ENTRIES = 10_000_000
+"""Lines of a log at most. Chosen."""
+
+MOST_EPOCHS = 1_000_000
+"""Epochs of one line at most. Chosen."""
+
+
+class Log:
+    """Entries, and the stream that they are written to, if there is one.
+
+    Parameters
+    ----------
+    stream
+        Open for text; flushed at the end of each gesture. Without one the entries are kept.
+    """
+
+    def __init__(self, stream: IO[str] | None = None) -> None:
+        self._stream = stream
+        self.entries: list[Entry] = []
+        """Those so far, if there is no stream."""
+
+    def note(self, kind: str, value: Any = None) -> None:
+        """Add an entry; epochs that follow on epochs of the same level are added to them."""
+        last = self.entries[-1] if self.entries else None
+        if kind == "flow" and last and last[0] == "flow" and last[1][0] == value[0]:
+            self.entries[-1] = ("flow", (value[0], last[1][1] + value[1]))
+            return
+        self._write(keeping=0)
+        self.entries.append((kind, value))
+
+    def flush(self) -> None:
+        """Have all that was noted written to the stream and on its way to the disk."""
+        self._write(keeping=0)
+        if self._stream is not None:
+            self._stream.flush()
+
+    def _write(self, keeping: int) -> None:
+        if self._stream is None:
+            return
+        for entry in self.entries[: len(self.entries) - keeping]:
+            self._stream.write(line_of(entry) + "\n")
+        del self.entries[: len(self.entries) - keeping]
+
+
+def line_of(entry: Entry) -> str:
+    """One entry as a line of JSON.
+
+    Examples
+    --------
+    >>> line_of(("flow", (200, 12))), line_of(("undo", None))
+    ('{"flow": [200, 12]}', '{"undo": null}')
+    """
+    kind, value = entry
+    if kind == "do":
+        value = value.model_dump(mode="json")
+    return json.dumps({kind: value})
+
+
+def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
+    """Entries of a log's lines; a last line that was cut off is left out.
+
+    Parameters
+    ----------
+    name
+        What the log is called in messages.
+
+    Raises
+    ------
+    ReadError
+        If a line is none of a log's.
+
+    Examples
+    --------
+    >>> list(read_entries(iter(['{"flow": [200, 12]}', '{"do": {"kind": "dr']), "a log"))
+    [('flow', (200, 12))]
+    """
+    kept: str | None = None
+    for number, line in enumerate(lines, start=1):
+        if number > MOST_ENTRIES:
+            raise ReadError(name, f"has more than {MOST_ENTRIES} lines")
+        if kept is not None:
+            yield _entry(kept, number - 1, name)
+        kept = line if line.strip() else None
+    if kept is not None and kept.rstrip().endswith("}"):
+        yield _entry(kept, number, name)
+
+
+def _entry(line: str, number: int, name: str) -> Entry:
+    try:
+        found = json.loads(line)
+    except (ValueError, RecursionError):
+        found = None
+    if isinstance(found, Mapping) and len(found) == 1:
+        (kind, value), *_ = found.items()
+        entry = _checked(str(kind), value)
+        if entry is not None:
+            return entry
+    raise ReadError(name, f"line {number} is no entry of a log: {line.strip()[:60]!r}")
+
+
+def _checked(kind: str, value: Any) -> Entry | None:
+    if kind in {"settle", "undo", "redo"}:
+        return kind, None
+    if kind == "flow" and _is_flow(value):
+        return kind, (value[0], value[1])
+    if kind == "polish" and _is_whole(value, 1):
+        return kind, value
+    if kind == "do":
+        try:
+            command: AnyCommand = COMMANDS.validate_python(value)
+        except ValidationError:
+            return None
+        return kind, command
+    return None
+
+
+def _is_flow(value: Any) -> bool:
+    return (
+        isinstance(value, list)
+        and len(value) == 2
+        and _is_whole(value[0], 8)
+        and value[0] <= 8_192
+        and _is_whole(value[1], 0)
+    )
+
+
+def _is_whole(value: Any, least: int) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= MOST_EPOCHS

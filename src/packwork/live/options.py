@@ -1,0 +1,61 @@
+"""Numbers of a document that hold for all its items."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Annotated, Any
+
+from pydantic import BeforeValidator, Field
+
+from packwork.metrics.certificate import Promise
+from packwork.options import Options, SizeMode
+from packwork.recipe.rules import Rotation, known_rotation
+
+MODES: Mapping[str, SizeMode] = {
+    "free": "free", "shared": "shared", "fixed": "fixed", "graded": "free", "auto": "shared"
+}  # fmt: skip
+"""How sizes vary, by how a recipe says it: those that gave way may go on to."""
+
+
+class LiveOptions(Options):
+    """Gap, sizes and turns that flow and settle keep to."""
+
+    padding: Annotated[float, Field(ge=0, allow_inf_nan=False)] = 0.0
+    """Gap between items and to the container's edge, canvas units."""
+
+    sizes: SizeMode = "free"
+    """free: each item finds its size; shared: all stay in proportion; fixed: none changes."""
+
+    size_ratio: Annotated[float, Field(ge=1, le=100)] = 2.0
+    """With free sizes: 2 lets an item be half to twice as large as the typical one."""
+
+    rotate: Annotated[str, BeforeValidator(known_rotation)] = "free"
+    """free, none, or 30 (within 30 degrees of upright), as in recipes."""
+
+    @classmethod
+    def of(cls, manifest: Mapping[str, Any]) -> LiveOptions:
+        """Options that the run of a manifest had; the usual ones where it tells of none.
+
+        Examples
+        --------
+        >>> LiveOptions.of({"recipe": {"sizes": "graded", "rotate": "30"}}).rotate
+        '30'
+        """
+        recipe = manifest.get("recipe")
+        said = recipe if isinstance(recipe, Mapping) else {}
+        promise = Promise.of(manifest) or Promise()
+        found = {name: said[name] for name in ("size_ratio", "rotate") if name in said}
+        sizes = MODES.get(str(said.get("sizes")), "free")
+        return cls(
+            padding=promise.gap, sizes="shared" if promise.areas_in_shares else sizes, **found
+        )
+
+    @property
+    def rotation(self) -> Rotation:
+        """How far items may turn."""
+        return Rotation.parse(self.rotate)
+
+    @property
+    def turns(self) -> bool:
+        """Whether items may turn by themselves; where only some angles are allowed they do not."""
+        return not self.rotation.is_still and self.rotation.choices is None

@@ -1,0 +1,357 @@
+"""A session: one document under the hand, and all that follows it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.errors import RecipeError
+from packwork.live.certificate import Certificate, promise_of
+from packwork.live.change import Change, Stale, differing
+from packwork.live.commands.command import Command, Library
+from packwork.live.commands.gestures import Drop, Grab
+from packwork.live.document import PROPERTIES, Document
+from packwork.live.flow import Flow
+from packwork.live.history import History
+from packwork.live.log import Entry, Log
+from packwork.live.settle import polish, settle
+from packwork.live.shapes import Shapes
+from packwork.metrics.violations import Violation
+from packwork.progress import Stop, never
+from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
+
+RELAX = 60
+"""Epochs before a settle: what lies under what was dropped has to get out of its way first. More
+take longer, fewer leave more to be shrunk. Tried."""
+
+AT_ONCE = 2
+"""Epochs between two looks at the clock. Chosen."""
+
+OF_PLACES = ("metrics", "certified", "filling", "beside", "pile")
+"""What a manifest says of poses that are no more."""
+
+
+@dataclass(frozen=True)
+class Settlement:
+    """What a settle came to.
+
+    Parameters
+    ----------
+    certified
+        Whether exact geometry finds nothing wrong with the layout now.
+    in_the_way
+        What it finds, a sentence each.
+    moved
+        How many items are elsewhere than before.
+    """
+
+    certified: bool
+    in_the_way: tuple[str, ...]
+    moved: int
+
+
+class Session:
+    """A layout that is changed by commands, flows, and settles into an exact one.
+
+    One thread owns a session. The same calls on the same document give the same bytes.
+
+    Parameters
+    ----------
+    document
+        Where it begins.
+    library
+        Items and containers that commands may bring in.
+    log
+        Where all that is done is noted.
+
+    Examples
+    --------
+    >>> import packwork as pw
+    >>> from packwork.live.commands.placing import Move
+    >>> layout = pw.fill("circle", "hexagon", count=7, effort="draft", levels="50")
+    >>> session = Session(Document.of(layout))
+    >>> change = session.apply(Move(item=0, x=300.0, y=300.0))
+    >>> session.settle().certified, session.document.poses.x[0]
+    (True, np.float64(300.0))
+    >>> session.undo()
+    >>> bool((session.document.poses.x == layout.poses.x).all())
+    True
+    """
+
+    def __init__(
+        self, document: Document, library: Library | None = None, log: Log | None = None
+    ) -> None:
+        self.library = library or Library()
+        self.log = log or Log()
+        self.history = History()
+        self._document = document
+        self.shapes = Shapes()
+        """Covers of the outlines."""
+        self._grabbed: tuple[int, ...] = ()
+        self._before: Document | None = None
+        self._touched: set[int] = set()
+        self._given: set[int] = set()
+        self._turned: set[int] = set()
+        self._by_hand: set[int] = set()
+        self._rough: set[int] = set()
+        self._polished = 0
+        self._flow: Flow | None = None
+        self._certificate = Certificate()
+
+    @property
+    def document(self) -> Document:
+        """What there is now."""
+        return self._document
+
+    @property
+    def is_at_rest(self) -> bool:
+        """Whether the flow has nothing to move."""
+        return self._flow is None or self._flow.is_at_rest
+
+    def apply(self, command: Command) -> Change:
+        """Do what a command says.
+
+        Raises
+        ------
+        RecipeError
+            If it has no meaning here; nothing is changed then.
+        """
+        if isinstance(command, Grab) and self._grabbed:
+            raise RecipeError("grab", "something is held already; drop it first")
+        before = self._document
+        after = command.applied(before, self.library)
+        change = Change.between(before, after)
+        self.log.note("do", command)
+        self._take(change, before, after)
+        if isinstance(command, Grab):
+            self._grabbed, self._before = command.items, before
+        elif isinstance(command, Drop):
+            self._drop()
+        elif not self._grabbed and change.stale > Stale.NOTHING:
+            self.history.note(before)
+            self._let_go()
+            self.log.flush()
+        return change
+
+    def flow(self, epochs: int | None = None, milliseconds: float | None = None) -> int:
+        """Let items make room: so many epochs, or as many as the time allows; how many they were.
+
+        Nothing moves but what a gesture has reached.
+
+        Raises
+        ------
+        RecipeError
+            If neither is given.
+        """
+        if epochs is None and milliseconds is None:
+            raise RecipeError("flow", "give epochs or milliseconds")
+        until = None if milliseconds is None else time.perf_counter() + milliseconds / 1e3
+        done = 0
+        while not self.is_at_rest and (epochs is None or done < epochs):
+            count = AT_ONCE if epochs is None else min(AT_ONCE, epochs - done)
+            self._run(count)
+            done += count
+            if until is not None and time.perf_counter() >= until:
+                break
+        return done
+
+    def settle(self, stop: Stop = never) -> Settlement:
+        """Finish what was touched exactly, and certify the whole.
+
+        Raises
+        ------
+        RecipeError
+            If something is grabbed.
+        """
+        if self._grabbed:
+            raise RecipeError("settle", "something is held by the hand; drop it first")
+        before = self._document
+        self.log.note("settle")
+        if self._flow is not None and self._touched:
+            # What cannot stay where it was put gives way like any other.
+            self._given = self._fitting(self._given)
+            held = self._document.held.copy()
+            held[self._rows(self._turned), PROPERTIES.index("angle")] = True
+            self._flow.rule(replace(self._document, held=held))
+            self._flow.hold(self._rows(self._given))
+            self._run(RELAX)
+            rows = np.flatnonzero(self._flow.moved)
+            touched = np.union1d(self._rows(self._touched), rows).astype(np.int64)
+            self._flow.review()
+            done = settle(
+                replace(self._document, held=held), touched, self._rows(self._given),
+                self._flow.touching, self.shapes, stop,
+            )  # fmt: skip
+            self._document = self._document.with_poses(done.document.poses)
+            self._flow.turn_to(self._document)
+        self._touched, self._given, self._turned = set(), set(), set()
+        self._rough |= set(
+            self._document.ids[differing(before.poses, self._document.poses)].tolist()
+        )
+        self.log.flush()
+        moved = int(differing(before.poses, self._document.poses).sum())
+        return Settlement(self.is_certified, self.in_the_way, moved)
+
+    def polish(self, trials: int, stop: Stop = never) -> int:
+        """Win back coverage where gestures have cost some, by turns of the items there.
+
+        For moments in which nobody touches anything: 2 ms a trial. Nothing is tried while something
+        is grabbed or not settled. The layout is as certified after it as before.
+
+        Parameters
+        ----------
+        trials
+            How many at most.
+        stop
+            Asked before each batch; True ends with what there is.
+
+        Returns
+        -------
+        int
+            How many items have moved.
+        """
+        if trials < 1 or self._grabbed or self._touched or not self._rough:
+            return 0
+        before = self._document
+        self.log.note("polish", trials)
+        self._polished += 1
+        # What was put somewhere by hand stays as it was put.
+        rows = self._rows(self._rough - self._by_hand)
+        done = polish(before, rows, trials, self._polished, self.shapes, stop)
+        if done.is_clean:
+            self._document = done.document
+        if self._flow is not None:
+            self._flow.turn_to(self._document)
+        return int(differing(before.poses, self._document.poses).sum())
+
+    def undo(self) -> None:
+        """Go back to the document before the last gesture, exactly; the flow pauses."""
+        self._leap("undo")
+
+    def redo(self) -> None:
+        """Go forward again."""
+        self._leap("redo")
+
+    @property
+    def violations(self) -> tuple[Violation, ...]:
+        """What is in conflict now, items by their numbers."""
+        return self._certificate.violations(self._document)
+
+    @property
+    def is_certified(self) -> bool:
+        """Whether exact geometry finds no overlap, nothing outside, and gaps as promised."""
+        return len(self._document) > 0 and not self.in_the_way
+
+    @property
+    def in_the_way(self) -> tuple[str, ...]:
+        """What keeps the layout from its certificate, a sentence each."""
+        return self._certificate.in_the_way(self._document)
+
+    @property
+    def layout(self) -> Layout:
+        """The layout as it is now, and whether it is certified."""
+        kept = {k: v for k, v in self._document.manifest.items() if k not in OF_PLACES}
+        said = {"promised": asdict(promise_of(self._document)), "certified": self.is_certified}
+        return replace(self._document.layout, manifest={**kept, **said, "edited": True})
+
+    @classmethod
+    def replay(
+        cls, document: Document, entries: Iterable[Entry], library: Library | None = None
+    ) -> Session:
+        """A session in which all entries of a log are done again."""
+        session = cls(document, library)
+        for kind, value in entries:
+            if kind == "do":
+                session.apply(value)
+            elif kind == "flow":
+                session._run(value[1], value[0])
+            elif kind == "settle":
+                session.settle()
+            elif kind == "polish":
+                session.polish(value)
+            else:
+                session._leap(kind)
+        return session
+
+    def _run(self, epochs: int, resolution: int | None = None) -> None:
+        if self._flow is None:
+            return
+        resolution = resolution or self._flow.resolution
+        self._flow.run(epochs, resolution)
+        self.log.note("flow", (resolution, epochs))
+        self._document = self._document.with_poses(self._flow.poses)
+
+    def _take(self, change: Change, before: Document, after: Document) -> None:
+        """Bring the flow to a changed document."""
+        self._document = after
+        if change.stale == Stale.NOTHING:
+            return
+        flow = self._flow = self._flow or Flow(before)
+        if change.stale <= Stale.RULES:
+            flow.rule(after)
+            return
+        if change.stale == Stale.POSES:
+            self._give(flow, before.poses, after)
+            return
+        gone = np.array([k for k in change.items if before.index(k) is not None], dtype=np.int64)
+        beside: set[int] = set()
+        if len(gone) and change.stale == Stale.ITEMS:
+            rows = np.array([before.index(int(k)) for k in gone], dtype=np.int64)
+            beside = set(before.ids[flow.touching.beside(rows)].tolist())
+        flow.turn_to(after)
+        present = set(after.ids.tolist())
+        self._given &= present
+        self._touched = (self._touched | beside | set(change.items.tolist())) & present
+        flow.stir(self._rows(self._touched))
+
+    def _give(self, flow: Flow, before: Poses, after: Document) -> None:
+        """Note which items the hand has moved or turned; others make room for all it changed."""
+        now, numbers = after.poses, after.ids
+        moved = (now.x != before.x) | (now.y != before.y)
+        turned, changed = now.angle != before.angle, differing(before, now)
+        self._given |= set(numbers[moved].tolist())
+        self._turned |= set(numbers[turned].tolist())
+        self._by_hand |= set(numbers[moved | turned].tolist())
+        self._touched |= set(numbers[changed].tolist())
+        flow.rule(after)
+        flow.give(self._rows(self._given | set(numbers[changed].tolist())), now)
+
+    def _drop(self) -> None:
+        before, self._before = self._before, None
+        if before is not None and self._document is not before:
+            self.history.note(before)
+        self._let_go()
+        self.log.flush()
+
+    def _let_go(self) -> None:
+        self._grabbed = ()
+
+    def _leap(self, kind: str) -> None:
+        if self._grabbed:
+            raise RecipeError(kind, "something is held by the hand; drop it first")
+        document = getattr(self.history, kind)(self._document)
+        self.log.note(kind)
+        self._document = document
+        for kept in (self._touched, self._given, self._turned, self._rough):
+            kept.clear()
+        if self._flow is not None:
+            self._flow.turn_to(document)
+        self.log.flush()
+
+    def _rows(self, numbers: set[int]) -> IntArray:
+        return np.flatnonzero(np.isin(self._document.ids, list(numbers)))
+
+    def _fitting(self, numbers: set[int]) -> set[int]:
+        """Those items that can stay where they are: in the container, and clear of what is held."""
+        document = self._document
+        fixed = set(document.ids[document.held[:, 0]].tolist()) | numbers
+        bad = set()
+        for one in self._certificate.violations(document):
+            if one.other is None or {one.item, one.other} <= fixed:
+                bad |= {one.item, one.other} & numbers
+        return numbers - bad

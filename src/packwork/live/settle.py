@@ -1,0 +1,223 @@
+"""Settle: what a gesture has touched is finished exactly, all else stays where it is.
+
+The exact finish (see :mod:`packwork.finish`) of a neighbourhood, in the room that the items about
+it leave. What was just put somewhere stays there if it can. Where that fails, the neighbourhood
+is widened by a ring of neighbours, three times at most.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+import shapely
+
+from packwork.arrays import BoolArray, IntArray
+from packwork.errors import ShapeError
+from packwork.finish.finish import finish
+from packwork.finish.options import FinishOptions
+from packwork.geometry.bezier import FLATTENING
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import difference, intersection, polygon_parts, union, valid
+from packwork.live.change import differing
+from packwork.live.document import Document
+from packwork.live.shapes import Shapes
+from packwork.live.touching import Touching
+from packwork.progress import Stop, never
+from packwork.scene.container import Container
+
+MOST_RINGS = 3
+"""Rings by which a neighbourhood is widened at most. More move what is far away. Chosen."""
+
+ROUNDS = 20
+"""Linear programmes of each item of a neighbourhood. More grow a little more and take longer.
+Tried."""
+
+POLISH_ROUNDS = 2
+"""The same before trials: the items have been finished already. Chosen."""
+
+DWARF = 2.0
+"""How many times smaller than its range an item may have become before a wider neighbourhood is
+asked to make room. Larger leaves specks, smaller widens for what is not seen. Chosen."""
+
+ABOUT = 2.0
+"""How far the room reaches beyond the boxes of what moves, in sides of the square that has the
+usual item's area. Larger costs time, smaller lets nothing out. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class Settled:
+    """What a settle came to.
+
+    Parameters
+    ----------
+    document
+        With the new poses.
+    moved
+        ``(n,)`` which items are elsewhere than before, or of other sizes.
+    is_clean
+        Whether those that may move are in conflict with nothing.
+    """
+
+    document: Document
+    moved: BoolArray
+    is_clean: bool
+
+
+def settle(
+    document: Document,
+    touched: IntArray,
+    given: IntArray,
+    touching: Touching,
+    shapes: Shapes,
+    stop: Stop = never,
+) -> Settled:
+    """Finish what a gesture has touched, and no more than that needs.
+
+    Parameters
+    ----------
+    document
+        Whatever has become of it.
+    touched
+        ``(m,)`` indices of items that have moved, turned, grown, or are new.
+    given
+        ``(g,)`` those among them that lie as the hand has left them, and are to stay so.
+    touching
+        Neighbours, at the present poses.
+    shapes
+        Covers of the outlines.
+    stop
+        Asked before each round; True ends with what there is.
+    """
+    is_still = document.held[:, 0].copy()
+    first = touched
+    found = Settled(document, np.zeros(len(document), dtype=bool), False)
+    for ring in range(MOST_RINGS + 1):
+        # What the hand has left stays for as long as that may be; it gives way in the end.
+        still = is_still.copy()
+        if ring < MOST_RINGS:
+            still[given] = True
+        movable = first[~still[first]]
+        found = _finished(document, movable, shapes, stop)
+        if found.is_clean or stop():
+            break
+        first = touching.beside(first)
+    return found
+
+
+def polish(
+    document: Document, items: IntArray, trials: int, seed: int, shapes: Shapes, stop: Stop = never
+) -> Settled:
+    """Try turns of items ``(m,)`` in conflict with nothing; those that gain are kept.
+
+    Parameters
+    ----------
+    trials
+        How many.
+    seed
+        Of what is tried.
+    """
+    return _finished(document, items[~document.held[items, 0]], shapes, stop, trials, seed)
+
+
+def _finished(
+    document: Document,
+    movable: IntArray,
+    shapes: Shapes,
+    stop: Stop,
+    trials: int = 0,
+    seed: int = 0,
+) -> Settled:
+    """The exact finish of some items among all others."""
+    moved = np.zeros(len(document), dtype=bool)
+    if len(movable) == 0:
+        return Settled(document, moved, True)
+    some = document.poses.some(movable)
+    outlines = [shapes.cover(document.items[k].outline) for k in movable]
+    room = room_of(document, movable, shapes)
+    result = finish(room, outlines, some, _options(document, movable, trials, seed), stop=stop)
+    held = document.held[movable]
+    made = replace(
+        result.poses,
+        angle=np.where(held[:, 1], some.angle, result.poses.angle),
+        scale=np.where(held[:, 2], some.scale, result.poses.scale),
+    )
+    poses = document.poses.with_some(movable, made)
+    moved[movable] = differing(some, made)
+    dwarfs = result.poses.scale * DWARF < document.smallest[movable]
+    return Settled(document.with_poses(poses), moved, result.clean and not dwarfs.any())
+
+
+def room_of(document: Document, movable: IntArray, shapes: Shapes) -> Container:
+    """The container about some items, less all that stands there."""
+    boxes = np.array([outline.bounds for outline in _placed(document, movable, shapes)])
+    areas = document.own_areas * document.poses.scale**2
+    reach = ABOUT * float(np.sqrt(np.median(areas))) + 2 * gap_of(document, movable)
+    window = shapely.box(*(boxes[:, :2].min(axis=0) - reach), *(boxes[:, 2:].max(axis=0) + reach))
+    others = np.setdiff1d(np.arange(len(document)), movable)
+    near = others[_may_meet(document, others, window.bounds)]
+    walls = [outline.region for outline in _placed(document, near, shapes)]
+    whole = intersection(valid(document.container.outline.region), window)
+    left = difference(whole, union(walls)) if walls else whole
+    parts = [part for part in polygon_parts(left) if _is_used(part, boxes)]
+    try:
+        outline = Outline.from_region(shapely.MultiPolygon(parts))
+    except ShapeError:
+        outline = document.container.outline
+    return replace(document.container, outline=outline)
+
+
+def _may_meet(document: Document, items: IntArray, window: Sequence[float]) -> BoolArray:
+    """Which of some items may reach into a window, by discs about them."""
+    poses = document.poses.some(items)
+    longest = np.array([document.items[k].outline.extent for k in items])
+    radii = longest * poses.scale * np.sqrt(np.maximum(poses.stretch, 1 / poses.stretch))
+    left, top, right, bottom = window
+    across = np.maximum(left - poses.x, poses.x - right)
+    along = np.maximum(top - poses.y, poses.y - bottom)
+    return np.asarray(np.maximum(across, along) <= radii)
+
+
+def _is_used(part: shapely.Polygon, boxes: np.ndarray) -> bool:
+    """Whether a part of the room may hold anything: others would only be looked at for nothing."""
+    left, top, right, bottom = part.bounds
+    meets = (boxes[:, 0] <= right) & (left <= boxes[:, 2]) & (boxes[:, 1] <= bottom)
+    return bool((meets & (top <= boxes[:, 3])).any())
+
+
+def _placed(document: Document, items: IntArray, shapes: Shapes) -> list[Outline]:
+    covers = [shapes.cover(document.items[k].outline) for k in items]
+    return [c.mapped(document.poses.matrix(int(k))) for c, k in zip(covers, items, strict=True)]
+
+
+def gap_of(document: Document, items: IntArray) -> float:
+    """Gap between outlines that leaves the one asked for between curves, canvas units."""
+    extents = np.array([document.items[k].outline.extent for k in items])
+    bulge = 2 * FLATTENING * float(np.max(extents * document.largest[items], initial=0.0))
+    return document.options.padding + bulge
+
+
+def _options(document: Document, movable: IntArray, trials: int, seed: int) -> FinishOptions:
+    options, scale = document.options, document.poses.scale[movable]
+    held = document.held[movable]
+    smallest = np.where(held[:, 2], scale, document.smallest[movable])
+    largest = np.where(held[:, 2], scale, document.largest[movable])
+    turns = options.turns
+    return FinishOptions(
+        gap_cu=gap_of(document, movable),
+        sizes="free" if options.sizes == "free" else "fixed",
+        smallest=tuple(smallest.tolist()),
+        largest=tuple(np.maximum(largest, scale).tolist()),
+        turning=turns,
+        turn_limit=options.rotation.limit if turns else None,
+        still=tuple(held[:, 1].tolist()),
+        rounds=POLISH_ROUNDS if trials else ROUNDS,
+        covered=True,
+        refining=True,
+        loosened=trials == 0,
+        staying=True,
+        trials=trials,
+        exchanging=False,
+        seed=seed,
+    )

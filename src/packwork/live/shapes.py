@@ -1,0 +1,32 @@
+"""Outlines simplified outwards, kept for a whole session."""
+
+from __future__ import annotations
+
+from packwork.compaction.covers import Covers
+from packwork.compaction.detail import FINE
+from packwork.geometry.outline import Outline
+
+
+class Shapes:
+    """Covers of outlines, as fine as the last rounds of an exact finish have them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> tile = Outline.from_rings([np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.0001], [0, 4]])])
+    >>> shapes = Shapes()
+    >>> len(shapes.cover(tile).points), shapes.cover(tile) is shapes.cover(tile)
+    (4, True)
+    """
+
+    def __init__(self) -> None:
+        self._covers = Covers()
+        self._known: dict[int, tuple[Outline, Outline]] = {}
+
+    def cover(self, outline: Outline) -> Outline:
+        """The outline with fewer vertices, holding all of it; made once."""
+        if id(outline) not in self._known:
+            # The outline is kept too, so that no other one gets its number.
+            made = self._covers.cover(outline, FINE * outline.extent)
+            self._known[id(outline)] = (outline, made)
+        return self._known[id(outline)][1]

@@ -1,0 +1,74 @@
+"""Which items lie side by side now: the graph along which a gesture spreads."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.arrangement import Arrangement
+from packwork.compaction.covers import Covers
+from packwork.compaction.kernels.distances import pairs_of
+from packwork.geometry.affine import stretched
+from packwork.geometry.outline import Outline
+from packwork.live.document import Document
+from packwork.scene.pose import Poses
+
+ROUGH = 0.03
+"""Tolerance of the covers, shares of an item's extent. Larger is faster and takes items for
+neighbours that are not. Chosen."""
+
+REACH = 0.6
+"""Gap of two items that count as side by side at most, in radii of a disc as large as the usual
+one. Larger stirs more items, smaller does not see across the gap that a gesture has left.
+Chosen."""
+
+
+class Touching:
+    """Neighbours of items in their present places, found at a cost that follows what is asked.
+
+    Parameters
+    ----------
+    document
+        Whose items, and where they are at first.
+    """
+
+    def __init__(self, document: Document) -> None:
+        covers, known = Covers(), dict[tuple[int, float], Outline]()
+        poses, outlines = document.poses, []
+        for item, stretch in zip(document.items, poses.stretch.tolist(), strict=True):
+            key = (id(item.outline), stretch)
+            if key not in known:
+                shape = item.outline.mapped(stretched(stretch))
+                known[key] = covers.cover(shape, ROUGH * shape.extent)
+            outlines.append(known[key])
+        self._arrangement = Arrangement(outlines, document.container.outline, places_of(poses))
+        areas = document.own_areas * poses.scale**2
+        self.reach = REACH * float(np.sqrt(np.median(areas) / np.pi)) if len(areas) else 0.0
+
+    def follow(self, items: IntArray, poses: Poses) -> None:
+        """Take over where items ``(m,)`` are; ``poses``: of all."""
+        self._arrangement.put(items, places_of(poses.some(items)))
+
+    def beside(self, items: IntArray) -> IntArray:
+        """Items within reach of some items ``(m,)``, these among them, ascending."""
+        reach = self.reach
+        pairs = pairs_of(self._arrangement.board.boxes, items, reach)
+        pairs = pairs[pairs[:, 1] < self._arrangement.count]
+        near = pairs[self._arrangement.distances(pairs, reach) < reach] if len(pairs) else pairs
+        return np.union1d(items, near)
+
+    def rings(self, sources: IntArray, most: int) -> IntArray:
+        """``(n,)`` steps from the nearest of some items ``(m,)``; -1 beyond ``most``."""
+        found = np.full(self._arrangement.count, -1, dtype=np.int64)
+        found[sources] = 0
+        front = inner = np.asarray(sources, dtype=np.int64)
+        for ring in range(1, most + 1):
+            inner = np.union1d(inner, self.beside(front)) if len(front) else inner
+            front = inner[found[inner] < 0]
+            found[front] = ring
+        return found
+
+
+def places_of(poses: Poses) -> FloatArray:
+    """``(n, 4)`` x, y, turn and logarithm of growth of poses, from upright and scale 1."""
+    return np.column_stack([poses.x, poses.y, poses.angle, np.log(poses.scale)])

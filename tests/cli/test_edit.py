@@ -1,0 +1,104 @@
+"""``packwork edit``: saved layouts changed here and there."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import packwork as pw
+from packwork.cli import app
+
+
+@pytest.fixture(scope="module")
+def saved(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A layout of eight in a file."""
+    layout = pw.fill("circle", ["star", "heart"], count=8, epochs=80, levels="50,100")
+    path = tmp_path_factory.mktemp("edit") / "eight.geojson"
+    layout.save(path)
+    layout.save(path.with_suffix(".svg"))
+    return path
+
+
+def run(*arguments: object) -> tuple[int, str]:
+    result = CliRunner().invoke(app, ["edit", *map(str, arguments)])
+    return result.exit_code, " ".join(result.output.split())
+
+
+@pytest.mark.parametrize("ending", [".geojson", ".svg"])
+def test_a_layout_is_changed_and_certified_again(saved: Path, tmp_path: Path, ending: str) -> None:
+    out, report = tmp_path / "new.geojson", tmp_path / "report.json"
+    before = pw.Layout.load(saved)
+    held = [item.name for item in before.items].index("heart")
+    x = 300.0 + 0.5 * (300.0 - before.poses.x[held])
+    y = 300.0 + 0.5 * (300.0 - before.poses.y[held])
+    code, said = run(
+        saved.with_suffix(ending), "--items", "star", "--items", "heart", "--hold", "heart#1",
+        "--move", f"star#2={x},{y}", "--turn", "heart#3=90", "--scale", "heart#2=1.2",
+        "--add", "hexagon", "--add", f"circle@{x},30%", "--remove", "star#1",
+        "--replace", "star#4=square", "--recolor", "heart*=teal", "--padding", "1",
+        "-o", out, "-o", tmp_path / "new.png", "--report", report,
+    )  # fmt: skip
+    assert code == 0, said
+    assert "certified: nothing overlaps" in said
+    after = pw.Layout.load(out)
+    assert len(after) == 9
+    assert after.certified
+    assert after.metrics["exact"]["min_gap"] >= 1
+    names = [item.name for item in after.items]
+    assert sorted(set(names)) == ["circle", "heart", "hexagon", "square", "star"]
+    assert abs(after.poses.x[names.index("star")] - x) < 1e-3
+    assert abs(after.poses.x[names.index("heart")] - before.poses.x[held]) < 1e-3
+    assert json.loads(report.read_text())["certified"] is True
+
+
+def test_what_cannot_be_certified_is_named_and_written_all_the_same(
+    saved: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "new.svg"
+    code, said = run(
+        saved, "--move", "star#1=100,300", "--move", "star#2=102,300", "--hold", "star#1",
+        "--hold", "star#2", "-o", out,
+    )  # fmt: skip
+    assert code == 1
+    assert "star overlaps star by" in said
+    assert out.exists()
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (("--move", "owl=1,1"), "there is no item 'owl'; there are star, heart"),
+        (("--move", "star=1,1"), "4 items are called star; say star#1 to star#4"),
+        (("--move", "star#1"), "--move: must be ITEM=X,Y such as owl=50%,120, not 'star#1'"),
+        (("--move", "star#1=5"), "must be ITEM=X,Y such as owl=50%,120, not '5'"),
+        (("--move", "star#1=a,b"), "--move: use a length"),
+        (("--turn", "star#1=up"), "turn: must be a number, not 'up'"),
+        (("--scale", "star#1=0"), "--scale: "),
+        (("--hold", "star#1=colour"), "--hold: "),
+        (("--add", "no-such.svg"), "no-such.svg"),
+        (("--remove", "*"), "nothing would be left"),
+        (("--recolor", "star=mud"), "'mud' is no colour"),
+        (("--padding", "-1"), "padding: "),
+        (("--container", "no-such.svg"), "no-such.svg"),
+        (("--items", "no-such"), "no-such"),
+        (("-o", "new.doc"), "new.doc"),
+    ],
+)
+def test_what_has_no_meaning_is_one_line_and_nothing_is_written(
+    saved: Path, arguments: tuple[str, ...], message: str
+) -> None:
+    code, said = run(saved, *arguments)
+    assert code == 2
+    assert message in said
+    assert list(Path.cwd().iterdir()) == []
+
+
+def test_the_layout_that_is_read_is_not_written_over(saved: Path) -> None:
+    before = saved.read_bytes()
+    code, said = run(saved, "-o", saved)
+    assert code == 2
+    assert saved.name in said
+    assert saved.read_bytes() == before

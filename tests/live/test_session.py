@@ -1,0 +1,275 @@
+"""Sessions: what moves, what does not, what is certified, what is gone back to."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.live.commands.gestures import Drop, Grab
+from packwork.live.commands.placing import Move
+from packwork.live.log import Log, read_entries
+from packwork.live.session import Session
+from packwork.metrics.violations import violations
+
+Same = Callable[[pw.Poses, pw.Poses], bool]
+
+
+def drag(session: Session, item: int, x: float, y: float, events: int = 6) -> None:
+    poses = session.document.poses
+    k = session.document.index(item)
+    assert k is not None
+    begin = np.array([poses.x[k], poses.y[k]])
+    session.apply(Grab(items=(item,)))
+    for share in np.linspace(0, 1, events + 1)[1:]:
+        at = begin + share * (np.array([x, y]) - begin)
+        session.apply(Move(item=item, x=float(at[0]), y=float(at[1])))
+        session.flow(epochs=6)
+    session.apply(Drop())
+
+
+def test_what_is_dropped_stays_and_the_others_make_room(session: pw.Session) -> None:
+    drag(session, 0, 300.0, 300.0)
+    assert not session.is_certified or session.is_at_rest
+    found = session.settle()
+    assert found.certified
+    assert found.in_the_way == ()
+    assert (session.document.poses.x[0], session.document.poses.y[0]) == (300.0, 300.0)
+    assert found.moved > 1
+
+
+def test_what_is_certified_is_clean_by_measures_that_know_nothing_of_sessions(
+    session: pw.Session,
+) -> None:
+    drag(session, 3, 250.0, 380.0)
+    session.settle()
+    layout = session.layout
+    assert layout.certified
+    assert violations(layout.outlines, layout.container.outline, 0.0) == ()
+    assert pw.measure(layout)["exact"]["overlap_area"] == 0
+
+
+def test_a_layout_in_conflict_is_not_certified_and_says_why(session: pw.Session) -> None:
+    poses = session.document.poses
+    session.move(0, float(poses.x[1]), float(poses.y[1]))
+    assert not session.is_certified
+    assert not session.layout.certified
+    assert any("overlaps" in line for line in session.in_the_way)
+    session.move(0, -500.0, 0.0)
+    assert session.in_the_way == ("star sticks out of the container by " + _area(session),)
+
+
+def _area(session: pw.Session) -> str:
+    outline = session.layout.outlines[0]
+    return f"{outline.area:.3g} px²"
+
+
+def test_the_far_side_does_not_move() -> None:
+    layout = pw.fill("square", "hexagon", count=60, epochs=60, levels="50,100")
+    session, before = layout.edit(), layout.poses
+    corner = int(np.argmin(before.x + before.y))
+    session.move(corner, float(before.x[corner]) + 3, float(before.y[corner]))
+    session.settle()
+    after = session.document.poses
+    far = np.hypot(before.x - before.x[corner], before.y - before.y[corner]) > 350
+    assert far.sum() > 20
+    for name in ("x", "y", "angle", "scale"):
+        assert getattr(after, name)[far].tobytes() == getattr(before, name)[far].tobytes()
+
+
+@pytest.mark.parametrize("ends", [("place",), ("angle",), ("size",), ("place", "angle", "size")])
+def test_what_is_held_does_not_change_by_a_bit(session: pw.Session, ends: tuple[str, ...]) -> None:
+    columns = {"place": ("x", "y"), "angle": ("angle",), "size": ("scale",)}
+    before = session.document.poses
+    session.hold("*", *ends)  # type: ignore[arg-type]
+    session.release(0, "place")
+    drag(session, 0, 300.0, 300.0)
+    session.settle()
+    session.polish(8)
+    after = session.document.poses
+    for name in (column for end in ends for column in columns[end]):
+        assert getattr(after, name)[1:].tobytes() == getattr(before, name)[1:].tobytes()
+
+
+def test_two_that_are_held_on_each_other_are_named_and_the_rest_is_clean(
+    session: pw.Session,
+) -> None:
+    poses = session.document.poses
+    session.move(0, float(poses.x[1]), float(poses.y[1]))
+    session.hold(0)
+    session.hold(1)
+    found = session.settle()
+    assert not found.certified
+    assert (0, 1) in {(one.item, one.other) for one in session.violations}
+    assert {one.item for one in session.violations} == {0}
+
+
+def test_undo_and_redo_restore_every_bit(session: pw.Session, same: Same) -> None:
+    seen = [session.document.poses]
+    for item, x in ((0, 300.0), (5, 200.0), (7, 400.0)):
+        drag(session, item, x, 300.0)
+        session.settle()
+        seen.append(session.document.poses)
+    for poses in reversed(seen[:-1]):
+        session.undo()
+        assert same(session.document.poses, poses)
+        assert session.is_at_rest
+    session.undo()
+    assert same(session.document.poses, seen[0])
+    for poses in seen[1:]:
+        session.redo()
+        assert same(session.document.poses, poses)
+
+
+def test_a_drag_is_one_entry_however_many_events_it_has(session: pw.Session) -> None:
+    drag(session, 0, 300.0, 300.0, events=50)
+    assert len(session.history) == 1
+    session.apply(Grab(items=(0,)))
+    session.apply(Drop())
+    assert len(session.history) == 1
+
+
+def test_a_replay_gives_the_same_bytes(dozen: pw.Layout, same: Same) -> None:
+    stream = io.StringIO()
+    session = Session(dozen.edit().document, log=Log(stream))
+    start = session.document
+    for item, x in ((0, 300.0), (5, 200.0)):
+        drag(session, item, x, 280.0)
+        session.settle()
+        session.polish(6)
+    session.undo()
+    drag(session, 2, 310.0, 300.0)
+    session.settle()
+    entries = list(read_entries(iter(stream.getvalue().splitlines()), "log"))
+    again = Session.replay(start, entries)
+    assert same(again.document.poses, session.document.poses)
+    while session.history.can_undo:
+        session.undo()
+        again.undo()
+        assert same(again.document.poses, session.document.poses)
+
+
+def test_a_log_that_was_cut_off_loses_its_last_line_only() -> None:
+    lines = ['{"flow": [100, 3]}', '{"settle": null}', '{"do": {"kind": "mo']
+    assert list(read_entries(iter(lines), "log")) == [("flow", (100, 3)), ("settle", None)]
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        '{"flow": [100, -3]}', '{"flow": [1e9, 3]}', '{"flow": true}', '{"do": {"kind": "x"}}',
+        '{"do": {"kind": "move", "item": 0, "x": NaN, "y": 1}}', "[" * 5_000, '{"polish": 0}',
+        '{"settle": null, "undo": null}', "null",
+    ],
+)  # fmt: skip
+def test_a_line_that_is_no_entry_is_refused_by_its_number(line: str) -> None:
+    with pytest.raises(pw.ReadError, match="line 1 is no entry of a log"):
+        list(read_entries(iter([line, '{"undo": null}']), "log"))
+
+
+def test_one_item_more_moves_no_one_across_the_picture(session: pw.Session) -> None:
+    before = session.document.poses
+    (new,) = session.add("circle")
+    found = session.settle()
+    after = session.document
+    assert found.certified
+    assert new == 12
+    assert len(after) == 13
+    way = np.hypot(after.poses.x[:12] - before.x, after.poses.y[:12] - before.y)
+    assert way.max() < 100
+
+
+def test_neighbours_grow_into_the_room_of_one_that_is_gone(session: pw.Session) -> None:
+    areas = session.document.own_areas * session.document.poses.scale**2
+    session.remove(0)
+    session.settle()
+    left = session.document
+    assert 0 not in left.ids
+    assert (left.own_areas * left.poses.scale**2).sum() > areas[1:].sum()
+    with pytest.raises(RecipeError, match="there is no item 0"):
+        session.move(0, 1, 1)
+
+
+def test_another_container_is_filled_again(session: pw.Session) -> None:
+    session.place_container(factor=0.8)
+    assert not session.is_certified
+    assert session.settle().certified
+
+
+def test_a_wider_gap_is_kept(session: pw.Session) -> None:
+    session.set(padding=4)
+    found = session.settle()
+    assert found.certified, found.in_the_way
+    assert session.layout.metrics["exact"]["min_gap"] >= 4
+
+
+def test_sizes_in_proportion_stay_so() -> None:
+    layout = pw.fill(
+        "circle", ["star", "hexagon"], count=8, sizes="shared", epochs=80, levels="50,100"
+    )
+    session = layout.edit()
+    session.move(0, 300, 300)
+    session.settle()
+    assert session.document.poses.scale.tobytes() == layout.poses.scale.tobytes()
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda s: s.move("owl", 1, 1), r"item: there is no item 'owl'; there are star, heart"),
+        (lambda s: s.move("star", 1, 1), r"4 items are called star; say star#1 to star#4"),
+        (lambda s: s.move("star#9", 1, 1), r"there is no item 'star#9'"),
+        (lambda s: s.move(0, "far", 1), r"x: "),
+        (lambda s: s.move(0, 1e12, 1), r"nowhere near the canvas"),
+        (lambda s: s.scale(0, 0), r"factor: "),
+        (lambda s: s.weigh(0, -1), r"weight: "),
+        (lambda s: s.hold(0, "colour"), r"properties"),
+        (lambda s: s.recolor(0, "mud"), r"'mud' is no colour"),
+        (lambda s: s.exchange(0, 0), r"give two"),
+        (lambda s: s.remove("*"), r"nothing would be left"),
+        (lambda s: s.reshape([[(0, 0), (1, 1)]]), r"no area"),
+        (lambda s: s.set(colour=3), r"is no option of a session"),
+        (lambda s: s.set(padding=-3), r"padding"),
+        (lambda s: s.set(rotate="sideways"), r"rotate"),
+        (lambda s: s.flow(), r"give epochs or milliseconds"),
+        (lambda s: s.rename(0, ""), r"name"),
+        (lambda s: s.turn(77, 5), r"there is no item 77"),
+    ],
+)
+def test_what_has_no_meaning_is_one_line_and_changes_nothing(
+    session: pw.Session, call: Callable[[pw.Session], object], message: str
+) -> None:
+    before = session.document
+    with pytest.raises(RecipeError, match=message) as caught:
+        call(session)
+    assert "\n" not in str(caught.value)
+    assert session.document is before
+    assert not session.history.can_undo
+
+
+def test_nothing_is_settled_under_the_hand(session: pw.Session) -> None:
+    session.apply(Grab(items=(0,)))
+    for call in (session.settle, session.undo, session.redo):
+        with pytest.raises(RecipeError, match="drop it first"):
+            call()
+    with pytest.raises(RecipeError, match="drop it first"):
+        session.apply(Grab(items=(1,)))
+    assert session.polish(5) == 0
+
+
+def test_names_colours_and_weights_move_nothing(session: pw.Session, same: Same) -> None:
+    before = session.document.poses
+    session.rename(0, "sun")
+    session.recolor("heart", "teal")
+    assert same(session.document.poses, before)
+    assert session.layout.items[0].name == "sun"
+    assert session.is_certified
+
+
+def test_an_exception_in_the_block_is_not_hidden(dozen: pw.Layout) -> None:
+    with pytest.raises(RecipeError, match="owl"), dozen.edit() as session:
+        session.move("owl", 1, 1)
