@@ -31,7 +31,7 @@ GROUPS = {
     "photos": "Photographs",
     "pile": "Piles",
     "chart": "Charts",
-    "python": "Losses of your own",
+    "python": "In Python",
 }
 """Headings by verb, in the page's order; a verb without one stands at the end, as it is."""
 
@@ -84,7 +84,7 @@ def read_example(folder: Path) -> Example:
     text = page.read_text(encoding="utf-8")
     title = re.match(r"# (.+)\n", text)
     shown = {name: alt for alt, name in re.findall(r"!\[([^\]]*)\]\(([^)]+)\)", text)}
-    films = re.findall(r"--film (\S+)", text)
+    films = re.findall(r"(?:--film |the film, `)([^\s`]+)", text)
     picture = next((name for name in films if name in shown), EXPECTED)
     before = text.partition(f"]({picture})")[0]
     commands = "".join(re.findall(r"```sh\n(.*?)```", before, flags=re.DOTALL))

@@ -61,7 +61,7 @@ def test_large_pictures_are_shown_smaller(gallery: Any, folder: Path) -> None:
     ("command", "heading"),
     [
         ("packwork run a.toml", "Collages"),
-        ("pip install torch\npython galaxy.py", "Losses of your own"),
+        ("pip install torch\npython galaxy.py", "In Python"),
         ("packwork knit a.csv", "Knit"),
     ],
 )

@@ -30,6 +30,7 @@ PAGES = {
         "rules",
         "cutting",
         "python",
+        "live",
     ),
     "Reference": tuple(f"reference/{name}" for name in REFERENCE),
     "About": ("conventions", "architecture", "security"),

@@ -284,21 +284,11 @@ class Layout(scene.Layout):
             told = writers.tell_nobody if bar is None else partial(bar.tell, text="film")
             writers.write_atomic(path, writers.film_bytes(film, path, told))
 
-    def edit(self) -> Session:
-        """A session in which items are moved, held, added, and all others make room.
-
-        Examples
-        --------
-        >>> from packwork import fill
-        >>> layout = fill("circle", ["star", "hexagon"], count=6, effort="draft", levels="50")
-        >>> with layout.edit() as session:
-        ...     session.move("star#2", 300, 200)
-        >>> session.layout.certified, float(session.layout.poses.y[2])
-        (True, 200.0)
-        """
+    def edit(self, *, record: bool = False) -> Session:
+        """A session in which items are moved, held, added; ``record``: for :meth:`save_film`."""
         from packwork.api.session import session_of
 
-        return session_of(self)
+        return session_of(self, record=record)
 
     def to_dataframe(self) -> DataFrame:
         """Pandas data frame: one row per item, in the layout's order.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias, cast
 
@@ -13,10 +13,13 @@ from packwork.cli import options as shared
 from packwork.cli.failure import SHORTFALL, clear_errors
 from packwork.cli.terminal import printable, say
 from packwork.errors import RecipeError
+from packwork.options import offered
+from packwork.recipe import Recipe
 
 if TYPE_CHECKING:
-    from packwork.api.session import Session
     from packwork.live.document import Property
+    from packwork.live.named import NamedSession
+    from packwork.scene.item import Item
 
 _FORMS = {
     "replace": "ITEM=FILE", "recolor": "ITEM=COLOR", "exchange": "ITEM=ITEM",
@@ -25,6 +28,8 @@ _FORMS = {
 
 _OF_MANY = frozenset({"remove", "hold", "recolor"})
 """Edits of all items of a name."""
+
+(_PADDING,) = (option for option in offered(Recipe) if option.name == "padding")
 
 Specs: TypeAlias = list[str]
 
@@ -79,7 +84,7 @@ def edit(
     recolor: Annotated[Specs, _specs("--recolor", "ITEM=COLOR", "Give items one colour.")] = [],  # noqa: B006
     padding: Annotated[
         str | None,
-        typer.Option("--padding", help="Gap between items and to the container's edge."),
+        typer.Option("--padding", help=_PADDING.help),
     ] = None,
     container: Annotated[
         str | None, typer.Option("--container", help="Fill another container, on that canvas.")
@@ -101,10 +106,12 @@ def edit(
     """
     with clear_errors():
         from packwork import writers
-        from packwork.api.layout import Layout
-        from packwork.api.verbs import read_items
-        from packwork.cli.show import Paper, certificate_line, metrics_table, printing
         from packwork.inputs import check_no_input
+        from packwork.live.document import Document
+        from packwork.live.named import NamedSession
+        from packwork.pipeline.registration import drawn_by
+        from packwork.readers.container import read_container
+        from packwork.readers.layouts.read import read_written
 
         outputs = list(output or [DEFAULT_OUTPUT])
         sides = [] if report is None else [report]
@@ -115,8 +122,10 @@ def edit(
         writers.check_outputs([*outputs, *sides])
         if no_clobber:
             writers.check_new([*outputs, *sides])
-        found = Layout.load(layout, read_items(items) if items else ())
-        session = found.edit()
+        found = read_written(layout)
+        if items:
+            found = drawn_by(found, _read(items))
+        session = NamedSession(Document.of(found))
         for path in (*outputs, *sides):
             check_no_input(path)
         asked = {
@@ -126,7 +135,7 @@ def edit(
         # Names mean what they meant in the file, whatever is taken away before.
         edits = [_planned(session, flag, spec) for flag, specs in asked.items() for spec in specs]
         if container is not None:
-            session.set_container(container)
+            session.fill_container(read_container(container, session.canvas))
         if padding is not None:
             session.set(padding=padding)
         for make in edits:
@@ -134,29 +143,45 @@ def edit(
         for spec in add:
             with _about("add"):
                 _added(session, spec)
-        done = session.finish()
-        made = session.layout
-        files = [
-            (path, writers.encoded(made, path, writers.write_options(pixels=pixels)))
-            for path in outputs
-        ]
-        said = {"metrics": made.metrics, "items": len(made), "certified": done.certified,
-                "in_the_way": done.in_the_way, "moved": done.moved}  # fmt: skip
-        files += [(side, writers.json_bytes(said)) for side in sides]
-        writers.write_all(files)
-        console = Paper(quiet=quiet, highlight=False)
-        with printing():
-            console.print(metrics_table(made.metrics, made.container.unit))
-            console.print(certificate_line(True, done.certified), soft_wrap=True)
-            names = ", ".join(printable(str(path)) for path, _ in files)
-            console.print(f"wrote {names}", soft_wrap=True)
-        for line in done.in_the_way:
-            say(line)
-        if not done.certified:
+        if not _written(session, outputs, report, pixels, quiet):
             raise typer.Exit(SHORTFALL)
 
 
-def _planned(session: Session, flag: str, spec: str) -> Callable[[], None]:
+def _written(
+    session: NamedSession, outputs: Sequence[Path], report: Path | None, pixels: int, quiet: bool
+) -> bool:
+    """Settle, write and show a session's layout; whether it is certified."""
+    from packwork import writers
+    from packwork.cli.show import Paper, certificate_line, metrics_table, printing
+    from packwork.metrics.measure import measure
+
+    done = session.finish()
+    made = session.layout
+    drawing = writers.write_options(pixels=pixels)
+    files = [(path, writers.encoded(made, path, drawing)) for path in outputs]
+    metrics = measure(made).as_dict()
+    said = {
+        "metrics": metrics,
+        "items": len(made.items),
+        "certified": done.certified,
+        "in_the_way": done.in_the_way,
+        "moved": done.moved,
+    }
+    if report is not None:
+        files.append((report, writers.json_bytes(said)))
+    writers.write_all(files)
+    console = Paper(quiet=quiet, highlight=False)
+    with printing():
+        console.print(metrics_table(metrics, made.container.unit))
+        console.print(certificate_line(True, done.certified), soft_wrap=True)
+        names = ", ".join(printable(str(path)) for path, _ in files)
+        console.print(f"wrote {names}", soft_wrap=True)
+    for line in done.in_the_way:
+        say(line)
+    return done.certified
+
+
+def _planned(session: NamedSession, flag: str, spec: str) -> Callable[[], None]:
     """What one option asks for, of items that are there now."""
     which, sign, value = (part.strip() for part in spec.partition("="))
     if flag not in {"remove", "hold"} and not (sign and which and value):
@@ -173,7 +198,7 @@ def _planned(session: Session, flag: str, spec: str) -> Callable[[], None]:
     return make
 
 
-def _made(session: Session, flag: str, item: int, value: str, others: tuple[int, ...]) -> None:
+def _made(session: NamedSession, flag: str, item: int, value: str, others: tuple[int, ...]) -> None:
     """Make one edit of one item."""
     if flag == "move":
         x, comma, y = value.partition(",")
@@ -189,8 +214,10 @@ def _made(session: Session, flag: str, item: int, value: str, others: tuple[int,
         session.remove(item)
     elif flag in {"turn", "scale"}:
         getattr(session, flag)(item, _number(flag, value))
+    elif flag == "replace":
+        session.replace_by(item, _read([value])[0])
     else:
-        getattr(session, flag)(item, value)
+        session.recolor(item, value)
 
 
 def _number(flag: str, text: str) -> float:
@@ -200,13 +227,19 @@ def _number(flag: str, text: str) -> float:
         raise RecipeError(flag, f"must be a number, not {text[:40]!r}") from None
 
 
-def _added(session: Session, spec: str) -> None:
+def _added(session: NamedSession, spec: str) -> None:
     source, sign, place = spec.rpartition("@")
     x, comma, y = place.partition(",")
     if sign and source and comma and not Path(spec).exists():
-        session.add(source, x, y)
+        session.add_items(_read([source]), x, y)
     else:
-        session.add(spec)
+        session.add_items(_read([spec]))
+
+
+def _read(sources: Specs) -> Sequence[Item]:
+    from packwork.readers.items import read_items
+
+    return read_items(sources).items
 
 
 @contextlib.contextmanager

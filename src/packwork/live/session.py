@@ -16,6 +16,7 @@ from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.flow import Flow
+from packwork.live.frames import Frames
 from packwork.live.history import History
 from packwork.live.log import Entry, Log
 from packwork.live.settle import polish, settle
@@ -68,6 +69,8 @@ class Session:
         Items and containers that commands may bring in.
     log
         Where all that is done is noted.
+    record
+        Whether the way of the items is kept, for films of the layout.
 
     Examples
     --------
@@ -84,7 +87,12 @@ class Session:
     """
 
     def __init__(
-        self, document: Document, library: Library | None = None, log: Log | None = None
+        self,
+        document: Document,
+        library: Library | None = None,
+        log: Log | None = None,
+        *,
+        record: bool = False,
     ) -> None:
         self.library = library or Library()
         self.log = log or Log()
@@ -102,6 +110,7 @@ class Session:
         self._polished = 0
         self._flow: Flow | None = None
         self._certificate = Certificate()
+        self._frames = Frames(document) if record else None
 
     @property
     def document(self) -> Document:
@@ -194,6 +203,7 @@ class Session:
             self._document.ids[differing(before.poses, self._document.poses)].tolist()
         )
         self.log.flush()
+        self._film()
         moved = int(differing(before.poses, self._document.poses).sum())
         return Settlement(self.is_certified, self.in_the_way, moved)
 
@@ -227,6 +237,7 @@ class Session:
             self._document = done.document
         if self._flow is not None:
             self._flow.turn_to(self._document)
+        self._film()
         return int(differing(before.poses, self._document.poses).sum())
 
     def undo(self) -> None:
@@ -257,7 +268,9 @@ class Session:
         """The layout as it is now, and whether it is certified."""
         kept = {k: v for k, v in self._document.manifest.items() if k not in OF_PLACES}
         said = {"promised": asdict(promise_of(self._document)), "certified": self.is_certified}
-        return replace(self._document.layout, manifest={**kept, **said, "edited": True})
+        track = None if self._frames is None else self._frames.track
+        manifest = {**kept, **said, "edited": True}
+        return replace(self._document.layout, manifest=manifest, track=track)
 
     @classmethod
     def replay(
@@ -285,6 +298,11 @@ class Session:
         self._flow.run(epochs, resolution)
         self.log.note("flow", (resolution, epochs))
         self._document = self._document.with_poses(self._flow.poses)
+        self._film()
+
+    def _film(self) -> None:
+        if self._frames is not None:
+            self._frames.keep(self._document)
 
     def _take(self, change: Change, before: Document, after: Document) -> None:
         """Bring the flow to a changed document."""

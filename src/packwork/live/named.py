@@ -1,0 +1,221 @@
+"""Sessions as people use them: items by name, lengths as they write them."""
+
+from __future__ import annotations
+
+import fnmatch
+import re
+from collections.abc import Iterable, Sequence
+from types import TracebackType
+from typing import Self, TypeAlias
+
+import numpy as np
+
+from packwork.errors import RecipeError
+from packwork.live.assets import named_container, named_item
+from packwork.live.commands.command import made
+from packwork.live.commands.container import PlaceContainer, Reshape, SetContainer, SetOption
+from packwork.live.commands.holding import Hold, Release
+from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
+from packwork.live.commands.placing import Exchange, Move, Scale, Turn
+from packwork.live.document import PROPERTIES, Property
+from packwork.live.session import Session, Settlement
+from packwork.live.voids import widest_place
+from packwork.recipe.refusals import length_asked
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+
+Which: TypeAlias = str | int
+"""An item: its name, ``owl``, or of several of that name ``owl#2``; ``*`` stands for any letters;
+or its number."""
+
+Coordinate: TypeAlias = str | float
+"""Canvas units, or a length such as ``10mm``; ``45%`` is a share of the canvas' width or height."""
+
+_COPY = re.compile(r"(?P<name>.+)#(?P<copy>[1-9][0-9]{0,5})")
+
+TRIALS = 4
+"""Turns tried for each item that was touched, when a block ends. Chosen."""
+
+
+class NamedSession(Session):
+    """A session with a verb for each command."""
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if kind is None:
+            self.finish()
+
+    def finish(self) -> Settlement:
+        """Settle, and win back coverage where something was touched; what it came to."""
+        found = self.settle()
+        self.polish(TRIALS * max(found.moved, 1))
+        return Settlement(self.is_certified, self.in_the_way, found.moved)
+
+    def find(self, which: Which) -> tuple[int, ...]:
+        """Numbers of the items that a name means, in their order.
+
+        Raises
+        ------
+        RecipeError
+            If there is none.
+        """
+        document = self.document
+        if isinstance(which, int) and not isinstance(which, bool):
+            if document.index(which) is None:
+                raise RecipeError("item", f"there is no item {which}")
+            return (which,)
+        text = str(which)
+        names = [item.name for item in document.items]
+        copy = None if text in names else _COPY.fullmatch(text)
+        pattern = copy["name"] if copy else text
+        rows = [k for k, name in enumerate(names) if name == pattern]
+        rows = rows or [k for k, name in enumerate(names) if fnmatch.fnmatchcase(name, pattern)]
+        if copy:
+            rows = rows[int(copy["copy"]) - 1 : int(copy["copy"])]
+        if not rows:
+            raise RecipeError("item", f"there is no item {text[:40]!r}; {_some(names)}")
+        return tuple(int(document.ids[k]) for k in rows)
+
+    def one(self, which: Which) -> int:
+        """Number of the one item that a name means.
+
+        Raises
+        ------
+        RecipeError
+            If there is none, or more than one.
+        """
+        found = self.find(which)
+        if len(found) > 1:
+            raise RecipeError(
+                "item", f"{len(found)} items are called {which}; say {which}#1 to "
+                f"{which}#{len(found)}",
+            )  # fmt: skip
+        return found[0]
+
+    def move(self, which: Which, x: Coordinate, y: Coordinate) -> None:
+        """Put an item's middle somewhere."""
+        container = self.document.container
+        across = self._length("x", x, container.width)
+        along = self._length("y", y, container.height)
+        self.apply(Move(item=self.one(which), x=across, y=along))
+
+    def turn(self, which: Which, degrees: float) -> None:
+        """Turn an item to an angle from upright, clockwise."""
+        self.apply(Turn(item=self.one(which), angle=degrees))
+
+    def scale(self, which: Which, factor: float) -> None:
+        """Make an item so many times as large; it then keeps about that size."""
+        self.apply(made(Scale, item=self.one(which), factor=factor))
+
+    def exchange(self, first: Which, second: Which) -> None:
+        """Let two items change places."""
+        self.apply(Exchange(first=self.one(first), second=self.one(second)))
+
+    def hold(self, which: Which, *properties: Property) -> None:
+        """Hold items exactly as they are: ``place``, ``angle``, ``size``, or all of it."""
+        asked = properties or PROPERTIES
+        self.apply(made(Hold, items=self.find(which), properties=asked))
+
+    def release(self, which: Which, *properties: Property) -> None:
+        """Let go of what is held."""
+        asked = properties or PROPERTIES
+        self.apply(made(Release, items=self.find(which), properties=asked))
+
+    def add_items(
+        self, items: Sequence[Item], x: Coordinate | None = None, y: Coordinate | None = None
+    ) -> tuple[int, ...]:
+        """Bring items, there or where there is most room; their numbers."""
+        numbers = []
+        container = self.document.container
+        for item in items:
+            place = widest_place(self.document, self.shapes)
+            across = place[0] if x is None else self._length("x", x, container.width)
+            along = place[1] if y is None else self._length("y", y, container.height)
+            key = named_item(self.library, item)
+            area = self._first_area(place[2], item.weight)
+            numbers.append(self.document.next_id)
+            self.apply(Add(asset=key, x=across, y=along, area=area))
+        return tuple(numbers)
+
+    def remove(self, which: Which) -> None:
+        """Take items away; their neighbours grow into the room."""
+        self.apply(Remove(items=self.find(which)))
+
+    def duplicate(self, which: Which) -> int:
+        """Bring a copy of an item; its number."""
+        number = self.document.next_id
+        self.apply(Duplicate(item=self.one(which)))
+        return number
+
+    def replace_by(self, which: Which, item: Item) -> None:
+        """Put another item in an item's place."""
+        self.apply(Replace(item=self.one(which), asset=named_item(self.library, item)))
+
+    def weigh(self, which: Which, weight: float) -> None:
+        """Give items another weight; they grow or shrink accordingly."""
+        self.apply(made(Weigh, items=self.find(which), weight=weight))
+
+    def rename(self, which: Which, name: str) -> None:
+        """Give an item another name."""
+        self.apply(made(Rename, item=self.one(which), name=name))
+
+    def recolor(self, which: Which, color: str) -> None:
+        """Give items one colour, any CSS colour."""
+        self.apply(Recolour(items=self.find(which), colour=color))
+
+    @property
+    def canvas(self) -> str:
+        """Longer side of the canvas as options say it."""
+        container = self.document.container
+        return f"{container.side:.17g}{container.unit}"
+
+    def fill_container(self, container: Container) -> None:
+        """Fill another container, on a canvas as large."""
+        self.apply(SetContainer(asset=named_container(self.library, container)))
+
+    def reshape(self, rings: Iterable[Iterable[tuple[float, float]]]) -> None:
+        """Give the container other vertices, canvas units."""
+        listed = tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings)
+        self.apply(made(Reshape, rings=listed))
+
+    def place_container(self, x: float = 0.0, y: float = 0.0, factor: float = 1.0) -> None:
+        """Move the container on its canvas and scale it about its middle."""
+        self.apply(made(PlaceContainer, x=x, y=y, factor=factor))
+
+    def set(self, **options: str | float) -> None:
+        """Set numbers for all: ``padding``, ``sizes``, ``size_ratio``, ``rotate``."""
+        container = self.document.container
+        for name, value in options.items():
+            if name == "padding":
+                value = length_asked(name, value, container.unit, container.side)
+            self.apply(SetOption(name=name, value=value))
+
+    def _first_area(self, radius: float, weight: float) -> float:
+        """Area that a new item begins with: what the room is good for, within the usual sizes."""
+        document = self.document
+        areas = document.own_areas * document.poses.scale**2
+        usual = float(np.mean(areas)) if len(areas) else np.pi * radius**2
+        if document.options.sizes != "free":
+            mean = float(np.mean(document.weights)) if len(areas) else 1.0
+            return usual * weight / mean
+        least = usual / document.options.size_ratio**2
+        return float(np.clip(np.pi * radius**2, least, usual))
+
+    def _length(self, key: str, value: Coordinate, side: float) -> float:
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            return float(value)
+        return length_asked(key, str(value).strip(), self.document.container.unit, side)
+
+
+def _some(names: list[str]) -> str:
+    """A few names, for messages."""
+    different = list(dict.fromkeys(names))
+    more = " ..." if len(different) > 5 else ""
+    return f"there are {', '.join(different[:5])}{more}" if different else "the layout is empty"
