@@ -61,7 +61,7 @@ def as_starts(starts: npt.ArrayLike, point_count: int) -> IntArray:
             f"ring starts must be a list from 0 to the number of points ({point_count}), "
             f"not {array.tolist()[:6]}"
         )
-    if (np.diff(array) < 0).any():
+    if (array[1:] < array[:-1]).any():
         raise ShapeError("ring starts must not decrease")
     return array
 

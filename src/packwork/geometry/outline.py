@@ -200,7 +200,7 @@ class Outline:
 
     def without_holes(self) -> Outline:
         """Silhouette: every hole filled, parts that lay in holes absorbed."""
-        return Outline.from_region(silhouette(self.region))
+        return Outline.from_region(silhouette(self.region)) if self.has_holes else self
 
 
 def _still(points: FloatArray) -> FloatArray:

@@ -45,6 +45,9 @@ def polygon_parts(shape: Region) -> list[Polygon]:
     >>> len(polygon_parts(Polygon()))
     0
     """
+    if isinstance(shape, Polygon):
+        # As nearly all are: the arrays below take fifteen times as long.
+        return [shape] if shape.area > 0 else []
     parts = shapely.get_parts(shapely.get_parts(shape))
     kept = (shapely.get_type_id(parts) == shapely.GeometryType.POLYGON) & (shapely.area(parts) > 0)
     return list(parts[kept])

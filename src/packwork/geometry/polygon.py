@@ -130,7 +130,11 @@ def oriented_rings(shape: Region) -> list[FloatArray]:
     >>> [len(r) for r in oriented_rings(shapely.box(0, 0, 1, 1))]
     [4]
     """
-    rings, owners = shapely.get_rings(polygon_parts(shape), return_index=True)
+    parts = polygon_parts(shape)
+    if len(parts) == 1 and shapely.get_num_interior_rings(parts[0]) == 0:
+        ring = shapely.get_coordinates(parts[0])
+        return [ring[:-1] if signed_area(ring) > 0 else ring[-2::-1]]
+    rings, owners = shapely.get_rings(parts, return_index=True)
     if len(rings) == 0:
         return []
     points, rows = shapely.get_coordinates(rings, return_index=True)

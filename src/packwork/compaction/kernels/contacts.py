@@ -34,10 +34,10 @@ def contacts(board, pairs, reach, slants, pair_of, numbers):
         i, j = pairs[k, 0], pairs[k, 1]
         if distances.are_apart(board.boxes, i, j, reach):
             continue
-        count_j = distances.cull(board, j, board.boxes[i], reach, kept[1])
+        count_j = distances.cull(board, j, board.boxes, i, reach, kept[1])
         if count_j == 0:
             continue
-        count_i = distances.cull(board, i, board.boxes[j], reach, kept[0])
+        count_i = distances.cull(board, i, board.boxes, j, reach, kept[0])
         if count_i == 0:
             continue
         _describe(board, kept[0], count_i, edges[0])

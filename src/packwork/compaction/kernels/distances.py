@@ -93,17 +93,12 @@ def near_pairs(boxes, order, reach, found):
 @helper
 def are_apart(boxes, i, j, reach):
     """Whether two of some boxes are farther apart than ``reach`` along an axis."""
-    return are_apart_boxes(boxes[i], boxes[j], reach)
-
-
-@helper
-def are_apart_boxes(one, other, reach):
-    """Whether two boxes are farther apart than ``reach`` along an axis."""
+    # Number by number: a view of a row is counted by all threads together, which takes longer.
     return (
-        other[0] > one[2] + reach
-        or one[0] > other[2] + reach
-        or other[1] > one[3] + reach
-        or one[1] > other[3] + reach
+        boxes[j, 0] > boxes[i, 2] + reach
+        or boxes[i, 0] > boxes[j, 2] + reach
+        or boxes[j, 1] > boxes[i, 3] + reach
+        or boxes[i, 1] > boxes[j, 3] + reach
     )
 
 
@@ -196,17 +191,23 @@ def pairs_of(boxes, items, reach):
 
 
 @helper
-def cull(board, i, box, reach, kept):
-    """Write the edges of a solid (by their first vertex) within ``reach`` of a box."""
+def cull(board, i, boxes, j, reach, kept):
+    """Write the edges of a solid (by their first vertex) within ``reach`` of one of the boxes."""
     points = board.points
-    left, top, right, bottom = box[0] - reach, box[1] - reach, box[2] + reach, box[3] + reach
+    left, top = boxes[j, 0] - reach, boxes[j, 1] - reach
+    right, bottom = boxes[j, 2] + reach, boxes[j, 3] + reach
     first, last = board.starts[i], board.starts[i + 1]
     is_container = i == board.starts.shape[0] - 2
     count = 0
     for begin in range(first, last, board.stride):
         if is_container:
-            span = board.spans[(begin - first) // board.stride]
-            if span[0] > right or span[2] < left or span[1] > bottom or span[3] < top:
+            span = (begin - first) // board.stride
+            if (
+                board.spans[span, 0] > right
+                or board.spans[span, 2] < left
+                or board.spans[span, 1] > bottom
+                or board.spans[span, 3] < top
+            ):
                 continue
         for v in range(begin, min(begin + board.stride, last)):
             w = board.after[v]
@@ -306,14 +307,14 @@ def distance(board, i, j, reach, room):
 def _near_distance(board, i, j, reach, room):
     """Distance of two solids whose boxes are within reach."""
     first, second = room[0], room[1]
-    count_j = cull(board, j, board.boxes[i], reach, second)
+    count_j = cull(board, j, board.boxes, i, reach, second)
     if j == board.starts.shape[0] - 2:
         if sticks_out(board.boxes[i], board.boxes[j]):
             return 0.0
         if count_j == 0:
             # All inside or all outside.
             return 0.0 if _is_in(board, board.starts[i], j) else reach
-    count_i = cull(board, i, board.boxes[j], reach, first)
+    count_i = cull(board, i, board.boxes, j, reach, first)
     least = least_squared(board, first[:count_i], second[:count_j], reach * reach)
     if least == 0.0:
         return 0.0
