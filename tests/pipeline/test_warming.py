@@ -110,12 +110,44 @@ def test_one_that_cannot_be_started_is_no_failure(
     warming.warm_up(second=True)
 
 
-def test_importing_the_library_starts_no_process() -> None:
+def test_a_run_of_one_thread_starts_no_process() -> None:
     code = (
         "import subprocess, sys\n"
         "def refuse(*_, **__): raise AssertionError\n"
         "subprocess.Popen.__init__ = refuse\n"
         "import packwork as pw\n"
-        "pw.fill('circle', 'star', count=2, epochs=2, levels='16')\n"
+        "from packwork.pipeline import warming\n"
+        "warming._mark = lambda: 'none'\n"
+        "pw.fill('circle', 'star', count=2, epochs=2, levels='16', threads=1)\n"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize(
+    ("program", "is_asked"), [("python3.12", True), ("Python.exe", True), ("qgis-bin", False)]
+)
+def test_a_program_with_python_inside_is_not_started_again(
+    program: str, is_asked: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(sys, "executable", str(tmp_path / program))
+    monkeypatch.setattr(warming.threads, "available", lambda: 2)
+    monkeypatch.setenv("PACKWORK_CACHE_DIR", str(tmp_path))
+    with warming.threads.using(2):
+        assert warming._may_have_help() == is_asked
+    with warming.threads.using(1):
+        assert not warming._may_have_help()
+
+
+def test_a_script_warms_up_where_nothing_is_kept(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    done: list[bool] = []
+    monkeypatch.setattr(warming, "warm_up", lambda second: done.append(second))
+    monkeypatch.setattr(warming, "_may_have_help", lambda: True)
+    monkeypatch.setenv("PACKWORK_CACHE_DIR", str(tmp_path))
+    warming.warm_up_once()
+    mark = warming._mark()
+    assert mark is not None
+    compiled.STORE.put(mark, b"")
+    warming.warm_up_once()
+    assert done == [True]

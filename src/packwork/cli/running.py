@@ -16,7 +16,7 @@ from typing import Any, NoReturn
 import typer
 from rich.console import Console
 
-from packwork import pipeline, uses, writers
+from packwork import pipeline, threads, uses, writers
 from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.notices import NOTICES, joined
@@ -212,7 +212,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         from packwork.display.saliency import write_saliency
 
         write_saliency(recipe, outputs.saliency)
-    with START_UP.more():
+    with START_UP.more(), threads.using(recipe.threads):
         compile_kernels(TerminalBar(console, quiet))
     bar = TerminalBar(console, quiet)
     interrupt = Interrupt()

@@ -6,7 +6,7 @@ from packwork.pipeline.plan.padding import padded
 from packwork.pipeline.plan.resolution import coarse_photos
 from packwork.pipeline.result import Run, Unplaced, find_unplaced
 from packwork.pipeline.run import run
-from packwork.pipeline.warming import KERNELS, warm_up
+from packwork.pipeline.warming import KERNELS, warm_up, warm_up_once
 
 __all__ = [
     "KERNELS",
@@ -20,4 +20,5 @@ __all__ = [
     "padded",
     "run",
     "warm_up",
+    "warm_up_once",
 ]

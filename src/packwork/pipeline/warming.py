@@ -2,7 +2,7 @@
 
 Each part exercises some kernels on next to nothing, so that they are compiled for the very types
 that a run uses. Where none is kept yet, a second process takes parts from the other end of the
-list; what it compiles comes back by way of the cache.
+list; what it compiles comes back by way of the cache. A run of one thread has no second process.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from packwork import compiled
+from packwork import compiled, threads
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels import distances, interior_point, outer_simplify, steps
 from packwork.compaction.kernels.neighbourhoods import disjoint, room_for
@@ -32,6 +32,7 @@ from packwork.compaction.kernels.trials import Rounds, Trial, attempt
 from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance
 from packwork.geometry.outline import Outline
+from packwork.losses.evenness import Windows
 from packwork.metrics.pixel import pixel_metrics
 from packwork.metrics.shape import shape_metrics
 from packwork.pipeline.result import find_unplaced
@@ -105,18 +106,26 @@ def warm_up(counted: Counted | None = None, second: bool = False) -> None:
     with contextlib.ExitStack() as stack:
         if counted is not None:
             stack.enter_context(compiled.listening(tell))
-        if second and _may_have_help():
-            mark = _mark()
-            if mark is not None and compiled.STORE.get(mark) is None:
-                # Where no process can be started, this one does all.
-                with contextlib.suppress(OSError), helped(one_more) as (claims, helper):
-                    share(PARTS, claims)
-                    while helper.poll() is None:
-                        time.sleep(SECONDS_BETWEEN)
-                stack.callback(compiled.STORE.put, mark, b"")
+        mark = _missing() if second else None
+        if mark is not None:
+            # Where no process can be started, this one does all.
+            with contextlib.suppress(OSError), helped(one_more) as (claims, helper):
+                share(PARTS, claims)
+                while helper.poll() is None:
+                    time.sleep(SECONDS_BETWEEN)
+            stack.callback(compiled.STORE.put, mark, b"")
         # What another process has compiled is loaded; what is left is compiled.
         for part in PARTS:
             part()
+
+
+def warm_up_once() -> None:
+    """Compile what no earlier run has, if two processes may; what a script does before a run.
+
+    Else kernels are compiled, or loaded, when they are called.
+    """
+    if _missing() is not None:
+        warm_up(second=True)
 
 
 def help_out(claims: str) -> None:
@@ -176,11 +185,19 @@ def share(parts: Sequence[Part], claims: Path) -> None:
         part()
 
 
+def _missing() -> str | None:
+    """Mark of all kernels, where it is not kept and a second process may help with them."""
+    mark = _mark() if _may_have_help() else None
+    return None if mark is None or compiled.STORE.get(mark) is not None else mark
+
+
 def _may_have_help() -> bool:
     """Whether there is a second core, a Python to start, and a cache to meet in."""
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count()
-    is_python = bool(sys.executable) and not getattr(sys, "frozen", False)
-    return is_python and (cores or 1) > 1 and compiled.STORE.folder is not None
+    cores = min(threads.available(), threads.thread_count())
+    # Of a program with Python inside it is that program.
+    is_python = Path(sys.executable or "").stem.lower().startswith("python")
+    is_ours = is_python and not getattr(sys, "frozen", False)
+    return is_ours and cores > 1 and compiled.STORE.folder is not None
 
 
 def _mark() -> str | None:
@@ -205,21 +222,33 @@ def _poses() -> Poses:
 
 
 def levels() -> None:
-    """Renderer, losses, steps."""
+    """Losses, steps; the renderer's way back."""
     for evenness in (0.0, 1.0):
         options = SolveOptions(levels=(8,), epochs=1, losses={"evenness": evenness})
         solve(_container(), [_square(1.0)], _poses(), np.ones(1), options)
 
 
+def evenness() -> None:
+    """Windows of evenness."""
+    image = np.ones((8, 8), np.float32)
+    windows = Windows(image, 1)
+    windows.derivative(windows.blocks(image))
+
+
 def pairs() -> None:
-    """Pairs of near items, simpler outlines, the measures."""
+    """Pairs of near items, simpler outlines."""
     near = _arrangement()
     near.pairs(1.0)
     distances.pairs_of(near.board.boxes, np.arange(1), 1.0)
     steps.step_of(near.board, np.arange(1), np.zeros(4), 0.1)
     outer_simplify.simplify_outward(_square(1.0).rings[0], 0.01)
+
+
+def images() -> None:
+    """Renderer, then the measures."""
+    container = _container()
     item = Item("warm-up", "", _square(1.0), _square(1.0), FlatArt())
-    layout = Layout(_container(), (item,), _poses(), np.ones(1))
+    layout = Layout(container, (item,), _poses(), np.ones(1))
     find_unplaced(layout)
     pixel_metrics(layout.outlines, layout.container)
     shape_metrics(layout.outlines, layout.container)
@@ -265,10 +294,12 @@ def neighbourhoods() -> None:
     disjoint(near.board, near.radii, moved, places, 6, 1.0, 1.0, room_for(1, 6, 1))
 
 
-PARTS: tuple[Part, ...] = (levels, checks, trials, neighbourhoods, pairs, contacts, programmes)
-"""All parts; what shares helpers is one part, since each process compiles its own. Trials share
-some with checks, which the same process does before, and are made of contacts and programmes,
-which a second, at work from the end, has ready then."""
+PARTS: tuple[Part, ...] = (
+    checks, pairs, neighbourhoods, trials, levels, evenness, images, contacts, programmes,
+)  # fmt: skip
+"""All parts, so that each process finds ready what its own are made of: trials need checks,
+contacts and programmes, levels need images and evenness. The first process does about the first
+five, the second the others from the end."""
 
 
 def _arrangement() -> Arrangement:

@@ -16,6 +16,7 @@ from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.read import Material, job_of, read_room
 from packwork.pipeline.result import Run
 from packwork.pipeline.run import run
+from packwork.pipeline.warming import warm_up_once
 from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -83,7 +84,10 @@ def fill(
     RecipeError
         If an option has no meaning for these files.
     """
-    return run(read(recipe, items, container), observer, stop, record)
+    job = read(recipe, items, container)
+    with threads.using(recipe.threads):
+        warm_up_once()
+    return run(job, observer, stop, record)
 
 
 def read(
