@@ -20,7 +20,7 @@ from packwork.recipe import make_recipe
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.solve.solver import Ending
-from packwork.writers import geojson_text, json_bytes, write
+from packwork.writers import geojson_text, json_bytes
 from scenes import disc, flat_item, overlap_area, square, square_container
 
 QUICK = {"container": "circle", "epochs": 25, "levels": "32,64"}
@@ -170,18 +170,6 @@ def test_items_are_stretched_as_far_as_asked_and_no_further(sizes: str) -> None:
         np.testing.assert_allclose(free.areas[0::2] / free.areas[1::2], 2.0, rtol=1e-9)
 
 
-def test_an_earlier_layout_keeps_its_stretches_within_the_bounds_of_now(tmp_path: Path) -> None:
-    options = {"items": ["square"], "count": 6}
-    wide, file = run(**options, stretch=3, epochs=60), tmp_path / "earlier.geojson"
-    before = wide.layout.poses.stretch
-    write(wide.layout, file)
-    for bound in (1.0, 1.2, 3.0):
-        recipe = make_recipe(**(QUICK | options), start=str(file), stretch=bound, finish="none")
-        after = uses.fill(recipe, stop=lambda: True).layout.poses.stretch
-        np.testing.assert_allclose(after, np.clip(before, 1 / bound, bound), rtol=1e-12)
-    assert before.max() > 1.2
-
-
 @pytest.mark.parametrize("sizes", ["free", "shared"])
 def test_what_is_measured_is_the_true_outline_whatever_the_solver_saw(sizes: str) -> None:
     weights = {"star": 3.0}
@@ -253,79 +241,6 @@ def test_items_that_cannot_fit_are_named(finish: str, reason: str) -> None:
     assert not met.certified
     assert met.report()["placed"] == 0
     assert met.layout.manifest["unplaced"] == met.report()["unplaced"]
-
-
-def test_an_earlier_layout_is_where_the_next_run_begins(
-    tmp_path: Path, three: pipeline.Run
-) -> None:
-    earlier = tmp_path / "earlier.geojson"
-    write(three.layout, earlier)
-    same = uses.fill(
-        make_recipe(
-            **QUICK, items=("star", "circle", "heart"), count=7, start=str(earlier), finish="none"
-        ),
-        stop=lambda: True,
-    )
-    np.testing.assert_array_equal(same.layout.poses.x, three.layout.poses.x)
-    # The finish ends within a thousandth of the smallest size, the start does not go below it.
-    np.testing.assert_allclose(same.layout.poses.scale, three.layout.poses.scale, rtol=1e-3)
-
-
-@pytest.mark.parametrize("sizes", ["shared", "fixed"])
-def test_an_earlier_layout_keeps_the_sizes_asked_for_now(
-    sizes: str, tmp_path: Path, three: pipeline.Run
-) -> None:
-    earlier = tmp_path / "earlier.geojson"
-    write(three.layout, earlier)
-    layout = run(items=["star", "circle", "heart"], count=7, sizes=sizes, start=str(earlier)).layout
-    if sizes == "shared":
-        np.testing.assert_allclose(layout.areas / layout.areas.mean(), 1.0, rtol=1e-9)
-    else:
-        np.testing.assert_allclose(layout.poses.scale, 1.0, rtol=1e-12)
-
-
-@pytest.mark.parametrize(("rotate", "allowed"), [("none", [0]), ("0,90", [0, 90])])
-def test_an_earlier_layout_keeps_the_angles_asked_for_now(
-    rotate: str, allowed: list[int], tmp_path: Path, three: pipeline.Run
-) -> None:
-    earlier = tmp_path / "earlier.geojson"
-    write(three.layout, earlier)
-    layout = run(
-        items=["star", "circle", "heart"], count=7, rotate=rotate, start=str(earlier)
-    ).layout
-    assert {round(math.degrees(a), 9) for a in layout.poses.angle} <= set(allowed)
-
-
-@pytest.mark.parametrize("canvas", ["200x150mm", "6in", "A5"])
-def test_an_earlier_layout_follows_its_container_onto_another_canvas(
-    canvas: str, tmp_path: Path, three: pipeline.Run
-) -> None:
-    earlier = tmp_path / "earlier.geojson"
-    write(three.layout, earlier)
-    options = {"items": ("star", "circle", "heart"), "count": 7, "start": str(earlier)}
-    recipe = make_recipe(**QUICK, **options, canvas=canvas, finish="none")
-    moved = uses.fill(recipe, stop=lambda: True).layout
-    old, new = three.layout.container.outline, moved.container.outline
-    scale = new.extent / old.extent
-    for place, side in (("x", 0), ("y", 1)):
-        before = getattr(three.layout.poses, place) - old.bounds[side]
-        after = getattr(moved.poses, place) - new.bounds[side]
-        np.testing.assert_allclose(after, before * scale, atol=1e-6 * new.extent)
-    np.testing.assert_allclose(moved.poses.scale, three.layout.poses.scale * scale, rtol=1e-3)
-
-
-def test_an_earlier_layout_of_another_number_of_items_is_refused(
-    tmp_path: Path, three: pipeline.Run
-) -> None:
-    earlier = tmp_path / "earlier.geojson"
-    write(three.layout, earlier)
-    with pytest.raises(RecipeError, match=r"start: .* has 7 items, this run 2; give as many"):
-        run(items=["star"], count=2, start=str(earlier))
-
-
-def test_a_missing_earlier_layout_is_named() -> None:
-    with pytest.raises(ReadError, match=r"nowhere\.geojson: there is no such file"):
-        run(start="nowhere.geojson")
 
 
 def test_skipped_files_are_in_the_run_and_the_manifest(tmp_path: Path) -> None:
