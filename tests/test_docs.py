@@ -39,8 +39,8 @@ OFFERED = [(name, option) for name, verb in VERB_OF.items() for option in option
 FILES = [option for model in (LayoutFiles, SideFiles, Terminal) for option in offered(model)]
 
 IN_ITS_OWN_WORDS = {"--font", "--color-by", "--add", "--hold"}
-"""Options of words that say the same thing as elsewhere, of words; what an edit adds, and holds, which
-a film does with its last picture."""
+"""Options of words that say the same thing as elsewhere, of words; what an edit adds, and holds,
+which a film does with its last picture."""
 
 
 def defines(page: str, name: str) -> bool:
