@@ -81,6 +81,7 @@ PAGES = {
     "charts": "unit charts: areas true to the data",
     "files": "drawings from anywhere, and what is written",
     "films": "recording and writing films",
+    "live": "frames, settles and what becomes of a layout over random gestures",
     "robustness": "spoilt files, stops at any moment, full disks",
 }
 """By the end of the page's name."""

@@ -8,7 +8,7 @@ from functools import partial
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-from benchmarks.engine import engine, film, outlines, scaling_page
+from benchmarks.engine import engine, film, live, outlines, scaling_page
 from benchmarks.kit.manifests import Manifest, known, of_parts, write_text
 from benchmarks.pages import overview
 from benchmarks.paper import paper, resolution
@@ -29,7 +29,7 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
         name: partial(of_parts, module.PAGE)
         for name, module in {
             "charts": charts, "engine": engine, "files": files_page, "films": film,
-            "forces": forces, "outlines": outlines, "parts": parts, "photos": photos,
+            "forces": forces, "live": live, "outlines": outlines, "parts": parts, "photos": photos,
             "quality": quality, "robustness": robustness,
         }.items()
     },

@@ -118,6 +118,11 @@ class Session:
         return self._document
 
     @property
+    def is_grabbed(self) -> bool:
+        """Whether something is held by the hand."""
+        return bool(self._grabbed)
+
+    @property
     def is_at_rest(self) -> bool:
         """Whether the flow has nothing to move."""
         return self._flow is None or self._flow.is_at_rest
@@ -188,7 +193,8 @@ class Session:
             held[self._rows(self._turned), PROPERTIES.index("angle")] = True
             self._flow.rule(replace(self._document, held=held))
             self._flow.hold(self._rows(self._given))
-            self._run(RELAX)
+            self._flow.harden(RELAX)
+            self._follow(self._flow)
             rows = np.flatnonzero(self._flow.moved)
             touched = np.union1d(self._rows(self._touched), rows).astype(np.int64)
             self._flow.review()
@@ -292,12 +298,17 @@ class Session:
         return session
 
     def _run(self, epochs: int, resolution: int | None = None) -> None:
+        """Run epochs, and note it."""
         if self._flow is None:
             return
         resolution = resolution or self._flow.resolution
         self._flow.run(epochs, resolution)
         self.log.note("flow", (resolution, epochs))
-        self._document = self._document.with_poses(self._flow.poses)
+        self._follow(self._flow)
+
+    def _follow(self, flow: Flow) -> None:
+        """Take over where the flow has brought the items."""
+        self._document = self._document.with_poses(flow.poses)
         self._film()
 
     def _film(self) -> None:
