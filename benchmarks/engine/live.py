@@ -8,6 +8,7 @@ memory. ``gestures=N`` and ``items=N,N`` measure other numbers.
 
 from __future__ import annotations
 
+import io
 import sys
 import time
 import tracemalloc
@@ -23,6 +24,7 @@ from packwork.arrays import FloatArray
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.placing import Move
 from packwork.live.document import Document
+from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.scene.pose import Poses
 
@@ -217,11 +219,13 @@ def one_more(layout: pw.Layout) -> tuple[float, float, float]:
 def repeats(layout: pw.Layout, gestures: int = 40) -> str:
     """Whether a replay, and undo and redo of everything, end at equal bytes."""
     start = Document.of(layout)
-    session, rng = Session(start), np.random.default_rng(5)
+    stream = io.StringIO()
+    session, rng = Session(start, log=Log(stream)), np.random.default_rng(5)
     for _ in range(gestures):
         gesture(session, rng, Gestures())
     end = session.document
-    again = Session.replay(start, session.log.entries)
+    entries = read_entries(iter(stream.getvalue().splitlines()), "the log")
+    again = Session.replay(start, entries)
     equal = [same(again.document.poses, end.poses)]
     while session.history.can_undo:
         session.undo()
@@ -247,7 +251,6 @@ def memory(layout: pw.Layout) -> str:
         x, y = float(poses.x[k]), float(poses.y[k])
         session.apply(Move(item=int(session.document.ids[k]), x=x + 1, y=y))
         session.apply(Move(item=int(session.document.ids[k]), x=x, y=y))
-        session.log.entries.clear()
         if number in {MANY // 2, MANY}:
             seen.append(tracemalloc.get_traced_memory()[0])
     tracemalloc.stop()

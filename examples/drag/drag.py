@@ -39,7 +39,7 @@ session.polish(300)
 
 made = session.layout
 made.save("after.svg", background=BACKGROUND)
-made.save("after.png", background=BACKGROUND, pixels=700)
+made.save("after.png", background=BACKGROUND, pixels=480)
 made.save_film(
     "drag.svg", background=BACKGROUND, fps=12, seconds=6, film_pixels=420, easing="linear"
 )

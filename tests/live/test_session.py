@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -235,6 +237,12 @@ def test_sizes_in_proportion_stay_so() -> None:
         (lambda s: s.set(colour=3), r"is no option of a session"),
         (lambda s: s.set(padding=-3), r"padding"),
         (lambda s: s.set(rotate="sideways"), r"rotate"),
+        (lambda s: s.weigh(0, 1e300), r"long is none"),
+        (lambda s: s.move(0, float("nan"), 0), r"x: "),
+        (lambda s: s.turn(0, "up"), r"angle: "),
+        (lambda s: s.reshape("abc"), r"rings"),
+        (lambda s: s.recolor(0, None), r"colour"),
+        (lambda s: s.set(padding=5, rotate="zzz"), r"rotate"),
         (lambda s: s.flow(), r"give epochs or milliseconds"),
         (lambda s: s.rename(0, ""), r"name"),
         (lambda s: s.turn(77, 5), r"there is no item 77"),
@@ -259,6 +267,96 @@ def test_nothing_is_settled_under_the_hand(session: pw.Session) -> None:
     with pytest.raises(RecipeError, match="drop it first"):
         session.apply(Grab(items=(1,)))
     assert session.polish(5) == 0
+
+
+def test_what_was_in_conflict_can_be_settled_later(session: pw.Session) -> None:
+    poses = session.document.poses
+    session.hold(0)
+    session.hold(1)
+    session.move(0, float(poses.x[1]), float(poses.y[1]))
+    assert not session.settle().certified
+    session.release("*")
+    assert session.settle().certified
+
+
+def test_undo_and_redo_leave_nothing_that_cannot_be_settled(session: pw.Session) -> None:
+    session.move(0, "50%", "50%")
+    session.move(1, "40%", "50%")
+    session.undo()
+    assert session.settle().certified
+    session.move(2, "45%", "50%")
+    session.undo()
+    session.redo()
+    assert session.settle().certified
+
+
+@pytest.mark.parametrize("place", [(-1000.0, 300.0), (700.0, -90.0)])
+def test_what_is_dropped_outside_comes_to_the_nearest_place(
+    session: pw.Session, place: tuple[float, float]
+) -> None:
+    before = session.document.poses.scale[0]
+    session.move(0, *place)
+    assert session.settle().certified
+    assert session.document.poses.scale[0] < 2 * before
+
+
+def test_neighbours_keep_to_their_turns_whatever_the_hand_does() -> None:
+    layout = pw.fill("circle", "star", count=8, rotate="10", epochs=60, levels="50")
+    session = layout.edit()
+    session.turn(0, 90)
+    session.settle()
+    turns = np.degrees(np.abs(session.document.poses.angle[1:]))
+    assert turns.max() <= 10.001
+
+
+def test_options_that_all_keep_already_move_nothing(session: pw.Session, same: Same) -> None:
+    before = session.document.poses
+    session.set(sizes="fixed", size_ratio=3, rotate="free")
+    assert session.settle().certified
+    assert same(session.document.poses, before)
+
+
+def test_what_lies_where_it_was_put_stays_there_while_more_comes(session: pw.Session) -> None:
+    session.move(0, 300, 300)
+    session.add("circle")
+    session.flow(epochs=10)
+    assert session.document.poses.x[0] == 300
+
+
+def test_what_is_in_the_hand_is_not_pushed(session: pw.Session) -> None:
+    poses = session.document.poses
+    session.apply(Grab(items=(1,)))
+    session.apply(Move(item=0, x=float(poses.x[1]) + 2, y=float(poses.y[1])))
+    session.flow(epochs=10)
+    assert session.document.poses.x[1] == poses.x[1]
+
+
+def test_a_film_ends_with_the_layout_whatever_came_and_went(
+    dozen: pw.Layout, tmp_path: Path
+) -> None:
+    session = dozen.edit(record=True)
+    session.move(0, 300, 300)
+    session.remove(1)
+    session.settle()
+    session.undo()
+    layout = session.layout
+    assert layout.track is not None
+    assert layout.track.at(1.0).x.tolist() == layout.poses.x.tolist()
+    layout.save_film(tmp_path / "film.svg", seconds=0.5)
+
+
+def test_options_of_a_session_are_those_of_its_layout(session: pw.Session) -> None:
+    session.set(rotate="none", size_ratio=1.5)
+    again = session.layout.edit().document.options
+    assert (again.rotate, again.size_ratio) == ("none", 1.5)
+
+
+@pytest.mark.parametrize("said", [{"size_ratio": "abc"}, {"rotate": "zzz"}, {"sizes": [1]}])
+def test_a_manifest_without_meaning_is_passed_over(
+    dozen: pw.Layout, said: dict[str, object]
+) -> None:
+    manifest = {**dozen.manifest, "recipe": said}
+    assert replace(dozen, manifest=manifest).edit().document.options.size_ratio == 2.0
 
 
 def test_names_colours_and_weights_move_nothing(session: pw.Session, same: Same) -> None:

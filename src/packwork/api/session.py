@@ -15,9 +15,10 @@ class Session(NamedSession):
 
     :meth:`Layout.edit` gives one. Used in a ``with`` block it is settled at the block's end;
     :attr:`layout` is then certified, or ``in_the_way`` says why not. Each call of a verb is one
-    entry of the history. An item is called by its name, ``"owl"``, or, of several of that name,
-    ``"owl#2"``; ``*`` stands for any letters; or by its number. Places are canvas units or
-    lengths such as ``"10mm"``; ``"45%"`` is a share of the canvas' width or height.
+    entry of the history; what adds or sets several, one for each. An item is called by its name,
+    ``"owl"``, or, of several of that name, ``"owl#2"``; ``*`` stands for any letters; or by its
+    number. Places are canvas units or lengths such as ``"10mm"``; ``"45%"`` is a share of the
+    canvas' width or height.
 
     Examples
     --------

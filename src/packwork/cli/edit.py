@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import math
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias, cast
@@ -22,7 +23,8 @@ if TYPE_CHECKING:
     from packwork.scene.item import Item
 
 _FORMS = {
-    "replace": "ITEM=FILE", "recolor": "ITEM=COLOR", "exchange": "ITEM=ITEM",
+    "remove": "ITEM", "hold": "ITEM or ITEM=place,angle,size", "replace": "ITEM=FILE",
+    "recolor": "ITEM=COLOR", "exchange": "ITEM=ITEM",
     "turn": "ITEM=DEGREES", "scale": "ITEM=FACTOR", "move": "ITEM=X,Y such as owl=50%,120",
 }  # fmt: skip
 
@@ -96,7 +98,7 @@ def edit(
     no_clobber: bool,
     quiet: bool,
 ) -> None:
-    """Change a saved layout here and there; the rest makes room, and all is certified again.
+    """Change a saved layout here and there; the rest makes room, certified again.
 
     Exit code 1 if that cannot be: what is in the way is named.
 
@@ -186,6 +188,8 @@ def _planned(session: NamedSession, flag: str, spec: str) -> Callable[[], None]:
     which, sign, value = (part.strip() for part in spec.partition("="))
     if flag not in {"remove", "hold"} and not (sign and which and value):
         raise RecipeError(flag, f"must be {_FORMS[flag]}, not {spec[:60]!r}")
+    if sign and (flag == "remove" or not value):
+        raise RecipeError(flag, f"must be {_FORMS[flag]}, not {spec[:60]!r}")
     with _about(flag):
         numbers = session.find(which) if flag in _OF_MANY else (session.one(which),)
         others = (session.one(value),) if flag == "exchange" else ()
@@ -222,9 +226,12 @@ def _made(session: NamedSession, flag: str, item: int, value: str, others: tuple
 
 def _number(flag: str, text: str) -> float:
     try:
-        return float(text)
+        number = float(text)
     except ValueError:
-        raise RecipeError(flag, f"must be a number, not {text[:40]!r}") from None
+        number = math.nan
+    if not math.isfinite(number):
+        raise RecipeError(flag, f"must be a number, not {text[:40]!r}")
+    return number
 
 
 def _added(session: NamedSession, spec: str) -> None:

@@ -136,7 +136,8 @@ def finish(
     run = _Finish(container, outlines, poses, options, observer, stop, is_enough, forces)
     if options.refining:
         run.refine()
-        run.anneal()
+        if options.covered:
+            run.anneal()
         run.level()
     elif run.begin():
         run.coarse()

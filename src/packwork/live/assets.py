@@ -21,7 +21,9 @@ def named_item(library: Library, item: Item) -> str:
     >>> named_item(library, star) == named_item(library, again), len(library.items)
     (True, 1)
     """
-    parts = (item.name.encode(), _points(item.outline), _points(item.ink), _of_art(item.art))
+    said = (item.name, item.source, item.label, item.weight, item.halo, item.datum, item.row)
+    drawn = _of_art(item.art)
+    parts = (repr(said).encode(), _points(item.outline), _points(item.ink), drawn)
     name = hashlib.sha256(b"\0".join(parts)).hexdigest()
     library.items.setdefault(name, item)
     return name
@@ -30,7 +32,9 @@ def named_item(library: Library, item: Item) -> str:
 def named_container(library: Library, container: Container) -> str:
     """Put a container into a library; its name there, which is that of its content."""
     canvas = f"{container.width!r} {container.height!r} {container.unit}".encode()
-    parts = (container.name.encode(), canvas, _points(container.outline))
+    walls = b"".join(wall.tobytes() for wall in container.walls or ())
+    has = f"{container.walls is None} {id(container.backdrop)}".encode()
+    parts = (container.name.encode(), canvas, _points(container.outline), walls, has)
     name = hashlib.sha256(b"\0".join(parts)).hexdigest()
     library.containers.setdefault(name, container)
     return name

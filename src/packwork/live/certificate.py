@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from packwork.live.change import Change, Stale
 from packwork.live.document import Document
@@ -10,6 +10,25 @@ from packwork.metrics.certificate import Promise, off_shares
 from packwork.metrics.standing import Standing
 from packwork.metrics.violations import Violation
 from packwork.pipeline.left_out import reason
+
+
+@dataclass(frozen=True)
+class Settlement:
+    """What a settle came to.
+
+    Parameters
+    ----------
+    certified
+        Whether exact geometry finds nothing wrong with the layout now.
+    in_the_way
+        What it finds, a sentence each.
+    moved
+        How many items are elsewhere than before.
+    """
+
+    certified: bool
+    in_the_way: tuple[str, ...]
+    moved: int
 
 
 class Certificate:
@@ -70,7 +89,8 @@ def promise_of(document: Document) -> Promise:
 
 
 def _is_all_stale(before: Document, now: Document) -> bool:
-    return Change.between(before, now).stale == Stale.EVERYTHING
+    is_other = before.options.padding != now.options.padding
+    return is_other or Change.between(before, now).stale == Stale.EVERYTHING
 
 
 def _is_elsewhere(before: Document, i: int, now: Document, k: int) -> bool:

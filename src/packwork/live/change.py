@@ -19,13 +19,13 @@ class Stale(IntEnum):
     DRAWING = 1
     """Names, colours, art: what is looked at, not what is in the way."""
     RULES = 2
-    """What is held, ranges of sizes."""
+    """What is held, ranges of sizes, options that all keep already."""
     POSES = 3
     """Where some items are."""
     ITEMS = 4
     """Which items there are, or their outlines."""
     EVERYTHING = 5
-    """The container or the options."""
+    """The container, or a wider gap between all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,8 @@ class Change:
     @classmethod
     def between(cls, before: Document, after: Document) -> Change:
         """What differs."""
-        if before.container is not after.container or before.options != after.options:
+        is_tighter = after.options.padding > before.options.padding
+        if before.container is not after.container or is_tighter:
             return cls(Stale.EVERYTHING, np.union1d(before.ids, after.ids))
         if not np.array_equal(before.ids, after.ids):
             return cls(Stale.ITEMS, np.setxor1d(before.ids, after.ids))
@@ -57,7 +58,7 @@ class Change:
             return cls(Stale.ITEMS, after.ids[np.array(outlines)])
         if (moved := differing(before.poses, after.poses)).any():
             return cls(Stale.POSES, after.ids[moved])
-        ruled = (before.held != after.held).any(axis=1)
+        ruled = (before.held != after.held).any(axis=1) | (before.options != after.options)
         ruled |= (before.smallest != after.smallest) | (before.largest != after.largest)
         if ruled.any():
             return cls(Stale.RULES, after.ids[ruled])

@@ -10,9 +10,11 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
+import shapely
 
 from packwork.arrays import BoolArray, IntArray
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import valid
 from packwork.live.document import Document
 from packwork.live.touching import Touching
 from packwork.pipeline.plan.padding import padded
@@ -142,6 +144,20 @@ class Flow:
         self._reach(items, 1, LINGER)
         self._since = REVIEW
 
+    def bring_in(self, items: IntArray) -> None:
+        """Put those of items ``(m,)`` whose middles lie outside to the nearest place inside."""
+        region = valid(self._region.outline.region)
+        x, y = self.poses.x.copy(), self.poses.y.copy()
+        for k in items:
+            if self._document.held[k, 0] or shapely.intersects_xy(region, x[k], y[k]):
+                continue
+            way = shapely.shortest_line(region, shapely.Point(x[k], y[k]))
+            x[k], y[k] = shapely.get_coordinates(way)[0]
+            self.moved[k] = True
+        self.poses = replace(self.poses, x=x, y=y)
+        self.touching.follow(items, self.poses)
+        self._since = REVIEW
+
     def rule(self, document: Document) -> None:
         """Go on with other rules, names or colours; poses and outlines are the same."""
         self._document = document
@@ -203,7 +219,9 @@ class Flow:
             self._reach(self._given, RINGS, int(self._left.max()))
         before, was, document = self._working, self._active, self._document
         active = self._active = np.flatnonzero(self._left)
-        self._is_held = document.held[active] | np.isin(active, self._given)[:, None]
+        held = document.held[active] | np.isin(active, self._given)[:, None]
+        # What may not move is a wall to a settle: turned or sized here, it could not be mended.
+        self._is_held = held | held[:, :1]
         some, side = self.poses.some(active), document.container.side
         level = Level(
             document.container, self._seen_of(active, resolution), resolution, WEIGHTS,
@@ -250,7 +268,7 @@ class Flow:
             x=np.where(held[:, 0], some.x, np.nan),
             y=np.where(held[:, 0], some.y, np.nan),
             angle=np.where(held[:, 1], some.angle, np.nan),
-            turn_limit=np.where(held[:, 1], np.inf, max(turns, float(np.abs(some.angle).max()))),
+            turn_limit=np.where(held[:, 1], np.inf, np.maximum(turns, np.abs(some.angle))),
             smallest=np.where(
                 held[:, 2], some.scale, np.minimum(document.smallest[active], some.scale)
             ),

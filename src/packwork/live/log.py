@@ -32,35 +32,32 @@ class Log:
     Parameters
     ----------
     stream
-        Open for text; flushed at the end of each gesture. Without one the entries are kept.
+        Open for text; flushed at the end of each gesture. Without one nothing is kept.
     """
 
     def __init__(self, stream: IO[str] | None = None) -> None:
         self._stream = stream
-        self.entries: list[Entry] = []
-        """Those so far, if there is no stream."""
+        self._last: Entry | None = None
 
     def note(self, kind: str, value: Any = None) -> None:
         """Add an entry; epochs that follow on epochs of the same level are added to them."""
-        last = self.entries[-1] if self.entries else None
+        last = self._last
         if kind == "flow" and last and last[0] == "flow" and last[1][0] == value[0]:
-            self.entries[-1] = ("flow", (value[0], last[1][1] + value[1]))
+            self._last = ("flow", (value[0], last[1][1] + value[1]))
             return
-        self._write(keeping=0)
-        self.entries.append((kind, value))
+        self._write()
+        self._last = (kind, value)
 
     def flush(self) -> None:
         """Have all that was noted written to the stream and on its way to the disk."""
-        self._write(keeping=0)
+        self._write()
         if self._stream is not None:
             self._stream.flush()
 
-    def _write(self, keeping: int) -> None:
-        if self._stream is None:
-            return
-        for entry in self.entries[: len(self.entries) - keeping]:
-            self._stream.write(line_of(entry) + "\n")
-        del self.entries[: len(self.entries) - keeping]
+    def _write(self) -> None:
+        if self._stream is not None and self._last is not None:
+            self._stream.write(line_of(self._last) + "\n")
+        self._last = None
 
 
 def line_of(entry: Entry) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import fnmatch
 import re
 from collections.abc import Iterable, Sequence
+from numbers import Integral
 from types import TracebackType
 from typing import Self, TypeAlias
 
@@ -12,13 +13,14 @@ import numpy as np
 
 from packwork.errors import RecipeError
 from packwork.live.assets import named_container, named_item
+from packwork.live.certificate import Settlement
 from packwork.live.commands.command import made
 from packwork.live.commands.container import PlaceContainer, Reshape, SetContainer, SetOption
 from packwork.live.commands.holding import Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Exchange, Move, Scale, Turn
 from packwork.live.document import PROPERTIES, Property
-from packwork.live.session import Session, Settlement
+from packwork.live.session import Session
 from packwork.live.voids import widest_place
 from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container
@@ -67,10 +69,10 @@ class NamedSession(Session):
             If there is none.
         """
         document = self.document
-        if isinstance(which, int) and not isinstance(which, bool):
-            if document.index(which) is None:
+        if isinstance(which, Integral) and not isinstance(which, bool):
+            if document.index(int(which)) is None:
                 raise RecipeError("item", f"there is no item {which}")
-            return (which,)
+            return (int(which),)
         text = str(which)
         names = [item.name for item in document.items]
         copy = None if text in names else _COPY.fullmatch(text)
@@ -104,11 +106,11 @@ class NamedSession(Session):
         container = self.document.container
         across = self._length("x", x, container.width)
         along = self._length("y", y, container.height)
-        self.apply(Move(item=self.one(which), x=across, y=along))
+        self.apply(made(Move, item=self.one(which), x=across, y=along))
 
     def turn(self, which: Which, degrees: float) -> None:
         """Turn an item to an angle from upright, clockwise."""
-        self.apply(Turn(item=self.one(which), angle=degrees))
+        self.apply(made(Turn, item=self.one(which), angle=degrees))
 
     def scale(self, which: Which, factor: float) -> None:
         """Make an item so many times as large; it then keeps about that size."""
@@ -116,7 +118,7 @@ class NamedSession(Session):
 
     def exchange(self, first: Which, second: Which) -> None:
         """Let two items change places."""
-        self.apply(Exchange(first=self.one(first), second=self.one(second)))
+        self.apply(made(Exchange, first=self.one(first), second=self.one(second)))
 
     def hold(self, which: Which, *properties: Property) -> None:
         """Hold items exactly as they are: ``place``, ``angle``, ``size``, or all of it."""
@@ -141,22 +143,22 @@ class NamedSession(Session):
             key = named_item(self.library, item)
             area = self._first_area(place[2], item.weight)
             numbers.append(self.document.next_id)
-            self.apply(Add(asset=key, x=across, y=along, area=area))
+            self.apply(made(Add, asset=key, x=across, y=along, area=area))
         return tuple(numbers)
 
     def remove(self, which: Which) -> None:
         """Take items away; their neighbours grow into the room."""
-        self.apply(Remove(items=self.find(which)))
+        self.apply(made(Remove, items=self.find(which)))
 
     def duplicate(self, which: Which) -> int:
         """Bring a copy of an item; its number."""
         number = self.document.next_id
-        self.apply(Duplicate(item=self.one(which)))
+        self.apply(made(Duplicate, item=self.one(which)))
         return number
 
     def replace_by(self, which: Which, item: Item) -> None:
         """Put another item in an item's place."""
-        self.apply(Replace(item=self.one(which), asset=named_item(self.library, item)))
+        self.apply(made(Replace, item=self.one(which), asset=named_item(self.library, item)))
 
     def weigh(self, which: Which, weight: float) -> None:
         """Give items another weight; they grow or shrink accordingly."""
@@ -168,7 +170,7 @@ class NamedSession(Session):
 
     def recolor(self, which: Which, color: str) -> None:
         """Give items one colour, any CSS colour."""
-        self.apply(Recolour(items=self.find(which), colour=color))
+        self.apply(made(Recolour, items=self.find(which), colour=color))
 
     @property
     def canvas(self) -> str:
@@ -178,11 +180,11 @@ class NamedSession(Session):
 
     def fill_container(self, container: Container) -> None:
         """Fill another container, on a canvas as large."""
-        self.apply(SetContainer(asset=named_container(self.library, container)))
+        self.apply(made(SetContainer, asset=named_container(self.library, container)))
 
     def reshape(self, rings: Iterable[Iterable[tuple[float, float]]]) -> None:
         """Give the container other vertices, canvas units."""
-        listed = tuple(tuple((float(x), float(y)) for x, y in ring) for ring in rings)
+        listed = [ring.tolist() if isinstance(ring, np.ndarray) else ring for ring in rings]
         self.apply(made(Reshape, rings=listed))
 
     def place_container(self, x: float = 0.0, y: float = 0.0, factor: float = 1.0) -> None:
@@ -191,11 +193,17 @@ class NamedSession(Session):
 
     def set(self, **options: str | float) -> None:
         """Set numbers for all: ``padding``, ``sizes``, ``size_ratio``, ``rotate``."""
-        container = self.document.container
-        for name, value in options.items():
-            if name == "padding":
-                value = length_asked(name, value, container.unit, container.side)
-            self.apply(SetOption(name=name, value=value))
+        container, given = self.document.container, dict(options)
+        if "padding" in given:
+            asked = given["padding"]
+            given["padding"] = length_asked("padding", asked, container.unit, container.side)
+        commands = [made(SetOption, name=name, value=value) for name, value in given.items()]
+        trial = self.document
+        for command in commands:
+            # All of them have a meaning, or none is done.
+            trial = command.applied(trial, self.library)
+        for command in commands:
+            self.apply(command)
 
     def _first_area(self, radius: float, weight: float) -> float:
         """Area that a new item begins with: what the room is good for, within the usual sizes."""

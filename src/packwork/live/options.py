@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field
+from pydantic import BeforeValidator, Field, ValidationError
 
 from packwork.metrics.certificate import Promise
 from packwork.options import Options, SizeMode
@@ -46,9 +46,15 @@ class LiveOptions(Options):
         promise = Promise.of(manifest) or Promise()
         found = {name: said[name] for name in ("size_ratio", "rotate") if name in said}
         sizes = MODES.get(str(said.get("sizes")), "free")
-        return cls(
-            padding=promise.gap, sizes="shared" if promise.areas_in_shares else sizes, **found
-        )
+        found["sizes"] = "shared" if promise.areas_in_shares else sizes
+        edited = manifest.get("edited")
+        if isinstance(edited, Mapping):
+            found = {**found, **edited}
+        try:
+            return cls.model_validate({**found, "padding": promise.gap})
+        except ValidationError:
+            # What a file says of its run is worth nothing where it has no meaning.
+            return cls(padding=promise.gap)
 
     @property
     def rotation(self) -> Rotation:

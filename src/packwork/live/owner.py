@@ -94,8 +94,10 @@ class Owner:
             raise self._failure
 
     def post(self, command: Command) -> bool:
-        """Have a command done; False if too many wait already, and it was not taken."""
+        """Have a command done; False if it was not taken: too many wait already, or it is over."""
         with self._changed:
+            if self._is_over or self._failure is not None:
+                return False
             if self._waiting and _replaces(command, self._waiting[-1]):
                 self._waiting[-1] = command
             elif len(self._waiting) < MOST_WAITING:
@@ -121,7 +123,8 @@ class Owner:
     def _turn(self) -> bool:
         """Do what waits, flow, show; False when all is done and no more comes."""
         with self._changed:
-            is_idle = self._session.is_at_rest and not self._is_touched
+            is_waiting = self._session.is_grabbed or not self._is_touched
+            is_idle = self._session.is_at_rest and is_waiting
             if not self._waiting and is_idle and not self._is_over:
                 self._changed.wait(IDLE_SECONDS)
             taken = [self._waiting.popleft() for _ in range(len(self._waiting))]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import time
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, replace
 
 import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
-from packwork.live.certificate import Certificate, promise_of
+from packwork.live.certificate import Certificate, Settlement, promise_of
 from packwork.live.change import Change, Stale, differing
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Drop, Grab
@@ -30,30 +30,14 @@ RELAX = 60
 """Epochs before a settle: what lies under what was dropped has to get out of its way first. More
 take longer, fewer leave more to be shrunk. Tried."""
 
+ENOUGH = 6
+"""Turns for each item that gestures have touched after which no more are tried. Chosen."""
+
 AT_ONCE = 2
 """Epochs between two looks at the clock. Chosen."""
 
 OF_PLACES = ("metrics", "certified", "filling", "beside", "pile")
 """What a manifest says of poses that are no more."""
-
-
-@dataclass(frozen=True)
-class Settlement:
-    """What a settle came to.
-
-    Parameters
-    ----------
-    certified
-        Whether exact geometry finds nothing wrong with the layout now.
-    in_the_way
-        What it finds, a sentence each.
-    moved
-        How many items are elsewhere than before.
-    """
-
-    certified: bool
-    in_the_way: tuple[str, ...]
-    moved: int
 
 
 class Session:
@@ -107,7 +91,7 @@ class Session:
         self._turned: set[int] = set()
         self._by_hand: set[int] = set()
         self._rough: set[int] = set()
-        self._polished = 0
+        self._polished = self._tried = 0
         self._flow: Flow | None = None
         self._certificate = Certificate()
         self._frames = Frames(document) if record else None
@@ -143,12 +127,13 @@ class Session:
         self.log.note("do", command)
         self._take(change, before, after)
         if isinstance(command, Grab):
+            self._flow = self._flow or Flow(before)
             self._grabbed, self._before = command.items, before
+            self._hold()
         elif isinstance(command, Drop):
             self._drop()
         elif not self._grabbed and change.stale > Stale.NOTHING:
             self.history.note(before)
-            self._let_go()
             self.log.flush()
         return change
 
@@ -186,32 +171,42 @@ class Session:
             raise RecipeError("settle", "something is held by the hand; drop it first")
         before = self._document
         self.log.note("settle")
-        if self._flow is not None and self._touched:
-            # What cannot stay where it was put gives way like any other.
-            self._given = self._fitting(self._given)
-            held = self._document.held.copy()
-            held[self._rows(self._turned), PROPERTIES.index("angle")] = True
-            self._flow.rule(replace(self._document, held=held))
-            self._flow.hold(self._rows(self._given))
-            self._flow.harden(RELAX)
-            self._follow(self._flow)
-            rows = np.flatnonzero(self._flow.moved)
-            touched = np.union1d(self._rows(self._touched), rows).astype(np.int64)
-            self._flow.review()
-            done = settle(
-                replace(self._document, held=held), touched, self._rows(self._given),
-                self._flow.touching, self.shapes, stop,
-            )  # fmt: skip
-            self._document = self._document.with_poses(done.document.poses)
-            self._flow.turn_to(self._document)
+        wrong = self.violations
+        met = {one.item for one in wrong} | {one.other for one in wrong if one.other is not None}
+        # What is in conflict is touched, whenever that came about.
+        self._touched |= met
+        if self._touched:
+            self._flow = self._flow or Flow(before)
+            self._settle(self._flow, stop)
+            if len(self.violations) > len(wrong):
+                # Nothing is better than something worse.
+                self._document = before
+                self._flow.turn_to(before)
         self._touched, self._given, self._turned = set(), set(), set()
-        self._rough |= set(
-            self._document.ids[differing(before.poses, self._document.poses)].tolist()
-        )
-        self.log.flush()
+        moved = differing(before.poses, self._document.poses)
+        self._rough |= set(self._document.ids[moved].tolist())
         self._film()
-        moved = int(differing(before.poses, self._document.poses).sum())
-        return Settlement(self.is_certified, self.in_the_way, moved)
+        self.log.flush()
+        return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
+
+    def _settle(self, flow: Flow, stop: Stop) -> None:
+        """Let what was touched make room, then finish it."""
+        self._given = self._fitting(self._given)
+        flow.bring_in(self._rows(self._touched - self._given))
+        held = self._document.held.copy()
+        held[self._rows(self._turned), PROPERTIES.index("angle")] = True
+        flow.rule(replace(self._document, held=held))
+        flow.stir(self._rows(self._touched))
+        flow.hold(self._rows(self._given))
+        flow.harden(RELAX)
+        self._follow(flow)
+        touched = np.union1d(self._rows(self._touched), np.flatnonzero(flow.moved))
+        flow.review()
+        strict = replace(self._document, held=held)
+        given = self._rows(self._given)
+        done = settle(strict, touched.astype(np.int64), given, flow.touching, self.shapes, stop)
+        self._document = self._document.with_poses(done.document.poses)
+        flow.turn_to(self._document)
 
     def polish(self, trials: int, stop: Stop = never) -> int:
         """Win back coverage where gestures have cost some, by turns of the items there.
@@ -243,7 +238,11 @@ class Session:
             self._document = done.document
         if self._flow is not None:
             self._flow.turn_to(self._document)
+        self._tried += trials
+        if self._tried >= ENOUGH * len(rows):
+            self._rough, self._tried = set(), 0
         self._film()
+        self.log.flush()
         return int(differing(before.poses, self._document.poses).sum())
 
     def undo(self) -> None:
@@ -275,7 +274,8 @@ class Session:
         kept = {k: v for k, v in self._document.manifest.items() if k not in OF_PLACES}
         said = {"promised": asdict(promise_of(self._document)), "certified": self.is_certified}
         track = None if self._frames is None else self._frames.track
-        manifest = {**kept, **said, "edited": True}
+        # What was asked of the run is not what holds now.
+        manifest = {**kept, **said, "edited": self._document.options.model_dump()}
         return replace(self._document.layout, manifest=manifest, track=track)
 
     @classmethod
@@ -337,6 +337,8 @@ class Session:
         self._given &= present
         self._touched = (self._touched | beside | set(change.items.tolist())) & present
         flow.stir(self._rows(self._touched))
+        self._hold()
+        self._film()
 
     def _give(self, flow: Flow, before: Poses, after: Document) -> None:
         """Note which items the hand has moved or turned; others make room for all it changed."""
@@ -348,17 +350,21 @@ class Session:
         self._by_hand |= set(numbers[moved | turned].tolist())
         self._touched |= set(numbers[changed].tolist())
         flow.rule(after)
-        flow.give(self._rows(self._given | set(numbers[changed].tolist())), now)
+        kept = self._given | set(numbers[changed].tolist()) | set(self._grabbed)
+        flow.give(self._rows(kept), now)
 
     def _drop(self) -> None:
         before, self._before = self._before, None
         if before is not None and self._document is not before:
             self.history.note(before)
-        self._let_go()
+        self._grabbed = ()
+        self._hold()
         self.log.flush()
 
-    def _let_go(self) -> None:
-        self._grabbed = ()
+    def _hold(self) -> None:
+        """Have the flow hold what lies where the hand has put it, or is in the hand."""
+        if self._flow is not None:
+            self._flow.hold(self._rows(self._given | set(self._grabbed)))
 
     def _leap(self, kind: str) -> None:
         if self._grabbed:
@@ -366,10 +372,11 @@ class Session:
         document = getattr(self.history, kind)(self._document)
         self.log.note(kind)
         self._document = document
-        for kept in (self._touched, self._given, self._turned, self._rough):
+        for kept in (self._touched, self._given, self._turned, self._rough, self._by_hand):
             kept.clear()
         if self._flow is not None:
             self._flow.turn_to(document)
+        self._film()
         self.log.flush()
 
     def _rows(self, numbers: set[int]) -> IntArray:

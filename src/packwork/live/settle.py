@@ -136,6 +136,8 @@ def _finished(
     some = document.poses.some(movable)
     outlines = [shapes.cover(document.items[k].outline) for k in movable]
     room = room_of(document, movable, shapes)
+    if room is None:
+        return Settled(document, moved, False)
     result = finish(room, outlines, some, _options(document, movable, trials, seed), stop=stop)
     held = document.held[movable]
     made = replace(
@@ -149,22 +151,26 @@ def _finished(
     return Settled(document.with_poses(poses), moved, result.clean and not dwarfs.any())
 
 
-def room_of(document: Document, movable: IntArray, shapes: Shapes) -> Container:
-    """The container about some items, less all that stands there."""
+def room_of(document: Document, movable: IntArray, shapes: Shapes) -> Container | None:
+    """The container about some items, less all that stands there; None where that is nothing."""
     boxes = np.array([outline.bounds for outline in _placed(document, movable, shapes)])
     areas = document.own_areas * document.poses.scale**2
     reach = ABOUT * float(np.sqrt(np.median(areas))) + 2 * gap_of(document, movable)
+    region = valid(document.container.outline.region)
     window = shapely.box(*(boxes[:, :2].min(axis=0) - reach), *(boxes[:, 2:].max(axis=0) + reach))
+    if not window.intersects(region):
+        # Everything that moves lies beside the container, and may be brought to any place in it.
+        window = shapely.box(*region.bounds)
     others = np.setdiff1d(np.arange(len(document)), movable)
     near = others[_may_meet(document, others, window.bounds)]
     walls = [outline.region for outline in _placed(document, near, shapes)]
-    whole = intersection(valid(document.container.outline.region), window)
+    whole = intersection(region, window)
     left = difference(whole, union(walls)) if walls else whole
-    parts = [part for part in polygon_parts(left) if _is_used(part, boxes)]
+    parts = [part for part in polygon_parts(left) if _is_used(part, boxes)] or polygon_parts(left)
     try:
         outline = Outline.from_region(shapely.MultiPolygon(parts))
     except ShapeError:
-        outline = document.container.outline
+        return None
     return replace(document.container, outline=outline)
 
 

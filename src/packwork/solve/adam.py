@@ -72,7 +72,7 @@ class Adam:
         >>> step = one.step(np.array([[3.0]]), 1.0)
         >>> two.go_on_from(one, np.array([2]), np.array([0]))
         >>> two.step(np.zeros((3, 1)), 1.0)[:, 0].round(1).tolist()
-        [-0.0, -0.0, -0.6]
+        [-0.0, -0.0, -0.7]
         """
         self._mean[mine] = other._mean[theirs]
         self._square[:] = np.mean(other._square)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Annotated, TypeAlias, TypeVar
 
+import numpy as np
 from pydantic import Field
 
 from packwork.errors import RecipeError
@@ -16,8 +17,11 @@ from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 
-FARTHEST = 1e6
+FARTHEST = 1e3
 """Coordinates at most, in sides of the canvas: farther is nowhere. Chosen."""
+
+SHORTEST, LONGEST = 1e-6, 1e2
+"""Extents of items, in sides of the canvas: beyond them nothing can be seen. Chosen."""
 
 Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -70,6 +74,23 @@ def made(command: type[_Command], **values: object) -> _Command:
         Naming the value that has no meaning.
     """
     return validated(command, values)
+
+
+def sized(document: Document, what: str) -> Document:
+    """The document, if its items are of sizes that can be seen.
+
+    Raises
+    ------
+    RecipeError
+        If one is a speck, or far larger than the canvas.
+    """
+    container = document.container
+    extents = np.array([item.outline.extent for item in document.items]) * document.poses.scale
+    shares = extents / container.side
+    bad = ~((shares > SHORTEST) & (shares < LONGEST))
+    if bad.any():
+        raise RecipeError(what, f"an item {extents[bad][0]:.3g} {container.unit} long is none")
+    return document
 
 
 def index_of(document: Document, number: int, what: str) -> int:

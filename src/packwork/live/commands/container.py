@@ -11,6 +11,7 @@ from pydantic import Field
 from packwork.errors import RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import valid
 from packwork.live.commands.command import FARTHEST, Command, Library, Number, known
 from packwork.live.document import Document
 from packwork.live.options import LiveOptions
@@ -53,7 +54,7 @@ class Reshape(Command):
         ):
             raise RecipeError("reshape", "points are nowhere near the canvas")
         try:
-            outline = Outline.from_region(Outline.from_rings(arrays).region.buffer(0))
+            outline = Outline.from_region(valid(Outline.from_rings(arrays).region))
         except (ShapeError, ValueError) as error:
             raise RecipeError("reshape", "the outline has no area; give three points") from error
         return replace(document, container=_outlined(document.container, outline))
@@ -100,6 +101,12 @@ class SetOption(Command):
         options = validated(LiveOptions, values)
         if options.padding > document.container.side:
             raise RecipeError("padding", f"{options.padding:g} is more than the canvas is long")
+        if (options.sizes, options.size_ratio) == (
+            document.options.sizes,
+            document.options.size_ratio,
+        ):
+            # Sizes that were given by hand stay what they are.
+            return replace(document, options=options)
         return document.with_ranges(options)
 
 

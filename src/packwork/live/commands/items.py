@@ -21,6 +21,7 @@ from packwork.live.commands.command import (
     Number,
     index_of,
     known,
+    sized,
 )
 from packwork.live.document import PROPERTIES, Document
 from packwork.scene.colour import hex_colour, parse_colour
@@ -58,7 +59,7 @@ class Add(Command):
             raise RecipeError("add", f"{self.x:g}, {self.y:g} is nowhere near the canvas")
         scale = math.sqrt(self.area / item.outline.area)
         pose = Poses([self.x], [self.y], math.radians(self.angle), scale)
-        return _joined(document, item, pose, item.weight)
+        return sized(_joined(document, item, pose, item.weight), "add")
 
 
 class Duplicate(Command):
@@ -114,7 +115,9 @@ class Replace(Command):
         scale = document.poses.scale.copy()
         scale[k] *= factor
         changed = _with_item(document, k, new)
-        return replace(changed, poses=replace(document.poses, scale=scale), **columns)
+        return sized(
+            replace(changed, poses=replace(document.poses, scale=scale), **columns), "replace"
+        )
 
 
 class Weigh(Command):
@@ -136,7 +139,7 @@ class Weigh(Command):
         for values in columns.values():
             values[rows] *= factor
         poses = replace(document.poses, scale=scale)
-        return replace(document, weights=weights, poses=poses, **columns)
+        return sized(replace(document, weights=weights, poses=poses, **columns), "weigh")
 
 
 class Rename(Command):

@@ -17,6 +17,7 @@ from packwork.live.commands.command import (
     Library,
     Number,
     index_of,
+    sized,
 )
 from packwork.live.document import Document
 from packwork.scene.pose import Poses
@@ -68,15 +69,12 @@ class Scale(Command):
         """The document with the item of another size."""
         k = index_of(document, self.item, "scale")
         scale = float(document.poses.scale[k]) * self.factor
-        extent = document.items[k].outline.extent * scale
-        if not 1e-6 < extent / document.container.side < FARTHEST:
-            raise RecipeError("scale", f"an item {extent:g} {document.container.unit} long is none")
         smallest, largest = document.smallest.copy(), document.largest.copy()
         is_free = document.options.sizes == "free"
         smallest[k] = scale / NEARLY if is_free else scale
         largest[k] = scale * NEARLY if is_free else scale
         document = replace(document, smallest=smallest, largest=largest)
-        return _posed(document, k, scale=scale)
+        return sized(_posed(document, k, scale=scale), "scale")
 
 
 class Exchange(Command):
@@ -98,7 +96,7 @@ class Exchange(Command):
         if document.options.sizes == "free":
             scale = other.scale * np.sqrt(areas[there] / areas[here])
         changed = replace(poses.some(here), x=other.x, y=other.y, scale=scale)
-        return document.with_poses(poses.with_some(here, changed))
+        return sized(document.with_poses(poses.with_some(here, changed)), "exchange")
 
 
 def _posed(document: Document, k: int, **values: float) -> Document:
