@@ -36,7 +36,7 @@ POLISH = 60
 NEAR = 0.5
 """Share of the gestures that go a quarter of the way only."""
 
-MANY = 2_000
+MANY = 400
 """Short gestures over which memory is measured."""
 
 PAGE = """# Sessions
@@ -99,6 +99,7 @@ def measured(layout: pw.Layout, gestures: int) -> Gestures:
     found.covered.append(covered(session))
     for _ in range(gestures):
         gesture(session, rng, found)
+    print(f"{len(layout)} icons: {gestures} gestures", flush=True)
     return found
 
 
@@ -216,7 +217,7 @@ def one_more(layout: pw.Layout) -> tuple[float, float, float]:
     return covered(session), 100.0 * float((moved > diameters).mean()), start
 
 
-def repeats(layout: pw.Layout, gestures: int = 40) -> str:
+def repeats(layout: pw.Layout, gestures: int = 12) -> str:
     """Whether a replay, and undo and redo of everything, end at equal bytes."""
     start = Document.of(layout)
     stream = io.StringIO()
