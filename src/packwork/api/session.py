@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+from types import TracebackType
+
 from packwork.api.layout import Layout, public
 from packwork.api.verbs import read_container, read_items
+from packwork.errors import RecipeError
 from packwork.live.document import Document
+from packwork.live.file.disk import Disk
 from packwork.live.named import Coordinate, NamedSession, Which
 from packwork.readers.memory.values import Value
 from packwork.scene import layout as scene
@@ -38,6 +43,76 @@ class Session(NamedSession):
     def layout(self) -> Layout:
         """The layout as it is now: what saves, shows and measures itself."""
         return public(super().layout)
+
+    _disk: Disk | None = None
+
+    @classmethod
+    def open(cls, path: str | Path, *, journal: bool = False) -> Session:
+        """A session out of a file that :meth:`save` has written, with all that undo leads to.
+
+        Parameters
+        ----------
+        journal
+            Note all that is done beside the file, in ``path.log``, at the end of each gesture: a
+            crash then loses at most the last one, for what the journal holds is done again when
+            the file is opened next.
+
+        Raises
+        ------
+        ReadError
+            If it is no session file, or a spoilt one.
+        """
+        disk = Disk(path, is_journaled=journal)
+        kept, entries = disk.read()
+        session = cls(kept.document)
+        session.go_on_from(kept)
+        disk.go_on(session, entries)
+        session._disk = disk
+        return session
+
+    def save(self, path: str | Path | None = None, *, journal: bool = False) -> None:
+        """Write the session to a file: layout, drawings, what is held, all that undo leads to.
+
+        The file opens anywhere: it holds photographs (4,000 px on the longer side) and fonts too.
+        :attr:`layout` saves pictures.
+
+        Parameters
+        ----------
+        path
+            Such as ``work.packwork``; unless given, the file that was opened or saved last.
+        journal
+            As for :meth:`open`.
+
+        Raises
+        ------
+        RecipeError
+            If there is no such file yet, or something is held by the hand.
+        WriteError
+            If it cannot be written; what was there is as it was.
+        """
+        if path is not None:
+            self.close()
+            self._disk = Disk(path, is_journaled=journal)
+        if self._disk is None:
+            raise RecipeError("path", "the session has no file yet; give one, as work.packwork")
+        self._disk.save(self)
+
+    def close(self) -> None:
+        """End the journal, if there is one; what it holds is done again when the file is opened.
+
+        The end of a ``with`` block does it too.
+        """
+        if self._disk is not None:
+            self._disk.close(self)
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        super().__exit__(kind, error, trace)
+        self.close()
 
     def add(
         self, source: Value, x: Coordinate | None = None, y: Coordinate | None = None

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Sequence
 
 from packwork.live.document import Document
 
@@ -11,11 +12,29 @@ MOST_ENTRIES = 1_000
 
 
 class History:
-    """Documents that can be gone back to, and forward to again."""
+    """Documents that can be gone back to, and forward to again.
 
-    def __init__(self) -> None:
-        self._past: deque[Document] = deque(maxlen=MOST_ENTRIES)
-        self._future: list[Document] = []
+    Parameters
+    ----------
+    past
+        The oldest first.
+    future
+        The next first.
+    """
+
+    def __init__(self, past: Sequence[Document] = (), future: Sequence[Document] = ()) -> None:
+        self._past: deque[Document] = deque(past, maxlen=MOST_ENTRIES)
+        self._future: list[Document] = list(reversed(future))
+
+    @property
+    def past(self) -> tuple[Document, ...]:
+        """Documents before the present one, the oldest first."""
+        return tuple(self._past)
+
+    @property
+    def future(self) -> tuple[Document, ...]:
+        """Documents after it, the next first."""
+        return tuple(reversed(self._future))
 
     @property
     def can_undo(self) -> bool:

@@ -7,17 +7,21 @@ same bytes.
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import IO, Any, TypeAlias
 
 from pydantic import ValidationError
 
 from packwork.errors import ReadError
 from packwork.live.commands.any_command import COMMANDS, AnyCommand
+from packwork.live.commands.command import Library
+from packwork.live.file.brought import BROUGHT, brought_of, brought_record
+from packwork.readers.unfit import naming
 
 Entry: TypeAlias = tuple[str, Any]
 """``do`` a command; ``flow`` of a level, so many epochs; ``settle``; ``polish`` by trials;
-``undo``; ``redo``."""
+``undo``; ``redo``; and before a command that needs it, an ``item`` or a ``container`` of the
+library by its name."""
 
 MOST_ENTRIES = 10_000_000
 """Lines of a log at most. Chosen."""
@@ -38,6 +42,16 @@ class Log:
     def __init__(self, stream: IO[str] | None = None) -> None:
         self._stream = stream
         self._last: Entry | None = None
+        self._brought: set[str] = set()
+
+    def bring(self, names: Iterable[str], library: Library) -> None:
+        """Add what the next command needs of a library, unless that was added before."""
+        for name in names:
+            if self._stream is not None and name not in self._brought:
+                self._brought.add(name)
+                kind = "item" if name in library.items else "container"
+                found = getattr(library, f"{kind}s")[name]
+                self.note(kind, (name, found))
 
     def note(self, kind: str, value: Any = None) -> None:
         """Add an entry; epochs that follow on epochs of the same level are added to them."""
@@ -71,7 +85,9 @@ def line_of(entry: Entry) -> str:
     kind, value = entry
     if kind == "do":
         value = value.model_dump(mode="json")
-    return json.dumps({kind: value})
+    elif kind in BROUGHT:
+        value = brought_record(*value).model_dump(mode="json", exclude_none=True)
+    return json.dumps({kind: value}, allow_nan=False)
 
 
 def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
@@ -110,13 +126,13 @@ def _entry(line: str, number: int, name: str) -> Entry:
         found = None
     if isinstance(found, Mapping) and len(found) == 1:
         (kind, value), *_ = found.items()
-        entry = _checked(str(kind), value)
+        entry = _checked(str(kind), value, name)
         if entry is not None:
             return entry
     raise ReadError(name, f"line {number} is no entry of a log: {line.strip()[:60]!r}")
 
 
-def _checked(kind: str, value: Any) -> Entry | None:
+def _checked(kind: str, value: Any, name: str) -> Entry | None:
     if kind in {"settle", "undo", "redo"}:
         return kind, None
     if kind == "flow" and _is_flow(value):
@@ -129,6 +145,9 @@ def _checked(kind: str, value: Any) -> Entry | None:
         except ValidationError:
             return None
         return kind, command
+    if kind in BROUGHT:
+        with naming(name):
+            return kind, brought_of(value, kind)
     return None
 
 

@@ -20,8 +20,8 @@ from packwork.live.commands.holding import Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Exchange, Move, Scale, Turn
 from packwork.live.document import PROPERTIES, Property
+from packwork.live.neighbourhood.voids import widest_place
 from packwork.live.session import Session
-from packwork.live.voids import widest_place
 from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container
 from packwork.scene.item import Item

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable
 from dataclasses import asdict, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -15,12 +16,14 @@ from packwork.live.change import Change, Stale, differing
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.document import PROPERTIES, Document
-from packwork.live.flow import Flow
 from packwork.live.frames import Frames
 from packwork.live.history import History
+from packwork.live.kept import Kept
 from packwork.live.log import Entry, Log
-from packwork.live.settle import polish, settle
-from packwork.live.shapes import Shapes
+from packwork.live.marks import Marks
+from packwork.live.neighbourhood.flow import Flow
+from packwork.live.neighbourhood.settle import polish, settle
+from packwork.live.neighbourhood.shapes import Shapes
 from packwork.metrics.violations import Violation
 from packwork.progress import Stop, never
 from packwork.scene.layout import Layout
@@ -86,12 +89,8 @@ class Session:
         """Covers of the outlines."""
         self._grabbed: tuple[int, ...] = ()
         self._before: Document | None = None
-        self._touched: set[int] = set()
-        self._given: set[int] = set()
-        self._turned: set[int] = set()
-        self._by_hand: set[int] = set()
-        self._rough: set[int] = set()
-        self._polished = self._tried = 0
+        self.marks = Marks()
+        """What has been done to which items."""
         self._flow: Flow | None = None
         self._certificate = Certificate()
         self._frames = Frames(document) if record else None
@@ -122,10 +121,14 @@ class Session:
         if isinstance(command, Grab) and self._grabbed:
             raise RecipeError("grab", "something is held already; drop it first")
         before = self._document
-        after = command.applied(before, self.library)
-        change = Change.between(before, after)
+        documents = [before]
+        for step in command.steps:
+            documents.append(step.applied(documents[-1], self.library))
+        change = Change.between(before, documents[-1])
+        self.log.bring(command.assets, self.library)
         self.log.note("do", command)
-        self._take(change, before, after)
+        for one, other in pairwise(documents):
+            self._take(Change.between(one, other), one, other)
         if isinstance(command, Grab):
             self._flow = self._flow or Flow(before)
             self._grabbed, self._before = command.items, before
@@ -174,36 +177,36 @@ class Session:
         wrong = self.violations
         met = {one.item for one in wrong} | {one.other for one in wrong if one.other is not None}
         # What is in conflict is touched, whenever that came about.
-        self._touched |= met
-        if self._touched:
+        self.marks.touched |= met
+        if self.marks.touched:
             self._flow = self._flow or Flow(before)
             self._settle(self._flow, stop)
             if len(self.violations) > len(wrong):
                 # Nothing is better than something worse.
                 self._document = before
                 self._flow.turn_to(before)
-        self._touched, self._given, self._turned = set(), set(), set()
+        self.marks.settled()
         moved = differing(before.poses, self._document.poses)
-        self._rough |= set(self._document.ids[moved].tolist())
+        self.marks.rough |= set(self._document.ids[moved].tolist())
         self._film()
         self.log.flush()
         return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
 
     def _settle(self, flow: Flow, stop: Stop) -> None:
         """Let what was touched make room, then finish it."""
-        self._given = self._fitting(self._given)
-        flow.bring_in(self._rows(self._touched - self._given))
+        self.marks.given = self._fitting(self.marks.given)
+        flow.bring_in(self._rows(self.marks.touched - self.marks.given))
         held = self._document.held.copy()
-        held[self._rows(self._turned), PROPERTIES.index("angle")] = True
+        held[self._rows(self.marks.turned), PROPERTIES.index("angle")] = True
         flow.rule(replace(self._document, held=held))
-        flow.stir(self._rows(self._touched))
-        flow.hold(self._rows(self._given))
+        flow.stir(self._rows(self.marks.touched))
+        flow.hold(self._rows(self.marks.given))
         flow.harden(RELAX)
         self._follow(flow)
-        touched = np.union1d(self._rows(self._touched), np.flatnonzero(flow.moved))
+        touched = np.union1d(self._rows(self.marks.touched), np.flatnonzero(flow.moved))
         flow.review()
         strict = replace(self._document, held=held)
-        given = self._rows(self._given)
+        given = self._rows(self.marks.given)
         done = settle(strict, touched.astype(np.int64), given, flow.touching, self.shapes, stop)
         self._document = self._document.with_poses(done.document.poses)
         flow.turn_to(self._document)
@@ -226,21 +229,21 @@ class Session:
         int
             How many items have moved.
         """
-        if trials < 1 or self._grabbed or self._touched or not self._rough:
+        if trials < 1 or self._grabbed or self.marks.touched or not self.marks.rough:
             return 0
         before = self._document
         self.log.note("polish", trials)
-        self._polished += 1
+        self.marks.polished += 1
         # What was put somewhere by hand stays as it was put.
-        rows = self._rows(self._rough - self._by_hand)
-        done = polish(before, rows, trials, self._polished, self.shapes, stop)
+        rows = self._rows(self.marks.rough - self.marks.by_hand)
+        done = polish(before, rows, trials, self.marks.polished, self.shapes, stop)
         if done.is_clean:
             self._document = done.document
         if self._flow is not None:
             self._flow.turn_to(self._document)
-        self._tried += trials
-        if self._tried >= ENOUGH * len(rows):
-            self._rough, self._tried = set(), 0
+        self.marks.tried += trials
+        if self.marks.tried >= ENOUGH * len(rows):
+            self.marks.rough, self.marks.tried = set(), 0
         self._film()
         self.log.flush()
         return int(differing(before.poses, self._document.poses).sum())
@@ -284,18 +287,58 @@ class Session:
     ) -> Session:
         """A session in which all entries of a log are done again."""
         session = cls(document, library)
-        for kind, value in entries:
-            if kind == "do":
-                session.apply(value)
-            elif kind == "flow":
-                session._run(value[1], value[0])
-            elif kind == "settle":
-                session.settle()
-            elif kind == "polish":
-                session.polish(value)
-            else:
-                session._leap(kind)
+        session.repeat(entries)
         return session
+
+    def repeat(self, entries: Iterable[Entry]) -> int:
+        """Do all entries of a log again; how many gestures that were.
+
+        Raises
+        ------
+        RecipeError
+            If one has no meaning here.
+        """
+        gestures = 0
+        for kind, value in entries:
+            if kind in {"item", "container"}:
+                name, found = value
+                getattr(self.library, f"{kind}s")[name] = found
+            elif kind == "do":
+                gestures += not self._grabbed
+                self.apply(value)
+            elif kind == "flow":
+                self._run(value[1], value[0])
+            elif kind == "settle":
+                self.settle()
+            elif kind == "polish":
+                self.polish(value)
+            else:
+                self._leap(kind)
+        return gestures
+
+    def kept(self) -> Kept:
+        """What a file holds of the session; it then goes on as one that was opened does.
+
+        Raises
+        ------
+        RecipeError
+            If something is grabbed.
+        """
+        if self._grabbed:
+            raise RecipeError("save", "something is held by the hand; drop it first")
+        found = Kept(self._document, self.history, self.marks)
+        self.go_on_from(found)
+        return found
+
+    def go_on_from(self, kept: Kept) -> None:
+        """Take over what a file holds, nothing else: so that the same follows wherever it is."""
+        self._document, self.history, self.marks = kept.document, kept.history, kept.marks
+        self.shapes, self._certificate = Shapes(), Certificate()
+        self._grabbed, self._before, self._flow = (), None, None
+        if self.marks.touched:
+            self._flow = Flow(self._document)
+            self._flow.stir(self._rows(self.marks.touched))
+            self._hold()
 
     def _run(self, epochs: int, resolution: int | None = None) -> None:
         """Run epochs, and note it."""
@@ -334,9 +377,9 @@ class Session:
             beside = set(before.ids[flow.touching.beside(rows)].tolist())
         flow.turn_to(after)
         present = set(after.ids.tolist())
-        self._given &= present
-        self._touched = (self._touched | beside | set(change.items.tolist())) & present
-        flow.stir(self._rows(self._touched))
+        self.marks.given &= present
+        self.marks.touched = (self.marks.touched | beside | set(change.items.tolist())) & present
+        flow.stir(self._rows(self.marks.touched))
         self._hold()
         self._film()
 
@@ -345,12 +388,12 @@ class Session:
         now, numbers = after.poses, after.ids
         moved = (now.x != before.x) | (now.y != before.y)
         turned, changed = now.angle != before.angle, differing(before, now)
-        self._given |= set(numbers[moved].tolist())
-        self._turned |= set(numbers[turned].tolist())
-        self._by_hand |= set(numbers[moved | turned].tolist())
-        self._touched |= set(numbers[changed].tolist())
+        self.marks.given |= set(numbers[moved].tolist())
+        self.marks.turned |= set(numbers[turned].tolist())
+        self.marks.by_hand |= set(numbers[moved | turned].tolist())
+        self.marks.touched |= set(numbers[changed].tolist())
         flow.rule(after)
-        kept = self._given | set(numbers[changed].tolist()) | set(self._grabbed)
+        kept = self.marks.given | set(numbers[changed].tolist()) | set(self._grabbed)
         flow.give(self._rows(kept), now)
 
     def _drop(self) -> None:
@@ -364,7 +407,7 @@ class Session:
     def _hold(self) -> None:
         """Have the flow hold what lies where the hand has put it, or is in the hand."""
         if self._flow is not None:
-            self._flow.hold(self._rows(self._given | set(self._grabbed)))
+            self._flow.hold(self._rows(self.marks.given | set(self._grabbed)))
 
     def _leap(self, kind: str) -> None:
         if self._grabbed:
@@ -372,8 +415,7 @@ class Session:
         document = getattr(self.history, kind)(self._document)
         self.log.note(kind)
         self._document = document
-        for kept in (self._touched, self._given, self._turned, self._rough, self._by_hand):
-            kept.clear()
+        self.marks.leapt()
         if self._flow is not None:
             self._flow.turn_to(document)
         self._film()

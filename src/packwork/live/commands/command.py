@@ -64,6 +64,17 @@ class Command(Options):
             If it has no meaning there.
         """
 
+    @property
+    def steps(self) -> tuple[Command, ...]:
+        """Commands that it stands for: itself."""
+        return (self,)
+
+    @property
+    def assets(self) -> tuple[str, ...]:
+        """What it brings in, by names in the library."""
+        asset = getattr(self, "asset", None)
+        return () if asset is None else (asset,)
+
 
 def made(command: type[_Command], **values: object) -> _Command:
     """A command of plain values.

@@ -22,8 +22,8 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, intersection, polygon_parts, union, valid
 from packwork.live.change import differing
 from packwork.live.document import Document
-from packwork.live.shapes import Shapes
-from packwork.live.touching import Touching
+from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.neighbourhood.touching import Touching
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 

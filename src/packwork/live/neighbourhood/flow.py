@@ -16,7 +16,7 @@ from packwork.arrays import BoolArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.document import Document
-from packwork.live.touching import Touching
+from packwork.live.neighbourhood.touching import Touching
 from packwork.pipeline.plan.padding import padded
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.limits import Limits

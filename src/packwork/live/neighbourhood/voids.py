@@ -7,7 +7,7 @@ import shapely
 
 from packwork.geometry.overlay import difference, union, valid
 from packwork.live.document import Document
-from packwork.live.shapes import Shapes
+from packwork.live.neighbourhood.shapes import Shapes
 
 FINENESS = 0.005
 """How far the middle of the largest disc may be off, shares of the canvas. Chosen."""

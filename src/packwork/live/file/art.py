@@ -1,0 +1,152 @@
+"""Art between memory and files. What comes from a file goes through the gates of its kind."""
+
+from __future__ import annotations
+
+import base64
+from dataclasses import dataclass
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.live.file.arrays import bytes_of
+from packwork.live.file.records import (
+    ArtRecord,
+    FlatRecord,
+    Matrix,
+    PhotoRecord,
+    PictureRecord,
+    VectorRecord,
+)
+from packwork.readers.gate.door import MAX_BYTES, admit, link_declaration, serialised
+from packwork.readers.pictures.decode import opened
+from packwork.readers.svg.art import vector_art
+from packwork.readers.unfit import UnfitError
+from packwork.scene.colour import css_colour
+from packwork.scene.item import Art, FlatArt, PhotoArt, PictureArt, VectorArt
+
+LONGEST_PRINT = 4_000.0
+"""Longer side of a photograph in a session file, px: 34 cm at 300 to the inch. Larger makes files
+of hundreds of megabytes. Chosen."""
+
+HALVES = 4
+"""How often a photograph whose file would be too large is halved at most. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class KeptOriginal:
+    """A photograph out of a session file: with all the pixels that it has there."""
+
+    art: VectorArt
+
+    def printed(self, px_per_unit: float) -> VectorArt:
+        """The photograph, whatever is asked."""
+        return self.art
+
+
+def art_record(art: Art, extent: float) -> ArtRecord:
+    """An art as plain values.
+
+    Parameters
+    ----------
+    extent
+        Longer side of the item, in its own units.
+
+    Raises
+    ------
+    ReadError
+        If the file of a photograph is no longer there.
+    """
+    if isinstance(art, FlatArt):
+        return FlatRecord(fill=art.fill)
+    if isinstance(art, VectorArt):
+        return _vector_record(art)
+    if isinstance(art, PhotoArt):
+        return photo_record(art, extent)
+    png = base64.b64encode(art.png).decode("ascii")
+    return PictureRecord(
+        png=png, width=art.width, height=art.height,
+        matrix=matrix_record(art.matrix), is_traced=art.is_traced,
+    )  # fmt: skip
+
+
+def photo_record(art: PhotoArt, extent: float) -> PhotoRecord:
+    """A photograph as plain values, its large copy no larger than the gate lets pass.
+
+    Raises
+    ------
+    ReadError
+        If its file is no longer there.
+    """
+    share = min(1.0, LONGEST_PRINT / extent)
+    printed = art.original.printed(share)
+    for _ in range(HALVES):
+        if len(printed.markup) < MAX_BYTES - 1_000:
+            break
+        share /= 2
+        printed = art.original.printed(share)
+    return PhotoRecord(preview=_vector_record(art.preview), printed=_vector_record(printed))
+
+
+def art_of(record: ArtRecord) -> Art:
+    """The art of a record.
+
+    Raises
+    ------
+    UnfitError
+        If it holds what no drawing of ours holds.
+    """
+    if isinstance(record, FlatRecord):
+        return FlatArt(_colour(record.fill))
+    if isinstance(record, VectorRecord):
+        return _vector_of(record)
+    if isinstance(record, PhotoRecord):
+        return photo_of(record)
+    png = bytes_of(record.png)
+    with opened(png) as image:
+        if image.format != "PNG" or image.size != (record.width, record.height):
+            raise UnfitError("holds a picture that is not the PNG it is said to be")
+    matrix = matrix_of(record.matrix)
+    return PictureArt(png, record.width, record.height, matrix, record.is_traced)
+
+
+def photo_of(record: PhotoRecord) -> PhotoArt:
+    """The photograph of a record."""
+    return PhotoArt(_vector_of(record.preview), KeptOriginal(_vector_of(record.printed)))
+
+
+def matrix_record(matrix: FloatArray) -> Matrix:
+    """A 2 x 3 map as plain numbers."""
+    a, b, x, c, d, y = (float(value) for value in matrix.ravel())
+    return a, b, x, c, d, y
+
+
+def matrix_of(record: Matrix) -> FloatArray:
+    """The 2 x 3 map of plain numbers."""
+    return np.array(record, dtype=np.float64).reshape(2, 3)
+
+
+def _vector_record(art: VectorArt) -> VectorRecord:
+    return VectorRecord(
+        markup=art.markup, matrix=matrix_record(art.matrix), is_traced=art.is_traced
+    )
+
+
+def _vector_of(record: VectorRecord) -> VectorArt:
+    """The fragment, as it is if the gate has nothing to change, else as the gate has made it."""
+    name, value = link_declaration()
+    links = f' {name}="{value}"'
+    root = admit(f'<svg xmlns="http://www.w3.org/2000/svg"{links}>{record.markup}</svg>'.encode())
+    matrix = matrix_of(record.matrix)
+    plain = record.markup.replace(links, "").replace(" />", "/>")
+    if "".join(serialised(child) for child in root) == plain:
+        return VectorArt(record.markup, matrix, record.is_traced)
+    made = vector_art(root, None, is_cut=False, place=matrix)
+    return VectorArt(made.markup, matrix, record.is_traced)
+
+
+def _colour(text: str) -> str:
+    try:
+        css_colour(text)
+    except ValueError:
+        raise UnfitError(f"holds {text[:40]!r}, which is no colour") from None
+    return text

@@ -1,0 +1,245 @@
+"""Documents between memory and files: the first in full, each later one by what differs."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal, TypeAlias, get_args
+
+import numpy as np
+from pydantic import Field
+
+from packwork.arrays import FloatArray
+from packwork.live.commands.command import FARTHEST, sized
+from packwork.live.commands.items import MOST_ITEMS
+from packwork.live.document import PROPERTIES, Document
+from packwork.live.file.records import Text
+from packwork.live.options import LiveOptions
+from packwork.options import Options
+from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE, WIDEST_STRETCH
+from packwork.readers.unfit import UnfitError
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.pose import Poses
+
+MOST_ID = 2**53
+"""Numbers of items at most: larger ones are no whole numbers in JSON. Derived."""
+
+_HELD = 2 ** np.arange(len(PROPERTIES))
+
+Column: TypeAlias = Literal[
+    "x", "y", "angle", "scale", "stretch", "weights", "smallest", "largest", "items", "held"
+]
+COLUMNS: tuple[Column, ...] = get_args(Column)
+_POSE, _SIZE = COLUMNS[:5], COLUMNS[5:8]
+
+Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
+Id: TypeAlias = Annotated[int, Field(ge=0, le=MOST_ID)]
+
+
+class Changed(Options):
+    """Some rows of a column."""
+
+    rows: tuple[Annotated[int, Field(ge=0)], ...]
+    values: tuple[Number, ...]
+
+
+class DocumentRecord(Options):
+    """A document, or what differs from the one before: what is not there is as it was.
+
+    Items and containers are called by where they stand in the file's lists.
+    """
+
+    ids: tuple[Id, ...] | None = None
+    """With these everything is there in full."""
+    container: Annotated[int, Field(ge=0)] | None = None
+    columns: dict[Column, tuple[Number, ...] | Changed] = Field(default_factory=dict)
+    """What is held as a sum: 1 for the place, 2 for the angle, 4 for the size."""
+    options: LiveOptions | None = None
+    next_id: Id | None = None
+    manifest: dict[Text, Any] | None = None
+
+
+def records_of(
+    documents: Iterable[Document], place: Callable[[object], int]
+) -> Iterator[DocumentRecord]:
+    """Records of documents, each but the first by what differs from the one before.
+
+    Parameters
+    ----------
+    place
+        Where an item or a container stands in the file's lists.
+    """
+    before: Document | None = None
+    then: dict[Column, FloatArray] = {}
+    for document in documents:
+        now = _columns(document, place)
+        if before is None or not np.array_equal(before.ids, document.ids):
+            yield DocumentRecord(
+                ids=tuple(document.ids.tolist()),
+                container=place(document.container),
+                columns={name: tuple(now[name].tolist()) for name in COLUMNS},
+                options=document.options,
+                next_id=document.next_id,
+                manifest=dict(document.manifest),
+            )
+        else:
+            is_moved = before.container is not document.container
+            yield DocumentRecord(
+                container=place(document.container) if is_moved else None,
+                columns=_changed(then, now),
+                options=None if before.options == document.options else document.options,
+                next_id=None if before.next_id == document.next_id else document.next_id,
+                manifest=(
+                    None if before.manifest is document.manifest else dict(document.manifest)
+                ),
+            )
+        before, then = document, now
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What documents of a file are made of.
+
+    Parameters
+    ----------
+    items, containers
+        By where they stand.
+    """
+
+    items: Sequence[Item]
+    containers: Sequence[Container]
+
+
+def documents_of(records: Iterable[DocumentRecord], parts: Parts) -> Iterator[Document]:
+    """Documents of records.
+
+    Raises
+    ------
+    UnfitError
+        If one is no document.
+    RecipeError
+        If an item is of a size that none has.
+    """
+    before: Document | None = None
+    then: dict[Column, FloatArray] = {}
+    for record in records:
+        before, then = _document(record, before, then, parts)
+        yield before
+
+
+def _columns(document: Document, place: Callable[[object], int]) -> dict[Column, FloatArray]:
+    found: dict[Column, FloatArray] = {name: getattr(document.poses, name) for name in _POSE}
+    found |= {name: getattr(document, name) for name in _SIZE}
+    found["items"] = np.array([place(item) for item in document.items], dtype=np.float64)
+    found["held"] = (document.held @ _HELD).astype(np.float64)
+    return found
+
+
+def _changed(
+    then: Mapping[Column, FloatArray], now: Mapping[Column, FloatArray]
+) -> dict[Column, tuple[Number, ...] | Changed]:
+    found: dict[Column, tuple[Number, ...] | Changed] = {}
+    for name in COLUMNS:
+        rows = np.flatnonzero(then[name] != now[name])
+        if len(rows):
+            values = tuple(now[name][rows].tolist())
+            found[name] = Changed(rows=tuple(rows.tolist()), values=values)
+    return found
+
+
+def _document(
+    record: DocumentRecord, before: Document | None, then: Mapping[Column, FloatArray], parts: Parts
+) -> tuple[Document, dict[Column, FloatArray]]:
+    """The document of a record, and its columns."""
+    was = None if record.ids is not None else before
+    if record.ids is not None:
+        ids, then = np.array(record.ids, dtype=np.int64), {}
+    elif before is not None:
+        ids = before.ids
+    else:
+        raise UnfitError("holds no document to begin with")
+    columns = {name: _column(record, name, then, len(ids)) for name in COLUMNS}
+    chosen = _indices(columns["items"], len(parts.items), "items")
+    held = _indices(columns["held"], 2 ** len(PROPERTIES), "held")
+    next_id = record.next_id if was is None or record.next_id is not None else was.next_id
+    options = record.options if was is None or record.options is not None else was.options
+    manifest = record.manifest if was is None or record.manifest is not None else was.manifest
+    if next_id is None or options is None or manifest is None:
+        raise UnfitError("holds a document with something left out")
+    _check_ids(ids, next_id)
+    document = Document(
+        container=_container(record, was, parts),
+        items=tuple(parts.items[k] for k in chosen),
+        ids=ids,
+        poses=Poses(*(columns[name] for name in _POSE)),
+        weights=columns["weights"],
+        smallest=columns["smallest"],
+        largest=columns["largest"],
+        held=(held[:, None] & _HELD) > 0,
+        options=options,
+        next_id=next_id,
+        manifest=manifest,
+    )
+    _check_numbers(document)
+    return sized(document, "item"), columns
+
+
+def _container(record: DocumentRecord, was: Document | None, parts: Parts) -> Container:
+    if record.container is None:
+        if was is None:
+            raise UnfitError("holds a document without a container")
+        return was.container
+    if record.container >= len(parts.containers):
+        raise UnfitError(f"holds no container of number {record.container}")
+    return parts.containers[record.container]
+
+
+def _column(
+    record: DocumentRecord, name: Column, then: Mapping[Column, FloatArray], count: int
+) -> FloatArray:
+    """A column in full."""
+    given = record.columns.get(name)
+    if isinstance(given, tuple):
+        if len(given) != count:
+            raise UnfitError(f"holds {len(given)} numbers of {name} for {count} items")
+        return np.array(given, dtype=np.float64)
+    if name not in then:
+        raise UnfitError(f"holds a document without its {name}")
+    if given is None:
+        return then[name]
+    column = then[name].copy()
+    rows = _indices(np.array(given.rows, dtype=np.float64), count, name)
+    if len(rows) != len(given.values):
+        raise UnfitError(f"holds {len(given.values)} numbers of {name} for {len(rows)} rows")
+    column[rows] = given.values
+    return column
+
+
+def _indices(values: FloatArray, most: int, name: str) -> Any:
+    """The same as whole numbers below a bound."""
+    if not ((values >= 0) & (values < most) & (values == np.floor(values))).all():
+        raise UnfitError(f"holds {name} that are none of {most}")
+    return values.astype(np.int64)
+
+
+def _check_ids(ids: Any, next_id: int) -> None:
+    if not 0 < len(ids) <= MOST_ITEMS:
+        raise UnfitError(f"holds {len(ids)} items; 1 to {MOST_ITEMS} go")
+    if len(np.unique(ids)) < len(ids) or ids.max() >= next_id:
+        raise UnfitError("holds two items of one number, or a number that is not given yet")
+
+
+def _check_numbers(document: Document) -> None:
+    poses, side = document.poses, document.container.side
+    sizes = np.concatenate([poses.scale, document.smallest, document.largest])
+    is_sound = (
+        (np.abs(np.concatenate([poses.x, poses.y])) <= FARTHEST * side).all()
+        and ((sizes >= SMALLEST_SCALE) & (sizes <= LARGEST_SCALE)).all()
+        and (document.smallest <= document.largest).all()
+        and ((poses.stretch >= 1 / WIDEST_STRETCH) & (poses.stretch <= WIDEST_STRETCH)).all()
+        and (np.abs(poses.angle) <= FARTHEST).all()
+        and ((document.weights >= 0) & (document.weights <= 1 / SMALLEST_SCALE)).all()
+    )
+    if not is_sound:
+        raise UnfitError("holds items that are nowhere near the canvas, or of no size")

@@ -1,0 +1,191 @@
+"""What items and containers are in files: plain values, checked as they are read."""
+
+from __future__ import annotations
+
+import math
+from typing import Annotated, Any, Literal, TypeAlias
+
+from pydantic import AfterValidator, BeforeValidator, Field
+
+from packwork.options import Options
+from packwork.scene.label import MAX_LENGTH
+from packwork.units import Unit
+
+MOST_NAMED = 10_000
+"""Characters of a name or a source at most. Chosen."""
+
+FARTHEST = 1e12
+"""Numbers of matrices and of text at most. Larger ones drown what is beside them. Chosen."""
+
+MOST_CELLS = 10_000
+"""Cells of one row of a table at most. Chosen."""
+
+
+def _sound_text(text: str) -> str:
+    """The same text, if any file can hold it."""
+    if any((ord(c) < 32 and c not in "\t\n\r") or 0xD800 <= ord(c) < 0xE000 for c in text):
+        raise ValueError("must hold no control characters")
+    return text
+
+
+def _turning(matrix: tuple[float, ...]) -> tuple[float, ...]:
+    """The same matrix, if it can be inverted."""
+    a, b, _, c, d, _ = matrix
+    if not math.isfinite(1 / (a * d - b * c or math.inf)) or a * d == b * c:
+        raise ValueError("must be a map that can be inverted")
+    return matrix
+
+
+Text: TypeAlias = Annotated[str, Field(max_length=MOST_NAMED), AfterValidator(_sound_text)]
+
+Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False, ge=-FARTHEST, le=FARTHEST)]
+
+Length: TypeAlias = Annotated[float, Field(allow_inf_nan=False, gt=0, le=FARTHEST)]
+
+Key: TypeAlias = Annotated[str, Field(pattern="^[0-9a-f]{64}$")]
+"""Hash of content, by which one thing calls another."""
+
+Numbers: TypeAlias = str
+"""An array's bytes, little-endian, as base64."""
+
+Matrix: TypeAlias = Annotated[
+    tuple[Number, Number, Number, Number, Number, Number], AfterValidator(_turning)
+]
+"""Row by row: a, b, x, c, d, y."""
+
+
+class OutlineRecord(Options):
+    """Rings of a region."""
+
+    points: Numbers
+    """x, y, x, y and so on, eight bytes each."""
+    starts: tuple[Annotated[int, Field(ge=0)], ...]
+
+
+class FlatRecord(Options):
+    """One colour."""
+
+    kind: Literal["flat"] = "flat"
+    fill: Text
+
+
+class VectorRecord(Options):
+    """A fragment of SVG, which goes through the gate again."""
+
+    kind: Literal["vector"] = "vector"
+    markup: str
+    matrix: Matrix
+    is_traced: bool = False
+
+
+class PictureRecord(Options):
+    """Pixels."""
+
+    kind: Literal["picture"] = "picture"
+    png: str
+    """The PNG file as base64."""
+    width: Annotated[int, Field(ge=1)]
+    height: Annotated[int, Field(ge=1)]
+    matrix: Matrix
+    is_traced: bool = False
+
+
+class PhotoRecord(Options):
+    """A photograph: a small copy and a large one."""
+
+    kind: Literal["photo"] = "photo"
+    preview: VectorRecord
+    printed: VectorRecord
+
+
+ArtRecord: TypeAlias = Annotated[
+    FlatRecord | VectorRecord | PictureRecord | PhotoRecord, Field(discriminator="kind")
+]
+
+
+class RunRecord(Options):
+    """Characters of one font and one direction."""
+
+    text: Text
+    font: Key
+    font_name: Text
+    index: Annotated[int, Field(ge=0, le=10_000)] = 0
+    weight: Number | None = None
+    x: Number
+    y: Number
+    size: Length
+    steps: tuple[Number, ...]
+    advance: Number
+    is_leftward: bool = False
+
+
+class WordRecord(Options):
+    """What a word says, beside the curves that draw it."""
+
+    runs: tuple[RunRecord, ...]
+    path: Annotated[str, Field(pattern=r"^[MmLlHhVvCcSsQqTtAaZz0-9eE .,+-]*$")]
+    language: Annotated[str, Field(pattern="^[A-Za-z0-9-]{0,40}$")] = ""
+
+
+class LabelRecord(Options):
+    """Name, link and tooltip in a file."""
+
+    name: Annotated[Text, Field(max_length=MAX_LENGTH)] = ""
+    link: Annotated[Text, Field(max_length=MAX_LENGTH)] = ""
+    title: Annotated[Text, Field(max_length=MAX_LENGTH)] = ""
+
+
+def _plain_cell(value: Any) -> Any:
+    """The same value, if a table may hold it."""
+    if isinstance(value, float) and not math.isfinite(value):
+        raise ValueError("must be a number")
+    if value is not None and not isinstance(value, str | int | float | bool):
+        raise ValueError("must be text, a number or nothing")
+    return value
+
+
+class DatumRecord(Options):
+    """Row and number behind one mark."""
+
+    row: Annotated[
+        dict[Text, Annotated[Any, BeforeValidator(_plain_cell)]], Field(max_length=MOST_CELLS)
+    ]
+    value: Number
+    category: Text = ""
+    group: Text = ""
+
+
+class ItemRecord(Options):
+    """One thing to be placed."""
+
+    name: Text
+    source: Text = ""
+    outline: OutlineRecord
+    ink: OutlineRecord | None = None
+    """None if it is the outline."""
+    art: ArtRecord
+    label: LabelRecord = LabelRecord()
+    text: WordRecord | None = None
+    halo: Text = ""
+    datum: DatumRecord | None = None
+    weight: Length = 1.0
+
+
+class BackdropRecord(Options):
+    """A picture that is drawn under all items."""
+
+    art: PhotoRecord
+    matrix: Matrix
+
+
+class ContainerRecord(Options):
+    """The region to fill."""
+
+    name: Text
+    source: Text = ""
+    outline: OutlineRecord
+    width: Length
+    height: Length
+    unit: Unit
+    backdrop: BackdropRecord | None = None
+    walls: tuple[Numbers, ...] | None = None

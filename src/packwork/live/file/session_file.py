@@ -1,0 +1,178 @@
+"""A session in a file: all documents that undo and redo lead to, and what they are made of."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import asdict, dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import Field
+
+from packwork.errors import RecipeError
+from packwork.live.file.archive import packed, unpacked
+from packwork.live.file.documents import DocumentRecord, Parts, documents_of, records_of
+from packwork.live.file.records import ContainerRecord, ItemRecord
+from packwork.live.file.things import Shared, Things, container_of, decoded, item_of
+from packwork.live.history import MOST_ENTRIES, History
+from packwork.live.kept import Kept
+from packwork.live.marks import Marks
+from packwork.options import Options
+from packwork.readers.unfit import UnfitError, naming
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+
+_Path = Annotated[str, Field(pattern=r"^(items|containers)/[0-9a-f]{64}\.json$")]
+_Ids = tuple[Annotated[int, Field(ge=0)], ...]
+
+
+class MarksRecord(Options):
+    """What has been done to which items, as :class:`Marks`."""
+
+    touched: _Ids = ()
+    given: _Ids = ()
+    turned: _Ids = ()
+    by_hand: _Ids = ()
+    rough: _Ids = ()
+    polished: Annotated[int, Field(ge=0, le=2**53)] = 0
+    tried: Annotated[int, Field(ge=0, le=2**53)] = 0
+
+
+class SessionRecord(Options):
+    """What a session file says first."""
+
+    format: Literal[1] = 1
+    """Raised when older programs cannot read what newer ones write."""
+    follows: Annotated[str, Field(pattern="^([0-9a-f]{64})?$")] = ""
+    """SHA-256 of the file that this one has replaced."""
+    items: tuple[_Path, ...]
+    containers: tuple[_Path, ...]
+    documents: Annotated[
+        tuple[DocumentRecord, ...], Field(min_length=1, max_length=2 * MOST_ENTRIES + 1)
+    ]
+    present: Annotated[int, Field(ge=0)]
+    """Which of the documents is the present one: undo leads to those before it."""
+    marks: MarksRecord = MarksRecord()
+
+
+def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
+    """File of a session.
+
+    Parameters
+    ----------
+    things
+        Encodes items and containers, and remembers those that it has encoded.
+    follows
+        SHA-256 of the file that it is to replace; empty for none.
+
+    Raises
+    ------
+    ReadError
+        If the file of a photograph is no longer there.
+    """
+    past, future = kept.history.past, kept.history.future
+    documents = [*past, kept.document, *future]
+    items = _Listed(lambda item: things.item(item))
+    containers = _Listed(lambda container: things.container(container))
+
+    def place(thing: object) -> int:
+        return containers.place(thing) if isinstance(thing, Container) else items.place(thing)
+
+    record = SessionRecord(
+        follows=follows,
+        documents=tuple(records_of(documents, place)),
+        items=items.paths,
+        containers=containers.paths,
+        present=len(past),
+        marks=_marks_record(kept.marks),
+    )
+    used = {*items.paths, *containers.paths}
+    parts = {p: d for p, d in things.encoded.items() if p in used or p.startswith("fonts/")}
+    first = record.model_dump_json(exclude_none=True).encode()
+    return packed({"session.json": first, **parts})
+
+
+@dataclass(frozen=True)
+class SessionFile:
+    """What a session file holds.
+
+    Parameters
+    ----------
+    kept
+        All that a session goes on from.
+    follows
+        SHA-256 of the file that it has replaced; empty for none.
+    """
+
+    kept: Kept
+    follows: str
+
+
+def read_session(data: bytes, name: str) -> SessionFile:
+    """What the bytes of a session file hold.
+
+    Parameters
+    ----------
+    name
+        What the file is called in messages.
+
+    Raises
+    ------
+    ReadError
+        If it is no session file, or a spoilt one.
+    """
+    with naming(name):
+        try:
+            return _read(unpacked(data))
+        except RecipeError as error:
+            raise UnfitError(f"holds what has no meaning: {error}") from None
+
+
+def _read(parts: Mapping[str, bytes]) -> SessionFile:
+    record = decoded(SessionRecord, parts["session.json"])
+    shared = Shared(lambda key: _part(parts, f"fonts/{key}"))
+    known = {
+        path: item_of(decoded(ItemRecord, _part(parts, path)), shared) for path in set(record.items)
+    }
+    items: list[Item] = [known[path] for path in record.items]
+    walls = [container_of(decoded(ContainerRecord, _part(parts, p))) for p in record.containers]
+    documents = list(documents_of(record.documents, Parts(items, walls)))
+    if record.present >= len(documents):
+        raise UnfitError(f"holds {len(documents)} documents and no number {record.present}")
+    document = documents[record.present]
+    history = History(documents[: record.present], documents[record.present + 1 :])
+    marks = _marks_of(record.marks)
+    marks.keep(set(document.ids.tolist()))
+    return SessionFile(Kept(document, history, marks), record.follows)
+
+
+def _marks_record(marks: Marks) -> MarksRecord:
+    told = {k: tuple(sorted(v)) if isinstance(v, set) else v for k, v in asdict(marks).items()}
+    return MarksRecord.model_validate(told)
+
+
+def _marks_of(record: MarksRecord) -> Marks:
+    told: dict[str, Any] = {k: set(v) if isinstance(v, tuple) else v for k, v in record}
+    return Marks(**told)
+
+
+def _part(parts: Mapping[str, bytes], path: str) -> bytes:
+    if path not in parts:
+        raise UnfitError(f"lacks its part {path}")
+    return parts[path]
+
+
+class _Listed:
+    """Parts in the order in which they are met, each once."""
+
+    def __init__(self, path_of: Callable[..., str]) -> None:
+        self._path_of = path_of
+        self._places: dict[str, int] = {}
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """Of the parts."""
+        return tuple(self._places)
+
+    def place(self, thing: object) -> int:
+        """Where a thing stands among them."""
+        return self._places.setdefault(self._path_of(thing), len(self._places))

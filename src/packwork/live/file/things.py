@@ -1,0 +1,286 @@
+"""Items and containers between memory and files, and the fonts and records that they share."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+import numpy as np
+from pydantic import BaseModel, ValidationError
+
+from packwork.geometry.outline import Outline
+from packwork.live.file.arrays import outline_of, outline_record, points_of, text_of
+from packwork.live.file.art import (
+    art_of,
+    art_record,
+    matrix_of,
+    matrix_record,
+    photo_of,
+    photo_record,
+)
+from packwork.live.file.records import (
+    BackdropRecord,
+    ContainerRecord,
+    DatumRecord,
+    ItemRecord,
+    LabelRecord,
+    OutlineRecord,
+    RunRecord,
+    WordRecord,
+)
+from packwork.readers.fonts.guard import checked_face
+from packwork.readers.unfit import UnfitError
+from packwork.recipe.refusals import refusal
+from packwork.scene.container import Backdrop, Container
+from packwork.scene.datum import Datum
+from packwork.scene.item import Item
+from packwork.scene.label import Label
+from packwork.scene.live_text import FontFile, LiveText, TextRun
+
+_Model = TypeVar("_Model", bound=BaseModel)
+
+
+class Shared:
+    """Fonts and outlines of a file, each checked and made once, so that items share them.
+
+    Parameters
+    ----------
+    read
+        A font's bytes by the hash of its content.
+    """
+
+    def __init__(self, read: Callable[[str], bytes]) -> None:
+        self._read = read
+        self._fonts: dict[tuple[str, str, int, float | None], FontFile] = {}
+        self._outlines: dict[OutlineRecord, Outline] = {}
+
+    def outline(self, record: OutlineRecord) -> Outline:
+        """The outline of a record.
+
+        Raises
+        ------
+        UnfitError
+            If it is none.
+        ShapeError
+            If it has no area.
+        """
+        if record not in self._outlines:
+            self._outlines[record] = outline_of(record)
+        return self._outlines[record]
+
+    def font(self, run: RunRecord) -> FontFile:
+        """The font of a run.
+
+        Raises
+        ------
+        UnfitError
+            If it is no font that can be read.
+        """
+        key = (run.font, run.font_name, run.index, run.weight)
+        if key not in self._fonts:
+            data = self._read(run.font)
+            checked_face(data, run.index)
+            self._fonts[key] = FontFile(data, run.font_name, run.index, run.weight)
+        return self._fonts[key]
+
+
+class Things:
+    """Encoded items, containers and fonts by the hash of their content, each made once.
+
+    Items are known by being the same object, so they are kept for as long as this is.
+    """
+
+    def __init__(self) -> None:
+        self.encoded: dict[str, bytes] = {}
+        """By their path in a file, such as ``items/<hash>.json``."""
+        self._keys: dict[int, tuple[object, str]] = {}
+
+    def item(self, item: Item) -> str:
+        """Path of an item, which is encoded unless it has been.
+
+        Raises
+        ------
+        ReadError
+            If the file of a photograph is no longer there.
+        """
+        return self._put("items", item, lambda: item_record(item, self))
+
+    def container(self, container: Container) -> str:
+        """Path of a container."""
+        return self._put("containers", container, lambda: container_record(container))
+
+    def font(self, font: FontFile) -> str:
+        """Hash of a font's content."""
+        key = hashlib.sha256(font.data).hexdigest()
+        self.encoded.setdefault(f"fonts/{key}", font.data)
+        return key
+
+    def _put(self, kind: str, thing: object, record: Callable[[], BaseModel]) -> str:
+        known = self._keys.get(id(thing))
+        if known is None:
+            data = record().model_dump_json(exclude_none=True).encode()
+            path = f"{kind}/{hashlib.sha256(data).hexdigest()}.json"
+            self.encoded.setdefault(path, data)
+            # The thing is kept too, so that no other one gets its number.
+            known = self._keys[id(thing)] = (thing, path)
+        return known[1]
+
+
+def item_record(item: Item, things: Things) -> ItemRecord:
+    """An item as plain values; its fonts go to ``things``."""
+    label, datum = item.label, item.datum
+    outline, ink = outline_record(item.outline), outline_record(item.ink)
+    return ItemRecord(
+        name=item.name,
+        source=item.source,
+        outline=outline,
+        ink=None if ink == outline else ink,
+        art=art_record(item.art, item.outline.extent),
+        label=LabelRecord(name=label.name, link=label.link, title=label.title),
+        text=None if item.text is None else _word_record(item.text, things),
+        halo=item.halo,
+        datum=None if datum is None else _datum_record(datum),
+        weight=item.weight,
+    )
+
+
+def item_of(record: ItemRecord, shared: Shared) -> Item:
+    """The item of a record; rows of data frames are not in files.
+
+    Raises
+    ------
+    UnfitError
+        If it holds what no item of ours holds.
+    ShapeError
+        If an outline has no area.
+    """
+    outline = shared.outline(record.outline)
+    label, datum, text = record.label, record.datum, record.text
+    return Item(
+        record.name,
+        record.source,
+        outline,
+        outline if record.ink is None else shared.outline(record.ink),
+        art_of(record.art),
+        Label(label.name, label.link, label.title),
+        None if text is None else _text_of(text, shared),
+        record.halo,
+        None if datum is None else Datum(datum.row, datum.value, datum.category, datum.group),
+        record.weight,
+    )
+
+
+def container_record(container: Container) -> ContainerRecord:
+    """A container as plain values."""
+    behind, walls = container.backdrop, container.walls
+    backdrop = None
+    if behind is not None:
+        across = float(np.hypot(*behind.matrix[:, 0]))
+        art = photo_record(behind.art, container.side / across)
+        backdrop = BackdropRecord(art=art, matrix=matrix_record(behind.matrix))
+    return ContainerRecord(
+        name=container.name,
+        source=container.source,
+        outline=outline_record(container.outline),
+        width=container.width,
+        height=container.height,
+        unit=container.unit,
+        backdrop=backdrop,
+        walls=None if walls is None else tuple(text_of(wall) for wall in walls),
+    )
+
+
+def container_of(record: ContainerRecord) -> Container:
+    """The container of a record.
+
+    Raises
+    ------
+    UnfitError
+        If it holds what no container of ours holds.
+    ShapeError
+        If its outline has no area.
+    """
+    behind, walls = record.backdrop, record.walls
+    return Container(
+        record.name,
+        record.source,
+        outline_of(record.outline),
+        record.width,
+        record.height,
+        record.unit,
+        None if behind is None else Backdrop(photo_of(behind.art), matrix_of(behind.matrix)),
+        None if walls is None else tuple(points_of(wall) for wall in walls),
+    )
+
+
+def decoded(model: type[_Model], data: bytes) -> _Model:
+    """A record of JSON.
+
+    Raises
+    ------
+    UnfitError
+        Saying what is wrong with it.
+    """
+    try:
+        return model.model_validate_json(data)
+    except ValidationError as error:
+        raise UnfitError(f"holds what cannot be read: {refusal(error, model)}") from None
+
+
+def plain(data: bytes) -> Mapping[str, Any]:
+    """A table of JSON.
+
+    Raises
+    ------
+    UnfitError
+        If it is none.
+    """
+    try:
+        found = json.loads(data, parse_constant=_refused)
+    except (ValueError, RecursionError):
+        raise UnfitError("holds text that is not JSON") from None
+    if not isinstance(found, dict):
+        raise UnfitError("holds a list where a table has to be")
+    return found
+
+
+def _refused(constant: str) -> None:
+    raise ValueError(constant)
+
+
+def _word_record(text: LiveText, things: Things) -> WordRecord:
+    runs = [
+        RunRecord(
+            text=run.text, font=things.font(run.font), font_name=run.font.name,
+            index=run.font.index, weight=run.font.weight, x=run.x, y=run.y, size=run.size,
+            steps=run.steps, advance=run.advance, is_leftward=run.is_leftward,
+        )
+        for run in text.runs
+    ]  # fmt: skip
+    return WordRecord(runs=tuple(runs), path=text.path, language=text.language)
+
+
+def _text_of(record: WordRecord, shared: Shared) -> LiveText:
+    return LiveText(
+        tuple(_run_of(run, shared) for run in record.runs), record.path, record.language
+    )
+
+
+def _run_of(run: RunRecord, shared: Shared) -> TextRun:
+    return TextRun(
+        run.text, shared.font(run), run.x, run.y, run.size, run.steps, run.advance, run.is_leftward
+    )  # fmt: skip
+
+
+def _datum_record(datum: Datum) -> DatumRecord:
+    row = {str(name): _cell(value) for name, value in datum.row.items()}
+    return DatumRecord(row=row, value=datum.value, category=datum.category, group=datum.group)
+
+
+def _cell(value: object) -> object:
+    """A cell as a file can hold it."""
+    is_plain = value is None or isinstance(value, str | bool | int)
+    is_number = isinstance(value, float) and value == value and abs(value) != float("inf")
+    return value if is_plain or is_number else str(value)

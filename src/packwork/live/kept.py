@@ -1,0 +1,28 @@
+"""What is kept of a session when it is put away."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from packwork.live.document import Document
+from packwork.live.history import History
+from packwork.live.marks import Marks
+
+
+@dataclass(frozen=True)
+class Kept:
+    """All that a session goes on from.
+
+    Parameters
+    ----------
+    document
+        The present one.
+    history
+        What undo and redo lead to.
+    marks
+        What has been done to which items.
+    """
+
+    document: Document
+    history: History
+    marks: Marks

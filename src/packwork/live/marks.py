@@ -1,0 +1,55 @@
+"""What a session knows of its items beside the document: what has been done to which."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+
+
+@dataclass
+class Marks:
+    """Numbers of items that gestures have done something to, and how much was polished.
+
+    Parameters
+    ----------
+    touched
+        To be finished by the next settle.
+    given
+        Of these, what lies where the hand has put it.
+    turned
+        Of these, what has the angle that the hand has given it.
+    by_hand
+        Put somewhere by hand since the last leap: polish leaves it there.
+    rough
+        Settled, yet not polished.
+    polished
+        How many times polish was called: the seed of what it tries.
+    tried
+        Turns that were tried since anything became rough.
+    """
+
+    touched: set[int] = field(default_factory=set)
+    given: set[int] = field(default_factory=set)
+    turned: set[int] = field(default_factory=set)
+    by_hand: set[int] = field(default_factory=set)
+    rough: set[int] = field(default_factory=set)
+    polished: int = 0
+    tried: int = 0
+
+    def settled(self) -> None:
+        """Forget what was to be settled."""
+        for kept in (self.touched, self.given, self.turned):
+            kept.clear()
+
+    def leapt(self) -> None:
+        """Forget all items: the document is another one."""
+        for column in fields(self):
+            value = getattr(self, column.name)
+            if isinstance(value, set):
+                value.clear()
+
+    def keep(self, present: set[int]) -> None:
+        """Forget items that are no more."""
+        for column in fields(self):
+            value = getattr(self, column.name)
+            if isinstance(value, set):
+                value &= present

@@ -1,0 +1,1 @@
+"""What a gesture reaches: its neighbourhood flows, and is finished exactly among all others."""

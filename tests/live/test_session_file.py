@@ -1,0 +1,326 @@
+"""Session files: everything comes back, whatever is in them; spoilt ones are refused in a line."""
+
+from __future__ import annotations
+
+import io
+import json
+import signal
+import subprocess
+import sys
+import textwrap
+import zipfile
+from collections.abc import Callable
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from PIL import Image
+
+import packwork as pw
+from packwork.errors import PackworkError, ReadError
+from packwork.live.document import Document
+from packwork.live.file.archive import packed, unpacked
+from packwork.live.file.session_file import read_session
+from packwork.scene.item import PhotoArt
+from packwork.scene.pose import Poses
+
+QUICK = {"effort": "draft", "levels": "50", "epochs": 40}
+
+
+def icons() -> pw.Layout:
+    return pw.fill("circle", ["star", "builtin:icons"], count=9, **QUICK)
+
+
+def words() -> pw.Layout:
+    return pw.words("heart", {"Grüße": 3, "سلام": 2, "fill & <b>": 1}, **QUICK)
+
+
+def marks(folder: Path) -> pw.Layout:
+    table = folder / "t.csv"
+    table.write_text("name,value,kind\na,1,x\nb,2,y\nc,3,x\n", encoding="utf-8")
+    return pw.chart("circle", table, size_by="value", color_by="kind", **QUICK)
+
+
+def photos(folder: Path) -> pw.Layout:
+    noise = np.random.default_rng(1).integers(0, 255, (30, 40, 3), dtype=np.uint8)
+    for name in ("a", "b", "c"):
+        Image.fromarray(noise).save(folder / f"{name}.png")
+    return pw.photos("square", [folder / f"{name}.png" for name in "abc"], **QUICK)
+
+
+KINDS: dict[str, Callable[[Path], pw.Layout]] = {
+    "icons": lambda folder: icons(),
+    "words": lambda folder: words(),
+    "marks": marks,
+    "photos": photos,
+}
+
+
+def is_equal(one: Document, other: Document) -> bool:
+    columns = [(one.poses, other.poses, field.name) for field in fields(Poses)]
+    columns += [(one, other, n) for n in ("ids", "weights", "smallest", "largest", "held")]
+    assert one.options == other.options
+    assert one.next_id == other.next_id
+    return all(getattr(a, n).tobytes() == getattr(b, n).tobytes() for a, b, n in columns)
+
+
+def assert_alike(one: bytes, other: bytes) -> None:
+    pixels = [np.asarray(Image.open(io.BytesIO(png)), dtype=float) for png in (one, other)]
+    # A photograph is made smaller from another size.
+    assert np.abs(pixels[0] - pixels[1]).mean() < 2
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_everything_comes_back(tmp_path: Path, kind: str) -> None:
+    file = tmp_path / "work.packwork"
+    session = KINDS[kind](tmp_path).edit()
+    session.hold(0, "angle")
+    session.weigh(1, 2.0)
+    session.move(2, "50%", "50%")
+    session.settle()
+    session.remove(1)
+    session.undo()
+    session.save(file)
+    picture = session.layout.to_png(pixels=80)
+    for used in tmp_path.glob("*.png"):
+        used.unlink()
+    again = pw.Session.open(file)
+    assert is_equal(session.document, again.document)
+    pairs = zip(session.history.past, again.history.past, strict=True)
+    assert all(is_equal(one, other) for one, other in pairs)
+    if kind == "photos":
+        assert isinstance(again.layout.items[0].art, PhotoArt)
+    else:
+        assert again.layout.to_svg() == session.layout.to_svg()
+    assert_alike(again.layout.to_png(pixels=80), picture)
+    assert again.is_certified == session.is_certified
+    again.save(tmp_path / "again.packwork")
+    assert (tmp_path / "again.packwork").read_bytes() == file.read_bytes()
+    again.redo()
+    assert len(again.document) == len(session.document) - 1
+
+
+def test_what_is_saved_goes_on_as_what_is_opened(tmp_path: Path) -> None:
+    session = icons().edit()
+    session.move(2, "50%", "50%")
+    session.flow(epochs=7)
+    session.save(tmp_path / "a.packwork")
+    again = pw.Session.open(tmp_path / "a.packwork")
+    for one in (session, again):
+        one.flow(epochs=9)
+        one.move(3, "40%", "55%")
+        one.finish()
+    assert is_equal(session.document, again.document)
+
+
+def test_the_words_of_a_reopened_session_are_text(tmp_path: Path) -> None:
+    session = words().edit()
+    session.save(tmp_path / "a.packwork")
+    again = pw.Session.open(tmp_path / "a.packwork")
+    assert again.layout.to_svg(text="live") == session.layout.to_svg(text="live")
+
+
+KILLED = """
+import os, signal, sys
+import packwork as pw
+session = pw.Session.open(sys.argv[1], journal=True)
+session.add("star", 200, 200)
+session.settle()
+session.move(1, 310, 300)
+print(session.document.poses.x.tobytes().hex(), flush=True)
+os.kill(os.getpid(), signal.SIGKILL)
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="needs a signal that kills")
+def test_what_was_done_before_a_crash_is_done_again(tmp_path: Path) -> None:
+    file = tmp_path / "work.packwork"
+    icons().edit().save(file)
+    command = [sys.executable, "-c", textwrap.dedent(KILLED), str(file)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == -signal.SIGKILL, done.stderr
+    session = pw.Session.open(file, journal=True)
+    assert session.document.poses.x.tobytes().hex() == done.stdout.strip()
+    assert len(session.document) == 10
+    session.close()
+    # It is in the file now, so it is not done twice.
+    assert len(pw.Session.open(file).document) == 10
+    session.undo()
+    session.undo()
+    assert len(session.document) == 9
+    assert len(pw.Session.open(file).document) == 10
+
+
+def test_a_crash_between_the_file_and_its_journal_does_nothing_twice(tmp_path: Path) -> None:
+    file, journal = tmp_path / "work.packwork", tmp_path / "work.packwork.log"
+    icons().edit().save(file)
+    with pw.Session.open(file, journal=True) as session:
+        session.duplicate(1)
+        older = journal.read_bytes()
+        session.save()
+    journal.write_bytes(older)
+    assert len(pw.Session.open(file).document) == 10
+
+
+def test_a_journal_of_another_file_is_refused(tmp_path: Path) -> None:
+    file, journal = tmp_path / "work.packwork", tmp_path / "work.packwork.log"
+    session = icons().edit()
+    session.save(file)
+    journal.write_text('{"follows": "' + "0" * 64 + '"}\n{"settle": null}\n', encoding="utf-8")
+    with pytest.raises(ReadError, match=r"is no journal of work\.packwork as it is now"):
+        pw.Session.open(file)
+
+
+def test_a_gesture_that_was_not_ended_is_not_done_again(tmp_path: Path) -> None:
+    file = tmp_path / "work.packwork"
+    session = icons().edit()
+    session.save(file, journal=True)
+    session.move(1, 300, 280)
+    session.close()
+    with (tmp_path / "work.packwork.log").open("a", encoding="utf-8") as journal:
+        journal.write('{"do": {"kind": "grab", "items": [0]}}\n{"do": {"kind": "move", "item": 0, ')
+    again = pw.Session.open(file)
+    assert not again.is_grabbed
+    assert is_equal(again.document, session.document)
+
+
+def test_nothing_is_saved_while_something_is_held_by_the_hand(tmp_path: Path) -> None:
+    from packwork.live.commands.gestures import Grab
+
+    session = icons().edit()
+    session.apply(Grab(items=(0,)))
+    with pytest.raises(PackworkError, match="drop it first"):
+        session.save(tmp_path / "a.packwork")
+    with pytest.raises(PackworkError, match="has no file yet"):
+        icons().edit().save()
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.fixture(scope="module")
+def good() -> bytes:
+    import tempfile
+
+    with tempfile.TemporaryDirectory() as folder:
+        session = words().edit()
+        session.move(1, "50%", "52%")
+        session.save(Path(folder, "a.packwork"))
+        return Path(folder, "a.packwork").read_bytes()
+
+
+def refused(data: bytes) -> str:
+    try:
+        read_session(data, "a.packwork")
+    except ReadError as error:
+        said = str(error)
+    else:
+        return ""
+    assert "\n" not in said
+    assert said.startswith("a.packwork: ")
+    return said
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(data=st.data())
+def test_spoilt_files_are_refused_in_one_line(good: bytes, data: st.DataObject) -> None:
+    spoilt = bytearray(good)
+    for _ in range(data.draw(st.integers(1, 4))):
+        spoilt[data.draw(st.integers(0, len(spoilt) - 1))] = data.draw(st.integers(0, 255))
+    refused(bytes(spoilt))
+    assert refused(good[: data.draw(st.integers(0, len(good) - 1))])
+
+
+JUNK = st.one_of(
+    st.none(), st.booleans(), st.integers(-3, 2**70), st.floats(), st.text(max_size=5),
+    st.just([]), st.just({}), st.just([1, 2]), st.just("A" * 16), st.just(1e300),
+)  # fmt: skip
+
+
+@settings(max_examples=150, deadline=None, derandomize=True)
+@given(data=st.data())
+def test_values_of_any_kind_are_refused_in_one_line(good: bytes, data: st.DataObject) -> None:
+    parts = unpacked(good)
+    name = data.draw(st.sampled_from(sorted(p for p in parts if p.endswith(".json"))))
+    found = json.loads(parts[name])
+    within, keys = found, list(found)
+    while True:
+        key = data.draw(st.sampled_from(keys))
+        deeper = within[key]
+        is_leaf = not isinstance(deeper, dict | list) or not deeper or data.draw(st.booleans())
+        if is_leaf:
+            within[key] = data.draw(JUNK)
+            break
+        within = deeper
+        keys = list(deeper) if isinstance(deeper, dict) else list(range(len(deeper)))
+    parts[name] = json.dumps(found).encode()
+    refused(packed(parts))
+
+
+def changed(good: bytes, change: Callable[[dict[str, bytes]], None]) -> bytes:
+    parts = unpacked(good)
+    change(parts)
+    return packed(parts)
+
+
+def test_a_font_that_is_none_is_refused(good: bytes) -> None:
+    def spoil(parts: dict[str, bytes]) -> None:
+        for name in parts:
+            if name.startswith("fonts/"):
+                parts[name] = b"no font"
+
+    assert "is not a font" in refused(changed(good, spoil))
+
+
+def test_a_part_that_is_missing_is_named(good: bytes) -> None:
+    def spoil(parts: dict[str, bytes]) -> None:
+        for name in [one for one in parts if one.startswith("items/")]:
+            del parts[name]
+
+    assert "lacks its part items/" in refused(changed(good, spoil))
+
+
+def test_drawings_go_through_the_gate(good: bytes) -> None:
+    bad = '<script>alert(1)</script><image xlink:href="file:///etc/passwd"/><path d="M0 0h9v9z"/>'
+
+    def spoil(parts: dict[str, bytes]) -> None:
+        for name in [one for one in parts if one.startswith("items/")]:
+            item = json.loads(parts[name])
+            item["art"] = {"kind": "vector", "markup": bad, "matrix": [1, 0, 0, 0, 1, 0]}
+            parts[name] = json.dumps(item).encode()
+
+    kept = read_session(changed(good, spoil), "a.packwork").kept
+    markup = kept.document.items[0].art.markup  # type: ignore[union-attr]
+    assert "script" not in markup
+    assert "passwd" not in markup
+    assert "M0 0h9v9z" in markup
+
+
+def zip_of(**parts: bytes) -> bytes:
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED) as archive:
+        for name, data in parts.items():
+            archive.writestr(name.replace("__", "/"), data)
+    return file.getvalue()
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (b"", "is no session file"),
+        (b"PK\x03\x04nonsense", "is no session file"),
+        (zip_of(a=b""), "'a', which is no part"),
+        (zip_of(**{"..__..__etc__passwd": b""}), "which is no part"),
+        (zip_of(**{"session.json": b"{"}), "cannot be read"),
+        (zip_of(**{"session.json": b'{"format": 2}'}), "cannot be read"),
+        (zip_of(**{"session.json": b" " * 200_000_001}), "a part of more than 200 MB"),
+    ],
+)
+def test_what_is_no_session_is_refused(data: bytes, said: str) -> None:
+    assert said in refused(data)
+
+
+def test_a_file_that_is_not_there_is_named(tmp_path: Path) -> None:
+    with pytest.raises(ReadError, match="nothing"):
+        pw.Session.open(tmp_path / "nothing.packwork")
