@@ -51,6 +51,13 @@ def note_input(file: str | Path | int, name: str = "") -> None:
             notes.setdefault(identity, name or str(file))
 
 
+def forget_input(file: str | Path) -> None:
+    """Note that a file was read to be changed: it is no input."""
+    for notes in _KEEPING:
+        for identity in _identities(file):
+            notes.pop(identity, None)
+
+
 def input_at(path: str | Path) -> str | None:
     """Name by which the file at a path was read; None if it was not.
 

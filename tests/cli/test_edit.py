@@ -105,3 +105,51 @@ def test_the_layout_that_is_read_is_not_written_over(saved: Path) -> None:
     assert code == 2
     assert saved.name in said
     assert saved.read_bytes() == before
+
+
+def test_a_session_is_edited_where_it_lies(saved: Path, tmp_path: Path) -> None:
+    work, picture = tmp_path / "work.packwork", tmp_path / "new.png"
+    code, said = run(saved, "--items", "star", "--items", "heart", "--hold", "star#1", "-o", work)
+    assert code == 0, said
+    code, said = run(work, "-n", 11, "--target-coverage", "30%", "--rotate", "none", "-o", work)
+    assert code == 0, said
+    session = pw.Session.open(work)
+    assert len(session.document) == 11
+    assert session.document.held[session.find("star#1")[0]].all()
+    code, said = run(work, "--force", "down", "--sizes", "fixed", "-o", work, "-o", picture)
+    assert code == 0, said
+    assert picture.exists()
+    assert pw.Session.open(work).document.options.force == ("down",)
+
+
+def test_the_words_of_a_session_are_changed(tmp_path: Path) -> None:
+    work = tmp_path / "work.packwork"
+    layout = pw.words("heart", {"bear": 2, "fox": 1}, epochs=40, levels="50")
+    layout.edit().save(work)
+    table = tmp_path / "new.csv"
+    table.write_text("word,weight\nbear,1\nwhale,2\n", encoding="utf-8")
+    code, said = run(work, "--words", table, "-o", work)
+    assert code == 0, said
+    assert [item.name for item in pw.Session.open(work).document.items] == ["bear", "whale"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        (["--target-coverage", "170"], "--target-coverage: must be a share such as 70%"),
+        (["--force", "towards curve.svg"], "--force: takes no file in a session"),
+        (["--sizes", "large"], "--sizes: "),
+        (["--items", "star"], "items: are in a session file already"),
+        (["--words", "nothing.csv"], "nothing.csv"),
+    ],
+)
+def test_what_has_no_meaning_in_a_session(
+    saved: Path, tmp_path: Path, arguments: list[str], message: str
+) -> None:
+    work = tmp_path / "work.packwork"
+    pw.Layout.load(saved).edit().save(work)
+    before = work.read_bytes()
+    code, said = run(work, *arguments, "-o", work)
+    assert code == 2
+    assert message in said
+    assert work.read_bytes() == before

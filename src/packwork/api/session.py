@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 from types import TracebackType
+from typing import Any
 
 from packwork.api.layout import Layout, public
 from packwork.api.verbs import read_container, read_items
 from packwork.errors import RecipeError
+from packwork.live.composed import words_of
 from packwork.live.document import Document
 from packwork.live.file.disk import Disk
 from packwork.live.named import Coordinate, NamedSession, Which
@@ -125,6 +127,21 @@ class Session(NamedSession):
             Where; unless given, where there is most room.
         """
         return self.add_items(read_items(source), x, y)
+
+    def words(self, source: Any, **options: Any) -> None:
+        """Have the words of another text or table, with its weights.
+
+        Words that stay are the same items, where they are; new ones come where most room is.
+
+        Parameters
+        ----------
+        source
+            As for :func:`words`.
+        options
+            What words there are and how they are set, as for :func:`words`; unless given, as in the
+            run that made the layout.
+        """
+        self.set_words(words_of(self.document, source, options))
 
     def replace(self, which: Which, source: Value) -> None:
         """Put another item in an item's place."""

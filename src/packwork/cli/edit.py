@@ -31,7 +31,7 @@ _FORMS = {
 _OF_MANY = frozenset({"remove", "hold", "recolor"})
 """Edits of all items of a name."""
 
-(_PADDING,) = (option for option in offered(Recipe) if option.name == "padding")
+_HELP = {option.name: option.help for option in offered(Recipe)}
 
 Specs: TypeAlias = list[str]
 
@@ -53,7 +53,8 @@ def edit(
     layout: Annotated[
         Path,
         typer.Argument(
-            metavar="LAYOUT", help="A layout that was saved, as .geojson, .svg or .dxf."
+            metavar="LAYOUT",
+            help="A layout that was saved, as .geojson, .svg or .dxf, or a session (.packwork).",
         ),
     ],
     items: Annotated[
@@ -84,10 +85,26 @@ def edit(
         Specs, _specs("--replace", "ITEM=FILE", "Put another item in an item's place.")
     ] = [],  # noqa: B006
     recolor: Annotated[Specs, _specs("--recolor", "ITEM=COLOR", "Give items one colour.")] = [],  # noqa: B006
-    padding: Annotated[
+    words: Annotated[
         str | None,
-        typer.Option("--padding", help=_PADDING.help),
+        typer.Option("--words", help="A text or a table: have its words, with its weights."),
     ] = None,
+    count: Annotated[
+        int | None,
+        typer.Option("-n", "--count", help="Have so many items: copies come, or go.", min=1),
+    ] = None,
+    target_coverage: Annotated[
+        str | None,
+        typer.Option(
+            "--target-coverage", metavar="SHARE", help="Make all larger or smaller, to cover that."
+        ),
+    ] = None,
+    padding: Annotated[str | None, typer.Option("--padding", help=_HELP["padding"])] = None,
+    sizes: Annotated[
+        str | None, typer.Option("--sizes", help="free, shared or fixed, from now on.")
+    ] = None,
+    rotate: Annotated[str | None, typer.Option("--rotate", help=_HELP["rotate"])] = None,
+    force: Annotated[Specs, _specs("--force", "FORCE", "Pull items about.")] = [],  # noqa: B006
     container: Annotated[
         str | None, typer.Option("--container", help="Fill another container, on that canvas.")
     ] = None,
@@ -105,18 +122,19 @@ def edit(
     [bold]packwork edit bear.geojson --items icons/ --hold owl --move fox=50%,45% -o new.svg[/]
 
     [bold]packwork edit heart.geojson --add star.svg --remove "cat#2" --recolor "fish=teal"[/]
+
+    [bold]packwork edit work.packwork --count 120 -o work.packwork -o poster.pdf[/]
     """
     with clear_errors():
         from packwork import writers
         from packwork.inputs import check_no_input
-        from packwork.live.document import Document
-        from packwork.live.named import NamedSession
-        from packwork.pipeline.registration import drawn_by
+        from packwork.live.composed import words_of
         from packwork.readers.container import read_container
-        from packwork.readers.layouts.read import read_written
 
         outputs = list(output or [DEFAULT_OUTPUT])
-        sides = [] if report is None else [report]
+        sides = [path for path in outputs if _is_session(path)]
+        outputs = [path for path in outputs if not _is_session(path)]
+        sides += [] if report is None else [report]
         for path in outputs:
             writers.check_output(path)
         for side in sides:
@@ -124,10 +142,7 @@ def edit(
         writers.check_outputs([*outputs, *sides])
         if no_clobber:
             writers.check_new([*outputs, *sides])
-        found = read_written(layout)
-        if items:
-            found = drawn_by(found, _read(items))
-        session = NamedSession(Document.of(found))
+        session = _opened(layout, items)
         for path in (*outputs, *sides):
             check_no_input(path)
         asked = {
@@ -138,15 +153,46 @@ def edit(
         edits = [_planned(session, flag, spec) for flag, specs in asked.items() for spec in specs]
         if container is not None:
             session.fill_container(read_container(container, session.canvas))
-        if padding is not None:
-            session.set(padding=padding)
+        asked_of_all = {"padding": padding, "sizes": sizes, "rotate": rotate, "force": tuple(force)}
+        session.set(**{name: value for name, value in asked_of_all.items() if value})
         for make in edits:
             make()
         for spec in add:
             with _about("add"):
                 _added(session, spec)
-        if not _written(session, outputs, report, pixels, quiet):
+        if words is not None:
+            session.set_words(words_of(session.document, words, {}))
+        if count is not None:
+            session.count(count)
+        if target_coverage is not None:
+            session.cover(target_coverage)
+        if not _written(session, [*outputs, *sides], report, pixels, quiet):
             raise typer.Exit(SHORTFALL)
+
+
+def _is_session(path: Path) -> bool:
+    return path.suffix.lower() == ".packwork"
+
+
+def _opened(path: Path, items: Specs) -> NamedSession:
+    """A session that begins with a file: of a session, or of a layout and its drawings."""
+    from packwork.live.document import Document
+    from packwork.live.file.disk import Disk
+    from packwork.live.named import NamedSession
+    from packwork.pipeline.registration import drawn_by
+    from packwork.readers.layouts.read import read_written
+
+    if not _is_session(path):
+        found = read_written(path)
+        return NamedSession(Document.of(drawn_by(found, _read(items)) if items else found))
+    if items:
+        raise RecipeError("items", "are in a session file already; leave them out")
+    disk = Disk(path, is_journaled=False)
+    kept, entries = disk.read()
+    session = NamedSession(kept.document)
+    session.go_on_from(kept)
+    disk.go_on(session, entries)
+    return session
 
 
 def _written(
@@ -155,12 +201,20 @@ def _written(
     """Settle, write and show a session's layout; whether it is certified."""
     from packwork import writers
     from packwork.cli.show import Paper, certificate_line, metrics_table, printing
+    from packwork.live.file.session_file import session_bytes
+    from packwork.live.file.things import Things
     from packwork.metrics.measure import measure
 
     done = session.finish()
     made = session.layout
     drawing = writers.write_options(pixels=pixels)
-    files = [(path, writers.encoded(made, path, drawing)) for path in outputs]
+    files = [
+        (path, session_bytes(session.kept(), Things()))
+        if _is_session(path)
+        else (path, writers.encoded(made, path, drawing))
+        for path in outputs
+        if path != report
+    ]
     metrics = measure(made).as_dict()
     said = {
         "metrics": metrics,

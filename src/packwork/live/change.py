@@ -25,7 +25,7 @@ class Stale(IntEnum):
     ITEMS = 4
     """Which items there are, or their outlines."""
     EVERYTHING = 5
-    """The container, or a wider gap between all."""
+    """The container, a wider gap between all, what pulls at all."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +46,8 @@ class Change:
     @classmethod
     def between(cls, before: Document, after: Document) -> Change:
         """What differs."""
-        is_tighter = after.options.padding > before.options.padding
+        is_pulled = after.options.force != before.options.force
+        is_tighter = is_pulled or after.options.padding > before.options.padding
         if before.container is not after.container or is_tighter:
             return cls(Stale.EVERYTHING, np.union1d(before.ids, after.ids))
         if not np.array_equal(before.ids, after.ids):

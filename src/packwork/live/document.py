@@ -9,7 +9,9 @@ from typing import Any, Literal, TypeAlias, get_args
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.forces.forces import NO_FORCES, Forces
 from packwork.live.options import LiveOptions
+from packwork.pipeline.plan.forces import forces_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
@@ -110,6 +112,13 @@ class Document:
     def own_areas(self) -> FloatArray:
         """``(n,)`` areas of the outlines, squared item units."""
         return np.array([item.outline.area for item in self.items])
+
+    def forces(self, rows: IntArray) -> Forces:
+        """What pulls at some items."""
+        texts = self.options.force
+        if not texts:
+            return NO_FORCES
+        return forces_of(texts, [self.items[k] for k in rows], self.weights[rows], self.container)
 
     def with_ranges(self, options: LiveOptions) -> Document:
         """The same with other options, and sizes that vary as these say.

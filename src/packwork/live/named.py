@@ -14,17 +14,21 @@ import numpy as np
 from packwork.errors import RecipeError
 from packwork.live.assets import named_container, named_item
 from packwork.live.certificate import Settlement
-from packwork.live.commands.command import made
+from packwork.live.commands.command import Command, made
 from packwork.live.commands.container import PlaceContainer, Reshape, SetContainer, SetOption
 from packwork.live.commands.holding import Hold, Release
-from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
-from packwork.live.commands.placing import Exchange, Move, Scale, Turn
+from packwork.live.commands.items import Duplicate, Recolour, Remove, Rename, Replace, Weigh
+from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
+from packwork.live.commands.together import Together
+from packwork.live.composed import brought, counted, worded
 from packwork.live.document import PROPERTIES, Property
-from packwork.live.neighbourhood.voids import widest_place
 from packwork.live.session import Session
+from packwork.readers.words.items import WordsRead
 from packwork.recipe.refusals import length_asked
+from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.units import parse_share
 
 Which: TypeAlias = str | int
 """An item: its name, ``owl``, or of several of that name ``owl#2``; ``*`` stands for any letters;
@@ -134,17 +138,15 @@ class NamedSession(Session):
         self, items: Sequence[Item], x: Coordinate | None = None, y: Coordinate | None = None
     ) -> tuple[int, ...]:
         """Bring items, there or where there is most room; their numbers."""
-        numbers = []
-        container = self.document.container
-        for item in items:
-            place = widest_place(self.document, self.shapes)
-            across = place[0] if x is None else self._length("x", x, container.width)
-            along = place[1] if y is None else self._length("y", y, container.height)
-            key = named_item(self.library, item)
-            area = self._first_area(place[2], item.weight)
-            numbers.append(self.document.next_id)
-            self.apply(made(Add, asset=key, x=across, y=along, area=area))
-        return tuple(numbers)
+        first, container = self.document.next_id, self.document.container
+        commands = list(brought(self.document, self.library, self.shapes, items))
+        placed = {}
+        if x is not None:
+            placed["x"] = self._length("x", x, container.width)
+        if y is not None:
+            placed["y"] = self._length("y", y, container.height)
+        self._together([command.model_copy(update=placed) for command in commands])
+        return tuple(range(first, first + len(items)))
 
     def remove(self, which: Which) -> None:
         """Take items away; their neighbours grow into the room."""
@@ -191,30 +193,40 @@ class NamedSession(Session):
         """Move the container on its canvas and scale it about its middle."""
         self.apply(made(PlaceContainer, x=x, y=y, factor=factor))
 
-    def set(self, **options: str | float) -> None:
-        """Set numbers for all: ``padding``, ``sizes``, ``size_ratio``, ``rotate``."""
+    def set(self, **options: str | float | Sequence[str]) -> None:
+        """Set numbers for all: ``padding``, ``sizes``, ``rotate``, ``force`` and so on."""
         container, given = self.document.container, dict(options)
-        if "padding" in given:
-            asked = given["padding"]
+        asked = given.get("padding")
+        if isinstance(asked, str | int | float):
             given["padding"] = length_asked("padding", asked, container.unit, container.side)
-        commands = [made(SetOption, name=name, value=value) for name, value in given.items()]
-        trial = self.document
-        for command in commands:
-            # All of them have a meaning, or none is done.
-            trial = command.applied(trial, self.library)
-        for command in commands:
-            self.apply(command)
+        self._together([made(SetOption, name=name, value=value) for name, value in given.items()])
 
-    def _first_area(self, radius: float, weight: float) -> float:
-        """Area that a new item begins with: what the room is good for, within the usual sizes."""
-        document = self.document
-        areas = document.own_areas * document.poses.scale**2
-        usual = float(np.mean(areas)) if len(areas) else np.pi * radius**2
-        if document.options.sizes != "free":
-            mean = float(np.mean(document.weights)) if len(areas) else 1.0
-            return usual * weight / mean
-        least = usual / document.options.size_ratio**2
-        return float(np.clip(np.pi * radius**2, least, usual))
+    def count(self, count: int) -> None:
+        """Have so many items: copies of what is least there come, of what is most there go."""
+        if not isinstance(count, Integral) or isinstance(count, bool) or not 0 < count <= MAX_COUNT:
+            raise RecipeError("count", f"must be a whole number from 1, not {count!r}")
+        self._together(list(counted(self.document, self.library, self.shapes, int(count))))
+
+    def cover(self, share: str | float) -> None:
+        """Make all larger or smaller, to cover a share of the container: ``.7`` or ``"70%"``."""
+        try:
+            asked = float(str(parse_share(share)))
+        except (TypeError, ValueError) as error:
+            raise RecipeError(
+                "target_coverage", f"must be a share such as 70%, not {share!r}"
+            ) from error
+        if not 0 < asked < 1:
+            raise RecipeError("target_coverage", f"must be a share such as 70%, not {share}")
+        self.apply(made(Cover, share=asked))
+
+    def set_words(self, read: WordsRead) -> None:
+        """Have these words with these weights: those that stay are the same items."""
+        self._together(list(worded(self.document, self.library, self.shapes, read)))
+
+    def _together(self, commands: Sequence[Command]) -> None:
+        """Do commands as one gesture."""
+        if commands:
+            self.apply(Together(commands=tuple(commands)))  # type: ignore[arg-type]
 
     def _length(self, key: str, value: Coordinate, side: float) -> float:
         if isinstance(value, int | float) and not isinstance(value, bool):

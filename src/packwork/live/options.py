@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any
 
-from pydantic import BeforeValidator, Field, ValidationError
+from pydantic import BeforeValidator, Field, ValidationError, field_validator
 
+from packwork.errors import RecipeError
+from packwork.forces.spec import ForceTexts, checked_forces, parse_force
 from packwork.metrics.certificate import Promise
 from packwork.options import Options, SizeMode
 from packwork.recipe.rules import Rotation, known_rotation
@@ -32,6 +34,19 @@ class LiveOptions(Options):
     rotate: Annotated[str, BeforeValidator(known_rotation)] = "free"
     """free, none, or 30 (within 30 degrees of upright), as in recipes."""
 
+    evenness: Annotated[float, Field(ge=0, le=100, allow_inf_nan=False)] = 0.0
+    """Weight of even gaps against filling, while items flow."""
+
+    force: ForceTexts = None
+    """What pulls items about, as in recipes; none that reads a file."""
+
+    @field_validator("force")
+    @classmethod
+    def _reads_no_file(cls, force: tuple[str, ...] | None) -> tuple[str, ...] | None:
+        if any(parse_force(text).file is not None for text in force or ()):
+            raise RecipeError("force", "takes no file in a session; give points, X,Y X,Y")
+        return force
+
     @classmethod
     def of(cls, manifest: Mapping[str, Any]) -> LiveOptions:
         """Options that the run of a manifest had; the usual ones where it tells of none.
@@ -45,6 +60,7 @@ class LiveOptions(Options):
         said = recipe if isinstance(recipe, Mapping) else {}
         promise = Promise.of(manifest) or Promise()
         found = {name: said[name] for name in ("size_ratio", "rotate") if name in said}
+        found["force"] = _without_files(said.get("force"))
         sizes = MODES.get(str(said.get("sizes")), "free")
         found["sizes"] = "shared" if promise.areas_in_shares else sizes
         edited = manifest.get("edited")
@@ -65,3 +81,12 @@ class LiveOptions(Options):
     def turns(self) -> bool:
         """Whether items may turn by themselves; where only some angles are allowed they do not."""
         return not self.rotation.is_still and self.rotation.choices is None
+
+
+def _without_files(force: object) -> tuple[str, ...] | None:
+    """Forces of a recipe that a session has too."""
+    try:
+        texts: Any = checked_forces(force)
+    except (RecipeError, ValueError):
+        return None
+    return tuple(text for text in texts or () if parse_force(text).file is None) or None

@@ -13,10 +13,11 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.commands.command import FARTHEST, Command, Library, Number, known
-from packwork.live.document import Document
+from packwork.live.document import PROPERTIES, Document
 from packwork.live.options import LiveOptions
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
+from packwork.start.angles import nearest_allowed
 
 MOST_POINTS = 100_000
 """Points of an outline at most. Chosen."""
@@ -90,7 +91,7 @@ class SetOption(Command):
     kind: Literal["set_option"] = "set_option"
     name: str
     """Such as ``padding``, ``sizes``, ``size_ratio``, ``rotate``."""
-    value: float | str
+    value: float | str | tuple[str, ...]
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the option."""
@@ -106,8 +107,19 @@ class SetOption(Command):
             document.options.size_ratio,
         ):
             # Sizes that were given by hand stay what they are.
-            return replace(document, options=options)
+            return _turned(replace(document, options=options), document.options)
         return document.with_ranges(options)
+
+
+def _turned(document: Document, before: LiveOptions) -> Document:
+    """The document with items turned to the nearest angle that they may have now."""
+    poses, rotation = document.poses, document.options.rotation
+    if rotation == before.rotation:
+        return document
+    nearest = nearest_allowed(poses.angle, rotation.limit, rotation.choices)
+    is_held = document.held[:, PROPERTIES.index("angle")]
+    angle = np.where(is_held | np.isclose(nearest, poses.angle), poses.angle, nearest)
+    return document.with_poses(replace(poses, angle=angle))
 
 
 def _outlined(container: Container, outline: Outline) -> Container:

@@ -19,7 +19,7 @@ from packwork.live.commands.command import (
     index_of,
     sized,
 )
-from packwork.live.document import Document
+from packwork.live.document import PROPERTIES, Document
 from packwork.scene.pose import Poses
 
 NEARLY = 1.1
@@ -73,8 +73,38 @@ class Scale(Command):
         is_free = document.options.sizes == "free"
         smallest[k] = scale / NEARLY if is_free else scale
         largest[k] = scale * NEARLY if is_free else scale
-        document = replace(document, smallest=smallest, largest=largest)
+        weights = document.weights.copy()
+        if document.options.sizes == "shared":
+            # Sizes stay in the shares that are asked for, so another one is asked for.
+            weights[k] *= self.factor**2
+        document = replace(document, smallest=smallest, largest=largest, weights=weights)
         return sized(_posed(document, k, scale=scale), "scale")
+
+
+class Cover(Command):
+    """Make all items larger or smaller, so that they cover that share of the container."""
+
+    kind: Literal["cover"] = "cover"
+    share: Annotated[Number, Field(gt=0, lt=1)]
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with all items of other sizes but those whose size is held."""
+        free = ~document.held[:, PROPERTIES.index("size")]
+        areas = document.own_areas * document.poses.scale**2
+        left = self.share * document.container.outline.area - areas[~free].sum()
+        if not free.any() or left <= 0:
+            raise RecipeError(
+                "target_coverage", "items whose size is held cover more already; release some"
+            )
+        scale = document.poses.scale * np.where(free, np.sqrt(left / areas[free].sum()), 1.0)
+        document = replace(
+            document,
+            poses=replace(document.poses, scale=scale),
+            smallest=np.where(free, np.minimum(document.smallest, scale), document.smallest),
+            # Larger they would cover more than was asked for.
+            largest=np.where(free, scale, document.largest),
+        )
+        return sized(document, "target_coverage")
 
 
 class Exchange(Command):

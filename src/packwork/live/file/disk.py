@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import IO
 
 from packwork.errors import ReadError, RecipeError, WriteError
-from packwork.inputs import check_no_input
+from packwork.inputs import forget_input
 from packwork.live.file.archive import MOST_BYTES
 from packwork.live.file.session_file import read_session, session_bytes
 from packwork.live.file.things import Things
@@ -64,6 +64,7 @@ class Disk:
             If either is spoilt, or the journal is of another file.
         """
         data = read_bytes(self.path, MOST_BYTES)
+        forget_input(self.path)
         found = read_session(data, str(self.path))
         self._digest = hashlib.sha256(data).hexdigest()
         entries = self._later(found.follows) if exists(self.journal) else iter(())
@@ -97,8 +98,6 @@ class Disk:
         WriteError
             If nothing can be written there; what was there is as it was.
         """
-        if not self._digest:
-            check_no_input(self.path)
         data = session_bytes(session.kept(), self._things, self._digest)
         write_atomic(self.path, data)
         self._digest = hashlib.sha256(data).hexdigest()

@@ -188,6 +188,7 @@ class Flow:
 
     def _epoch(self, level: Level, motion: Motion) -> None:
         weights = {k: w if k == "filling" else w * self._hardness for k, w in WEIGHTS.items()}
+        weights["evenness"] = self._document.options.evenness
         gradient = level.gradient(motion.poses, weights, RECALL * self._hardness)
         motion.follow(gradient, max(int(self._left.max()) / LINGER, CALMEST))
         self.poses = self._kept(motion.poses)
@@ -224,8 +225,8 @@ class Flow:
         self._is_held = held | held[:, :1]
         some, side = self.poses.some(active), document.container.side
         level = Level(
-            document.container, self._seen_of(active, resolution), resolution, WEIGHTS,
-            ground=self._room(active, resolution),
+            document.container, self._seen_of(active, resolution), resolution,
+            forces=document.forces(active), ground=self._room(active, resolution),
         )  # fmt: skip
         motion = Motion(some, some.scale, side, self._options(), self._limits(active))
         motion.pace = FADE ** self._ring[active].astype(np.float64)

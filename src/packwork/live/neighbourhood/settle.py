@@ -24,6 +24,7 @@ from packwork.live.change import differing
 from packwork.live.document import Document
 from packwork.live.neighbourhood.shapes import Shapes
 from packwork.live.neighbourhood.touching import Touching
+from packwork.options import SizeMode
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 
@@ -103,7 +104,15 @@ def settle(
         if found.is_clean or stop():
             break
         first = touching.beside(first)
-    return found
+    if found.is_clean or document.options.sizes != "shared" or document.held[:, [0, 2]].any():
+        return found
+    return _made_smaller(document, shapes, stop)
+
+
+def _made_smaller(document: Document, shapes: Shapes, stop: Stop) -> Settled:
+    """All items finished in one, as much smaller as that takes: sizes stay in proportion."""
+    everything = np.arange(len(document))
+    return _finished(document, everything, shapes, stop, sizes="shared")
 
 
 def polish(
@@ -128,6 +137,7 @@ def _finished(
     stop: Stop,
     trials: int = 0,
     seed: int = 0,
+    sizes: SizeMode | None = None,
 ) -> Settled:
     """The exact finish of some items among all others."""
     moved = np.zeros(len(document), dtype=bool)
@@ -138,7 +148,10 @@ def _finished(
     room = room_of(document, movable, shapes)
     if room is None:
         return Settled(document, moved, False)
-    result = finish(room, outlines, some, _options(document, movable, trials, seed), stop=stop)
+    options = _options(document, movable, trials, seed)
+    if sizes is not None:
+        options = options.model_copy(update={"sizes": sizes})
+    result = finish(room, outlines, some, options, stop=stop)
     held = document.held[movable]
     made = replace(
         result.poses,
@@ -147,7 +160,7 @@ def _finished(
     )
     poses = document.poses.with_some(movable, made)
     moved[movable] = differing(some, made)
-    dwarfs = result.poses.scale * DWARF < document.smallest[movable]
+    dwarfs = (result.poses.scale * DWARF < document.smallest[movable]) & (sizes is None)
     return Settled(document.with_poses(poses), moved, result.clean and not dwarfs.any())
 
 

@@ -1,0 +1,172 @@
+"""Gestures of several commands: counts, shares, words, forces; one entry each, certified."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import packwork as pw
+from packwork.errors import RecipeError
+from packwork.live.commands.any_command import COMMANDS
+from packwork.live.commands.items import Duplicate
+from packwork.live.commands.placing import Move
+from packwork.live.commands.together import Together
+
+QUICK = {"effort": "draft", "levels": "50", "epochs": 60}
+
+
+@pytest.fixture(scope="module")
+def icons() -> pw.Layout:
+    return pw.fill("circle", ["star", "heart", "hexagon"], count=9, **QUICK)
+
+
+@pytest.fixture(scope="module")
+def cloud() -> pw.Layout:
+    weights = {"bear": 4, "fox": 3, "owl": 2, "snail": 1, "ant": 1}
+    return pw.words("heart", weights, sizes="shared", **QUICK)
+
+
+def covered(session: pw.Session) -> float:
+    document = session.document
+    areas = document.own_areas * document.poses.scale**2
+    return float(areas.sum() / document.container.outline.area)
+
+
+@pytest.mark.parametrize("count", [4, 12])
+def test_another_number_of_items_is_one_entry(icons: pw.Layout, count: int) -> None:
+    session = icons.edit()
+    session.count(count)
+    assert session.finish().certified
+    names = [item.name for item in session.document.items]
+    assert len(names) == count
+    shares = [names.count(name) for name in set(names)]
+    assert max(shares) - min(shares) <= 1
+    session.undo()
+    assert session.document.poses.x.tobytes() == icons.poses.x.tobytes()
+
+
+def test_what_is_held_is_not_what_goes(icons: pw.Layout) -> None:
+    session = icons.edit()
+    session.hold("star")
+    held = session.find("star")
+    session.count(3)
+    assert set(session.document.ids.tolist()) == set(held)
+    with pytest.raises(RecipeError, match="items are held"):
+        session.count(2)
+    with pytest.raises(RecipeError, match="must be a whole number"):
+        session.count(0)
+
+
+@pytest.mark.parametrize("share", ["40%", 0.3])
+def test_so_much_is_covered_and_no_more(icons: pw.Layout, share: str | float) -> None:
+    session = icons.edit()
+    session.cover(share)
+    assert session.finish().certified
+    asked = 0.4 if share == "40%" else 0.3
+    assert covered(session) == pytest.approx(asked, rel=1e-6)
+
+
+def test_a_share_that_is_none_is_refused(icons: pw.Layout) -> None:
+    session = icons.edit()
+    for share in (0, 1, 40, "x", "-3%"):
+        with pytest.raises(RecipeError, match="target_coverage: must be a share such as 70%"):
+            session.cover(share)
+    session.hold("*", "size")
+    with pytest.raises(RecipeError, match="items whose size is held"):
+        session.cover(0.2)
+
+
+def test_several_items_are_added_as_one(icons: pw.Layout) -> None:
+    session = icons.edit()
+    new = session.add(["square", "circle"])
+    assert [session.document.items[-2].name, session.document.items[-1].name] == [
+        "square", "circle",
+    ]  # fmt: skip
+    assert new == (9, 10)
+    places = session.document.poses
+    assert np.hypot(places.x[-1] - places.x[-2], places.y[-1] - places.y[-2]) > 1
+    session.undo()
+    assert len(session.document) == 9
+
+
+def test_all_commands_of_a_gesture_have_a_meaning_or_none_is_done(icons: pw.Layout) -> None:
+    session = icons.edit()
+    gesture = Together(commands=(Move(item=0, x=300, y=300), Duplicate(item=99)))
+    before = session.document
+    with pytest.raises(RecipeError, match="no item 99"):
+        session.apply(gesture)
+    assert session.document is before
+    assert COMMANDS.validate_json(gesture.model_dump_json()) == gesture
+    with pytest.raises(ValueError, match="together"):
+        COMMANDS.validate_python({"kind": "together", "commands": [{"kind": "together"}]})
+
+
+def test_a_gesture_of_several_touches_what_each_of_them_does(icons: pw.Layout) -> None:
+    session = icons.edit()
+    session.apply(Together(commands=(Move(item=0, x=300, y=300), Duplicate(item=3))))
+    assert {0, 9} <= session.marks.touched
+    assert session.marks.given == {0}
+    assert session.settle().certified
+
+
+def test_other_words_with_other_weights(cloud: pw.Layout) -> None:
+    session = cloud.edit()
+    numbers = {item.name: k for item, k in zip(cloud.items, session.document.ids, strict=True)}
+    session.words({"bear": 1, "fox": 3, "owl": 2, "whale": 2})
+    found = session.finish()
+    assert found.certified, found.in_the_way
+    document = session.document
+    names = [item.name for item in document.items]
+    assert sorted(names) == ["bear", "fox", "owl", "whale"]
+    assert [document.ids[names.index(name)] for name in ("bear", "fox", "owl")] == [
+        numbers[name] for name in ("bear", "fox", "owl")
+    ]
+    # Sizes are heights of letters: of one weight one size.
+    scale = dict(zip(names, document.poses.scale, strict=True))
+    assert scale["whale"] == pytest.approx(scale["owl"], rel=1e-6)
+    assert scale["fox"] == pytest.approx(3 * scale["bear"], rel=1e-6)
+    session.undo()
+    assert sorted(item.name for item in session.document.items) == sorted(numbers)
+
+
+def test_in_shares_all_become_smaller_where_one_finds_no_room(cloud: pw.Layout) -> None:
+    session = cloud.edit()
+    session.scale("bear", 1.6)
+    before = session.document.poses.scale
+    found = session.finish()
+    assert found.certified, found.in_the_way
+    after = session.document.poses.scale
+    assert np.ptp(after / before) < 1e-9
+    assert after[0] < before[0]
+
+
+def test_words_that_are_none_are_refused(cloud: pw.Layout) -> None:
+    session = cloud.edit()
+    with pytest.raises(RecipeError):
+        session.words({"bear": -1})
+    with pytest.raises(RecipeError, match="no such option"):
+        session.words({"bear": 1}, colour="red")
+
+
+def test_forces_pull_what_flows(icons: pw.Layout) -> None:
+    session = icons.edit()
+    session.cover(0.3)
+    session.set(force="down")
+    before = session.document.poses.y.mean()
+    session.flow(epochs=60)
+    assert session.settle().certified
+    assert session.document.poses.y.mean() > before + 5
+    with pytest.raises(RecipeError, match="takes no file in a session"):
+        session.set(force="towards curve.svg")
+
+
+def test_a_narrower_turn_turns_what_is_beyond_it(icons: pw.Layout) -> None:
+    session = icons.edit()
+    session.hold("star#1", "angle")
+    (held,) = session.find("star#1")
+    kept = session.document.poses.angle[held]
+    session.set(rotate="20")
+    assert session.finish().certified
+    angles = np.delete(session.document.poses.angle, held)
+    assert np.abs(np.remainder(angles + np.pi, 2 * np.pi) - np.pi).max() <= np.radians(20) + 1e-9
+    assert session.document.poses.angle[held] == kept
