@@ -112,4 +112,5 @@ def centred(ink: Region, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
     outline = Outline.from_region(without_holes(ink) if holes == "fill" else ink)
     x, y = outline.centroid
     place = affine.similarity(-float(x), -float(y), 0.0, 1.0)
-    return outline.mapped(place), Outline.from_region(ink).mapped(place), place
+    drawn = Outline.from_region(ink) if holes == "fill" else outline
+    return outline.mapped(place), drawn.mapped(place), place

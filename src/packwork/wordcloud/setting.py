@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from random import Random
 from typing import Any
 
@@ -16,12 +17,12 @@ from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_shares
 from packwork.readers.unfit import UnfitError
-from packwork.readers.words.items import EM_PX, WORD_SPACE, word_item
+from packwork.readers.words.items import EM_PX, WORD_SPACE, ShapedWord, shaped_word
 from packwork.readers.words.word import Word
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
-from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.scene.pose import Poses
 from packwork.start.first_fit.graded import graded_fit
 from packwork.start.first_fit.grading import Candidate
 
@@ -78,21 +79,39 @@ class CloudSettings:
 
 @dataclass(frozen=True, eq=False)
 class PlacedWords:
-    """A layout of words.
+    """Words in place.
 
     Parameters
     ----------
-    layout
-        One item per entry, named by the entry's number.
+    container
+        In pixels of the canvas.
+    words
+        Those that found a place.
+    poses
+        As many.
     entries
-        Which of the words are there, in the layout's order.
+        Which of the words asked for they are.
     undrawn
         Words that no font could draw, each with the reason.
     """
 
-    layout: Layout
+    container: Container
+    words: tuple[ShapedWord, ...]
+    poses: Poses
     entries: tuple[int, ...]
     undrawn: dict[str, str]
+
+    @cached_property
+    def outlines(self) -> tuple[Outline, ...]:
+        """What each word draws, in place."""
+        return tuple(word.ink.mapped(self.poses.matrix(k)) for k, word in enumerate(self.words))
+
+    @cached_property
+    def layout(self) -> Layout:
+        """One item per entry."""
+        areas = np.array([word.outline.area for word in self.words]) * self.poses.scale**2
+        items = tuple(word.item for word in self.words)
+        return Layout(self.container, items, self.poses, areas)
 
 
 def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) -> Container:
@@ -152,7 +171,7 @@ def placed(
     >>> from packwork.readers.fonts.fallback import open_fonts
     >>> asked = CloudSettings(container_of_mask(None, 90, 60), open_fonts([]), 1.0, 1.0, 4.0, 20.0)
     >>> found = placed(asked, ["ox", "bee"], np.array([1.0, 0.5]), Random(0))
-    >>> (found.layout.poses.scale * EM_PX).tolist()
+    >>> (found.poses.scale * EM_PX).tolist()
     [20.0, 10.0]
     """
     read = _Reading(asked, words, steps, random)
@@ -173,9 +192,8 @@ def placed(
     if len(found.placed) == 0:
         raise ValueError(NO_ROOM)
     entries = tuple(read.numbers[k] for k in found.placed)
-    items = tuple(read.items[number] for number in entries)
-    areas = np.array([item.outline.area for item in items]) * found.poses.scale**2
-    return PlacedWords(Layout(asked.container, items, found.poses, areas), entries, read.undrawn)
+    shown = tuple(read.shaped[number] for number in entries)
+    return PlacedWords(asked.container, shown, found.poses, entries, read.undrawn)
 
 
 class _Reading:
@@ -183,7 +201,7 @@ class _Reading:
 
     Parameters
     ----------
-    items
+    shaped
         By number, those that have been read.
     numbers
         Of the candidates that have been given, in their order.
@@ -194,7 +212,7 @@ class _Reading:
     def __init__(
         self, asked: CloudSettings, words: Sequence[str], steps: FloatArray, random: Random
     ) -> None:
-        self.items, self.undrawn = dict[int, Item](), dict[str, str]()
+        self.shaped, self.undrawn = dict[int, ShapedWord](), dict[str, str]()
         self.numbers: list[int] = []
         self._asked, self._words, self._steps = asked, words, steps
         upright, turned = 0.0, -np.pi / 2
@@ -209,11 +227,11 @@ class _Reading:
         step = largest / EM_PX
         for number in range(len(self._words[:count])):
             step *= self._steps[number]
-            item = self._item(number)
-            if item is None:
+            word = self._word(number)
+            if word is None:
                 continue
             self.numbers.append(number)
-            yield Candidate(item.outline, step, self._angles_of(number), WORD_SPACE)
+            yield Candidate(word.outline, step, self._angles_of(number), WORD_SPACE)
             step = 1.0
 
     def _angles_of(self, number: int) -> tuple[float, ...]:
@@ -223,18 +241,16 @@ class _Reading:
             return (0.0,)
         return angles[: 1 if horizontal >= 1 else 2]
 
-    def _item(self, number: int) -> Item | None:
-        """The word as an item, its counters open; None if it cannot be drawn."""
+    def _word(self, number: int) -> ShapedWord | None:
+        """The word in its font, its counters open; None if it cannot be drawn."""
         text = self._words[number]
-        if number not in self.items and text not in self.undrawn:
+        if number not in self.shaped and text not in self.undrawn:
             try:
                 word = Word(text.replace("|", " "), 1.0)
-                item = word_item(word, self._asked.fonts, "keep")
+                self.shaped[number] = shaped_word(word, self._asked.fonts, "keep")
             except UnfitError as error:
                 self.undrawn[text] = str(error)
-            else:
-                self.items[number] = replace(item, name=str(number))
-        return self.items.get(number)
+        return self.shaped.get(number)
 
 
 def _with_edge(asked: CloudSettings) -> Container:

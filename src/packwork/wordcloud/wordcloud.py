@@ -28,6 +28,7 @@ from packwork.wordcloud.colours import (
     get_single_color_func,
     random_color_func,
 )
+from packwork.wordcloud.picture import FAINT, paint
 from packwork.wordcloud.setting import (
     CloudSettings,
     PlacedWords,
@@ -50,10 +51,6 @@ Entry = tuple[tuple[str, float], int, tuple[int, int], Any, Any]
 
 FONT_PATH = os.environ.get("FONT_PATH", bundled_file())
 """Font where none is given."""
-
-FAINT = 4
-"""Opacity, of 255, below which a pixel of an edge is left out, so that clouds in other
-colours fill the same pixels. Chosen."""
 
 _WITHOUT_EFFECT = {"ranks_only": None}
 """Arguments of the other package's search that this engine does not have."""
@@ -148,7 +145,7 @@ class WordCloud:
         """
         ranked = sorted(frequencies.items(), key=lambda pair: -pair[1])[: self.max_words]
         self.layout_ = []
-        self.__dict__.pop("_layout", None)
+        self.__dict__.pop("_placed", None)
         if not ranked:
             raise ValueError("We need at least 1 word to plot a word cloud, got 0.")
         most = float(ranked[0][1]) or 1.0
@@ -160,7 +157,7 @@ class WordCloud:
         random = self.random_state or Random()
         found = placed(self._setting(largest), [word for word, _ in entries], steps, random)
         self._say_what_is_missing(len(entries), found)
-        self._layout = found.layout
+        self._placed = found
         self.layout_ = [
             self._entry(entries[number], position, random)
             for position, number in enumerate(found.entries)
@@ -215,11 +212,14 @@ class WordCloud:
         """Picture of the cloud, ``scale`` times as large as its canvas."""
         self._check_generated()
         size = (int(self.width * self.scale), int(self.height * self.scale))
-        data = png_bytes(self.layout, max(size), SvgOptions())
-        with Image.open(io.BytesIO(data)) as drawn:
-            words = _without_traces(drawn.convert("RGBA").crop((0, 0, *size)))
         shown = Image.new("RGBA", size, _rgba(self.background_color))
-        shown.alpha_composite(words)
+        if any(word.drawn.pictures for word in self._placed.words):
+            data = png_bytes(self.layout, max(size), SvgOptions())
+            with Image.open(io.BytesIO(data)) as drawn:
+                shown.alpha_composite(_without_traces(drawn.convert("RGBA").crop((0, 0, *size))))
+        else:
+            colours = [_rgba(entry[4]) for entry in self.layout_]
+            paint(shown, zip(self._placed.outlines, colours, strict=True), float(self.scale))
         return self._with_contour(shown).convert(self.mode)
 
     def to_file(self, filename: str | os.PathLike[str]) -> Self:
@@ -276,14 +276,15 @@ class WordCloud:
     def layout(self) -> Layout:
         """The engine's layout, in the colours of ``layout_``."""
         self._check_generated()
+        layout = self._placed.layout
         items = [
             recoloured(item, "#{:02x}{:02x}{:02x}{:02x}".format(*_rgba(entry[4])))
-            for item, entry in zip(self._layout.items, self.layout_, strict=True)
+            for item, entry in zip(layout.items, self.layout_, strict=True)
         ]
         named = [
             replace(item, name=entry[0][0]) for item, entry in zip(items, self.layout_, strict=True)
         ]
-        return replace(self._layout, items=tuple(named))
+        return replace(layout, items=tuple(named))
 
     def _repeated(self, shares: list[tuple[str, float]]) -> list[tuple[str, float]]:
         """Words, again and again and each time rarer, in whole rounds to ``max_words`` or more."""
@@ -306,9 +307,9 @@ class WordCloud:
 
     def _entry(self, pair: tuple[str, float], position: int, random: Random) -> Entry:
         """What ``layout_`` says of a word: whole numbers, of its box's upper left corner."""
-        left, top, _, _ = self._layout.outlines[position].bounds
-        size = round(float(self._layout.poses.scale[position]) * EM_PX)
-        turned = abs(float(self._layout.poses.angle[position])) > 1e-6
+        left, top, _, _ = self._placed.outlines[position].bounds
+        size = round(float(self._placed.poses.scale[position]) * EM_PX)
+        turned = abs(float(self._placed.poses.angle[position])) > 1e-6
         orientation = Image.Transpose.ROTATE_90 if turned else None
         place = (int(top), int(left))
         colour = self._colour(pair[0], size, place, orientation, random, self.color_func)
@@ -343,7 +344,7 @@ class WordCloud:
             )  # fmt: skip
 
     def _check_generated(self) -> None:
-        if not hasattr(self, "_layout"):
+        if not hasattr(self, "_placed"):
             raise ValueError("WordCloud has not been calculated, call generate first.")
 
     def _css_background(self) -> str | None:
@@ -354,7 +355,7 @@ class WordCloud:
         if self.mask is None or self.contour_width == 0:
             return image
         draw = ImageDraw.Draw(image)
-        for ring in self._layout.container.outline.rings:
+        for ring in self._placed.container.outline.rings:
             points = [tuple(point) for point in (ring * self.scale).tolist()]
             width = max(1, round(self.contour_width * self.scale))
             draw.line([*points, points[0]], _rgba(self.contour_color), width, joint="curve")

@@ -46,9 +46,8 @@ class Lettering:
     ----------
     covered
         What its letters cover: rings where none comes near another, else a region.
-    path
-        SVG path data of its curves, in units of its first font; contours may overlap,
-        non-zero.
+    curves
+        Of its letters, in units of its first font.
     units
         Such units in one em.
     runs
@@ -58,7 +57,7 @@ class Lettering:
     """
 
     covered: ClearInk | Region
-    path: str
+    curves: Curves
     units: float
     runs: tuple[TextRun, ...] = ()
     pictures: tuple[GlyphPicture, ...] = ()
@@ -67,6 +66,23 @@ class Lettering:
     def region(self) -> Region:
         """What it covers, with holes and parts."""
         return self.covered.ink.region if isinstance(self.covered, ClearInk) else self.covered
+
+    @property
+    def path(self) -> str:
+        """SVG path data of its curves; contours may overlap, non-zero."""
+        return self.curves.path
+
+
+@dataclass(frozen=True, eq=False)
+class Curves:
+    """Glyphs' curves, each with its place and its size; written out once they are asked for."""
+
+    glyphs: tuple[tuple[GlyphPath, tuple[float, float], float], ...]
+
+    @cached_property
+    def path(self) -> str:
+        """SVG path data of all."""
+        return "".join(glyph.moved(*place, size) for glyph, place, size in self.glyphs)
 
 
 @dataclass(frozen=True)
@@ -107,7 +123,7 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
     else:
         [face] = faces.values()
         drawn = _drawn_by(face, tuple((run.glyphs, run.x, run.y) for run in runs))
-    return Lettering(drawn.covered, drawn.path, units, tuple(run.text for run in runs), pictures)
+    return Lettering(drawn.covered, drawn.curves, units, tuple(run.text for run in runs), pictures)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,7 +131,7 @@ class _Drawn:
     """What a word's letters cover, in ems, and its curves, as a lettering has them."""
 
     covered: ClearInk | Region
-    path: str
+    curves: Curves
 
 
 @remembered_by_font(MOST_WORDS)
@@ -131,7 +147,8 @@ def _drawn(runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture]) -> _Draw
     # The first run is in its font's own units.
     size = 1 / runs[0].face.units
     covered = _covered(runs, pictures, _tolerance(boxes), size)
-    return _Drawn(covered, "".join(run.path() for run in runs))
+    curves = [(*one, run.scale) for run in runs for one in run.curves()]
+    return _Drawn(covered, Curves(tuple(curves)))
 
 
 def _covered(
@@ -162,15 +179,12 @@ class _GlyphRun:
     y: float
     scale: float
 
-    def path(self) -> str:
-        """SVG path data of all glyphs."""
-        return "".join(path.moved(*place, self.scale) for path, place in self._curves())
-
     def boxes(self) -> list[FloatArray]:
         """``(2, 2)`` least and largest x, y of the curves of each glyph that has some."""
-        return [path.box * self.scale + place for path, place in self._curves() if len(path.points)]
+        return [path.box * self.scale + place for path, place in self.curves() if len(path.points)]
 
-    def _curves(self) -> list[tuple[GlyphPath, tuple[float, float]]]:
+    def curves(self) -> list[tuple[GlyphPath, tuple[float, float]]]:
+        """Curves of each glyph, and its origin."""
         return [(glyph_path(self.face, glyph.number), self._place(glyph)) for glyph in self.glyphs]
 
     def inks(self, tolerance: float) -> list[GlyphInk]:

@@ -148,6 +148,62 @@ def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
     >>> item.label.title, len(item.outline.rings), len(item.ink.rings)
     ('ox: 2', 2, 3)
     """
+    return shaped_word(word, fonts, holes).item
+
+
+@dataclass(frozen=True, eq=False)
+class ShapedWord:
+    """A word's outline; what draws it is made once it is asked for.
+
+    Parameters
+    ----------
+    word
+        The text and its weight.
+    name
+        The text on one line.
+    drawn
+        Its letters.
+    outline, ink
+        As an item has them.
+    place
+        2 x 3 map from an em of ``EM_PX`` to these.
+    language
+        Of the word; empty if not known.
+    """
+
+    word: Word
+    name: str
+    drawn: Lettering
+    outline: Outline
+    ink: Outline
+    place: FloatArray
+    language: str
+
+    @property
+    def item(self) -> Item:
+        """The word as an item: named after it, with a tooltip that tells its weight."""
+        drawn, text = self.drawn, None
+        if not drawn.pictures:
+            text = LiveText(drawn.runs, drawn.path, self.language)
+        label = Label(name=self.name, title=f"{self.name}: {self.word.weight:.6g}")
+        art = _art(drawn, self.place)
+        return Item(self.name, self.word.text, self.outline, self.ink, art, label, text)
+
+
+def shaped_word(word: Word, fonts: Fonts, holes: Holes = "fill") -> ShapedWord:
+    """One word as fonts draw it, about its outline's centroid.
+
+    Raises
+    ------
+    UnfitError
+        If no font can draw it, it is blank or too long.
+
+    Examples
+    --------
+    >>> word = shaped_word(Word("ox", 2.0), open_fonts([]), "keep")
+    >>> len(word.outline.rings), word.item.label.title
+    (3, 'ox: 2')
+    """
     if len(word.text) > LONGEST:
         raise UnfitError(f"has {len(word.text):,} characters; the most is {LONGEST}")
     lines = [" ".join(line.split()) for line in word.text.split("|")]
@@ -156,11 +212,9 @@ def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
         raise UnfitError("has no letters")
     drawn = fonts.lettering(lines)
     name = " ".join(lines)
-    label = Label(name=name, title=f"{name}: {word.weight:.6g}")
     with naming(name):
         outline, ink, place = _placed(drawn, holes)
-    text = None if drawn.pictures else LiveText(drawn.runs, drawn.path, fonts.language)
-    return Item(name, word.text, outline, ink, _art(drawn, place), label, text)
+    return ShapedWord(word, name, drawn, outline, ink, place, fonts.language)
 
 
 def area_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs) -> FloatArray:

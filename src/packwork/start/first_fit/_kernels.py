@@ -150,6 +150,27 @@ def _edge_of(free, y, i):
 
 
 @kernel
+def spread(mask, down, across):
+    """Return a mask, so many pixels larger on each side, of the pixels in a box about one of it.
+
+    ``near[y + down, x + across] = any(mask[y - down : y + down + 1, x - across : x + across + 1])``
+    """
+    height, width = mask.shape
+    near = np.zeros((height + 2 * down, width + 2 * across), np.bool_)
+    # Row from which on a column has none.
+    ends = np.zeros(width + 2 * across, np.int64)
+    for y in range(height + 2 * down):
+        end = 0
+        for x in range(width + 2 * across):
+            if y < height and x < width and mask[y, x]:
+                end = x + 2 * across + 1
+            if x < end:
+                ends[x] = y + 2 * down + 1
+            near[y, x] = y < ends[x]
+    return near
+
+
+@kernel
 def grown(mask, wide, reach):
     """Return a mask, ``wide`` pixels larger all round, of the pixels at most ``reach`` from one."""
     height, width = mask.shape

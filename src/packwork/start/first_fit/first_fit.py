@@ -310,7 +310,7 @@ class _Fitting:
                     return int(k)
                 which, row, column = best
                 turn, stencil = own[which]
-            occupancy.take(stencil, row, column)
+            occupancy.take(stencil.mask, row, column)
             if self._penalty is not None:
                 self._penalty.add(int(k), row + stencil.origin[0], column + stencil.origin[1])
             poses.x[k] = (column + stencil.origin[1]) / self._px_per_cu

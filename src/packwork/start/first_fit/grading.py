@@ -14,14 +14,14 @@ from typing import TypeAlias
 
 import numpy as np
 
-from packwork.arrays import FloatArray
+from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.clearance import distance_inside
 from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.occupancy import Occupancy
-from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut, stencil_of
+from packwork.start.first_fit.stencil import TOUCHED, Stencil, covered, stencil_of
 from packwork.start.first_poses import container_image
 
 PoseRow: TypeAlias = tuple[float, float, float, float]
@@ -145,8 +145,8 @@ class Grading:
     def lay(self, outline: Outline) -> None:
         """Take what an item covers that lies in place."""
         posed = outline.mapped(similarity(0.0, 0.0, 0.0, self._px_per_cu))
-        stencil = cut(posed, REACH)
-        self._take(stencil, -stencil.origin[0], -stencil.origin[1])
+        mask, origin = covered(posed)
+        self._take(mask, -origin[0], -origin[1])
 
     def put(self, candidate: Candidate, sizes: Sequence[float]) -> PoseRow | None:
         """Pose of an item at the largest size at which it finds a place; None if at none.
@@ -168,13 +168,15 @@ class Grading:
                 low = middle
             else:
                 found, high = larger, middle
-        stencil, row, column, angle = found
-        self._take(stencil, row - stencil.origin[0], column - stencil.origin[1])
+        mask, origin, row, column, angle = found
+        self._take(mask, row - origin[0], column - origin[1])
         self._first = self._first or sizes[high]
         return column / self._px_per_cu, row / self._px_per_cu, angle, sizes[high]
 
-    def _place(self, candidate: Candidate, scale: float) -> tuple[Stencil, int, int, float] | None:
-        """Stencil of an item of that scale, row and column of its origin, and its angle.
+    def _place(
+        self, candidate: Candidate, scale: float
+    ) -> tuple[BoolArray, tuple[int, int], int, int, float] | None:
+        """Pixels of an item of that scale, its origin there and in the image, and its angle.
 
         At its best place, at the first of its angles that has one.
         """
@@ -183,28 +185,28 @@ class Grading:
             posed = candidate.outline.mapped(similarity(0.0, 0.0, angle, scale * self._px_per_cu))
             if self._is_larger(posed):
                 continue
-            stencil = cut(posed, REACH)
-            wide = self._with_room(stencil, candidate.apart, scale, angle)
+            mask, origin = covered(posed)
+            wide = self._with_room(mask, origin, candidate.apart, scale, angle)
             found = self._occupancy.best_place(wide, self._noise, is_everywhere, field, pull)
             if found is not None:
                 row, column = np.array(found[1:]) + wide.origin
-                return stencil, int(row), int(column), angle
+                return mask, origin, int(row), int(column), angle
         return None
 
     def _with_room(
-        self, stencil: Stencil, apart: tuple[float, float], scale: float, angle: float
+        self,
+        mask: BoolArray,
+        origin: tuple[int, int],
+        apart: tuple[float, float],
+        scale: float,
+        angle: float,
     ) -> Stencil:
-        """The stencil with the room that its item keeps along and across itself."""
+        """Stencil of pixels with the room that their item keeps along and across itself."""
         turned = np.abs([[np.cos(angle), np.sin(angle)], [np.sin(angle), np.cos(angle)]])
-        across, down = np.rint(turned @ apart * scale * self._px_per_cu).astype(int)
-        if not (across or down):
-            return stencil
-        # Takes half a second to load.
-        from scipy import ndimage
-
-        mask = np.pad(stencil.mask, ((down, down), (across, across)))
-        mask = ndimage.maximum_filter(mask, (2 * down + 1, 2 * across + 1))
-        return stencil_of(mask, (stencil.origin[0] + down, stencil.origin[1] + across), REACH)
+        across, down = np.rint(turned @ apart * scale * self._px_per_cu).astype(int).tolist()
+        if across or down:
+            mask = _kernels.spread(mask, down, across)
+        return stencil_of(mask, (origin[0] + down, origin[1] + across), REACH)
 
     def _is_larger(self, outline_px: Outline) -> bool:
         """Whether an outline is higher or wider than the image."""
@@ -224,11 +226,9 @@ class Grading:
         is_drawn = inward > DRAWN
         return self._inward, inward if is_drawn else 0.0, is_drawn
 
-    def _take(self, stencil: Stencil, row: int, column: int) -> None:
-        """Take the pixels of a stencil and those round it that are nearer than the margin."""
+    def _take(self, mask: BoolArray, row: int, column: int) -> None:
+        """Take pixels and those round them that are nearer than the margin."""
         wide = math.ceil(self._reach)
-        near = _kernels.grown(stencil.mask, wide, self._reach)
-        origin = (stencil.origin[0] + wide, stencil.origin[1] + wide)
-        margin = Stencil(near, origin, stencil.boxes, stencil.fringe)
-        self._occupancy.take(margin, row - wide, column - wide)
+        near = _kernels.grown(mask, wide, self._reach)
+        self._occupancy.take(near, row - wide, column - wide)
         self._left -= int(near.sum())

@@ -42,7 +42,7 @@ class Occupancy:
     >>> while (place := occupancy.best_place(stencil, worth)) is not None:
     ...     score, row, column = place
     ...     print(round(score, 2), row, column)
-    ...     occupancy.take(stencil, row, column)
+    ...     occupancy.take(stencil.mask, row, column)
     0.83 0 0
     0.83 0 2
     """
@@ -108,15 +108,15 @@ class Occupancy:
         )  # fmt: skip
         return (float(score), int(row), int(column)) if row >= 0 else None
 
-    def take(self, stencil: Stencil, row: int, column: int) -> None:
-        """Put the stencil's box there; what of it lies off the image is not kept."""
-        height, width = stencil.mask.shape
+    def take(self, mask: BoolArray, row: int, column: int) -> None:
+        """Take the pixels of a mask put there; what of it lies off the image is not kept."""
+        height, width = mask.shape
         top, left = max(row, 0), max(column, 0)
         bottom, right = min(row + height, self.shape[0]), min(column + width, self.shape[1])
         if top >= bottom or left >= right:
             return
         m = self._margin
-        self.taken[top + m : bottom + m, left + m : right + m] |= stencil.mask[
+        self.taken[top + m : bottom + m, left + m : right + m] |= mask[
             top - row : bottom - row, left - column : right - column
         ]
         self._refresh(top, bottom)

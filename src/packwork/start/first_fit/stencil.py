@@ -68,6 +68,17 @@ def cut(outline_px: Outline, reach: int, margin_px: float = 0.0) -> Stencil:
     >>> cut(tile, 1, 0.5).mask.shape
     (4, 5)
     """
+    return stencil_of(*covered(outline_px, margin_px), reach)
+
+
+def covered(outline_px: Outline, margin_px: float = 0.0) -> tuple[BoolArray, tuple[int, int]]:
+    """Pixels that an outline takes, and the row and column of its origin among them.
+
+    Parameters
+    ----------
+    outline_px, margin_px
+        As for :func:`cut`.
+    """
     points, starts = outline_px.points, outline_px.starts
     if margin_px > MOST_OFFSET_PX:
         wide = grown(outline_px, margin_px)
@@ -82,7 +93,7 @@ def cut(outline_px: Outline, reach: int, margin_px: float = 0.0) -> Stencil:
     mask = rasteriser.density() > TOUCHED
     if not mask.any():
         mask[height // 2, width // 2] = True
-    return stencil_of(mask, (-row, -column), reach)
+    return mask, (-row, -column)
 
 
 def stencil_of(mask: BoolArray, origin: tuple[int, int], reach: int) -> Stencil:
