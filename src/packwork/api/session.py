@@ -12,6 +12,7 @@ from packwork.errors import RecipeError
 from packwork.live.composed import words_of
 from packwork.live.document import Document
 from packwork.live.file.disk import Disk
+from packwork.live.file.recipe import SessionRecipe, write_recipe
 from packwork.live.named import Coordinate, NamedSession, Which
 from packwork.readers.memory.values import Value
 from packwork.scene import layout as scene
@@ -98,6 +99,19 @@ class Session(NamedSession):
         if self._disk is None:
             raise RecipeError("path", "the session has no file yet; give one, as work.packwork")
         self._disk.save(self)
+
+    def recipe(self, folder: str | Path) -> SessionRecipe:
+        """Write a folder with a recipe that goes on from here; how it is run.
+
+        The run begins with the present layout, stays near it, and keeps what is held. Words are
+        drawings in it.
+
+        Raises
+        ------
+        WriteError
+            If nothing can be written there.
+        """
+        return write_recipe(self, folder)
 
     def close(self) -> None:
         """End the journal, if there is one; what it holds is done again when the file is opened.
