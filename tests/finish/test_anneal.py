@@ -11,6 +11,7 @@ from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.objective import FreeSizes
 from packwork.finish.anneal import Lengths, anneal
 from packwork.finish.bottlenecks import relocate_bottleneck
+from packwork.finish.proposals import destination, destinations
 from packwork.geometry.outline import Outline
 from scenes import box, square
 
@@ -26,6 +27,15 @@ def free(arrangement: Arrangement, areas: FloatArray) -> FreeSizes:
 
 def is_clean(arrangement: Arrangement) -> bool:
     return len(arrangement.conflicts(arrangement.pairs(GAP), GAP)) == 0
+
+
+def test_places_of_many_trials_are_those_of_each() -> None:
+    rng = np.random.default_rng(0)
+    arrangement = Arrangement([square()] * 4, box(0, 0, 60, 60), rng.uniform(0.0, 1.0, (4, 4)))
+    moved = np.array([[2, -1], [1, 3]])
+    one, two = destinations(arrangement, moved)
+    assert np.array_equal(one[:1], destination(arrangement, moved[0, :1]))
+    assert np.array_equal(two, destination(arrangement, moved[1]))
 
 
 def test_items_that_no_trial_reaches_grow_all_the_same() -> None:

@@ -11,6 +11,8 @@ import pytest
 from packwork.scene.item import FlatArt, Item, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.live_text import LiveText
+from packwork.scene.swatch import small_png
+from packwork.writers import halos
 from packwork.writers.halos import faint_items, faint_told, haloed
 from packwork.writers.registry import encoded, write_options
 from scenes import box
@@ -96,3 +98,20 @@ def test_a_rim_changes_only_what_lies_round_the_item(layout: Layout, read_pictur
     left, right = (20 - 8) * px, (20 + 8) * px
     assert left - 4 <= changed[:, 1].min()
     assert changed[:, 1].max() <= right + 4
+
+
+def test_a_drawing_is_looked_at_once(
+    make_layout: LayoutMaker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looked: list[str] = []
+
+    def small(item: Item) -> bytes | None:
+        looked.append(item.name)
+        return small_png(item)
+
+    monkeypatch.setattr(halos, "small_png", small)
+    monkeypatch.setattr(halos, "FORM", 0)
+    layout = make_layout([drawn("pale", "#123456", "#fefdfc")], [20.0], [30.0], scale=[4.0])
+    first, second = faint_items(layout, None), faint_items(layout, None)
+    assert names(first) == names(second) == ["pale"]
+    assert looked in (["pale"], [])

@@ -226,7 +226,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         drawn, undrawn = _drawn(run, outputs)
         written = [*drawn, *saved, *films]
         results = run.report(time.perf_counter() - began, START_UP.told())
-        if not was_cut_short:
+        if not was_cut_short and (outputs.report is not None or not quiet):
             # Looks at pictures of all items, for which nobody waits who wants it to end.
             results["advice"] += _hard_to_see(run, outputs)
         results["advice"] += pipeline.coarse_photos(run.layout, outputs.options.dpi)

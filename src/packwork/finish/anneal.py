@@ -29,6 +29,7 @@ from packwork.finish.proposals import (
     Proposal,
     at_angles,
     destination,
+    destinations,
     pools_of,
     proposed,
 )
@@ -215,11 +216,8 @@ class _Search:
     def _disjoint(self, most: int) -> list[tuple[Proposal, Trial]]:
         """The first trials that wait whose neighbourhoods do not meet; they wait no more."""
         lengths = self._lengths
-        moved = np.full((len(self._waiting), 2), -1)
-        places = np.zeros((len(self._waiting), 2, 4))
-        for k, one in enumerate(self._waiting):
-            moved[k, : len(one.moved)] = one.moved
-            places[k, : len(one.moved)] = destination(self._arrangement, one.moved)
+        moved = np.array([(one.moved[0], *one.moved[1:], -1)[:2] for one in self._waiting])
+        places = destinations(self._arrangement, moved)
         room = ROOM * lengths.spacing
         margin = lengths.gap + TRAVEL * max(*TRUST, ANGLE_TRUST) * lengths.spacing
         chosen = room_for(most, NEIGHBOURS, self._arrangement.count)

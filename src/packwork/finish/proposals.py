@@ -133,6 +133,15 @@ def destination(arrangement: Arrangement, moved: IntArray) -> FloatArray:
     return places
 
 
+def destinations(arrangement: Arrangement, moved: IntArray) -> FloatArray:
+    """``(p, 2, 4)``: :func:`destination` of ``(p, 2)`` items, the second -1 for one alone."""
+    there = np.where(moved[:, 1:] < 0, moved, moved[:, ::-1])
+    places = arrangement.places[there]
+    places[..., 2] = arrangement.places[moved, 2]
+    places[..., 3] = np.log(arrangement.radii[there] / arrangement.board.arms[moved]) - LOSS
+    return places
+
+
 def least_of(values: FloatArray, count: int) -> IntArray:
     """Indices of the smallest of values ``(n,)``, in order; of equal ones the first.
 

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TypedDict
+from typing import Any, TypedDict
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from packwork.metrics.pixel import PixelMetrics, pixel_metrics
 from packwork.metrics.shape import ShapeMetrics, shape_metrics
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.threads import at_once
 
 
 class ExactShares(TypedDict):
@@ -107,13 +109,21 @@ class LayoutMetrics:
 
 def measure(layout: Layout) -> LayoutMetrics:
     """Measure a layout's outlines, and the ink of its items, against its container."""
-    exact = exact_metrics(layout.outlines, layout.container.outline)
-    return LayoutMetrics(
-        pixel=pixel_metrics(layout.outlines, layout.container),
-        exact=exact,
-        ink=_ink_coverage(layout, exact),
-        seen=shape_metrics(layout.outlines, layout.container),
-    )
+    exact, (pixel, seen) = at_once(_of_kind, [(_exactly, layout), (_by_pixels, layout)])
+    return LayoutMetrics(pixel=pixel, exact=exact, ink=_ink_coverage(layout, exact), seen=seen)
+
+
+def _of_kind(kind: Callable[[Layout], Any], layout: Layout) -> Any:
+    return kind(layout)
+
+
+def _exactly(layout: Layout) -> ExactMetrics:
+    return exact_metrics(layout.outlines, layout.container.outline)
+
+
+def _by_pixels(layout: Layout) -> tuple[PixelMetrics, ShapeMetrics]:
+    container = layout.container
+    return pixel_metrics(layout.outlines, container), shape_metrics(layout.outlines, container)
 
 
 def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:

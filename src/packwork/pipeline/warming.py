@@ -29,13 +29,13 @@ from packwork.compaction.kernels import distances, interior_point, outer_simplif
 from packwork.compaction.kernels.neighbourhoods import disjoint, room_for
 from packwork.compaction.kernels.steps import Objective
 from packwork.compaction.kernels.trials import Rounds, Trial, attempt
+from packwork.fields.distance_transform import distance_to, parts_of
 from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance
-from packwork.geometry.outline import Outline
+from packwork.geometry.outline import Outline, joined
 from packwork.losses.evenness import Windows
-from packwork.metrics.pixel import pixel_metrics
-from packwork.metrics.shape import shape_metrics
 from packwork.pipeline.result import find_unplaced
+from packwork.raster.membership import centre_count
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
@@ -245,13 +245,14 @@ def pairs() -> None:
 
 
 def images() -> None:
-    """Renderer, then the measures."""
+    """Renderer, then what measures are made of: they themselves look at a million pixels."""
     container = _container()
     item = Item("warm-up", "", _square(1.0), _square(1.0), FlatArt())
     layout = Layout(container, (item,), _poses(), np.ones(1))
     find_unplaced(layout)
-    pixel_metrics(layout.outlines, layout.container)
-    shape_metrics(layout.outlines, layout.container)
+    covered = centre_count(*joined(layout.outlines), (8, 8)) > 0
+    distance_to(covered)
+    parts_of(covered)
 
 
 def contacts() -> None:

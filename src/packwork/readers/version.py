@@ -5,11 +5,9 @@ from __future__ import annotations
 import functools
 import hashlib
 import sys
+from importlib.metadata import version
 from pathlib import Path
 
-import numpy as np
-import resvg_py
-import scipy
 import shapely
 
 from packwork import folders
@@ -21,9 +19,8 @@ FOLDERS = ("readers", "geometry", "raster", "fields", "fit", "scene")
 @functools.cache
 def reader_version() -> str:
     """One word for all code that reads drawings and letters."""
-    # Of SciPy this loads no part that computes.
-    versions = (np, scipy, shapely, resvg_py)
-    numbers = [str(getattr(module, "__version__", "")) for module in versions]
+    # By what is installed: to import SciPy for its number takes longer.
+    numbers = [version(name) for name in ("numpy", "scipy", "shapely", "resvg_py")]
     whole = hashlib.sha256(repr((sys.version, shapely.geos_version, numbers)).encode())
     root = Path(folders.__file__).parent
     paths = [*root.glob("*.py"), *(p for f in FOLDERS for p in (root / f).rglob("*.py"))]

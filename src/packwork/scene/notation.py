@@ -12,7 +12,7 @@ from packwork.geometry.outline import Outline
 MAX_DECIMALS = 24
 """Digits after the point at most: enough for items a billion times their canvas. Chosen."""
 
-_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_NOT_XML = "[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 _ESCAPES = str.maketrans(
     {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\n": " ", "\r": " ", "\t": " "}
 )
@@ -102,7 +102,8 @@ def sound_text(text: str) -> str:
     >>> sound_text("R&D" + chr(0)) == "R&D" + chr(0xFFFD)
     True
     """
-    return _NOT_XML.sub("\ufffd", text)
+    # Compiled when it is first needed, and then kept by Python: that takes milliseconds.
+    return text if text.isascii() and text.isprintable() else re.sub(_NOT_XML, "\ufffd", text)
 
 
 def attributes(pairs: Mapping[str, str]) -> str:

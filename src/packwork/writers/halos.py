@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import functools
+import hashlib
 import io
 from collections.abc import Sequence
 from dataclasses import replace
+from importlib.metadata import version
+from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 from PIL import Image
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.fields.morphology import eroded
+from packwork.folders import Store
 from packwork.phrasing import number_of
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.contrast import oklabs
-from packwork.scene.item import FlatArt, Item, PhotoArt
+from packwork.scene.item import FlatArt, Item, PhotoArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.swatch import small_png
 from packwork.writers.marks import shape_key
@@ -46,6 +52,14 @@ _LIGHT = 0.6
 """Lightness (Oklab) from which a background takes dark rims. Chosen."""
 
 _SOLID = 128
+
+FORM = 1
+"""Number of the way in which edges are looked at; a new one forgets all."""
+
+ByteArray: TypeAlias = npt.NDArray[np.uint8]
+
+STORE = Store("edges", 20_000_000)
+"""Colours of the edges of drawings that were looked at before, by what is drawn: some 2 kB each."""
 
 
 def faint_items(layout: Layout, background: str | None) -> tuple[Item, ...]:
@@ -137,14 +151,37 @@ def _edge(item: Item) -> FloatArray:
     if isinstance(item.art, FlatArt):
         red, green, blue, opacity = parse_colour("fill", item.art.fill)
         return oklabs(np.array([[red, green, blue]]) / 255)[: 1 if opacity >= _SOLID else 0]
+    key = _edge_key(item.art, item.ink.bounds) if isinstance(item.art, VectorArt) else None
+    kept = None if key is None else STORE.get(key)
+    edge = _looked_at(item) if kept is None else np.frombuffer(kept, np.uint8).reshape(-1, 3)
+    if key is not None and kept is None:
+        STORE.put(key, edge.tobytes())
+    return oklabs(edge / 255)
+
+
+def _looked_at(item: Item) -> ByteArray:
+    """``(n, 3)`` colours of the edge of a small picture, 0 to 255; none without one."""
     png = small_png(item)
     if png is None:
-        return np.zeros((0, 3))
+        return np.zeros((0, 3), np.uint8)
     with Image.open(io.BytesIO(png)) as picture:
         pixels = np.asarray(picture.convert("RGBA"))
     solid: BoolArray = np.pad(pixels[..., 3] >= _SOLID, 1)
     inner = eroded(solid, EDGE_PX)
-    return oklabs(pixels[(solid & ~inner)[1:-1, 1:-1]][:, :3] / 255)
+    return np.asarray(pixels[(solid & ~inner)[1:-1, 1:-1]][:, :3])
+
+
+def _edge_key(art: VectorArt, bounds: tuple[float, float, float, float]) -> str:
+    """All that the colours of a drawing's edge depend on."""
+    drawn = repr((art.markup, np.asarray(art.matrix).tolist(), bounds))
+    how = FORM, *_versions(), _SOLID, EDGE_PX
+    return f"{how!r} {hashlib.sha256(drawn.encode()).hexdigest()}"
+
+
+@functools.cache
+def _versions() -> tuple[str, str]:
+    """Of what draws the small picture."""
+    return version("packwork"), version("resvg_py")
 
 
 def _is_faint(edge: Sequence[FloatArray] | FloatArray, ground: FloatArray) -> bool:

@@ -7,6 +7,7 @@ history matches nothing; of what is not known the rule is left out as a whole.
 
 from __future__ import annotations
 
+import functools
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -24,7 +25,7 @@ Test: TypeAlias = Callable[[Node], bool]
 """Whether a single element is what one condition asks for."""
 
 _IDENT = r"-?(?:[A-Za-z_\u0080-\U0010ffff]|--)[\w\u0080-\U0010ffff-]*+"
-_TOKEN = re.compile(
+_TOKEN = (
     rf"(?P<combinator>\s*[>+~]\s*|\s+)|(?P<all>\*)|(?P<tag>{_IDENT})|[#](?P<id>[\w-]+)"
     rf"|\.(?P<class>{_IDENT})|\[(?P<attribute>[^\[\]]*)\]|::?(?P<pseudo>[\w-]+)(?P<call>\()?"
 )
@@ -57,6 +58,12 @@ _COUNTS = {
     "nth-of-type": (False, True),
     "nth-last-of-type": (True, True),
 }
+
+
+@functools.cache
+def _token() -> re.Pattern[str]:
+    """Compiled when it is first needed: that takes ten milliseconds, and few drawings do."""
+    return re.compile(_TOKEN)
 
 
 class UnknownSelectorError(Exception):
@@ -173,7 +180,7 @@ def parse_selector(text: str, depth: int = 0) -> Selector:
     relations: list[str] = []
     place, text, is_started = 0, text.strip(), False
     while place < len(text):
-        token = _TOKEN.match(text, place)
+        token = _token().match(text, place)
         if token is None or len(steps) > MAX_STEPS or depth > MAX_NESTED:
             raise UnknownSelectorError(text[:40])
         place = token.end()
