@@ -188,6 +188,7 @@ def placed(
         drop=asked.step / EM_PX,
         margin_cu=asked.margin / 2,
         patience=PATIENCE,
+        lengths=[len(word) for word in words],
     )
     if len(found.placed) == 0:
         raise ValueError(NO_ROOM)

@@ -141,3 +141,24 @@ def test_the_unit_does_not_matter() -> None:
         other = placed(unit)
         assert other.placed.tolist() == ours.placed.tolist()
         assert other.poses.scale / unit == pytest.approx(ours.poses.scale)
+
+
+def test_known_lengths_leave_room_for_the_last() -> None:
+    """And no size rises again once there is more room than was thought."""
+    container = Container("", "", box(0, 0, 100, 100), 100, 100)
+    tiles = [Candidate(box(-1, -1, 1, 1), step) for step in (10.0, *[1.0] * 79)]
+    rng = np.random.default_rng
+    plain = graded_fit(container, tiles, 80, rng(0), smallest=3.0)
+    held = graded_fit(container, tiles, 80, rng(0), smallest=3.0, lengths=[1.0] * 80)
+    assert 2 * len(plain.placed) < len(held.placed)
+    assert (np.diff(held.poses.scale) <= 0).all()
+
+
+def test_where_all_cannot_be_placed_nothing_is_held_down() -> None:
+    container = Container("", "", box(0, 0, 100, 100), 100, 100)
+    tiles = [Candidate(box(-1, -1, 1, 1), step) for step in (12.0, *[1.0] * 399)]
+    plain, held = (
+        graded_fit(container, tiles, 400, np.random.default_rng(0), smallest=4.5, lengths=lengths)
+        for lengths in ([], [1.0] * 400)
+    )
+    assert held.poses.scale.tolist() == plain.poses.scale.tolist()

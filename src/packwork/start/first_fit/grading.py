@@ -135,6 +135,11 @@ class Grading:
         self._room = self._left = int(self._free.sum())
         self._first = 0.0
 
+    @property
+    def left(self) -> float:
+        """Area that nothing has taken, canvas units."""
+        return self._left / self._px_per_cu**2
+
     def emptied(self) -> Grading:
         """The same image before anything was put on it."""
         other = copy.copy(self)
