@@ -14,7 +14,7 @@ from PIL import Image
 from typer.testing import Result
 
 from packwork.compaction.blocks import blocks
-from packwork.threads import at_once
+from packwork.threads import at_once, using
 
 Command = Callable[..., Result]
 
@@ -70,10 +70,55 @@ def test_bytes_do_not_depend_on_threads(
     line, modules = VERBS[verb]
     found = set()
     for count in (1, 2, 8):
-        done = packwork(f"{line} -q --threads {count} -o {count}.svg -o {count}.geojson")
+        outputs = f"-o {count}.svg -o {count}.geojson -o {count}.dxf --report {count}.json"
+        done = packwork(f"{line} -q --threads {count} {outputs}")
         assert done.exit_code in (0, 1), done.stderr
-        layout = json.loads((folder / f"{count}.geojson").read_text(encoding="utf-8"))
-        # How long it took is another number each time.
-        found.add(((folder / f"{count}.svg").read_bytes(), json.dumps(layout["features"])))
+        found.add(files_of(folder, str(count)))
     assert len(found) == 1
     assert sharing == modules
+
+
+def test_a_recipe_gives_the_same_bytes(folder: Path, packwork: Command, sharing: set[str]) -> None:
+    fill, _ = VERBS["fill"]
+    packwork(f"{fill} -q --threads 8 --save-recipe all.toml -o all.svg")
+    found = {(folder / "all.svg").read_bytes()}
+    for count in (1, 2):
+        done = packwork(f"run all.toml -q --threads {count} -o {count}.svg")
+        assert done.exit_code in (0, 1), done.stderr
+        found.add((folder / f"{count}.svg").read_bytes())
+    assert len(found) == 1
+
+
+def test_an_edit_gives_the_same_bytes(folder: Path, packwork: Command, sharing: set[str]) -> None:
+    fill, _ = VERBS["fill"]
+    packwork(f"{fill} -q -o all.geojson")
+    found = set()
+    for count in (1, 2, 8):
+        # It has no option for them: as many as there are.
+        with using(count):
+            done = packwork(f"edit all.geojson --move star#1=50%,50% -o {count}.svg")
+        assert done.exit_code == 0, done.stderr
+        found.add((folder / f"{count}.svg").read_bytes())
+    assert len(found) == 1
+
+
+def test_measures_are_the_same(folder: Path, packwork: Command) -> None:
+    fill, _ = VERBS["fill"]
+    packwork(f"{fill} -q -o all.geojson")
+    found = set()
+    for count in (1, 2, 8):
+        with using(count):
+            done = packwork(f"measure all.geojson --report {count}.json")
+        assert done.exit_code == 0, done.stderr
+        found.add((folder / f"{count}.json").read_bytes())
+    assert len(found) == 1
+
+
+def files_of(folder: Path, name: str) -> tuple[bytes | str, ...]:
+    """All that a run wrote, but for how long it took."""
+    layout, report = (
+        json.loads((folder / f"{name}.{ending}").read_text(encoding="utf-8"))
+        for ending in ("geojson", "json")
+    )
+    kept = json.dumps(layout["features"]), json.dumps(report["metrics"])
+    return *((folder / f"{name}.{ending}").read_bytes() for ending in ("svg", "dxf")), *kept

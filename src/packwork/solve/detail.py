@@ -13,7 +13,6 @@ from packwork.geometry.affine import stretched
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import closed, grown, simplified
 from packwork.scene.pose import Poses
-from packwork.threads import at_once
 
 DETAIL_PX = 0.12
 """Outlines are simplified to this many pixels of the level: larger is faster and lets
@@ -106,19 +105,17 @@ def seen_at(
         What was made before, by outline and size; more is added.
     """
     done = {} if known is None else known
-    keys = []
-    missing: dict[tuple[int, int], tuple[Outline, float, float]] = {}
+    seen = []
     for outline, scale in zip(outlines, scales, strict=True):
         # Items whose pixels are within a factor of two share one outline, but a margin
         # is as wide on small items as on large ones, nearly.
         size = math.log2(1 / (px_per_cu * scale))
         rung = round(size)
         key = (id(outline), rung if margin_cu == 0 else round(size * MARGIN_RUNGS))
-        keys.append(key)
         if key not in done:
-            missing.setdefault(key, (outline, 2.0**rung, margin_cu / scale))
-    done.update(zip(missing, at_once(_seen, list(missing.values())), strict=True))
-    return [done[key] for key in keys]
+            done[key] = _seen(outline, 2.0**rung, margin_cu / scale)
+        seen.append(done[key])
+    return seen
 
 
 def _seen(outline: Outline, pixel: float, margin: float) -> Outline:
