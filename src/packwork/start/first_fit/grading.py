@@ -20,6 +20,7 @@ from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.bareness import Bareness
 from packwork.start.first_fit.occupancy import Occupancy
 from packwork.start.first_fit.stencil import TOUCHED, Stencil, covered, stencil_of
 from packwork.start.first_poses import container_image
@@ -57,6 +58,10 @@ DRAWN = 0.1
 ROOMY = 2.0
 """Score of the place with most room for such items; what they touch, of 0 to 1, then says little.
 Tried."""
+
+FAR = 0.03
+"""Distance from every item, as a share of the container's longer side, from which on a place is
+bare: items that go where there is room go there first. As ``metrics`` count it."""
 
 NOISE = 0.01
 """Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
@@ -134,6 +139,8 @@ class Grading:
         self._occupancy = Occupancy(self._free, REACH)
         self._room = self._left = int(self._free.sum())
         self._first = 0.0
+        far_px = FAR * container.outline.extent * self._px_per_cu
+        self._bareness = Bareness(self._free, far_px)
 
     @property
     def left(self) -> float:
@@ -145,6 +152,7 @@ class Grading:
         other = copy.copy(self)
         other._occupancy = Occupancy(self._free, REACH)
         other._left, other._first, other.is_loose = self._room, 0.0, False
+        other._bareness = self._bareness.emptied()
         return other
 
     def lay(self, outline: Outline) -> None:
@@ -222,6 +230,9 @@ class Grading:
     def _drawn(self, scale: float) -> tuple[FloatArray, float, bool]:
         """What draws an item of that scale, how much, and whether to places that touch nothing."""
         if self.is_loose:
+            away = self._bareness.away()
+            if away is not None:
+                return away, ROOMY / float(away.max()), True
             room = self._occupancy.clearance
             return room, ROOMY / max(self._occupancy.widest, 1.0), True
         if not self._first:
@@ -236,4 +247,5 @@ class Grading:
         wide = math.ceil(self._reach)
         near = _kernels.grown(mask, wide, self._reach)
         self._occupancy.take(near, row - wide, column - wide)
+        self._bareness.cover(mask, row, column)
         self._left -= int(near.sum())
