@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import io
+
 import numpy as np
 from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
@@ -10,20 +12,26 @@ from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, pr
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.live.commands.any_command import COMMANDS, AnyCommand
-from packwork.live.commands.container import PlaceContainer, SetOption
+from packwork.live.commands.command import Library
+from packwork.live.commands.container import PlaceContainer, Reshape, SetOption
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.holding import Hold, Release
-from packwork.live.commands.items import Duplicate, Recolour, Remove, Rename, Weigh
-from packwork.live.commands.placing import Exchange, Move, Scale, Turn
+from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
+from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
+from packwork.live.commands.together import Together
 from packwork.live.document import PROPERTIES, Document
+from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.metrics.violations import violations
 
 START = Document.of(pw.fill("circle", ["star", "heart"], count=7, epochs=60, levels="50"))
 
+(HEXAGON,) = pw.read_items("hexagon")
+
 items = st.integers(0, 9)
 numbers = st.floats(0.2, 4)
 places = st.floats(-50, 650)
+rings = st.lists(st.tuples(places, places), min_size=3, max_size=5)
 ends = st.lists(st.sampled_from(PROPERTIES), min_size=1, max_size=3).map(tuple)
 
 commands = st.one_of(
@@ -40,6 +48,25 @@ commands = st.one_of(
     st.builds(Recolour, items=st.tuples(items), colour=st.sampled_from(["red", "#12", "teal"])),
     st.builds(PlaceContainer, x=st.floats(-60, 60), y=st.floats(-60, 60), factor=numbers),
     st.builds(SetOption, name=st.just("padding"), value=st.floats(0, 6)),
+    st.builds(
+        Reshape, rings=st.tuples(st.lists(st.tuples(places, places), min_size=3, max_size=5))
+    ),
+    st.builds(
+        SetOption,
+        name=st.just("sizes"),
+        value=st.sampled_from(["free", "shared", "fixed"]),
+    ),
+    st.builds(SetOption, name=st.just("rotate"), value=st.sampled_from(["free", "30", "none"])),
+    st.builds(SetOption, name=st.just("evenness"), value=st.floats(0, 2)),
+    st.builds(Cover, share=st.floats(0.05, 0.95)),
+    st.builds(Add, asset=st.just("hexagon"), x=places, y=places, area=st.floats(10, 20_000)),
+    st.builds(Replace, item=items, asset=st.just("hexagon")),
+    st.builds(
+        Together,
+        commands=st.tuples(
+            st.builds(Move, item=items, x=places, y=places), st.builds(Duplicate, item=items)
+        ),
+    ),
     st.builds(Grab, items=st.tuples(items)),
     st.just(Drop()),
 )
@@ -50,8 +77,8 @@ class AnySequence(RuleBasedStateMachine):
 
     @initialize()
     def begin(self) -> None:
-        self.session = Session(START)
-        self.held: dict[tuple[int, str], bytes] = {}
+        self.stream = io.StringIO()
+        self.session = Session(START, Library({"hexagon": HEXAGON}), Log(self.stream))
 
     @rule(command=commands)
     def apply(self, command: AnyCommand) -> None:
@@ -77,6 +104,24 @@ class AnySequence(RuleBasedStateMachine):
         before = self.session.document
         self.session.settle()
         self._nothing_held_moved(before)
+
+    @precondition(lambda self: not self.session._grabbed)
+    @rule(trials=st.integers(1, 9))
+    def polish(self, trials: int) -> None:
+        before, was_certified = self.session.document, self.session.is_certified
+        self.session.polish(trials)
+        self._nothing_held_moved(before)
+        assert self.session.is_certified == was_certified
+
+    @precondition(lambda self: not self.session._grabbed)
+    @rule()
+    def replay(self) -> None:
+        self.session.log.flush()
+        entries = list(read_entries(iter(self.stream.getvalue().splitlines()), "a log"))
+        again = Session.replay(START, entries)
+        for name in ("x", "y", "angle", "scale"):
+            one, other = (getattr(s.document.poses, name) for s in (self.session, again))
+            assert one.tobytes() == other.tobytes()
 
     @precondition(lambda self: not self.session._grabbed and self.session.history.can_undo)
     @rule()
@@ -112,7 +157,7 @@ class AnySequence(RuleBasedStateMachine):
 
 TestAnySequence = AnySequence.TestCase
 TestAnySequence.settings = settings(
-    max_examples=15,
+    max_examples=25,
     stateful_step_count=12,
     deadline=None,
     derandomize=True,

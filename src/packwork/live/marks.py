@@ -17,6 +17,8 @@ class Marks:
         Of these, what lies where the hand has put it.
     turned
         Of these, what has the angle that the hand has given it.
+    left
+        What lay beside items before the hand took them away.
     by_hand
         Put somewhere by hand since the last leap: polish leaves it there.
     rough
@@ -30,6 +32,7 @@ class Marks:
     touched: set[int] = field(default_factory=set)
     given: set[int] = field(default_factory=set)
     turned: set[int] = field(default_factory=set)
+    left: set[int] = field(default_factory=set)
     by_hand: set[int] = field(default_factory=set)
     rough: set[int] = field(default_factory=set)
     polished: int = 0
@@ -37,7 +40,7 @@ class Marks:
 
     def settled(self) -> None:
         """Forget what was to be settled."""
-        for kept in (self.touched, self.given, self.turned):
+        for kept in (self.touched, self.given, self.turned, self.left):
             kept.clear()
 
     def leapt(self) -> None:

@@ -29,6 +29,13 @@ from packwork.progress import Stop, never
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 
+NEAR = 2
+"""Rings about what was touched that stay where they have flowed; all others go back to where they
+were. More lose more coverage, fewer leave less room for what was dropped. Tried."""
+
+LEFT = 3
+"""The same about where something was taken from: these grow into the room. Tried."""
+
 RELAX = 60
 """Epochs before a settle: what lies under what was dropped has to get out of its way first. More
 take longer, fewer leave more to be shrunk. Tried."""
@@ -87,6 +94,7 @@ class Session:
         self._document = document
         self.shapes = Shapes()
         """Covers of the outlines."""
+        self._base = document
         self._grabbed: tuple[int, ...] = ()
         self._before: Document | None = None
         self.marks = Marks()
@@ -174,17 +182,19 @@ class Session:
             raise RecipeError("settle", "something is held by the hand; drop it first")
         before = self._document
         self.log.note("settle")
+        near = self._put_back()
         wrong = self.violations
-        met = {one.item for one in wrong} | {one.other for one in wrong if one.other is not None}
         # What is in conflict is touched, whenever that came about.
-        self.marks.touched |= met
+        self.marks.touched |= _beyond(wrong, near)
         if self.marks.touched:
-            self._flow = self._flow or Flow(before)
-            self._settle(self._flow, stop)
+            self._flow = self._flow or Flow(self._document)
+            flowed = self._document
+            self._settle(self._flow, near, stop)
             if len(self.violations) > len(wrong):
                 # Nothing is better than something worse.
-                self._document = before
-                self._flow.turn_to(before)
+                self._document = flowed
+                self._flow.turn_to(flowed)
+        self._base = self._document
         self.marks.settled()
         moved = differing(before.poses, self._document.poses)
         self.marks.rough |= set(self._document.ids[moved].tolist())
@@ -192,16 +202,33 @@ class Session:
         self.log.flush()
         return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
 
-    def _settle(self, flow: Flow, stop: Stop) -> None:
+    def _put_back(self) -> set[int]:
+        """Put back what flowed and lies far from what was touched; numbers of what is near.
+
+        It lay well before, and where the hand only passed by, it does so again.
+        """
+        flow, base, now = self._flow, self._base, self._document
+        if flow is None:
+            return set()
+        flow.review()
+        near = flow.touching.rings(self._rows(self.marks.touched), NEAR) >= 0
+        near[self._rows(self.marks.left)] = True
+        _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
+        back = ~near[rows] & differing(now.poses.some(rows), base.poses.some(theirs))
+        rows, theirs = rows[back], theirs[back]
+        flow.put_back(rows, now.poses.with_some(rows, base.poses.some(theirs)))
+        self._follow(flow)
+        return set(now.ids[near].tolist())
+
+    def _settle(self, flow: Flow, near: set[int], stop: Stop) -> None:
         """Let what was touched make room, then finish it."""
         self.marks.given = self._fitting(self.marks.given)
         flow.bring_in(self._rows(self.marks.touched - self.marks.given))
         held = self._document.held.copy()
         held[self._rows(self.marks.turned), PROPERTIES.index("angle")] = True
         flow.rule(replace(self._document, held=held))
-        flow.stir(self._rows(self.marks.touched))
         flow.hold(self._rows(self.marks.given))
-        flow.harden(RELAX)
+        flow.harden(RELAX, self._rows(near | self.marks.touched))
         self._follow(flow)
         touched = np.union1d(self._rows(self.marks.touched), np.flatnonzero(flow.moved))
         flow.review()
@@ -238,7 +265,7 @@ class Session:
         rows = self._rows(self.marks.rough - self.marks.by_hand)
         done = polish(before, rows, trials, self.marks.polished, self.shapes, stop)
         if done.is_clean:
-            self._document = done.document
+            self._document = self._base = done.document
         if self._flow is not None:
             self._flow.turn_to(self._document)
         self.marks.tried += trials
@@ -335,6 +362,7 @@ class Session:
         self._document, self.history, self.marks = kept.document, kept.history, kept.marks
         self.shapes, self._certificate = Shapes(), Certificate()
         self._grabbed, self._before, self._flow = (), None, None
+        self._base = self._document
         if self.marks.touched:
             self._flow = Flow(self._document)
             self._flow.stir(self._rows(self.marks.touched))
@@ -391,6 +419,9 @@ class Session:
         self.marks.given |= set(numbers[moved].tolist())
         self.marks.turned |= set(numbers[turned].tolist())
         self.marks.by_hand |= set(numbers[moved | turned].tolist())
+        new = np.flatnonzero(changed & ~np.isin(numbers, list(self.marks.touched)))
+        if len(new):
+            self.marks.left |= set(numbers[flow.touching.rings(new, LEFT) >= 0].tolist())
         self.marks.touched |= set(numbers[changed].tolist())
         flow.rule(after)
         kept = self.marks.given | set(numbers[changed].tolist()) | set(self._grabbed)
@@ -414,7 +445,7 @@ class Session:
             raise RecipeError(kind, "something is held by the hand; drop it first")
         document = getattr(self.history, kind)(self._document)
         self.log.note(kind)
-        self._document = document
+        self._document = self._base = document
         self.marks.leapt()
         if self._flow is not None:
             self._flow.turn_to(document)
@@ -433,3 +464,13 @@ class Session:
             if one.other is None or {one.item, one.other} <= fixed:
                 bad |= {one.item, one.other} & numbers
         return numbers - bad
+
+
+def _beyond(wrong: Iterable[Violation], near: set[int]) -> set[int]:
+    """Numbers of items in conflicts that what is near has no part in."""
+    found: set[int] = set()
+    for one in wrong:
+        pair = {one.item} if one.other is None else {one.item, one.other}
+        if not pair & near:
+            found |= pair
+    return found

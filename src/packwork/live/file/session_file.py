@@ -31,6 +31,7 @@ class MarksRecord(Options):
     touched: _Ids = ()
     given: _Ids = ()
     turned: _Ids = ()
+    left: _Ids = ()
     by_hand: _Ids = ()
     rough: _Ids = ()
     polished: Annotated[int, Field(ge=0, le=2**53)] = 0

@@ -103,6 +103,7 @@ class Flow:
         self._is_held: BoolArray = np.zeros((0, 3), dtype=bool)
         self._since = 0
         self._hardness = 1.0
+        self._may: IntArray | None = None
         self._ring: IntArray = np.zeros(len(document), dtype=np.int64)
         self._region = padded(document.container, document.options.padding)
         self._outlines = [item.outline for item in document.items]
@@ -174,17 +175,29 @@ class Flow:
             if self.is_at_rest:
                 return
             working = self._working
-            if working is None or working[0].resolution != resolution or self._since >= REVIEW:
+            is_due = self._since >= (REVIEW if self._may is None else LINGER)
+            if working is None or working[0].resolution != resolution or is_due:
                 working = self._rebuilt(resolution)
             self._epoch(*working)
 
-    def harden(self, epochs: int) -> None:
-        """Run some epochs in which overlap counts ever more, as at the end of a run."""
-        self._left[self.moved] = np.maximum(self._left[self.moved], epochs)
+    def harden(self, epochs: int, items: IntArray) -> None:
+        """Run some epochs of items ``(m,)`` in which overlap counts ever more, as a run's last."""
+        self._left[:] = 0
+        self._left[items] = epochs
+        self._may = items
+        self._since = LINGER
         for done in range(epochs):
             self._hardness = HARDENING ** (done / epochs)
             self.run(1)
-        self._hardness = 1.0
+        self._hardness, self._may = 1.0, None
+
+    def put_back(self, items: IntArray, poses: Poses) -> None:
+        """Have items ``(m,)`` be where they were before they flowed, ``poses`` of all."""
+        self.poses = self.poses.with_some(items, poses.some(items))
+        self.moved[items] = False
+        self._left[items] = 0
+        self.touching.follow(items, self.poses)
+        self._since = REVIEW
 
     def _epoch(self, level: Level, motion: Motion) -> None:
         weights = {k: w if k == "filling" else w * self._hardness for k, w in WEIGHTS.items()}
@@ -216,10 +229,13 @@ class Flow:
     def _rebuilt(self, resolution: int) -> tuple[Level, Motion]:
         """Level and motion of the items that go on now."""
         self._since = 0
-        if len(self._given):
+        if len(self._given) and self._may is None:
             self._reach(self._given, RINGS, int(self._left.max()))
         before, was, document = self._working, self._active, self._document
-        active = self._active = np.flatnonzero(self._left)
+        active = np.flatnonzero(self._left)
+        if self._may is not None:
+            active = np.intersect1d(active, self._may)
+        self._active = active
         held = document.held[active] | np.isin(active, self._given)[:, None]
         # What may not move is a wall to a settle: turned or sized here, it could not be mended.
         self._is_held = held | held[:, :1]

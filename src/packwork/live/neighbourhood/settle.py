@@ -7,13 +7,12 @@ is widened by a ring of neighbours, three times at most.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 import shapely
 
-from packwork.arrays import BoolArray, IntArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.errors import ShapeError
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
@@ -170,12 +169,14 @@ def room_of(document: Document, movable: IntArray, shapes: Shapes) -> Container 
     areas = document.own_areas * document.poses.scale**2
     reach = ABOUT * float(np.sqrt(np.median(areas))) + 2 * gap_of(document, movable)
     region = valid(document.container.outline.region)
-    window = shapely.box(*(boxes[:, :2].min(axis=0) - reach), *(boxes[:, 2:].max(axis=0) + reach))
+    wide = boxes + reach * np.array([-1.0, -1.0, 1.0, 1.0])
+    window = union(list(shapely.box(*wide.T)))
     if not window.intersects(region):
         # Everything that moves lies beside the container, and may be brought to any place in it.
+        wide = np.array([region.bounds])
         window = shapely.box(*region.bounds)
     others = np.setdiff1d(np.arange(len(document)), movable)
-    near = others[_may_meet(document, others, window.bounds)]
+    near = others[_may_meet(document, others, wide)]
     walls = [outline.region for outline in _placed(document, near, shapes)]
     whole = intersection(region, window)
     left = difference(whole, union(walls)) if walls else whole
@@ -187,15 +188,15 @@ def room_of(document: Document, movable: IntArray, shapes: Shapes) -> Container 
     return replace(document.container, outline=outline)
 
 
-def _may_meet(document: Document, items: IntArray, window: Sequence[float]) -> BoolArray:
-    """Which of some items may reach into a window, by discs about them."""
+def _may_meet(document: Document, items: IntArray, boxes: FloatArray) -> BoolArray:
+    """Which of some items may reach into boxes ``(b, 4)``, by discs about them."""
     poses = document.poses.some(items)
     longest = np.array([document.items[k].outline.extent for k in items])
     radii = longest * poses.scale * np.sqrt(np.maximum(poses.stretch, 1 / poses.stretch))
-    left, top, right, bottom = window
+    left, top, right, bottom = boxes.T[:, :, None]
     across = np.maximum(left - poses.x, poses.x - right)
     along = np.maximum(top - poses.y, poses.y - bottom)
-    return np.asarray(np.maximum(across, along) <= radii)
+    return np.asarray((np.maximum(across, along) <= radii).any(axis=0))
 
 
 def _is_used(part: shapely.Polygon, boxes: np.ndarray) -> bool:
