@@ -38,7 +38,7 @@ VERB_OF = {str(verb.name).lower(): verb for verb in VERBS}
 OFFERED = [(name, option) for name, verb in VERB_OF.items() for option in options_of(verb)]
 FILES = [option for model in (LayoutFiles, SideFiles, Terminal) for option in offered(model)]
 
-IN_ITS_OWN_WORDS = {"--font", "--color-by", "--add", "--hold"}
+IN_ITS_OWN_WORDS = {"--count", "--font", "--color-by", "--add", "--hold"}
 """Options of words that say the same thing as elsewhere, of words; what an edit adds, and holds,
 which a film does with its last picture."""
 

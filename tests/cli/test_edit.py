@@ -111,7 +111,7 @@ def test_a_session_is_edited_where_it_lies(saved: Path, tmp_path: Path) -> None:
     work, picture = tmp_path / "work.packwork", tmp_path / "new.png"
     code, said = run(saved, "--items", "star", "--items", "heart", "--hold", "star#1", "-o", work)
     assert code == 0, said
-    code, said = run(work, "-n", 11, "--target-coverage", "30%", "--rotate", "none", "-o", work)
+    code, said = run(work, "-n", 11, "--cover", "30%", "--rotate", "none", "-o", work)
     assert code == 0, said
     session = pw.Session.open(work)
     assert len(session.document) == 11
@@ -136,7 +136,7 @@ def test_the_words_of_a_session_are_changed(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["--target-coverage", "170"], "--target-coverage: must be a share such as 70%"),
+        (["--cover", "170"], "--cover: must be a share such as 70%"),
         (["--force", "towards curve.svg"], "--force: takes no file in a session"),
         (["--sizes", "large"], "--sizes: "),
         (["--items", "star"], "items: are in a session file already"),

@@ -69,7 +69,7 @@ def test_so_much_is_covered_and_no_more(icons: pw.Layout, share: str | float) ->
 def test_a_share_that_is_none_is_refused(icons: pw.Layout) -> None:
     session = icons.edit()
     for share in (0, 1, 40, "x", "-3%"):
-        with pytest.raises(RecipeError, match="target_coverage: must be a share such as 70%"):
+        with pytest.raises(RecipeError, match="cover: must be a share such as 70%"):
             session.cover(share)
     session.hold("*", "size")
     with pytest.raises(RecipeError, match="items whose size is held"):

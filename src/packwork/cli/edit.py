@@ -93,18 +93,14 @@ def edit(
         int | None,
         typer.Option("-n", "--count", help="Have so many items: copies come, or go.", min=1),
     ] = None,
-    target_coverage: Annotated[
+    cover: Annotated[
         str | None,
-        typer.Option(
-            "--target-coverage", metavar="SHARE", help="Make all larger or smaller, to cover that."
-        ),
+        typer.Option("--cover", metavar="SHARE", help="Make all larger or smaller, to cover that."),
     ] = None,
     padding: Annotated[str | None, typer.Option("--padding", help=_HELP["padding"])] = None,
-    sizes: Annotated[
-        str | None, typer.Option("--sizes", help="free, shared or fixed, from now on.")
-    ] = None,
+    sizes: Annotated[str | None, typer.Option("--sizes", help=_HELP["sizes"])] = None,
     rotate: Annotated[str | None, typer.Option("--rotate", help=_HELP["rotate"])] = None,
-    force: Annotated[Specs, _specs("--force", "FORCE", "Pull items about.")] = [],  # noqa: B006
+    force: Annotated[Specs, typer.Option("--force", help=_HELP["force"])] = [],  # noqa: B006
     container: Annotated[
         str | None, typer.Option("--container", help="Fill another container, on that canvas.")
     ] = None,
@@ -164,8 +160,8 @@ def edit(
             session.set_words(words_of(session.document, words, {}))
         if count is not None:
             session.count(count)
-        if target_coverage is not None:
-            session.cover(target_coverage)
+        if cover is not None:
+            session.cover(cover)
         if not _written(session, [*outputs, *sides], report, pixels, quiet):
             raise typer.Exit(SHORTFALL)
 

@@ -212,11 +212,9 @@ class NamedSession(Session):
         try:
             asked = float(str(parse_share(share)))
         except (TypeError, ValueError) as error:
-            raise RecipeError(
-                "target_coverage", f"must be a share such as 70%, not {share!r}"
-            ) from error
+            raise RecipeError("cover", f"must be a share such as 70%, not {share!r}") from error
         if not 0 < asked < 1:
-            raise RecipeError("target_coverage", f"must be a share such as 70%, not {share}")
+            raise RecipeError("cover", f"must be a share such as 70%, not {share}")
         self.apply(made(Cover, share=asked))
 
     def set_words(self, read: WordsRead) -> None:

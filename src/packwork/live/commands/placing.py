@@ -93,9 +93,7 @@ class Cover(Command):
         areas = document.own_areas * document.poses.scale**2
         left = self.share * document.container.outline.area - areas[~free].sum()
         if not free.any() or left <= 0:
-            raise RecipeError(
-                "target_coverage", "items whose size is held cover more already; release some"
-            )
+            raise RecipeError("cover", "items whose size is held cover more already; release some")
         scale = document.poses.scale * np.where(free, np.sqrt(left / areas[free].sum()), 1.0)
         document = replace(
             document,
@@ -104,7 +102,7 @@ class Cover(Command):
             # Larger they would cover more than was asked for.
             largest=np.where(free, scale, document.largest),
         )
-        return sized(document, "target_coverage")
+        return sized(document, "cover")
 
 
 class Exchange(Command):
