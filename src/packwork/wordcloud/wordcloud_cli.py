@@ -62,7 +62,7 @@ def make_parser() -> argparse.ArgumentParser:
     9
     """
     parser = argparse.ArgumentParser(
-        prog="python -m packwork.wordcloud",
+        prog=_own_name(),
         description="A word cloud, with the options of wordcloud_cli.",
     )
     file: dict[str, Any] = {"metavar": "FILE"}
@@ -229,3 +229,13 @@ def _colours(picture: str | None, colour: str | None) -> Any:
     if picture:
         return ImageColorGenerator(_pixels(picture))
     return get_single_color_func(colour) if colour else random_color_func
+
+
+def _own_name() -> str:
+    """What the command was called by: links to it may have other names."""
+    called = Path(sys.argv[0]).name
+    return "python -m packwork.wordcloud" if called in {"", "-c", "-m", "__main__.py"} else called
+
+
+if __name__ == "__main__":
+    sys.exit("To execute the CLI, use: python -m packwork.wordcloud")

@@ -148,8 +148,8 @@ def test_known_lengths_leave_room_for_the_last() -> None:
     container = Container("", "", box(0, 0, 100, 100), 100, 100)
     tiles = [Candidate(box(-1, -1, 1, 1), step) for step in (10.0, *[1.0] * 79)]
     rng = np.random.default_rng
-    plain = graded_fit(container, tiles, 80, rng(0), smallest=3.0)
-    held = graded_fit(container, tiles, 80, rng(0), smallest=3.0, lengths=[1.0] * 80)
+    plain = graded_fit(container, tiles, 80, rng(0), smallest=2.0)
+    held = graded_fit(container, tiles, 80, rng(0), smallest=2.0, lengths=[1.0] * 80)
     assert 2 * len(plain.placed) < len(held.placed)
     assert (np.diff(held.poses.scale) <= 0).all()
 

@@ -45,6 +45,10 @@ that are held down may have, falling to 1 with the last. Larger leaves out more 
 there is little room, smaller leaves room bare where there is much. Tried, on the default cloud and
 on examples of the ``wordcloud`` package."""
 
+AMPLE = 1.5
+"""Such size, as a multiple of the least, from which on items are held down. Smaller places hundreds
+of specks in place of words that fill: .17 of ink in place of .42, 903 words in place of 499."""
+
 SMALLER, PLAINLY = (0.85, 0.7), 0.25
 """Sizes of the first item that are tried then, over the largest that it found a place at, and by
 how much the mean logarithm of sizes has to grow: less makes a shape emptier that few long words
@@ -151,6 +155,7 @@ class _Descent:
         self.placed, self.rows = list[int](), list[PoseRow]()
         self._number = self._missed = 0
         self._most = 0.0
+        self._is_held = True
         self.least_share = 1.0
         """Smallest size over the one that an item might have had."""
 
@@ -192,13 +197,17 @@ class _Descent:
 
     def _held(self, outline: Outline, least: float) -> float:
         """Scale that the next item may have at most so that all after it find a place."""
-        self._reserve.add(outline)
         lowest = self.rows[-1][3] if self.rows else math.inf
         if self._number < LEADING:
+            self._reserve.add(outline)
+            return lowest
+        if not self._is_held:
             return lowest
         for_all = self._reserve.common_size(self._number, self._grading.left)
-        if for_all < least:
-            return lowest
+        if self._number == LEADING:
+            self._is_held = AMPLE * least <= for_all < math.inf
+            if not self._is_held:
+                return lowest
         times = 1 + (FOR_ALL - 1) * (1 - self._number / self._count)
         return min(lowest, max(times * for_all, least))
 
