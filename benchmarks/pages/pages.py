@@ -8,7 +8,7 @@ from functools import partial
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
-from benchmarks.engine import engine, film, live, outlines, scaling_page
+from benchmarks.engine import engine, film, live, outlines, scaling_page, speed_page
 from benchmarks.kit.manifests import Manifest, known, of_parts, write_text
 from benchmarks.pages import overview
 from benchmarks.paper import paper, resolution
@@ -23,6 +23,7 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
     "peers": peer_pages.page,
     "resolution": resolution.page,
     "scaling": scaling_page.page,
+    "speed": speed_page.page,
     "words": words_page.page,
     "words-pairs": pairs_page.page,
     **{
