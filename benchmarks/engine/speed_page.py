@@ -157,4 +157,6 @@ def _circumstances(rows: Manifest) -> str:
         [name, row["date"], f"{row['load'][0]:.1f}", str(row["cores"]), f"`{row['command']}`"]
         for name, row in rows.items()
     ]
-    return markdown_table(["row", "date", "load at its beginning", "cores", "command"], lines)
+    table = markdown_table(["row", "date", "load at its beginning", "cores", "command"], lines)
+    remarks = [f"\n- `{name}`: {row['remark']}" for name, row in rows.items() if "remark" in row]
+    return table + "\n" * bool(remarks) + "".join(remarks)
