@@ -33,6 +33,10 @@ PATIENCE = 10
 """Words in a row that may find no place before all others are left out. Larger looks longer for
 short words that would still fit. Chosen."""
 
+MOST_HELD = 300
+"""Words up to which those in the middle leave room for the last. Of thousands, hundreds of specks
+come in place of words that fill: .27 of ink in place of .38 in a picture of 2,000."""
+
 UPRIGHT = 10
 """Words, the first, that are not turned where most are not: one large turned word is what is seen
 first. By eye."""
@@ -188,7 +192,7 @@ def placed(
         drop=asked.step / EM_PX,
         margin_cu=asked.margin / 2,
         patience=PATIENCE,
-        lengths=[len(word) for word in words],
+        lengths=[len(word) for word in words] if len(words) <= MOST_HELD else (),
     )
     if len(found.placed) == 0:
         raise ValueError(NO_ROOM)
