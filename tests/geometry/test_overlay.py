@@ -16,7 +16,7 @@ import packwork
 from packwork.errors import ShapeError
 from packwork.geometry import overlay
 from packwork.geometry.outline import Outline
-from packwork.geometry.overlay import difference, intersection, part_about
+from packwork.geometry.overlay import difference, intersection, part_about, simplify
 from strategies import generators, ring_sets
 
 _OPERATIONS = (
@@ -102,3 +102,15 @@ def test_the_part_about_a_shape_serves_as_well_as_the_whole(rng: np.random.Gener
     for operation in (difference, intersection):
         expected = operation(shape, whole).area
         assert operation(shape, near).area == pytest.approx(expected, abs=1e-12)
+
+
+def test_a_zigzag_of_very_many_corners_is_simplified() -> None:
+    # In one, GEOS calls itself once for each corner, and ends the process.
+    x = np.linspace(0, 100, 200_000)
+    edge = np.column_stack([x, np.arange(len(x)) % 2])
+    comb = shapely.Polygon(np.vstack([edge, [[100, 50], [0, 50]]]))
+    for shape in (comb, shapely.MultiPolygon([comb])):
+        assert shapely.get_num_coordinates(simplify(shape, 1e-9, keeps_topology=True)) > 200_000
+        plain = simplify(shape, 2.0, keeps_topology=True)
+        assert shapely.get_num_coordinates(plain) < 1_000
+        assert shapely.hausdorff_distance(plain, shapely.box(0, 0, 100, 50)) < 2.0

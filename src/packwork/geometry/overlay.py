@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 import shapely
 from shapely.errors import GEOSException
-from shapely.geometry import Polygon
+from shapely.geometry import MultiPolygon, Polygon
 
 from packwork.errors import UnresolvedError
 
@@ -26,6 +26,14 @@ is none. Coarser ones answer more and are less exact. Chosen: the last is still 
 finer than what readers follow curves to."""
 
 _ROOM = 0.01
+
+LONGEST_RING = 20_000
+"""Points of a ring that GEOS simplifies in one: it calls itself once for each corner of a zigzag,
+and at 60,000 has used up the stack, which ends the process. Larger may crash, smaller keeps a few
+more points. Derived."""
+
+PIECE = 2_000
+"""Points of the pieces of a longer one. Of a zigzag each takes time with its square. Chosen."""
 
 
 def quiet() -> np.errstate:
@@ -160,9 +168,40 @@ def simplify(shape: Region, tolerance: float, *, keeps_topology: bool) -> Region
     >>> len(simplify(shape, 0.1, keeps_topology=True).exterior.coords)
     5
     """
+    rings = [shape.exterior, *shape.interiors] if isinstance(shape, Polygon) else []
+    if isinstance(shape, MultiPolygon):
+        rings = [ring for part in shape.geoms for ring in (part.exterior, *part.interiors)]
+    if any(shapely.get_num_coordinates(ring) > LONGEST_RING for ring in rings):
+        return valid(_by_pieces(shape, tolerance))
     return _answered(
         lambda one: shapely.simplify(one, tolerance, preserve_topology=keeps_topology), shape
     )
+
+
+def _by_pieces(shape: Region, tolerance: float) -> Region:
+    """The region, each ring simplified in pieces whose ends are kept."""
+    parts = [shape] if isinstance(shape, Polygon) else list(shape.geoms)
+    return shapely.MultiPolygon(
+        [
+            Polygon(
+                _plainer(part.exterior, tolerance), [_plainer(r, tolerance) for r in part.interiors]
+            )
+            for part in parts
+        ]
+    )
+
+
+def _plainer(ring: Any, tolerance: float) -> Any:
+    points = shapely.get_coordinates(ring)
+    if len(points) <= PIECE:
+        return points
+    cuts = range(0, len(points) - 1, PIECE)
+    pieces = [shapely.LineString(points[first : first + PIECE + 1]) for first in cuts]
+    plainer = [
+        shapely.get_coordinates(shapely.simplify(piece, tolerance, preserve_topology=False))
+        for piece in pieces
+    ]
+    return np.concatenate([piece[:-1] for piece in plainer])
 
 
 def _answered(operation: Callable[..., Any], *operands: Any) -> Any:

@@ -14,7 +14,7 @@ from shapely.errors import GEOSException
 from shapely.geometry.base import BaseGeometry
 
 from packwork.geometry.bezier import FLATTENING
-from packwork.geometry.overlay import valid
+from packwork.geometry.overlay import simplify, valid
 from packwork.geometry.polygon import Region, polygon_parts, united
 from packwork.readers.tables.frames import is_count
 from packwork.readers.unfit import UnfitError, notice
@@ -264,7 +264,8 @@ def _no_finer(region: Region) -> Region:
     if count <= MAX_POINTS:
         return region
     left, top, right, bottom = region.bounds
-    plainer = valid(region.simplify(FLATTENING * max(right - left, bottom - top)))
+    tolerance = FLATTENING * max(right - left, bottom - top)
+    plainer = valid(simplify(region, tolerance, keeps_topology=True))
     if shapely.get_num_coordinates(plainer) > MAX_POINTS:
         raise UnfitError(f"has {count:,} points; {MAX_POINTS:,} are the most, so simplify it")
     return plainer
