@@ -14,7 +14,7 @@ from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.items import Rename
 from packwork.live.commands.placing import Move
 from packwork.live.document import Document
-from packwork.live.owner import Owner
+from packwork.live.owner import Leap, Owner
 from packwork.live.session import Session
 
 
@@ -71,3 +71,16 @@ def test_a_fault_in_the_thread_is_raised_at_the_end_of_the_block(dozen: pw.Layou
     with pytest.raises(RuntimeError, match="broken"), Owner(Session(Document.of(dozen))) as owner:
         owner.post(Broken())
     assert not any(thread.name == "session" for thread in threading.enumerate())
+
+
+def test_leaps_are_posted_as_commands_are(dozen: pw.Layout) -> None:
+    session = Session(Document.of(dozen))
+    with Owner(session) as owner:
+        for step in (Rename(item=0, name="a"), Rename(item=0, name="b"), Leap.UNDO):
+            assert owner.post(step)
+        assert owner.post(Leap.UNDO)
+        assert owner.post(Leap.REDO)
+        # Where there is nothing more to go to, nothing happens.
+        for _ in range(3):
+            assert owner.post(Leap.REDO)
+    assert owner.frame.document.items[0].name == "b"

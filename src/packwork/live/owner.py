@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 from collections import deque
 from dataclasses import dataclass
+from enum import Enum
 
 from packwork.errors import PackworkError
 from packwork.live.commands.command import Command
@@ -23,6 +24,13 @@ FRAME_MS = 12.0
 
 IDLE_SECONDS = 0.05
 """How long the thread waits for commands when nothing moves. Chosen."""
+
+
+class Leap(Enum):
+    """What is posted beside commands: a way through the history."""
+
+    UNDO = "undo"
+    REDO = "redo"
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +79,7 @@ class Owner:
 
     def __init__(self, session: Session) -> None:
         self._session = session
-        self._waiting: deque[Command] = deque()
+        self._waiting: deque[Command | Leap] = deque()
         self._changed = threading.Condition()
         self._is_over = False
         self._refused: deque[str] = deque(maxlen=MOST_REFUSED)
@@ -93,8 +101,8 @@ class Owner:
         if self._failure is not None:
             raise self._failure
 
-    def post(self, command: Command) -> bool:
-        """Have a command done; False if it was not taken: too many wait already, or it is over."""
+    def post(self, command: Command | Leap) -> bool:
+        """Have a command or a leap done; False if too many wait already, or it is over."""
         with self._changed:
             if self._is_over or self._failure is not None:
                 return False
@@ -142,9 +150,12 @@ class Owner:
         is_done = not self._waiting and (not self._is_touched or self._session.is_grabbed)
         return not (is_over and is_done)
 
-    def _do(self, command: Command) -> None:
+    def _do(self, command: Command | Leap) -> None:
         try:
-            self._session.apply(command)
+            if isinstance(command, Leap):
+                getattr(self._session, command.value)()
+            else:
+                self._session.apply(command)
             self._is_touched = True
         except PackworkError as error:
             self._refused.append(str(error))
@@ -155,7 +166,7 @@ class Owner:
         self.frame = Frame(self.frame.number + 1, self._session.document, in_the_way, refused)
 
 
-def _replaces(command: Command, before: Command) -> bool:
+def _replaces(command: Command | Leap, before: Command | Leap) -> bool:
     """Whether a command makes the one before it pointless.
 
     Examples
