@@ -48,6 +48,12 @@ PIXELS = 12.0
 """Pixels across the usual item at the level at which something is moved. Larger is finer and
 slower. Chosen."""
 
+FINER = 1.6
+"""The same over that, in the last of the epochs after a gesture. Chosen."""
+
+CALM_SHARE = 0.5
+"""Share of :data:`LINGER` that is left from which on it is finer. Chosen."""
+
 COARSEST, FINEST = 100, 800
 """Levels at which flow works, px on the longer side. Chosen."""
 
@@ -114,8 +120,10 @@ class Flow:
 
     @property
     def resolution(self) -> int:
-        """Pixels of the level at which something is moved: such that the usual item is resolved."""
+        """Pixels of the level: such that the usual item is resolved, finer once nothing is moved."""
+        is_calm = 0 < int(self._left.max(initial=0)) <= LINGER * CALM_SHARE
         pixels = PIXELS * self._document.container.side / self._share
+        pixels *= FINER if is_calm and self._may is None else 1.0
         return int(np.clip(round(pixels), COARSEST, FINEST))
 
     @property
