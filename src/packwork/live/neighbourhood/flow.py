@@ -120,7 +120,7 @@ class Flow:
 
     @property
     def resolution(self) -> int:
-        """Pixels of the level: such that the usual item is resolved, finer once nothing is moved."""
+        """Pixels of the level: the usual item is resolved, finer once nothing is moved."""
         is_calm = 0 < int(self._left.max(initial=0)) <= LINGER * CALM_SHARE
         pixels = PIXELS * self._document.container.side / self._share
         pixels *= FINER if is_calm and self._may is None else 1.0
