@@ -31,6 +31,7 @@ PAGES = {
         "cutting",
         "python",
         "live",
+        "studio",
     ),
     "Reference": tuple(f"reference/{name}" for name in REFERENCE),
     "About": ("conventions", "architecture", "security"),

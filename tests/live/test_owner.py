@@ -13,6 +13,7 @@ from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.items import Rename
 from packwork.live.commands.placing import Move
+from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.owner import Leap, Owner
 from packwork.live.session import Session
@@ -84,3 +85,59 @@ def test_leaps_are_posted_as_commands_are(dozen: pw.Layout) -> None:
         for _ in range(3):
             assert owner.post(Leap.REDO)
     assert owner.frame.document.items[0].name == "b"
+
+
+def test_a_settle_gives_way_to_what_is_posted_and_is_as_if_never_begun(dozen: pw.Layout) -> None:
+    session = Session(Document.of(dozen))
+    session.apply(Move(item=0, x=300.0, y=300.0))
+    before, touched = session.document, set(session.marks.touched)
+    asked = iter(range(1_000))
+    assert session.settle_unless(lambda: next(asked) > 3) is None
+    assert session.document is before
+    assert session.marks.touched == touched
+    found = session.settle_unless(lambda: False)
+    assert found is not None
+    assert found.certified
+
+
+def test_calls_are_made_in_their_turn_and_answered(dozen: pw.Layout) -> None:
+    def fail(session: Session) -> None:
+        raise RuntimeError("of the caller")
+
+    with Owner(Session(Document.of(dozen))) as owner:
+        owner.post(Rename(item=0, name="first"))
+        name = owner.call(lambda session: session.document.items[0].name)
+        failed = owner.call(fail)
+        assert name.result(10) == "first"
+        with pytest.raises(RuntimeError, match="of the caller"):
+            failed.result(10)
+        owner.post(Rename(item=0, name="second"))
+    assert owner.frame.document.items[0].name == "second"
+    assert owner.frame.done == owner.posted == 4
+    assert owner.frame.can_undo
+    assert not owner.frame.can_redo
+    with pytest.raises(pw.PackworkError, match="too much is waiting"):
+        owner.call(lambda session: None).result(1)
+
+
+def test_moves_of_the_same_items_together_replace_each_other(dozen: pw.Layout) -> None:
+    def both(x: float) -> Together:
+        return Together(commands=(Move(item=0, x=x, y=200.0), Move(item=1, x=x + 90, y=200.0)))
+
+    owner = Owner(Session(Document.of(dozen)))
+    assert all(owner.post(both(200.0 + step)) for step in range(600))
+    assert owner.waiting == 1
+    with owner:
+        pass
+    assert owner.frame.document.poses.x[0] == pytest.approx(799.0, abs=400)
+
+
+def test_whoever_listens_is_told_of_every_frame(dozen: pw.Layout) -> None:
+    told: list[int] = []
+    owner = Owner(
+        Session(Document.of(dozen)), lambda: told.append(owner.frame.number), polishes=True
+    )
+    with owner:
+        owner.post(Move(item=0, x=300.0, y=300.0))
+    assert told == list(range(1, owner.frame.number + 1))
+    assert owner.frame.entangled == ()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
+from typing import Any
 
 
 @dataclass
@@ -37,6 +38,12 @@ class Marks:
     rough: set[int] = field(default_factory=set)
     polished: int = 0
     tried: int = 0
+
+    def copy(self) -> Marks:
+        """The same, to be gone back to."""
+        columns: dict[str, Any] = {one.name: getattr(self, one.name) for one in fields(self)}
+        columns |= {k: set(v) for k, v in columns.items() if isinstance(v, set)}
+        return Marks(**columns)
 
     def settled(self) -> None:
         """Forget what was to be settled."""

@@ -4,14 +4,21 @@ from __future__ import annotations
 
 import threading
 from collections import deque
+from collections.abc import Callable
+from concurrent.futures import Future
 from dataclasses import dataclass
 from enum import Enum
+from typing import Any, Generic, TypeAlias, TypeVar
 
 from packwork.errors import PackworkError
 from packwork.live.commands.command import Command
 from packwork.live.commands.placing import Move, Turn
+from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.session import Session
+
+AnySession = TypeVar("AnySession", bound=Session)
+Answer = TypeVar("Answer")
 
 MOST_WAITING = 256
 """Commands that wait at most. Chosen."""
@@ -26,11 +33,27 @@ IDLE_SECONDS = 0.05
 """How long the thread waits for commands when nothing moves. Chosen."""
 
 
+POLISHED_AT_ONCE = 8
+"""Trials of one polish while nobody touches anything. More hold up what is posted meanwhile.
+Chosen."""
+
+
 class Leap(Enum):
     """What is posted beside commands: a way through the history."""
 
     UNDO = "undo"
     REDO = "redo"
+
+
+@dataclass(frozen=True, eq=False)
+class _Call:
+    """What is called in the thread, and where its answer goes."""
+
+    function: Callable[[Any], Any]
+    answer: Future[Any]
+
+
+Posted: TypeAlias = Command | Leap | _Call
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,15 +70,25 @@ class Frame:
         What keeps it from its certificate; None while something moves.
     refused
         Commands that had no meaning since the frame before, a sentence each.
+    done
+        How many of what was posted have been done, in :attr:`Owner.posted`'s count.
+    entangled
+        Numbers of the items that are in conflict, where ``in_the_way`` is known.
+    can_undo, can_redo
+        Whether the history leads anywhere.
     """
 
     number: int
     document: Document
     in_the_way: tuple[str, ...] | None
     refused: tuple[str, ...] = ()
+    done: int = 0
+    entangled: tuple[int, ...] = ()
+    can_undo: bool = False
+    can_redo: bool = False
 
 
-class Owner:
+class Owner(Generic[AnySession]):
     """Runs a session in a thread of its own.
 
     Commands are done in their order. A move of an item that waits behind another move of the same
@@ -66,6 +99,10 @@ class Owner:
     ----------
     session
         Nobody else may touch it meanwhile.
+    told
+        Called in the thread after each frame; must not take long.
+    polishes
+        Whether coverage is won back, turn by turn, while nobody touches anything.
 
     Examples
     --------
@@ -77,19 +114,29 @@ class Owner:
     (True, 300.0, ())
     """
 
-    def __init__(self, session: Session) -> None:
+    def __init__(
+        self,
+        session: AnySession,
+        told: Callable[[], object] = lambda: None,
+        *,
+        polishes: bool = False,
+    ) -> None:
         self._session = session
-        self._waiting: deque[Command | Leap] = deque()
+        self._told, self._polishes = told, polishes
+        self._waiting: deque[tuple[int, Posted]] = deque()
         self._changed = threading.Condition()
         self._is_over = False
         self._refused: deque[str] = deque(maxlen=MOST_REFUSED)
         self._is_touched = False
         self._failure: Exception | None = None
-        self.frame = Frame(0, session.document, session.in_the_way)
+        self._done = 0
+        self.posted = 0
+        """How many commands, leaps and calls were taken."""
+        self.frame = self._framed(0, session.in_the_way)
         """The newest; replaced as a whole, so that it may be read at any time."""
         self._thread = threading.Thread(target=self._run, name="session", daemon=True)
 
-    def __enter__(self) -> Owner:
+    def __enter__(self) -> Owner[AnySession]:
         self._thread.start()
         return self
 
@@ -103,22 +150,40 @@ class Owner:
 
     def post(self, command: Command | Leap) -> bool:
         """Have a command or a leap done; False if too many wait already, or it is over."""
-        with self._changed:
-            if self._is_over or self._failure is not None:
-                return False
-            if self._waiting and _replaces(command, self._waiting[-1]):
-                self._waiting[-1] = command
-            elif len(self._waiting) < MOST_WAITING:
-                self._waiting.append(command)
-            else:
-                return False
-            self._changed.notify()
-        return True
+        return self._take(command)
+
+    def call(self, function: Callable[[AnySession], Answer]) -> Future[Answer]:
+        """Have a function of the session called in the thread, in its turn; what it answers.
+
+        What it raises is raised by the future, also where too many wait or it is over.
+        """
+        answer: Future[Answer] = Future()
+        if not self._take(_Call(function, answer)):
+            answer.set_exception(PackworkError("too much is waiting to be done; try it again"))
+        return answer
 
     @property
     def waiting(self) -> int:
         """How many commands wait."""
         return len(self._waiting)
+
+    @property
+    def failure(self) -> Exception | None:
+        """What has ended the thread before its time; None while all is well."""
+        return self._failure
+
+    def _take(self, posted: Posted) -> bool:
+        with self._changed:
+            if self._is_over or self._failure is not None:
+                return False
+            if self._waiting and _replaces(posted, self._waiting[-1][1]):
+                self._waiting.pop()
+            elif len(self._waiting) >= MOST_WAITING:
+                return False
+            self.posted += 1
+            self._waiting.append((self.posted, posted))
+            self._changed.notify()
+        return True
 
     def _run(self) -> None:
         try:
@@ -127,6 +192,10 @@ class Owner:
         except Exception as error:  # noqa: BLE001
             # Told to whoever leaves the block: nobody else would hear of it.
             self._failure = error
+            for _, posted in self._waiting:
+                if isinstance(posted, _Call):
+                    posted.answer.set_exception(error)
+            self._told()
 
     def _turn(self) -> bool:
         """Do what waits, flow, show; False when all is done and no more comes."""
@@ -137,36 +206,83 @@ class Owner:
                 self._changed.wait(IDLE_SECONDS)
             taken = [self._waiting.popleft() for _ in range(len(self._waiting))]
             is_over = self._is_over
-        for command in taken:
-            self._do(command)
+        for number, posted in taken:
+            self._do(posted)
+            self._done = number
         if not self._session.is_at_rest:
             self._session.flow(milliseconds=FRAME_MS)
             self._show(None)
         elif self._is_touched and not self._session.is_grabbed:
-            self._is_touched = False
-            self._show(self._session.settle().in_the_way)
+            self._settle()
         elif taken:
             self._show(None if self._is_touched else self._session.in_the_way)
+        elif self._polishes and not is_over:
+            self._polish()
         is_done = not self._waiting and (not self._is_touched or self._session.is_grabbed)
         return not (is_over and is_done)
 
-    def _do(self, command: Command | Leap) -> None:
+    def _settle(self) -> None:
+        """Finish what was touched, unless something is posted meanwhile: then it is not begun."""
+        found = self._session.settle_unless(self._is_wanted)
+        if found is not None:
+            self._is_touched = False
+            self._show(found.in_the_way)
+
+    def _polish(self) -> None:
+        """Try a few turns; shown only where they have moved something."""
+        if self._session.polish(POLISHED_AT_ONCE, self._is_wanted):
+            self._show(self._session.in_the_way)
+
+    def _is_wanted(self) -> bool:
+        """Whether a command waits to be done; calls have time."""
+        with self._changed:
+            return any(not isinstance(posted, _Call) for _, posted in self._waiting)
+
+    def _do(self, posted: Posted) -> None:
+        before = self._session.document
         try:
-            if isinstance(command, Leap):
-                getattr(self._session, command.value)()
+            if isinstance(posted, _Call):
+                self._answer(posted)
+            elif isinstance(posted, Leap):
+                getattr(self._session, posted.value)()
             else:
-                self._session.apply(command)
-            self._is_touched = True
+                self._session.apply(posted)
         except PackworkError as error:
             self._refused.append(str(error))
+        if self._session.document is not before or not isinstance(posted, _Call):
+            self._is_touched = True
+
+    def _answer(self, call: _Call) -> None:
+        """Make a call; what it raises goes to whoever waits for its answer."""
+        try:
+            found = call.function(self._session)
+        except Exception as error:  # noqa: BLE001
+            call.answer.set_exception(error)
+        else:
+            call.answer.set_result(found)
 
     def _show(self, in_the_way: tuple[str, ...] | None) -> None:
-        refused = tuple(self._refused)
+        self.frame = self._framed(self.frame.number + 1, in_the_way)
+        self._told()
+
+    def _framed(self, number: int, in_the_way: tuple[str, ...] | None) -> Frame:
+        """The session as it is now, and what was refused since the frame before."""
+        session, refused = self._session, tuple(self._refused)
         self._refused.clear()
-        self.frame = Frame(self.frame.number + 1, self._session.document, in_the_way, refused)
+        wrong = session.violations if in_the_way else ()
+        return Frame(
+            number,
+            session.document,
+            in_the_way,
+            refused,
+            self._done,
+            tuple(sorted({k for one in wrong for k in (one.item, one.other) if k is not None})),
+            session.history.can_undo,
+            session.history.can_redo,
+        )
 
 
-def _replaces(command: Command | Leap, before: Command | Leap) -> bool:
+def _replaces(posted: Posted, before: Posted) -> bool:
     """Whether a command makes the one before it pointless.
 
     Examples
@@ -176,8 +292,10 @@ def _replaces(command: Command | Leap, before: Command | Leap) -> bool:
     >>> _replaces(Move(item=1, x=5, y=5), Turn(item=1, angle=30))
     False
     """
-    if isinstance(command, Move) and isinstance(before, Move):
-        return command.item == before.item
-    if isinstance(command, Turn) and isinstance(before, Turn):
-        return command.item == before.item
+    if isinstance(posted, Move | Turn) and type(posted) is type(before):
+        return posted.item == before.item
+    if isinstance(posted, Together) and isinstance(before, Together):
+        pairs = zip(posted.commands, before.commands, strict=False)
+        is_same_length = len(posted.commands) == len(before.commands)
+        return is_same_length and all(_replaces(one, other) for one, other in pairs)
     return False

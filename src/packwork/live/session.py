@@ -142,15 +142,41 @@ class Session(Following):
         RecipeError
             If something is grabbed.
         """
+        found = self._finish(stop)
+        self._settled()
+        return found
+
+    def settle_unless(self, stop: Stop) -> Settlement | None:
+        """Settle, or, where ``stop`` comes true meanwhile, leave all as it was: None then.
+
+        For sessions that somebody works on: what is asked for next need not wait.
+
+        Raises
+        ------
+        RecipeError
+            If something is grabbed.
+        """
+        before, marks = self._document, self.marks.copy()
+        found = self._finish(stop)
+        if not stop():
+            self._settled()
+            return found
+        self._document, self.marks = before, marks
+        if self._flow is not None:
+            self._flow.turn_to(before)
+            self._hold()
+        return None
+
+    def _finish(self, stop: Stop) -> Settlement:
+        """Finish what was touched, and certify the whole."""
         if self._grabbed:
             raise RecipeError("settle", "something is held by the hand; drop it first")
         before = self._document
-        self.log.note("settle")
         near = self._put_back()
         wrong = self.violations
         # What is in conflict is touched, whenever that came about.
         self.marks.touched |= beyond(wrong, near)
-        if self.marks.touched:
+        if self.marks.touched and not stop():
             self._flow = self._flow or Flow(self._document)
             flowed = self._document
             self._settle(self._flow, near, stop)
@@ -158,13 +184,17 @@ class Session(Following):
                 # Nothing is better than something worse.
                 self._document = flowed
                 self._flow.turn_to(flowed)
-        self._base = self._document
-        self.marks.settled()
         moved = differing(before.poses, self._document.poses)
         self.marks.rough |= set(self._document.ids[moved].tolist())
+        return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
+
+    def _settled(self) -> None:
+        """Note that all that was touched is finished."""
+        self._base = self._document
+        self.marks.settled()
+        self.log.note("settle")
         self._film()
         self.log.flush()
-        return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
 
     def polish(self, trials: int, stop: Stop = never) -> int:
         """Win back coverage where gestures have cost some, by turns of the items there.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from typing import Annotated, Literal
+from typing import Annotated, Literal, TypeAlias
 
 import numpy as np
 from pydantic import Field
@@ -14,6 +14,7 @@ from packwork.live.commands.command import (
     FARTHEST,
     Command,
     ItemId,
+    ItemIds,
     Library,
     Number,
     index_of,
@@ -24,6 +25,9 @@ from packwork.scene.pose import Poses
 
 NEARLY = 1.1
 """By how much an item that was given a size may be larger or smaller than that. Chosen."""
+
+
+Size: TypeAlias = Annotated[Number, Field(gt=0)]
 
 
 class Move(Command):
@@ -125,6 +129,34 @@ class Exchange(Command):
             scale = other.scale * np.sqrt(areas[there] / areas[here])
         changed = replace(poses.some(here), x=other.x, y=other.y, scale=scale)
         return sized(document.with_poses(poses.with_some(here, changed)), "exchange")
+
+
+class Arrange(Command):
+    """Put many items elsewhere at once, as another run has them; what is held stays."""
+
+    kind: Literal["arrange"] = "arrange"
+    items: ItemIds
+    poses: Annotated[tuple[tuple[Number, Number, Number, Size], ...], Field(min_length=1)]
+    """Of each: x and y of its middle, degrees clockwise, scale."""
+
+    def applied(self, document: Document, library: Library) -> Document:
+        """The document with the items there, sizes as free about them as before."""
+        if len(self.items) != len(self.poses) or len(set(self.items)) != len(self.items):
+            raise RecipeError("arrange", "give one pose for each item, and each item once")
+        rows = np.array([index_of(document, number, "arrange") for number in self.items])
+        asked = np.array(self.poses)
+        if np.abs(asked[:, :2]).max() > FARTHEST * document.container.side:
+            raise RecipeError("arrange", "a place is nowhere near the canvas")
+        kept, held = document.poses.some(rows), document.held[rows]
+        made = replace(
+            kept,
+            x=np.where(held[:, 0], kept.x, asked[:, 0]),
+            y=np.where(held[:, 0], kept.y, asked[:, 1]),
+            angle=np.where(held[:, 1], kept.angle, np.radians(np.fmod(asked[:, 2], 360.0))),
+            scale=np.where(held[:, 2], kept.scale, asked[:, 3]),
+        )
+        moved = sized(document.with_poses(document.poses.with_some(rows, made)), "arrange")
+        return moved.with_ranges(moved.options)
 
 
 def _posed(document: Document, k: int, **values: float) -> Document:

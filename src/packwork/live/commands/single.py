@@ -9,10 +9,10 @@ from pydantic import Field
 from packwork.live.commands.container import PlaceContainer, Reshape, SetContainer, SetOption
 from packwork.live.commands.holding import Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
-from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
+from packwork.live.commands.placing import Arrange, Cover, Exchange, Move, Scale, Turn
 
 SingleCommand: TypeAlias = Annotated[
-    Move | Turn | Scale | Exchange | Cover
+    Move | Turn | Scale | Exchange | Cover | Arrange
     | Hold | Release
     | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour
     | SetContainer | Reshape | PlaceContainer | SetOption,

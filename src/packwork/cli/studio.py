@@ -1,0 +1,74 @@
+"""``packwork studio``: a page on which a layout flows while it is worked on."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from packwork.cli.failure import clear_errors
+from packwork.errors import RecipeError
+from packwork.options import offered
+from packwork.recipe import Recipe
+
+_HELP = {option.name: option.help for option in offered(Recipe)}
+
+HERE = frozenset({"127.0.0.1", "::1", "localhost"})
+"""Hosts that nobody but this machine can reach."""
+
+Inputs = Annotated[
+    list[str] | None,
+    typer.Argument(
+        metavar="[INPUT]...",
+        help="A container, then items, as for fill; or one recipe (.toml), layout (.geojson, "
+        ".dxf) or session (.packwork).",
+        show_default="the bundled icons in a heart",
+    ),
+]
+
+
+def studio(
+    inputs: Inputs = None,
+    count: Annotated[
+        int | None, typer.Option("-n", "--count", help="How many items in all.", min=1)
+    ] = None,
+    seed: Annotated[int, typer.Option("--seed", help=_HELP["seed"], min=0)] = 0,
+    port: Annotated[
+        int, typer.Option("--port", help="Port to listen at; 0 for one that is free.", max=65_535)
+    ] = 0,
+    browser: Annotated[
+        bool, typer.Option("--browser/--no-browser", help="Open the browser on it.")
+    ] = True,
+    host: Annotated[
+        str, typer.Option("--host", help="Address to listen at; others only with --i-know.")
+    ] = "127.0.0.1",
+    i_know: Annotated[
+        bool,
+        typer.Option("--i-know", help="Listen where others can reach it, without encryption."),
+    ] = False,
+) -> None:
+    """Open a page in the browser on which a layout is made by hand.
+
+    [bold]packwork studio[/]  the bundled icons in a heart
+
+    [bold]packwork studio bear.png icons/ -n 80[/]  your own
+
+    [bold]packwork studio work.packwork[/]  a session; also a recipe.toml or a layout.geojson
+
+    Needs the extra: pip install '.[studio]'
+    """
+    with clear_errors():
+        if host not in HERE and not i_know:
+            raise RecipeError(
+                "host", f"{host[:60]} lets others reach the studio; add --i-know if that is meant"
+            )
+        from packwork.display.extras import found
+
+        for module in ("starlette", "uvicorn", "websockets"):
+            found(module, "all that the studio needs: pip install '.[studio]'")
+        from packwork.live.face.opening import opening_of
+        from packwork.studio.serving import Place, serve
+
+        opening = opening_of(inputs or [], count, seed=seed)
+        place = Place(host="127.0.0.1" if host == "localhost" else host, port=port)
+        serve(opening, place, browses=browser, tell=typer.echo)

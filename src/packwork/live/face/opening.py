@@ -1,0 +1,123 @@
+"""What a studio begins with: a recipe to run, a layout that was saved, or a session's file."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from packwork.errors import RecipeError
+from packwork.live.document import Document
+from packwork.live.file.disk import ENDING, Disk
+from packwork.live.named import NamedSession
+from packwork.readers.layouts.read import read_written
+from packwork.readers.recipe import read_recipe
+from packwork.recipe import Recipe, make_recipe
+
+FIRST = "heart"
+"""Container of a desk on which nothing was put."""
+
+FIRST_COUNT = 60
+"""Items of such a desk. More take longer until they lie, fewer show less. Chosen."""
+
+LAYOUTS = frozenset({".geojson", ".json", ".dxf"})
+"""Endings of files that hold a layout and can be nothing else."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Opening:
+    """What a studio begins with; one of the three.
+
+    Parameters
+    ----------
+    recipe
+        To be run.
+    document
+        To be shown as it is.
+    file
+        A session's, to be gone on from.
+    """
+
+    recipe: Recipe | None = None
+    document: Document | None = None
+    file: Path | None = None
+
+
+def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) -> Opening:
+    """What inputs as people type them stand for.
+
+    Parameters
+    ----------
+    inputs
+        None: the bundled icons in a heart. One file: a recipe, a layout or a session by its
+        ending. Else the container, then the items.
+    count
+        Items in all.
+    options
+        Of the recipe.
+
+    Raises
+    ------
+    ReadError
+        If a file cannot be used.
+    RecipeError
+        If a number has no meaning.
+
+    Examples
+    --------
+    >>> opening_of([]).recipe.container, opening_of(["bear", "star"], 9).recipe.count
+    ('heart', 9)
+    """
+    ending = Path(inputs[0]).suffix.lower() if len(inputs) == 1 else ""
+    if ending in {ENDING, ".toml", *LAYOUTS}:
+        if count is not None and ending != ".toml":
+            raise RecipeError("count", f"a {ending} file has its items; leave it out")
+        return _of_file(Path(inputs[0]), ending, count, options)
+    container = inputs[0] if inputs else FIRST
+    items = list(inputs[1:]) or ["builtin:icons"]
+    if count is None and len(inputs) < 2:
+        count = FIRST_COUNT
+    recipe = make_recipe(container=container, items=items, **_drafted(count, options))
+    return Opening(recipe=recipe)
+
+
+def _of_file(path: Path, ending: str, count: int | None, options: dict[str, Any]) -> Opening:
+    if ending == ".toml":
+        return Opening(recipe=make_recipe(**{**read_recipe(path), **_drafted(count, options)}))
+    if ending == ENDING:
+        return Opening(file=path)
+    return Opening(document=Document.of(read_written(path)))
+
+
+def _drafted(count: int | None, options: dict[str, Any]) -> dict[str, Any]:
+    """Options of a first run: a draft, for all can be made better later."""
+    given = {key: value for key, value in options.items() if value is not None}
+    return {"effort": "draft", **({} if count is None else {"count": count}), **given}
+
+
+def session_in(path: Path) -> NamedSession:
+    """Session that a file holds, all done again that its journal adds.
+
+    Raises
+    ------
+    ReadError
+        If it is no session file, or a spoilt one.
+    """
+    return opened(path)[0]
+
+
+def opened(path: Path, *, journal: bool = False) -> tuple[NamedSession, Disk]:
+    """Session that a file holds, and what keeps it there.
+
+    Parameters
+    ----------
+    journal
+        Whether all that is done from now on is noted beside the file.
+    """
+    disk = Disk(path, is_journaled=journal)
+    kept, entries = disk.read()
+    session = NamedSession(kept.document)
+    session.go_on_from(kept)
+    disk.go_on(session, entries)
+    return session, disk

@@ -1,0 +1,165 @@
+"""Routes of the studio: the page, its socket, files in and out."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager, suppress
+from importlib import resources
+from typing import Any
+from urllib.parse import unquote
+
+from starlette.applications import Starlette
+from starlette.requests import Request
+from starlette.responses import JSONResponse, PlainTextResponse, Response
+from starlette.routing import BaseRoute, Mount, Route, WebSocketRoute
+from starlette.staticfiles import StaticFiles
+from starlette.websockets import WebSocket, WebSocketDisconnect
+
+from packwork.errors import PackworkError
+from packwork.studio.bringing import Bringer, choices
+from packwork.studio.desk import Desk
+from packwork.studio.exporting import Exporter
+from packwork.studio.guard import PROTOCOL, Guard
+from packwork.studio.tab import Tab
+from packwork.studio.uploads import MOST_BYTES, Uploads
+
+MOST_TABS = 8
+"""Pages that look at one desk at most. Chosen."""
+
+MOST_ASKED = 10_000
+"""Bytes of what an export asks for. Chosen."""
+
+
+class Studio:
+    """What answers requests.
+
+    Parameters
+    ----------
+    desk
+        What pages work on.
+    uploads
+        Where files go that they send.
+    """
+
+    def __init__(self, desk: Desk, uploads: Uploads) -> None:
+        self._desk, self._uploads = desk, uploads
+        self._bringer, self._exporter = Bringer(desk, uploads), Exporter(desk)
+        self._tabs: set[Tab] = set()
+
+    @property
+    def routes(self) -> list[BaseRoute]:
+        """All that is served."""
+        static = StaticFiles(packages=[("packwork.studio", "static")])
+        return [
+            Route("/", self._page),
+            Mount("/static", static),
+            Route("/choices", self._choices),
+            Route("/files", self._batch, methods=["POST"]),
+            Route("/files/{batch}", self._file, methods=["POST"]),
+            Route("/export", self._export, methods=["POST"]),
+            WebSocketRoute("/socket", self._socket),
+        ]
+
+    async def _page(self, request: Request) -> Response:
+        page = resources.files("packwork.studio").joinpath("static/index.html").read_bytes()
+        return Response(page, media_type="text/html")
+
+    async def _choices(self, request: Request) -> Response:
+        return JSONResponse(await asyncio.to_thread(choices))
+
+    async def _batch(self, request: Request) -> Response:
+        return JSONResponse({"batch": self._uploads.new_batch()})
+
+    async def _file(self, request: Request) -> Response:
+        name = unquote(request.headers.get("x-name", "file"))
+        try:
+            data = await _body(request, MOST_BYTES)
+            self._uploads.add(request.path_params["batch"], name, data)
+        except PackworkError as error:
+            return refused(error)
+        return JSONResponse({"bytes": len(data)})
+
+    async def _export(self, request: Request) -> Response:
+        try:
+            asked = json.loads(await _body(request, MOST_ASKED))
+            data, media = await self._exporter.file(asked)
+        except PackworkError as error:
+            return refused(error)
+        except (ValueError, RecursionError):
+            return PlainTextResponse("what is asked for cannot be read\n", 400)
+        return Response(data, media_type=media)
+
+    async def _socket(self, socket: WebSocket) -> None:
+        if len(self._tabs) >= MOST_TABS:
+            await socket.close(4429, f"{MOST_TABS} pages are open already; close one")
+            return
+        await socket.accept(PROTOCOL)
+        tab = Tab(self._desk, socket, self._bringer.acts)
+        self._tabs.add(tab)
+        sending = asyncio.create_task(tab.send())
+        try:
+            with suppress(WebSocketDisconnect):
+                while True:
+                    await _received(socket, tab)
+        finally:
+            self._tabs.discard(tab)
+            sending.cancel()
+            with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
+                await sending
+
+
+async def _received(socket: WebSocket, tab: Tab) -> None:
+    """Take one message."""
+    message = await socket.receive()
+    if message["type"] == "websocket.disconnect":
+        raise WebSocketDisconnect(message.get("code", 1000))
+    text = message.get("text")
+    tab.receive("" if text is None else text)
+
+
+async def _body(request: Request, most: int) -> bytes:
+    """Body of a request.
+
+    Raises
+    ------
+    PackworkError
+        If it is longer than that.
+    """
+    parts, length = [], 0
+    async for part in request.stream():
+        length += len(part)
+        if length > most:
+            raise PackworkError(f"more than {most / 1e6:g} MB are too many")
+        parts.append(part)
+    return b"".join(parts)
+
+
+def refused(error: PackworkError) -> Response:
+    """Answer of one clear line."""
+    return PlainTextResponse(f"{' '.join(str(error).split())}\n", 422)
+
+
+def guarded(desk: Desk, uploads: Uploads, host: str, token: str) -> Guard:
+    """The studio behind its guard; its desk begins when the server does.
+
+    Parameters
+    ----------
+    host
+        Host and port, as addresses have them.
+    token
+        What only the page that was opened knows.
+    """
+
+    @asynccontextmanager
+    async def open_(app: Any) -> AsyncIterator[None]:
+        await desk.begin()
+        try:
+            yield
+        finally:
+            await asyncio.to_thread(desk.close)
+            uploads.close()
+
+    app = Starlette(routes=Studio(desk, uploads).routes, lifespan=open_)
+    return Guard(app, host, token)

@@ -1,0 +1,152 @@
+"""What pages ask for that has to be read first: items and containers; and what they may choose."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+from packwork.errors import PackworkError, ReadError
+from packwork.live.assets import named_container, named_item
+from packwork.live.commands.command import Command, made
+from packwork.live.commands.container import SetContainer
+from packwork.live.commands.items import Replace
+from packwork.live.commands.together import Together
+from packwork.live.composed import brought
+from packwork.live.face.bringing import (
+    container_of,
+    items_of,
+    offered_containers,
+    offered_items,
+    only_file,
+)
+from packwork.live.face.drawing import FINENESS, drawing_of, path_of
+from packwork.live.named import NamedSession
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.studio import wire
+from packwork.studio.desk import Desk
+from packwork.studio.uploads import Uploads
+
+MOST_AT_ONCE = 24
+"""Items that are put into the largest voids one by one; of more, all are poured anew. Chosen."""
+
+_FOLDER = re.compile(r"[\\/][0-9a-f]{16}[\\/]?")
+
+FILES = "file:"
+"""What stands before the name of a batch of files."""
+
+BUILTIN = "builtin:"
+TEXT = "text:"
+
+
+class Bringer:
+    """Reads what pages ask for, in the desk's worker.
+
+    Parameters
+    ----------
+    desk
+        Where it goes.
+    uploads
+        Files that were sent.
+    """
+
+    def __init__(self, desk: Desk, uploads: Uploads) -> None:
+        self._desk, self._uploads = desk, uploads
+
+    @property
+    def acts(self) -> Mapping[str, Callable[[Any], object]]:
+        """What is done, by type of message."""
+        return {"bring": self._bring, "room": self._room, "swap": self._swap}
+
+    def _bring(self, message: wire.Bring) -> None:
+        self._read(lambda: self._brought(message))
+
+    def _brought(self, message: wire.Bring) -> None:
+        found = items_of([self._source(one) for one in message.sources])
+        for left_out in found.skipped:
+            self._desk.say(f"left out: {self._named(str(left_out))}", is_error=False)
+        items, at = found.items, (message.x, message.y)
+        if len(items) == 1 and None not in at:
+            self._desk.change(lambda session: session.add_items(items, *at))
+        elif len(items) <= MOST_AT_ONCE:
+            self._desk.change(lambda session: session.add_items(items))
+        else:
+            self._desk.pour(0, lambda session: added(session, items))
+
+    def _room(self, message: wire.Room) -> None:
+        def make(session: NamedSession) -> Sequence[Command]:
+            return [made(SetContainer, asset=named_container(session.library, container[0]))]
+
+        container: list[Container] = []
+
+        def read() -> None:
+            canvas = self._desk.canvas
+            container.append(container_of(self._container(message.source), canvas))
+            self._desk.pour(0, make)
+
+        self._read(read)
+
+    def _swap(self, message: wire.Swap) -> None:
+        def read() -> None:
+            (item, *_) = items_of([self._source(message.source)]).items
+            self._desk.change(lambda session: session.apply(replaced(session, message.items, item)))
+
+        self._read(read)
+
+    def _read(self, job: Callable[[], object]) -> None:
+        """Have something read; what is refused names no folder of ours."""
+
+        def read() -> None:
+            try:
+                job()
+            except PackworkError as error:
+                raise PackworkError(self._named(str(error))) from error
+
+        self._desk.work("Reading", read)
+
+    def _source(self, asked: str) -> str:
+        """What a page calls something, as readers call it."""
+        if asked.startswith(FILES):
+            return str(self._uploads.folder(asked.removeprefix(FILES)))
+        if asked.startswith(BUILTIN):
+            return asked
+        raise ReadError(asked[:40], "is neither bundled nor a file that was sent")
+
+    def _container(self, asked: str) -> str:
+        if asked.startswith(FILES):
+            return str(only_file(self._uploads.folder(asked.removeprefix(FILES))))
+        return asked if asked.startswith(TEXT) else self._source(asked)
+
+    def _named(self, text: str) -> str:
+        """A line without the folder that nobody knows."""
+        return _FOLDER.sub("", text.replace(str(self._uploads.root), ""))
+
+
+def added(session: NamedSession, items: Sequence[Item]) -> list[Command]:
+    """Commands that bring items, each to where most room is."""
+    return list(brought(session.document, session.library, session.shapes, items))
+
+
+def replaced(session: NamedSession, numbers: Sequence[int], item: Item) -> Command:
+    """Command that puts an item in the place of some."""
+    asset = named_item(session.library, item)
+    return made(Together, commands=[made(Replace, item=number, asset=asset) for number in numbers])
+
+
+def choices() -> dict[str, Any]:
+    """Bundled containers and items, with pictures."""
+    containers = [
+        {"name": one.name, "path": path_of(one.outline, FINENESS), "box": one.outline.bounds}
+        for one in offered_containers()
+        if one.outline is not None
+    ]
+    return {
+        "containers": containers,
+        "items": [_choice(one.item) for one in offered_items() if one.item is not None],
+    }
+
+
+def _choice(item: Item) -> dict[str, Any]:
+    return {"name": item.name, **asdict(drawing_of(item))}

@@ -1,0 +1,243 @@
+"""The desk: one session, the runs that fill it, and the pages that look at it.
+
+The session lives in a thread of its own (:class:`packwork.live.owner.Owner`), runs in another; what
+is here is called from the event loop, posts and looks, and never waits for either.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import threading
+from collections.abc import Callable, Sequence
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import replace
+from functools import partial
+
+from packwork.errors import PackworkError
+from packwork.live.commands.command import Command
+from packwork.live.commands.together import Together
+from packwork.live.document import Document
+from packwork.live.face.opening import Opening, session_in
+from packwork.live.face.pouring import Moment, poured, poured_again
+from packwork.live.named import NamedSession
+from packwork.live.owner import Owner
+from packwork.scene.pose import Poses
+from packwork.studio.view import Scenes, View
+from packwork.studio.wire import Line, Scene, State
+
+Session = NamedSession
+
+NOT_YET = "the desk is still being laid; try it again in a moment"
+
+
+class Desk:
+    """What pages look at and work on.
+
+    Parameters
+    ----------
+    opening
+        What it begins with.
+    """
+
+    def __init__(self, opening: Opening) -> None:
+        self._opening = opening
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._worker = ThreadPoolExecutor(1, "studio")
+        self._drawer = ThreadPoolExecutor(1, "drawing")
+        self._scenes = Scenes()
+        self._stop = threading.Event()
+        self._moment: View | None = None
+        self._busy, self._progress = "", 0.0
+        self._listeners: dict[object, Callable[[Line | None], object]] = {}
+        self.owner: Owner[Session] | None = None
+        """The thread that owns the session; None until there is one."""
+
+    async def begin(self) -> None:
+        """Begin with what was given; returns at once."""
+        self._loop = asyncio.get_running_loop()
+        self.work("Pouring", self._open)
+
+    def close(self) -> None:
+        """End all threads."""
+        self._stop.set()
+        self._worker.shutdown(cancel_futures=True)
+        self._drawer.shutdown(cancel_futures=True)
+        if self.owner is not None:
+            self.owner.__exit__(None, None, None)
+
+    def listen(self, who: object, told: Callable[[Line | None], object]) -> None:
+        """Have somebody told, in the event loop, that something has changed, or a line."""
+        self._listeners[who] = told
+
+    def forget(self, who: object) -> None:
+        """Tell somebody nothing more."""
+        self._listeners.pop(who, None)
+
+    @property
+    def view(self) -> View | None:
+        """What there is to be seen now; None before anything is."""
+        moment = self._moment
+        if moment is not None:
+            return moment
+        return None if self.owner is None else View.of_document(self.owner.frame.document)
+
+    @property
+    def canvas(self) -> str | None:
+        """Longer side of the canvas, as options say it; None before there is one."""
+        if self.owner is None:
+            return None
+        container = self.owner.frame.document.container
+        return f"{container.side:.17g}{container.unit}"
+
+    async def scene(self, view: View) -> Scene:
+        """Scene of a view; drawn aside, for new drawings take time."""
+        loop = asyncio.get_running_loop()
+        return await loop.run_in_executor(self._drawer, self._scenes.of, view)
+
+    @property
+    def shapes(self) -> Scenes:
+        """How items look."""
+        return self._scenes
+
+    def state(self, view: View) -> State:
+        """How things stand."""
+        frame = None if self.owner is None else self.owner.frame
+        is_moving = self._moment is not None or frame is None or frame.in_the_way is None
+        in_the_way = () if frame is None or frame.in_the_way is None else frame.in_the_way
+        return State(
+            covered=_covered(view),
+            moving=is_moving,
+            certified=not is_moving and not in_the_way and len(view.items) > 0,
+            in_the_way=in_the_way[:20],
+            entangled=() if frame is None or is_moving else frame.entangled,
+            can_undo=frame is not None and frame.can_undo,
+            can_redo=frame is not None and frame.can_redo,
+            busy=self._busy,
+            progress=self._progress,
+            saved=False,
+        )
+
+    def work(self, what: str, job: Callable[[], object]) -> None:
+        """Have something done that takes long, after all that was begun before."""
+        self._stop.clear()
+        self._worker.submit(self._done, what, job)
+
+    def stop(self) -> None:
+        """End what takes long, with what there is."""
+        self._stop.set()
+
+    def change(self, act: Callable[[Session], object]) -> None:
+        """Have something done to the session in its thread; what is refused is told."""
+        if self.owner is None:
+            self.say(NOT_YET)
+            return
+        self.owner.call(act).add_done_callback(lambda done: self._tell_of(done.exception()))
+
+    def pour(self, seed: int, make: Callable[[Session], Sequence[Command]] = lambda _: ()) -> None:
+        """Fill the container anew, after some commands; all of it is one step of the history."""
+        if self.owner is None:
+            self.say(NOT_YET)
+        else:
+            self.work("Pouring", partial(self._pour, self.owner, seed, make))
+
+    def _open(self) -> None:
+        """Make the first session, in the worker."""
+        opening = self._opening
+        if opening.file is not None:
+            session = session_in(opening.file)
+        elif opening.recipe is not None:
+            layout = poured(
+                opening.recipe, lambda moment: self._see(View.of_moment(moment), moment)
+            )
+            session = NamedSession(Document.of(layout))
+        elif opening.document is not None:
+            session = NamedSession(opening.document)
+        else:
+            return
+        owner = Owner(session, self._follow, polishes=True)
+        owner.__enter__()
+        self.owner = owner
+
+    def _pour(
+        self, owner: Owner[Session], seed: int, make: Callable[[Session], Sequence[Command]]
+    ) -> None:
+        """Run, in the worker, what is then put into the session."""
+        commands, document = owner.call(lambda session: _prepared(session, make)).result()
+
+        def show(moment: Moment) -> None:
+            poses = _stretched(moment.poses, document)
+            self._see(View.of_document(document, poses), moment)
+
+        arranged = poured_again(document, seed, show, self._stop.is_set)
+        whole = Together(commands=(*commands, arranged))  # type: ignore[arg-type]
+        owner.call(lambda session: session.apply(whole)).result()
+
+    def _see(self, view: View, moment: Moment) -> None:
+        """Show a moment of a run, from its thread."""
+        self._moment, self._progress = view, moment.progress
+        self._wake()
+
+    def _done(self, what: str, job: Callable[[], object]) -> None:
+        self._busy, self._progress = what, 0.0
+        self._wake()
+        try:
+            job()
+        except Exception as error:  # noqa: BLE001
+            self._tell_of(error)
+        finally:
+            self._busy, self._moment = "", None
+            self._wake()
+
+    def _follow(self) -> None:
+        """Tell of a frame of the session, from its thread."""
+        if self.owner is not None:
+            for line in self.owner.frame.refused:
+                self.say(line)
+            if self.owner.failure is not None:
+                self._tell_of(self.owner.failure)
+        self._wake()
+
+    def _tell_of(self, error: BaseException | None) -> None:
+        """Tell of what went wrong: errors of ours as they are, others as a fault."""
+        if isinstance(error, PackworkError):
+            self.say(" ".join(str(error).split()))
+        elif error is not None:
+            self.say(f"this failed, by a fault of the program: {type(error).__name__}: {error}")
+
+    def say(self, text: str, *, is_error: bool = True) -> None:
+        """Tell all pages a line, from any thread."""
+        self._wake(Line(text=text[:500], is_error=is_error))
+
+    def _wake(self, line: Line | None = None) -> None:
+        """Tell all who listen, from any thread."""
+        if self._loop is not None and not self._loop.is_closed():
+            self._loop.call_soon_threadsafe(self._tell, line)
+
+    def _tell(self, line: Line | None) -> None:
+        for told in tuple(self._listeners.values()):
+            told(line)
+
+
+def _prepared(
+    session: Session, make: Callable[[Session], Sequence[Command]]
+) -> tuple[Sequence[Command], Document]:
+    """Commands, and the document as they would leave it."""
+    commands, document = make(session), session.document
+    for command in commands:
+        document = command.applied(document, session.library)
+    return commands, document
+
+
+def _stretched(poses: Poses | None, document: Document) -> Poses | None:
+    return None if poses is None else replace(poses, stretch=document.poses.stretch)
+
+
+def _covered(view: View) -> float:
+    """Covered share of the container, as if nothing overlapped."""
+    if view.poses is None or not len(view.items):
+        return 0.0
+    areas = sum(
+        item.outline.area * scale**2
+        for item, scale in zip(view.items, view.poses.scale.tolist(), strict=True)
+    )
+    return min(float(areas / view.container.outline.area), 1.0)

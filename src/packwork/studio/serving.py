@@ -1,0 +1,97 @@
+"""The studio on a port of this machine, and the address that opens it."""
+
+from __future__ import annotations
+
+import socket
+import webbrowser
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import uvicorn
+
+from packwork.errors import PackworkError
+from packwork.live.face.opening import Opening
+from packwork.studio.app import guarded
+from packwork.studio.desk import Desk
+from packwork.studio.guard import new_token
+from packwork.studio.uploads import Uploads
+from packwork.studio.wire import MOST_TEXT
+
+HERE = "127.0.0.1"
+"""Where nobody but this machine can reach us."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Place:
+    """Where the studio listens.
+
+    Parameters
+    ----------
+    host
+        Address of this machine.
+    port
+        0 for any that is free.
+    token
+        What the page has to know; a new one if None.
+    """
+
+    host: str = HERE
+    port: int = 0
+    token: str | None = None
+
+
+def serve(opening: Opening, place: Place, *, browses: bool, tell: Callable[[str], object]) -> None:
+    """Serve until Ctrl-C.
+
+    Parameters
+    ----------
+    opening
+        What the desk begins with.
+    browses
+        Whether the browser is opened on it.
+    tell
+        Told the address, a line.
+
+    Raises
+    ------
+    PackworkError
+        If the port is taken.
+    """
+    bound = _bound(place)
+    host, port = bound.getsockname()[:2]
+    name = f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
+    token = place.token or new_token()
+    address = f"http://{name}/#{token}"
+    uploads = Uploads()
+    config = uvicorn.Config(
+        guarded(Desk(opening), uploads, name, token),
+        log_level="warning",
+        access_log=False,
+        server_header=False,
+        date_header=False,
+        ws="websockets-sansio",
+        ws_max_size=4 * MOST_TEXT,
+        ws_per_message_deflate=False,
+        timeout_graceful_shutdown=1,
+        lifespan="on",
+    )
+    tell(f"the studio is open at {address}\nit ends with Ctrl-C")
+    if browses:
+        webbrowser.open(address)
+    uvicorn.Server(config).run(sockets=[bound])
+
+
+def _bound(place: Place) -> socket.socket:
+    """Socket that listens there."""
+    family = socket.AF_INET6 if ":" in place.host else socket.AF_INET
+    bound = socket.socket(family, socket.SOCK_STREAM)
+    bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        bound.bind((place.host, place.port))
+    except (OSError, OverflowError) as error:
+        bound.close()
+        raise PackworkError(
+            f"port {place.port} of {place.host} cannot be used ({error}); leave --port out for "
+            "one that is free"
+        ) from None
+    return bound

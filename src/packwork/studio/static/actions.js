@@ -1,0 +1,102 @@
+// @ts-check
+/** All that can be asked for by button, key, menu and palette: each stands here once. */
+
+/** @typedef {import("./dom.js").IconName} IconName */
+/**
+ * @typedef {{id: string, label: string, keys: string[], run: () => void, icon?: IconName,
+ *   group: "Edit" | "Choose" | "Items" | "View" | "File", when?: () => boolean, repeats?: boolean}} Action
+ */
+
+/** How far an arrow key moves, as a share of the canvas; with shift. */
+const NUDGE = 0.004;
+const NUDGE_FAR = 0.04;
+/** Degrees that a key turns. */
+const TURN = 5;
+/** Factor by which a key makes larger. */
+const LARGER = 1.08;
+
+/**
+ * @param {import("./studio.js").Studio} studio
+ * @returns {Action[]}
+ */
+export function actionsOf(studio) {
+  return [...edits(studio), ...choosing(studio), ...items(studio), ...nudges(studio), ...views(studio), ...files(studio)];
+}
+
+/** @param {import("./studio.js").Studio} studio @returns {Action[]} */
+function edits(studio) {
+  const { connection, collage } = studio;
+  return [
+    { id: "undo", group: "Edit", label: "Undo", keys: ["Mod+Z"], icon: "undo", repeats: true,
+      when: () => Boolean(collage.state?.can_undo), run: () => connection.send({ type: "leap", to: "undo" }) },
+    { id: "redo", group: "Edit", label: "Redo", keys: ["Mod+Shift+Z", "Mod+Y"], icon: "redo", repeats: true,
+      when: () => Boolean(collage.state?.can_redo), run: () => connection.send({ type: "leap", to: "redo" }) },
+    { id: "pour", group: "Edit", label: "Pour anew", keys: ["R"], icon: "pour",
+      when: () => collage.hasPoses, run: () => studio.pour() },
+    { id: "stop", group: "Edit", label: "Stop what takes long", keys: ["Shift+Escape"],
+      when: () => Boolean(collage.state?.busy), run: () => connection.send({ type: "stop" }) },
+  ];
+}
+
+/** @param {import("./studio.js").Studio} studio @returns {Action[]} */
+function choosing(studio) {
+  const { choice, collage } = studio;
+  return [
+    { id: "next", group: "Choose", label: "Choose the next item", keys: ["N"], repeats: true, run: () => studio.chooseNext(1) },
+    { id: "previous", group: "Choose", label: "Choose the previous item", keys: ["P"], repeats: true, run: () => studio.chooseNext(-1) },
+    { id: "all", group: "Choose", label: "Choose all", keys: ["Mod+A"], run: () => choice.set(collage.items.map((item) => item.id)) },
+    { id: "alike", group: "Choose", label: "Choose all of the same name", keys: ["A"], when: () => choice.ids.size > 0,
+      run: () => studio.chooseAlike() },
+    { id: "none", group: "Choose", label: "Choose nothing, or leave off", keys: ["Escape"], run: () => studio.escape() },
+  ];
+}
+
+/** @param {import("./studio.js").Studio} studio @returns {Action[]} */
+function items(studio) {
+  const { choice } = studio;
+  const when = () => choice.ids.size > 0;
+  return [
+    { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && !studio.areHeld, run: () => studio.hold(true) },
+    { id: "release", group: "Items", label: "Release", keys: ["Shift+H"], icon: "release", when: () => studio.anyHeld, run: () => studio.hold(false) },
+    { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when, run: () => studio.duplicate() },
+    { id: "exchange", group: "Items", label: "Exchange the two", keys: ["X"], icon: "swap", when: () => choice.ids.size === 2, run: () => studio.exchange() },
+    { id: "remove", group: "Items", label: "Remove", keys: ["Delete", "Backspace"], icon: "bin", when, run: () => studio.remove() },
+    { id: "larger", group: "Items", label: "Larger", keys: ["+", "="], repeats: true, when, run: () => studio.resize(LARGER) },
+    { id: "smaller", group: "Items", label: "Smaller", keys: ["-"], repeats: true, when, run: () => studio.resize(1 / LARGER) },
+    { id: "clockwise", group: "Items", label: "Turn clockwise", keys: ["."], repeats: true, when, run: () => studio.turn(TURN) },
+    { id: "anticlockwise", group: "Items", label: "Turn anticlockwise", keys: [","], repeats: true, when, run: () => studio.turn(-TURN) },
+  ];
+}
+
+/** @param {import("./studio.js").Studio} studio @returns {Action[]} */
+function nudges(studio) {
+  const ways = [["Left", -1, 0], ["Right", 1, 0], ["Up", 0, -1], ["Down", 0, 1]];
+  return ways.flatMap(([name, x, y]) => [["", NUDGE], ["Shift+", NUDGE_FAR]].map(([shift, far]) => ({
+    id: `nudge${shift}${name}`, group: /** @type {const} */ ("Items"),
+    label: `Move ${String(name).toLowerCase()}${shift ? ", far" : ""}`, keys: [`${shift}Arrow${name}`], repeats: true,
+    run: () => studio.nudge(Number(x) * Number(far), Number(y) * Number(far)),
+  })));
+}
+
+/** @param {import("./studio.js").Studio} studio @returns {Action[]} */
+function views(studio) {
+  const { view } = studio;
+  const middle = () => /** @type {const} */ ([view.size.width / 2, view.size.height / 2]);
+  return [
+    { id: "fit", group: "View", label: "Show all", keys: ["0", "Mod+0"], icon: "fit", run: () => view.fit(!studio.isCalm) },
+    { id: "closer", group: "View", label: "Zoom in", keys: ["Mod+="], icon: "plus", repeats: true, run: () => view.zoomAt(1.25, ...middle()) },
+    { id: "farther", group: "View", label: "Zoom out", keys: ["Mod+-"], icon: "minus", repeats: true, run: () => view.zoomAt(0.8, ...middle()) },
+    { id: "chosen", group: "View", label: "Show what is chosen", keys: ["F"], when: () => studio.choice.ids.size > 0, run: () => studio.showChosen() },
+    { id: "theme", group: "View", label: "Light or dark", keys: ["T"], icon: "theme", run: () => studio.toggleTheme() },
+    { id: "keys", group: "View", label: "All actions and their keys", keys: ["?", "Mod+K"], icon: "help", run: () => studio.palette.open() },
+  ];
+}
+
+/** @param {import("./studio.js").Studio} studio @returns {Action[]} */
+function files(studio) {
+  return [
+    { id: "export", group: "File", label: "Export", keys: ["Mod+E"], icon: "export", when: () => studio.collage.hasPoses, run: () => studio.exporting.open() },
+    { id: "save", group: "File", label: "Save the session as a file", keys: ["Mod+S"], when: () => studio.collage.hasPoses, run: () => studio.exporting.download("packwork", {}) },
+    { id: "add", group: "File", label: "Add files", keys: ["Mod+O"], icon: "file", run: () => studio.dropping.choose() },
+  ];
+}

@@ -1,0 +1,71 @@
+// @ts-check
+/** The one badge that tells how things stand. */
+
+import { byId, h, icon } from "./dom.js";
+import { say } from "./toasts.js";
+
+/** @typedef {import("./wire.js").State} State */
+
+export class Badge {
+  /** @param {{show: (ids: number[]) => void, stop: () => void}} hears */
+  constructor(hears) {
+    this.hears = hears;
+    this.lamp = h("span", { class: "lamp", "aria-hidden": "true" });
+    this.share = h("strong", {}, "–");
+    this.word = h("span", { class: "word" }, "connecting");
+    this.bar = h("span", { class: "progress", "aria-hidden": "true" });
+    this.button = h("button", { type: "button", id: "badge", "data-is": "moving", title: "How things stand", onclick: () => this.open() },
+      this.lamp, this.share, this.word, this.bar);
+    this.stop = h("button", { type: "button", id: "stop", hidden: true, onclick: () => hears.stop() }, "Stop");
+    this.why = h("div", { id: "why", popover: "auto" });
+    byId("foot").append(h("div", { class: "badge-row" }, this.button, this.stop), this.why);
+    /** @type {State | null} */
+    this.state = null;
+    this.told = "";
+  }
+
+  /** @param {State} state */
+  show(state) {
+    this.state = state;
+    const is = state.moving ? "moving" : state.certified ? "certified" : "broken";
+    this.button.dataset.is = is;
+    this.share.textContent = state.covered > 0 ? `${Math.round(1000 * state.covered) / 10} %` : "–";
+    const word = this.wordOf(state);
+    this.word.textContent = word;
+    this.bar.style.transform = `scaleX(${state.busy ? state.progress : 0})`;
+    this.stop.hidden = !state.busy;
+    this.button.setAttribute("aria-label", `${this.share.textContent} covered, ${word}`);
+    if (!state.moving && word !== this.told) say(`${this.share.textContent} covered, ${word}`);
+    this.told = word;
+    if (state.certified) this.why.hidePopover?.();
+  }
+
+  /** @param {State} state */
+  wordOf(state) {
+    if (state.busy) return `${state.busy.toLowerCase()} …`;
+    if (state.moving) return "settling …";
+    if (state.certified) return "covered · certified";
+    const count = state.in_the_way.length;
+    return count ? `${count} in the way` : "nothing there";
+  }
+
+  open() {
+    const state = this.state;
+    if (!state) return;
+    const lines = state.certified
+      ? [h("p", {}, icon("check"), "Nothing overlaps, nothing sticks out, all gaps are as asked: checked in exact geometry.")]
+      : state.moving
+        ? [h("p", {}, "Things are moving; what comes out is checked when they lie.")]
+        : [h("p", {}, "What is in the way:"), h("ul", {}, ...state.in_the_way.map((line) => h("li", {}, line)))];
+    const shows = state.entangled.length && h("button", { type: "button", onclick: () => this.hears.show(state.entangled) }, "Show them");
+    this.why.replaceChildren(...lines, shows || "");
+    this.why.togglePopover?.();
+  }
+
+  /** @param {boolean} isOpen */
+  connected(isOpen) {
+    if (isOpen) return;
+    this.button.dataset.is = "lost";
+    this.word.textContent = "reconnecting …";
+  }
+}

@@ -1,0 +1,63 @@
+// @ts-check
+/** The bar above, and the one of what is chosen. */
+
+import { button, byId, h } from "./dom.js";
+import { shownKey } from "./keys.js";
+
+/** @typedef {import("./actions.js").Action} Action */
+
+const LEFT = ["undo", "redo", "pour"];
+const RIGHT = ["farther", "closer", "fit", "theme", "keys"];
+const CHOSEN = ["hold", "release", "duplicate", "exchange", "remove"];
+
+export class Bar {
+  /** @param {Map<string, Action>} actions */
+  constructor(actions) {
+    this.actions = actions;
+    /** @type {Map<string, HTMLButtonElement[]>} */
+    this.buttons = new Map();
+    this.title = h("span", { id: "title" }, "");
+    this.level = h("span", { id: "level", "aria-hidden": "true" }, "");
+    const share = /** @type {Action} */ (actions.get("export"));
+    const leave = h("button", { type: "button", class: "primary", id: "export", title: hint(share), onclick: share.run }, "Export");
+    this.buttons.set("export", [leave]);
+    byId("bar").append(
+      h("div", { class: "group" }, h("img", { src: "/static/icon.svg", alt: "", width: "26", height: "26" }), h("span", { class: "name" }, "Packwork"), this.title),
+      h("div", { class: "group", role: "group", "aria-label": "History" }, ...LEFT.map((id) => this.button(id))),
+      h("div", { class: "group end", role: "group", "aria-label": "View" }, ...RIGHT.map((id) => this.button(id)), leave),
+    );
+    this.name = h("span", { class: "chosen-name" });
+    byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)));
+  }
+
+  /** @param {string} id */
+  button(id) {
+    const action = /** @type {Action} */ (this.actions.get(id));
+    const made = button(action.icon ?? "dots", action.label, () => action.run(), { title: hint(action), "data-do": id });
+    this.buttons.set(id, [...(this.buttons.get(id) ?? []), made]);
+    return made;
+  }
+
+  /**
+   * @param {string} title
+   * @param {string} chosen
+   */
+  show(title, chosen) {
+    this.title.textContent = title;
+    this.name.textContent = chosen;
+    byId("choice").hidden = !chosen;
+    for (const [id, buttons] of this.buttons) {
+      const when = this.actions.get(id)?.when;
+      const can = !when || when();
+      for (const one of buttons) {
+        one.disabled = !can;
+        if (CHOSEN.includes(id)) one.hidden = !can;
+      }
+    }
+  }
+}
+
+/** @param {Action} action */
+function hint(action) {
+  return action.keys.length ? `${action.label} (${shownKey(action.keys[0])})` : action.label;
+}

@@ -1,0 +1,200 @@
+// @ts-check
+/** What there is to be seen: items, how they look, where they are, and where they are shown. */
+
+/** @typedef {import("./wire.js").Scene} Scene */
+/** @typedef {import("./wire.js").Shape} Shape */
+/** @typedef {import("./wire.js").Thing} Thing */
+/** @typedef {import("./wire.js").State} State */
+/** @typedef {import("./connection.js").Frame} Frame */
+/** @typedef {{x: number, y: number, angle: number, scale: number}} Pose */
+/** @typedef {Shape & {outlinePath: Path2D, inkPath: Path2D | null, extent: number}} Look */
+
+/** Time in which what is shown comes most of the way to where it is, ms. */
+const EASE = 38;
+/** How near is there, as shares of an item: nothing can be seen of less. */
+const THERE = 0.002;
+
+export class Collage {
+  constructor() {
+    /** @type {Map<string, Look>} */
+    this.looks = new Map();
+    /** @type {Scene | null} */
+    this.scene = null;
+    /** @type {State | null} */
+    this.state = null;
+    /** @type {Thing[]} */
+    this.items = [];
+    /** @type {Map<number, number>} */
+    this.rows = new Map();
+    this.poses = new Float32Array(0);
+    this.shown = new Float32Array(0);
+    /** What the hand has, until a frame knows it. @type {Map<number, {pose: Pose, until: number}>} */
+    this.hand = new Map();
+    this.hasPoses = false;
+  }
+
+  /** @param {Shape[]} shapes */
+  addShapes(shapes) {
+    for (const shape of shapes) {
+      const [left, top, right, bottom] = shape.box;
+      const inkPath = shape.svg ? null : new Path2D(shape.ink);
+      const extent = Math.max(right - left, bottom - top);
+      this.looks.set(shape.key, { ...shape, outlinePath: new Path2D(shape.outline), inkPath, extent });
+    }
+  }
+
+  /** @param {Scene} scene */
+  setScene(scene) {
+    const before = new Map(this.items.map((item, k) => [item.id, k]));
+    const count = scene.items.length;
+    const [shown, poses] = [new Float32Array(4 * count), new Float32Array(4 * count)];
+    scene.items.forEach((item, k) => {
+      const row = before.get(item.id);
+      if (row === undefined) shown[4 * k + 3] = -1;
+      else {
+        shown.set(this.shown.subarray(4 * row, 4 * row + 4), 4 * k);
+        poses.set(this.poses.subarray(4 * row, 4 * row + 4), 4 * k);
+      }
+    });
+    this.hasPoses = count > 0 && scene.items.every((item) => before.has(item.id)) && this.hasPoses;
+    this.scene = scene;
+    this.items = scene.items;
+    this.rows = new Map(scene.items.map((item, k) => [item.id, k]));
+    [this.shown, this.poses] = [shown, poses];
+    for (const id of this.hand.keys()) if (!this.rows.has(id)) this.hand.delete(id);
+  }
+
+  /**
+   * Take over where items are; false if the frame is of another scene.
+   * @param {Frame} frame
+   */
+  setFrame(frame) {
+    if (!this.scene || frame.version !== this.scene.version) return false;
+    if (frame.poses.length !== this.poses.length) return false;
+    this.poses = frame.poses;
+    for (const [id, held] of this.hand) if (held.until && held.until <= frame.done) this.hand.delete(id);
+    for (let k = 0; k < this.items.length; k++) if (this.shown[4 * k + 3] < 0) this.appear(k);
+    this.hasPoses = true;
+    return true;
+  }
+
+  /**
+   * Show a new item: small, at its place.
+   * @param {number} k
+   */
+  appear(k) {
+    this.shown.set(this.poses.subarray(4 * k, 4 * k + 4), 4 * k);
+    this.shown[4 * k + 3] *= 0.2;
+  }
+
+  /**
+   * Bring what is shown nearer to where it is; whether anything is still on its way.
+   * @param {number} milliseconds
+   * @param {boolean} isCalm show everything at its place at once
+   */
+  ease(milliseconds, isCalm) {
+    const share = isCalm ? 1 : 1 - Math.exp(-milliseconds / EASE);
+    let moves = false;
+    for (let k = 0; k < this.items.length; k++) {
+      const at = 4 * k;
+      const given = this.hand.get(this.items[k].id);
+      if (given) {
+        this.shown.set([given.pose.x, given.pose.y, given.pose.angle, given.pose.scale], at);
+        continue;
+      }
+      moves = this.easeOne(at, share) || moves;
+    }
+    return moves;
+  }
+
+  /**
+   * @param {number} at
+   * @param {number} share
+   */
+  easeOne(at, share) {
+    const { shown, poses } = this;
+    const size = Math.max(poses[at + 3], 1e-9);
+    const look = this.looks.get(this.items[at / 4].shape);
+    const extent = size * (look ? look.extent : 1);
+    const turn = shortest(poses[at + 2] - shown[at + 2]);
+    const away = Math.max(
+      Math.abs(poses[at] - shown[at]) / extent,
+      Math.abs(poses[at + 1] - shown[at + 1]) / extent,
+      Math.abs(turn),
+      Math.abs(poses[at + 3] - shown[at + 3]) / size,
+    );
+    const step = away < THERE ? 1 : share;
+    shown[at] += step * (poses[at] - shown[at]);
+    shown[at + 1] += step * (poses[at + 1] - shown[at + 1]);
+    shown[at + 2] += step * turn;
+    shown[at + 3] += step * (poses[at + 3] - shown[at + 3]);
+    return step < 1;
+  }
+
+  /**
+   * Where an item is shown.
+   * @param {number} id
+   * @returns {Pose | null}
+   */
+  pose(id) {
+    const k = this.rows.get(id);
+    if (k === undefined) return null;
+    const [x, y, angle, scale] = this.shown.subarray(4 * k, 4 * k + 4);
+    return { x, y, angle, scale };
+  }
+
+  /** @param {number} id */
+  item(id) {
+    const k = this.rows.get(id);
+    return k === undefined ? null : this.items[k];
+  }
+
+  /** @param {Thing} item */
+  look(item) {
+    return /** @type {Look} */ (this.looks.get(item.shape));
+  }
+
+  /**
+   * Corners of an item's box in place.
+   * @param {number} id
+   * @returns {[number, number][]}
+   */
+  corners(id) {
+    const [item, pose] = [this.item(id), this.pose(id)];
+    if (!item || !pose) return [];
+    const [left, top, right, bottom] = this.look(item).box;
+    const matrix = matrixOf(pose, item.stretch);
+    return [[left, top], [right, top], [right, bottom], [left, bottom]].map(([x, y]) => {
+      const point = matrix.transformPoint({ x, y });
+      return [point.x, point.y];
+    });
+  }
+
+  /**
+   * Box about items in place: left, top, right, bottom.
+   * @param {Iterable<number>} ids
+   * @returns {[number, number, number, number] | null}
+   */
+  box(ids) {
+    const points = [...ids].flatMap((id) => this.corners(id));
+    if (!points.length) return null;
+    const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+    return [Math.min(...xs), Math.min(...ys), Math.max(...xs), Math.max(...ys)];
+  }
+}
+
+/**
+ * Map from an item's units to canvas units.
+ * @param {Pose} pose
+ * @param {number} stretch
+ */
+export function matrixOf(pose, stretch) {
+  const root = Math.sqrt(stretch);
+  const [cos, sin] = [Math.cos(pose.angle) * pose.scale, Math.sin(pose.angle) * pose.scale];
+  return new DOMMatrix([cos * root, sin * root, -sin / root, cos / root, pose.x, pose.y]);
+}
+
+/** @param {number} angle */
+function shortest(angle) {
+  return angle - 2 * Math.PI * Math.round(angle / (2 * Math.PI));
+}

@@ -1,0 +1,106 @@
+// @ts-check
+/** The one way to the studio: a socket for messages and frames, requests for files. */
+
+/** @typedef {import("./wire.js").Said} Said */
+/** @typedef {import("./wire.js").Told} Told */
+/** @typedef {{number: number, version: number, done: number, moving: boolean, poses: Float32Array}} Frame */
+
+const HEAD = 16;
+const SHORTEST_WAIT = 250;
+const LONGEST_WAIT = 4000;
+
+/**
+ * What is inside the bytes of a frame.
+ * @param {ArrayBuffer} data
+ * @returns {Frame}
+ */
+export function frameOf(data) {
+  const [number, version, done, flags] = new Uint32Array(data, 0, 4);
+  return { number, version, done, moving: (flags & 1) === 1, poses: new Float32Array(data, HEAD) };
+}
+
+export class Connection {
+  /**
+   * @param {{said: (message: Said) => void, frame: (frame: Frame) => void,
+   *          changed: (isOpen: boolean) => void}} hears
+   */
+  constructor(hears) {
+    this.hears = hears;
+    this.token = location.hash.slice(1);
+    /** @type {WebSocket | null} */
+    this.socket = null;
+    this.wait = SHORTEST_WAIT;
+    this.timer = 0;
+    this.count = 0;
+    for (const event of ["online", "focus", "pageshow"]) addEventListener(event, () => this.hurry());
+  }
+
+  open() {
+    const socket = new WebSocket(`ws://${location.host}/socket`, ["packwork", `token.${this.token}`]);
+    socket.binaryType = "arraybuffer";
+    socket.onopen = () => {
+      this.wait = SHORTEST_WAIT;
+      this.hears.changed(true);
+    };
+    socket.onmessage = (event) => this.heard(event.data);
+    socket.onclose = () => this.lost(socket);
+    this.socket = socket;
+  }
+
+  /** @param {string | ArrayBuffer} data */
+  heard(data) {
+    if (typeof data === "string") this.hears.said(JSON.parse(data));
+    else this.hears.frame(frameOf(data));
+  }
+
+  /** @param {WebSocket} socket */
+  lost(socket) {
+    if (this.socket !== socket) return;
+    this.socket = null;
+    this.hears.changed(false);
+    this.timer = setTimeout(() => this.open(), this.wait);
+    this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
+  }
+
+  /** Do not wait for the next try: the machine has woken up. */
+  hurry() {
+    if (this.socket) return;
+    clearTimeout(this.timer);
+    this.open();
+  }
+
+  get isOpen() {
+    return this.socket !== null && this.socket.readyState === WebSocket.OPEN;
+  }
+
+  /**
+   * Whether a message was sent.
+   * @param {Told} message
+   */
+  send(message) {
+    if (!this.isOpen) return false;
+    /** @type {WebSocket} */ (this.socket).send(JSON.stringify(message));
+    return true;
+  }
+
+  /**
+   * Have a command done; its number, which a later frame says to be known, 0 if it was not sent.
+   * @param {object} command
+   */
+  do(command) {
+    const n = ++this.count;
+    return this.send(/** @type {Told} */ ({ type: "do", n, command })) ? n : 0;
+  }
+
+  /**
+   * An answer of the studio; what it refuses is thrown as its one line.
+   * @param {string} path
+   * @param {RequestInit} [asked]
+   */
+  async ask(path, asked = {}) {
+    const headers = { ...asked.headers, "x-packwork-token": this.token };
+    const answer = await fetch(path, { ...asked, headers });
+    if (!answer.ok) throw new Error((await answer.text()).trim() || "the studio does not answer");
+    return answer;
+  }
+}

@@ -1,0 +1,97 @@
+// @ts-check
+/** Elements in one line each, and the few drawings that buttons have. */
+
+/** Paths of the icons, on a square of 24, drawn as lines. */
+const ICONS = {
+  undo: "M9 14 4 9l5-5M4 9h10a6 6 0 0 1 0 12h-3",
+  redo: "m15 14 5-5-5-5M20 9H10a6 6 0 0 0 0 12h3",
+  pour: "M20 11a8 8 0 1 0-2.3 6M20 4v7h-7",
+  fit: "M4 9V4h5M20 9V4h-5M4 15v5h5M20 15v5h-5",
+  help: "M9 9a3 3 0 1 1 4 2.8c-.7.3-1 .9-1 1.7v.5M12 17.5v.1",
+  theme: "M12 3v2M12 19v2M5 5l1.5 1.5M17.5 17.5 19 19M3 12h2M19 12h2M5 19l1.5-1.5M17.5 6.5 19 5M16 12a4 4 0 1 1-8 0 4 4 0 0 1 8 0Z",
+  export: "M12 4v11M7 10l5 5 5-5M5 20h14",
+  pin: "M9 4h6l-1 6 3 3H7l3-3-1-6ZM12 13v7",
+  release: "M4 4l16 16M9 4h6l-1 6 3 3h-3M10 10l-3 3h6M12 13v7",
+  copy: "M9 9h11v11H9zM5 15H4V4h11v1",
+  bin: "M5 7h14M10 7V4h4v3M7 7l1 13h8l1-13",
+  swap: "M7 4 3 8l4 4M3 8h14M17 12l4 4-4 4M21 16H7",
+  shape: "M12 4 20 10l-3 10H7L4 10z",
+  items: "M4 4h7v7H4zM13 4h7v7h-7zM4 13h7v7H4zM13 13h7v7h-7z",
+  words: "M5 6V4h14v2M12 4v16M9 20h6",
+  options: "M4 7h9M17 7h3M4 17h3M11 17h9M15 5v4M9 15v4",
+  close: "M6 6l12 12M18 6 6 18",
+  plus: "M12 5v14M5 12h14",
+  minus: "M5 12h14",
+  check: "m5 12 5 5 9-10",
+  file: "M6 3h8l4 4v14H6zM14 3v4h4",
+  colour: "M12 3c4 5 6 7.500 6 11a6 6 0 0 1-12 0c0-3.500 2-6 6-11Z",
+  dots: "M6 12h.01M12 12h.01M18 12h.01",
+  more: "M12 4v16M4 12h16M6.500 6.500l11 11M17.500 6.500l-11 11",
+};
+
+/** @typedef {keyof typeof ICONS} IconName */
+
+/**
+ * An element with attributes, listeners (`onclick`) and children.
+ * @template {keyof HTMLElementTagNameMap} K
+ * @param {K} tag
+ * @param {Record<string, any>} [given]
+ * @param {...(Node | string | null | undefined | false)} children
+ * @returns {HTMLElementTagNameMap[K]}
+ */
+export function h(tag, given = {}, ...children) {
+  const made = document.createElement(tag);
+  for (const [name, value] of Object.entries(given)) {
+    if (value === null || value === undefined || value === false) continue;
+    if (name.startsWith("on")) made.addEventListener(name.slice(2), value);
+    else if (name === "value") /** @type {any} */ (made).value = value;
+    else made.setAttribute(name, value === true ? "" : String(value));
+  }
+  made.append(...children.filter((child) => child || child === "").map((child) => child || ""));
+  return made;
+}
+
+/**
+ * A drawing for a button; says nothing to screen readers.
+ * @param {IconName} name
+ */
+export function icon(name) {
+  const drawn = vector("0 0 24 24", ICONS[name]);
+  drawn.setAttribute("class", "icon");
+  return drawn;
+}
+
+/**
+ * An SVG of one path.
+ * @param {string} box
+ * @param {string} path
+ */
+export function vector(box, path) {
+  const space = "http://www.w3.org/2000/svg";
+  const drawn = document.createElementNS(space, "svg");
+  drawn.setAttribute("viewBox", box);
+  drawn.setAttribute("aria-hidden", "true");
+  const line = document.createElementNS(space, "path");
+  line.setAttribute("d", path);
+  line.setAttribute("fill-rule", "evenodd");
+  drawn.append(line);
+  return drawn;
+}
+
+/**
+ * A button with a drawing.
+ * @param {IconName} name
+ * @param {string} label
+ * @param {() => void} act
+ * @param {Record<string, any>} [given]
+ */
+export function button(name, label, act, given = {}) {
+  return h("button", { type: "button", title: label, "aria-label": label, onclick: act, ...given }, icon(name));
+}
+
+/** @param {string} id */
+export function byId(id) {
+  const found = document.getElementById(id);
+  if (!found) throw new Error(`the page has no ${id}`);
+  return found;
+}

@@ -1,0 +1,122 @@
+// @ts-check
+/** The dialog that makes files of the collage. */
+
+import { h } from "./dom.js";
+import { tell } from "./toasts.js";
+
+/** @typedef {import("./connection.js").Connection} Connection */
+/** @typedef {import("./collage.js").Collage} Collage */
+
+/** Formats: ending, name, what it is for, which options it has. */
+const FORMATS = /** @type {const} */ ([
+  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "show_container", "flatten"]],
+  ["pdf", "PDF", "for printing", ["background", "show_container", "bleed"]],
+  ["png", "PNG", "a picture", ["pixels", "background", "show_container"]],
+  ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "show_container"]],
+  ["dxf", "DXF", "for cutters and CAD, in mm", []],
+  ["geojson", "GeoJSON", "outlines, to be measured or edited again", []],
+  ["packwork", "Session", "all of it, with all that undo leads to", []],
+]);
+
+export class Exporting {
+  /**
+   * @param {Connection} connection
+   * @param {Collage} collage
+   */
+  constructor(connection, collage) {
+    this.connection = connection;
+    this.collage = collage;
+    this.kind = "svg";
+    this.formats = h("div", { class: "formats", role: "radiogroup", "aria-label": "Format" });
+    this.fields = h("div", { class: "fields" });
+    this.note = h("p", { class: "note", role: "status" });
+    this.go = h("button", { type: "submit", class: "primary" }, "Export");
+    const form = h("form", { method: "dialog", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
+      h("h2", {}, "Export"), this.formats, this.fields, this.note,
+      h("div", { class: "row end" }, h("button", { type: "button", onclick: () => this.dialog.close() }, "Cancel"), this.go));
+    this.dialog = h("dialog", { class: "export", "aria-label": "Export" }, form);
+    document.body.append(this.dialog);
+    for (const format of FORMATS) this.formats.append(this.choiceOf(format));
+  }
+
+  /** @param {typeof FORMATS[number]} format */
+  choiceOf([ending, name, what]) {
+    const field = h("input", { type: "radio", name: "format", value: ending, checked: ending === this.kind, onchange: () => this.choose(ending) });
+    return h("label", { class: "format" }, field, h("strong", {}, name), h("span", {}, what));
+  }
+
+  /** @param {string} kind */
+  choose(kind) {
+    this.kind = kind;
+    const options = FORMATS.find(([ending]) => ending === kind)?.[3] ?? [];
+    this.fields.replaceChildren(...options.map((name) => FIELDS[name]()));
+  }
+
+  open() {
+    this.choose(this.kind);
+    this.note.textContent = this.worth;
+    this.note.dataset.is = this.collage.state?.certified ? "good" : "bad";
+    this.dialog.showModal();
+  }
+
+  get worth() {
+    const state = this.collage.state;
+    if (!state || state.moving) return "It is still settling; the file is made when it lies.";
+    if (state.certified) return "Certified: nothing overlaps, nothing sticks out.";
+    return `Not certified: ${state.in_the_way.slice(0, 3).join("; ")}`;
+  }
+
+  /** @param {Event} event */
+  async submitted(event) {
+    event.preventDefault();
+    const options = Object.fromEntries([...this.fields.querySelectorAll("input")].map((field) => [field.name, valueOf(field)]).filter(([, value]) => value !== null));
+    this.go.disabled = true;
+    const done = await this.download(this.kind, options);
+    this.go.disabled = false;
+    if (done) this.dialog.close();
+  }
+
+  /**
+   * Make a file and hand it to the person; whether that went well.
+   * @param {string} kind
+   * @param {Record<string, any>} options
+   */
+  async download(kind, options) {
+    try {
+      const body = JSON.stringify({ format: kind, options });
+      const answer = await this.connection.ask("/export", { method: "POST", body, headers: { "content-type": "application/json" } });
+      save(await answer.blob(), `${this.collage.scene?.name || "collage"}.${kind}`);
+      tell(`${FORMATS.find(([ending]) => ending === kind)?.[1] ?? kind} exported`);
+      return true;
+    } catch (error) {
+      const line = /** @type {Error} */ (error).message;
+      if (this.dialog.open) [this.note.textContent, this.note.dataset.is] = [line, "bad"];
+      else tell(line, { isError: true });
+      return false;
+    }
+  }
+}
+
+const FIELDS = {
+  pixels: () => h("label", {}, "Longer side, px", h("input", { type: "number", name: "pixels", value: "2400", min: "16", max: "12000", step: "1" })),
+  background: () => h("label", {}, "Background", h("input", { type: "text", name: "background", placeholder: "none, white, #faf7f0 …", spellcheck: "false" })),
+  show_container: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "show_container" }), "Draw the container's line"),
+  flatten: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "flatten" }), "Repeat drawings in place, for tools that choke on <use>"),
+  bleed: () => h("label", {}, "Bleed", h("input", { type: "text", name: "bleed", placeholder: "3mm" })),
+};
+
+/** @param {HTMLInputElement} field */
+function valueOf(field) {
+  if (field.type === "checkbox") return field.checked || null;
+  if (field.type === "number") return Number(field.value) || null;
+  return field.value.trim() || null;
+}
+
+/** @param {Blob} blob @param {string} name */
+function save(blob, name) {
+  const link = h("a", { href: URL.createObjectURL(blob), download: name });
+  document.body.append(link);
+  link.click();
+  link.remove();
+  setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}

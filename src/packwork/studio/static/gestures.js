@@ -1,0 +1,313 @@
+// @ts-check
+/** Pointers, wheel and pinch on the canvas: mouse, pen and touch alike. */
+
+/** @typedef {import("./stage.js").Stage} Stage */
+/** @typedef {import("./view.js").View} View */
+/** @typedef {import("./choice.js").Choice} Choice */
+/** @typedef {import("./hand.js").Hand} Hand */
+/** @typedef {{x: number, y: number}} Point */
+
+/** How far a pointer goes before it drags, px: of a finger more. */
+const STILL = { mouse: 3, pen: 4, touch: 8 };
+/** How near a handle is enough, px. */
+const REACH = { mouse: 9, pen: 10, touch: 22 };
+/** Time after which a finger that stays asks for the menu, ms. */
+const LONG = 550;
+/** Angles that are snapped to with shift, degrees. */
+const SNAP = 15;
+
+export class Gestures {
+  /**
+   * @param {Stage} stage
+   * @param {View} view
+   * @param {Choice} choice
+   * @param {Hand} hand
+   * @param {{changed: () => void, menu: (x: number, y: number) => void}} hears
+   */
+  constructor(stage, view, choice, hand, hears) {
+    this.stage = stage;
+    this.view = view;
+    this.choice = choice;
+    this.hand = hand;
+    this.hears = hears;
+    this.isPanning = false;
+    this.timer = 0;
+    /** @type {Map<number, Point>} */
+    this.pointers = new Map();
+    /** @type {null | Doing} */
+    this.doing = null;
+    this.listen(stage.canvas);
+  }
+
+  /** @param {HTMLCanvasElement} canvas */
+  listen(canvas) {
+    canvas.addEventListener("pointerdown", (event) => this.down(event));
+    canvas.addEventListener("pointermove", (event) => this.moved(event));
+    canvas.addEventListener("pointerup", (event) => this.up(event));
+    canvas.addEventListener("pointercancel", (event) => this.up(event));
+    canvas.addEventListener("pointerleave", () => this.hover(null));
+    canvas.addEventListener("wheel", (event) => this.wheel(event), { passive: false });
+    canvas.addEventListener("contextmenu", (event) => this.menu(event));
+  }
+
+  /** @param {PointerEvent} event */
+  down(event) {
+    const at = point(event);
+    this.stage.canvas.setPointerCapture(event.pointerId);
+    this.pointers.set(event.pointerId, at);
+    if (this.pointers.size === 2) this.pinch();
+    if (this.pointers.size > 1 || event.button === 2) return;
+    const kind = kindOf(event);
+    const isPan = this.isPanning || event.button === 1;
+    this.doing = isPan ? { act: "pan", from: at, at, kind } : this.begun(event, at, kind);
+    if (kind === "touch") this.waitForMenu(at);
+    this.pointer(at);
+  }
+
+  /**
+   * @param {PointerEvent} event
+   * @param {Point} at
+   * @param {keyof typeof STILL} kind
+   * @returns {Doing}
+   */
+  begun(event, at, kind) {
+    const handle = this.stage.handleAt(at.x, at.y, REACH[kind]);
+    if (handle) return { act: handle.kind, from: at, at, kind, about: this.about(handle), wide: false };
+    const id = this.stage.itemAt(at.x, at.y, kind === "touch" ? 8 : 3);
+    if (id === null) return { act: kind === "touch" ? "pan" : "marquee", from: at, at, kind, adds: event.shiftKey };
+    const isMore = event.shiftKey || event.metaKey || event.ctrlKey;
+    const was = this.choice.has(id);
+    if (isMore) this.choice.toggle(id);
+    else if (!was) this.choice.set([id]);
+    return { act: "item", from: at, at, kind, id, single: was && !isMore };
+  }
+
+  /**
+   * The point that stays when a handle is pulled: the middle, or the corner across.
+   * @param {import("./stage.js").Handle} handle
+   */
+  about(handle) {
+    const frame = this.stage.frame() ?? [];
+    const middle = { x: mean(frame.map(([x]) => x)), y: mean(frame.map(([, y]) => y)) };
+    if (handle.kind === "turn" || this.choice.ids.size === 1) {
+      const [id] = this.choice.ids;
+      const pose = this.choice.ids.size === 1 ? this.stage.collage.pose(id) : null;
+      return pose ? this.view.toScreen(pose.x, pose.y) : middle;
+    }
+    const [x, y] = frame[(handle.corner + 2) % 4];
+    return { x, y };
+  }
+
+  /** @param {PointerEvent} event */
+  moved(event) {
+    const at = point(event);
+    if (!this.pointers.has(event.pointerId)) return this.hover(at);
+    const before = /** @type {Point} */ (this.pointers.get(event.pointerId));
+    this.pointers.set(event.pointerId, at);
+    if (this.pointers.size === 2) return this.pinched(event.pointerId, before);
+    const doing = this.doing;
+    if (!doing) return;
+    const far = Math.hypot(at.x - doing.from.x, at.y - doing.from.y);
+    if (!doing.moves && far < STILL[doing.kind]) return;
+    clearTimeout(this.timer);
+    if (!doing.moves) this.begin(doing);
+    doing.moves = true;
+    this.follow(doing, at, event.shiftKey);
+    doing.at = at;
+  }
+
+  /** @param {Doing} doing */
+  begin(doing) {
+    if (doing.act === "item" || doing.act === "turn" || doing.act === "scale") {
+      if (doing.id !== undefined && !this.choice.has(doing.id)) this.choice.set([doing.id]);
+      this.choice.isBusy = true;
+      this.hand.grab(this.choice.ids);
+    }
+  }
+
+  /**
+   * @param {Doing} doing
+   * @param {Point} at
+   * @param {boolean} snaps
+   */
+  follow(doing, at, snaps) {
+    const { zoom } = this.view;
+    const [x, y] = [at.x - doing.from.x, at.y - doing.from.y];
+    if (doing.act === "pan") this.view.pan(at.x - doing.at.x, at.y - doing.at.y);
+    else if (doing.act === "marquee") this.marquee(doing, at);
+    else if (doing.act === "item") this.hand.move(x / zoom, y / zoom);
+    else this.pull(doing, at, snaps);
+    this.hears.changed();
+  }
+
+  /**
+   * @param {Doing} doing
+   * @param {Point} at
+   * @param {boolean} snaps
+   */
+  pull(doing, at, snaps) {
+    const about = /** @type {Point} */ (doing.about);
+    const centre = this.view.toCanvas(about.x, about.y);
+    const [from, to] = [doing.from, at].map((one) => ({ x: one.x - about.x, y: one.y - about.y }));
+    if (doing.act === "scale") {
+      const factor = Math.max(Math.hypot(to.x, to.y) / Math.max(Math.hypot(from.x, from.y), 1), 0.05);
+      return this.hand.scale(factor, centre);
+    }
+    let angle = Math.atan2(to.y, to.x) - Math.atan2(from.y, from.x);
+    if (snaps) angle = this.snapped(angle);
+    this.hand.turn(angle, centre);
+  }
+
+  /** @param {number} angle */
+  snapped(angle) {
+    const [from] = this.hand.began.values();
+    const step = (SNAP * Math.PI) / 180;
+    const start = this.hand.began.size === 1 ? from.angle : 0;
+    return step * Math.round((start + angle) / step) - start;
+  }
+
+  /**
+   * @param {Doing} doing
+   * @param {Point} at
+   */
+  marquee(doing, at) {
+    const [xs, ys] = [[doing.from.x, at.x].sort((a, b) => a - b), [doing.from.y, at.y].sort((a, b) => a - b)];
+    this.stage.marquee = [xs[0], ys[0], xs[1], ys[1]];
+    const [a, b] = [this.view.toCanvas(xs[0], ys[0]), this.view.toCanvas(xs[1], ys[1])];
+    doing.base ??= doing.adds ? [...this.choice.ids] : [];
+    const { collage } = this.stage;
+    const inside = collage.items.filter((_, k) => {
+      const [x, y] = collage.shown.subarray(4 * k, 4 * k + 2);
+      return x >= a.x && x <= b.x && y >= a.y && y <= b.y;
+    });
+    this.choice.set([...doing.base, ...inside.map((item) => item.id)]);
+  }
+
+  /** @param {PointerEvent} event */
+  up(event) {
+    clearTimeout(this.timer);
+    this.pointers.delete(event.pointerId);
+    const doing = this.doing;
+    if (this.pointers.size || !doing) return;
+    this.doing = null;
+    this.stage.marquee = null;
+    if (!doing.moves) this.clicked(doing);
+    this.end();
+  }
+
+  /** @param {Doing} doing */
+  clicked(doing) {
+    if (doing.act === "item" && doing.single && doing.id !== undefined) this.choice.set([doing.id]);
+    else if ((doing.act === "marquee" && !doing.adds) || (doing.act === "pan" && doing.kind === "touch")) {
+      this.choice.set([]);
+    }
+  }
+
+  end() {
+    this.hand.drop();
+    this.choice.isBusy = false;
+    this.hears.changed();
+  }
+
+  /** Leave off what the pointer does; whether it did anything. */
+  cancel() {
+    if (!this.hand.isFull) return false;
+    this.hand.cancel();
+    this.doing = null;
+    this.end();
+    return true;
+  }
+
+  pinch() {
+    clearTimeout(this.timer);
+    if (this.hand.isFull) this.end();
+    this.stage.marquee = null;
+    this.doing = null;
+  }
+
+  /** @param {number} id @param {Point} before */
+  pinched(id, before) {
+    const at = /** @type {Point} */ (this.pointers.get(id));
+    const [other] = [...this.pointers].filter(([one]) => one !== id).map(([, where]) => where);
+    const [was, now] = [before, at].map((one) => Math.max(Math.hypot(one.x - other.x, one.y - other.y), 1));
+    this.view.pan((at.x - before.x) / 2, (at.y - before.y) / 2);
+    this.view.zoomAt(now / was, (at.x + other.x) / 2, (at.y + other.y) / 2);
+  }
+
+  /** @param {WheelEvent} event */
+  wheel(event) {
+    event.preventDefault();
+    const { x, y } = point(event);
+    const lines = event.deltaMode === 1 ? 30 : 1;
+    const isZoom = event.ctrlKey || event.metaKey || !isTrackpad(event);
+    if (isZoom) this.view.zoomAt(Math.exp((-lines * event.deltaY) / (event.ctrlKey ? 120 : 500)), x, y);
+    else this.view.pan(-event.deltaX, -event.deltaY);
+  }
+
+  /** @param {MouseEvent} event */
+  menu(event) {
+    event.preventDefault();
+    this.menuAt(point(event));
+  }
+
+  /** @param {Point} at */
+  waitForMenu(at) {
+    this.timer = setTimeout(() => {
+      if (this.pointers.size === 1) this.menuAt(at);
+    }, LONG);
+  }
+
+  /** @param {Point} at */
+  menuAt(at) {
+    const id = this.stage.itemAt(at.x, at.y, 6);
+    if (id !== null && !this.choice.has(id)) this.choice.set([id]);
+    if (id === null) this.choice.set([]);
+    this.hears.menu(at.x, at.y);
+  }
+
+  /** @param {Point | null} at */
+  hover(at) {
+    const id = at ? this.stage.itemAt(at.x, at.y) : null;
+    if (at) this.pointer(at);
+    if (id !== this.choice.hovered) {
+      this.choice.hovered = id;
+      this.hears.changed();
+    }
+  }
+
+  /** @param {Point} at */
+  pointer(at) {
+    const handle = this.stage.handleAt(at.x, at.y, REACH.mouse);
+    const over = handle ? (handle.kind === "turn" ? "turn" : "scale") : this.choice.hovered !== null ? "item" : "";
+    this.stage.canvas.dataset.over = this.isPanning || this.doing?.act === "pan" ? "pan" : over;
+  }
+}
+
+/**
+ * @typedef {{act: "pan" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
+ *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, base?: number[],
+ *   about?: Point, moves?: boolean, wide?: boolean}} Doing
+ */
+
+/** @param {MouseEvent} event @returns {Point} */
+function point(event) {
+  return { x: event.offsetX, y: event.offsetY };
+}
+
+/** @param {PointerEvent} event @returns {keyof typeof STILL} */
+function kindOf(event) {
+  return event.pointerType === "touch" || event.pointerType === "pen" ? event.pointerType : "mouse";
+}
+
+/**
+ * Whether a wheel is two fingers on a pad, as well as can be told: steps that are no whole clicks.
+ * @param {WheelEvent} event
+ */
+function isTrackpad(event) {
+  return event.deltaMode === 0 && (event.deltaX !== 0 || Math.abs(event.deltaY) < 50);
+}
+
+/** @param {number[]} values */
+function mean(values) {
+  return values.reduce((sum, value) => sum + value, 0) / Math.max(values.length, 1);
+}

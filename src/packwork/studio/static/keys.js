@@ -1,0 +1,71 @@
+// @ts-check
+/** Keys to actions, and how keys are written. */
+
+/** @typedef {import("./actions.js").Action} Action */
+
+const IS_MAC = /Mac|iPhone|iPad/.test(navigator.platform);
+const SHOWN = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", Escape: "Esc", Delete: "Del" };
+
+/**
+ * A key as actions name it, `Mod+Shift+Z`.
+ * @param {KeyboardEvent} event
+ */
+export function keyOf(event) {
+  const key = event.key.length === 1 ? event.key.toUpperCase() : event.key;
+  const isSign = event.key.length === 1 && !/[a-z0-9 ]/i.test(event.key);
+  const parts = [];
+  if (event.ctrlKey || event.metaKey) parts.push("Mod");
+  if (event.altKey) parts.push("Alt");
+  if (event.shiftKey && !isSign) parts.push("Shift");
+  return [...parts, key].join("+");
+}
+
+/**
+ * How people are shown a key.
+ * @param {string} key
+ */
+export function shownKey(key) {
+  const parts = key === "+" ? ["+"] : key.split(/\+(?=.)/);
+  return parts.map((part) => (part === "Mod" ? (IS_MAC ? "⌘" : "Ctrl") : SHOWN[/** @type {keyof SHOWN} */ (part)] ?? part)).join(" ");
+}
+
+/**
+ * Have keys do what actions say, wherever the focus is but in fields.
+ * @param {Action[]} actions
+ * @param {{pans: (isHeld: boolean) => void}} hears
+ */
+export function listenToKeys(actions, hears) {
+  const known = new Map(actions.flatMap((action) => action.keys.map((key) => [key, action])));
+  addEventListener("keydown", (event) => {
+    if (isTyping(event) || document.querySelector("dialog[open]")) return;
+    if (event.key === " " && isFree(event)) {
+      event.preventDefault();
+      return hears.pans(true);
+    }
+    const action = known.get(keyOf(event));
+    if (!action || (event.repeat && !action.repeats) || isTaken(event)) return;
+    event.preventDefault();
+    if (!action.when || action.when()) action.run();
+  });
+  addEventListener("keyup", (event) => {
+    if (event.key === " ") hears.pans(false);
+  });
+  addEventListener("blur", () => hears.pans(false));
+}
+
+/** @param {Event} event */
+function isTyping(event) {
+  const target = event.target instanceof HTMLElement ? event.target : null;
+  return Boolean(target?.closest("input:not([type=checkbox]):not([type=range]), textarea, select"));
+}
+
+/** Whether the space bar presses nothing. @param {Event} event */
+function isFree(event) {
+  return event.target instanceof HTMLElement && !event.target.closest("button, a, summary, [role=option], input");
+}
+
+/** Whether a key means something to what has the focus. @param {KeyboardEvent} event */
+function isTaken(event) {
+  const target = event.target instanceof HTMLElement ? event.target : null;
+  return Boolean(target?.closest("[role=listbox], [role=menu], input[type=range]")) && event.key.startsWith("Arrow");
+}

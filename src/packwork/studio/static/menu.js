@@ -1,0 +1,51 @@
+// @ts-check
+/** The menu at the pointer. */
+
+import { h } from "./dom.js";
+import { shownKey } from "./keys.js";
+
+/** @typedef {import("./actions.js").Action} Action */
+
+const OF_ITEMS = ["hold", "release", "duplicate", "exchange", "remove", "alike", "chosen"];
+const OF_NOTHING = ["add", "all", "pour", "fit", "export"];
+
+export class Menu {
+  /** @param {Map<string, Action>} actions */
+  constructor(actions) {
+    this.actions = actions;
+    this.element = h("div", { class: "menu", role: "menu", popover: "auto", "aria-label": "What can be done",
+      onkeydown: (/** @type {KeyboardEvent} */ event) => this.key(event) });
+    document.body.append(this.element);
+  }
+
+  /**
+   * @param {number} x
+   * @param {number} y
+   * @param {boolean} isOfItems
+   */
+  open(x, y, isOfItems) {
+    const actions = (isOfItems ? OF_ITEMS : OF_NOTHING).map((id) => /** @type {Action} */ (this.actions.get(id)));
+    this.element.replaceChildren(...actions.filter((one) => !one.when || one.when()).map((one) => this.row(one)));
+    this.element.showPopover();
+    const { offsetWidth, offsetHeight } = this.element;
+    this.element.style.left = `${Math.max(Math.min(x, innerWidth - offsetWidth - 8), 8)}px`;
+    this.element.style.top = `${Math.max(Math.min(y, innerHeight - offsetHeight - 8), 8)}px`;
+    /** @type {HTMLElement | null} */ (this.element.firstElementChild)?.focus();
+  }
+
+  /** @param {Action} action */
+  row(action) {
+    return h("button", { type: "button", role: "menuitem", onclick: () => { this.element.hidePopover(); action.run(); } },
+      h("span", {}, action.label), h("kbd", {}, shownKey(action.keys[0])));
+  }
+
+  /** @param {KeyboardEvent} event */
+  key(event) {
+    const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!step) return;
+    event.preventDefault();
+    const rows = [...this.element.querySelectorAll("button")];
+    const at = rows.indexOf(/** @type {HTMLButtonElement} */ (document.activeElement));
+    rows[(at + step + rows.length) % rows.length].focus();
+  }
+}

@@ -1,0 +1,319 @@
+// @ts-check
+/** The canvas: container, items, and what is marked on them. */
+
+import { matrixOf } from "./collage.js";
+
+/** @typedef {import("./collage.js").Collage} Collage */
+/** @typedef {import("./view.js").View} View */
+/** @typedef {import("./sprites.js").Sprites} Sprites */
+/** @typedef {import("./choice.js").Choice} Choice */
+/** @typedef {{at: [number, number], kind: "scale" | "turn", corner: number}} Handle */
+
+/** Distance of the turning handle from its corner, and half a handle, px. */
+const TURN_AWAY = 22;
+const HALF = 5;
+
+export class Stage {
+  /**
+   * @param {HTMLCanvasElement} canvas
+   * @param {Collage} collage
+   * @param {View} view
+   * @param {Sprites} sprites
+   * @param {Choice} choice
+   */
+  constructor(canvas, collage, view, sprites, choice) {
+    this.canvas = canvas;
+    this.pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    this.collage = collage;
+    this.view = view;
+    this.sprites = sprites;
+    this.choice = choice;
+    this.outline = { text: "", path: new Path2D() };
+    /** @type {null | [number, number, number, number]} */
+    this.marquee = null;
+    this.colours = coloursOf(canvas);
+    this.ratio = 1;
+  }
+
+  /** Take over the colours of the theme. */
+  recolour() {
+    this.colours = coloursOf(this.canvas);
+  }
+
+  resize() {
+    this.ratio = Math.min(devicePixelRatio || 1, 2);
+    const { clientWidth, clientHeight } = this.canvas;
+    this.canvas.width = Math.round(clientWidth * this.ratio);
+    this.canvas.height = Math.round(clientHeight * this.ratio);
+  }
+
+  draw() {
+    const { pen, ratio } = this;
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.fillStyle = this.colours.desk;
+    pen.fillRect(0, 0, this.canvas.width, this.canvas.height);
+    if (!this.collage.scene) return;
+    this.drawContainer(this.collage.scene);
+    if (this.collage.hasPoses) this.drawItems();
+    this.drawMarks();
+  }
+
+  /** @param {import("./wire.js").Scene} scene */
+  drawContainer(scene) {
+    const { pen, colours } = this;
+    if (this.outline.text !== scene.outline) {
+      this.outline = { text: scene.outline, path: new Path2D(scene.outline) };
+    }
+    this.toCanvas();
+    pen.fillStyle = colours.paper;
+    pen.fill(this.outline.path, "evenodd");
+    pen.strokeStyle = colours.edge;
+    pen.lineWidth = 1.25 / this.view.zoom;
+    pen.stroke(this.outline.path);
+  }
+
+  toCanvas() {
+    const { zoom, x, y } = this.view;
+    const r = this.ratio;
+    this.pen.setTransform(r * zoom, 0, 0, r * zoom, r * x, r * y);
+  }
+
+  /** @param {number} k @param {import("./wire.js").Thing} item */
+  toItem(k, item) {
+    const [x, y, angle, scale] = this.collage.shown.subarray(4 * k, 4 * k + 4);
+    const m = matrixOf({ x, y, angle, scale }, item.stretch);
+    this.toCanvas();
+    this.pen.transform(m.a, m.b, m.c, m.d, m.e, m.f);
+    return scale;
+  }
+
+  drawItems() {
+    const { pen, collage, sprites } = this;
+    const perUnit = this.view.zoom * this.ratio;
+    pen.imageSmoothingQuality = "high";
+    const last = collage.hand;
+    const late = [];
+    for (let k = 0; k < collage.items.length; k++) {
+      if (last.has(collage.items[k].id)) late.push(k);
+      else this.drawItem(k, perUnit, sprites);
+    }
+    for (const k of late) this.drawItem(k, perUnit, sprites);
+  }
+
+  /**
+   * @param {number} k
+   * @param {number} perUnit
+   * @param {Sprites} sprites
+   */
+  drawItem(k, perUnit, sprites) {
+    const item = this.collage.items[k];
+    const look = this.collage.looks.get(item.shape);
+    if (!look || this.isOutOfSight(k, look.extent)) return;
+    const scale = this.toItem(k, item);
+    const [left, top, right, bottom] = look.box;
+    const sprite = sprites.of(look, look.extent * scale * perUnit);
+    if (sprite) this.pen.drawImage(sprite, left, top, right - left, bottom - top);
+  }
+
+  /** @param {number} k @param {number} extent */
+  isOutOfSight(k, extent) {
+    const [x, y, , scale] = this.collage.shown.subarray(4 * k, 4 * k + 4);
+    const at = this.view.toScreen(x, y);
+    const reach = extent * scale * this.view.zoom;
+    const { width, height } = this.view.size;
+    return at.x < -reach || at.y < -reach || at.x > width + reach || at.y > height + reach;
+  }
+
+  drawMarks() {
+    const { collage, choice, colours } = this;
+    const state = collage.state;
+    if (!collage.hasPoses) return;
+    if (state && !state.moving) for (const id of state.entangled) this.outlineOf(id, colours.bad, 2.5);
+    if (choice.hovered !== null && !choice.has(choice.hovered)) this.outlineOf(choice.hovered, colours.hover, 1.5);
+    for (const id of choice.ids) this.outlineOf(id, colours.accent, 2);
+    for (const item of collage.items) if (item.held.some(Boolean)) this.drawPin(item.id);
+    this.drawHandles();
+    if (this.marquee) this.drawMarquee(this.marquee);
+  }
+
+  /**
+   * @param {number} id
+   * @param {string} colour
+   * @param {number} width
+   */
+  outlineOf(id, colour, width) {
+    const k = this.collage.rows.get(id);
+    if (k === undefined) return;
+    const item = this.collage.items[k];
+    const scale = this.toItem(k, item);
+    this.pen.strokeStyle = colour;
+    this.pen.lineJoin = "round";
+    this.pen.lineWidth = width / (this.view.zoom * Math.max(scale, 1e-9));
+    this.pen.stroke(this.collage.look(item).outlinePath);
+  }
+
+  /** @param {number} id */
+  drawPin(id) {
+    const pose = this.collage.pose(id);
+    if (!pose) return;
+    const { pen, colours } = this;
+    const { x, y } = this.view.toScreen(pose.x, pose.y);
+    this.toWindow();
+    pen.beginPath();
+    pen.arc(x, y, 9, 0, 2 * Math.PI);
+    pen.fillStyle = colours.pin;
+    pen.fill();
+    pen.strokeStyle = colours.onPin;
+    pen.lineWidth = 1.5;
+    pen.stroke();
+    pen.fillStyle = colours.onPin;
+    pen.fill(new Path2D(`M${x - 3} ${y - 5}h6l-1 4 2.500 2.500h-9L${x - 2} ${y - 1}z`));
+    pen.fillRect(x - 0.75, y + 1, 1.5, 4.5);
+  }
+
+  toWindow() {
+    this.pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+  }
+
+  /**
+   * Handles of what is chosen: at the corners of its box, and one to turn it by.
+   * @returns {Handle[]}
+   */
+  handles() {
+    const frame = this.frame();
+    if (!frame) return [];
+    const [a, b, c, d] = frame;
+    const [ux, uy] = unit(d, a);
+    const top = [(a[0] + b[0]) / 2 + TURN_AWAY * ux, (a[1] + b[1]) / 2 + TURN_AWAY * uy];
+    return [
+      ...[a, b, c, d].map((at, corner) => ({ at, kind: /** @type {const} */ ("scale"), corner })),
+      { at: /** @type {[number, number]} */ (top), kind: "turn", corner: -1 },
+    ];
+  }
+
+  /**
+   * Corners of the frame about what is chosen, px: of one item turned with it.
+   * @returns {[number, number][] | null}
+   */
+  frame() {
+    const { choice, collage, view } = this;
+    if (!choice.ids.size || !collage.hasPoses) return null;
+    const only = choice.ids.size === 1 ? [...choice.ids][0] : null;
+    if (only !== null) {
+      const corners = collage.corners(only);
+      return corners.length ? corners.map(([x, y]) => point(view.toScreen(x, y))) : null;
+    }
+    const box = collage.box(choice.ids);
+    if (!box) return null;
+    const [left, top, right, bottom] = box;
+    return [[left, top], [right, top], [right, bottom], [left, bottom]].map(([x, y]) => point(view.toScreen(x, y)));
+  }
+
+  drawHandles() {
+    if (this.choice.isBusy) return;
+    const { pen, colours } = this;
+    const frame = this.frame();
+    const handles = this.handles();
+    if (!frame || !handles.length) return;
+    this.toWindow();
+    pen.strokeStyle = colours.accent;
+    pen.lineWidth = 1;
+    pen.setLineDash([4, 3]);
+    pen.beginPath();
+    frame.forEach(([x, y], k) => (k ? pen.lineTo(x, y) : pen.moveTo(x, y)));
+    pen.closePath();
+    const [a, b] = frame;
+    const turn = handles[handles.length - 1].at;
+    pen.moveTo((a[0] + b[0]) / 2, (a[1] + b[1]) / 2);
+    pen.lineTo(...turn);
+    pen.stroke();
+    pen.setLineDash([]);
+    for (const { at, kind } of handles) this.drawHandle(at, kind);
+  }
+
+  /**
+   * @param {[number, number]} at
+   * @param {"scale" | "turn"} kind
+   */
+  drawHandle([x, y], kind) {
+    const { pen, colours } = this;
+    pen.beginPath();
+    if (kind === "turn") pen.arc(x, y, HALF + 0.5, 0, 2 * Math.PI);
+    else pen.rect(x - HALF, y - HALF, 2 * HALF, 2 * HALF);
+    pen.fillStyle = colours.handle;
+    pen.fill();
+    pen.strokeStyle = colours.accent;
+    pen.lineWidth = 1.75;
+    pen.stroke();
+  }
+
+  /** @param {[number, number, number, number]} box */
+  drawMarquee([left, top, right, bottom]) {
+    const { pen, colours } = this;
+    this.toWindow();
+    pen.fillStyle = colours.marquee;
+    pen.fillRect(left, top, right - left, bottom - top);
+    pen.strokeStyle = colours.accent;
+    pen.lineWidth = 1;
+    pen.strokeRect(left + 0.5, top + 0.5, right - left, bottom - top);
+  }
+
+  /**
+   * The topmost item at a point of the window; near misses count for small ones.
+   * @param {number} x
+   * @param {number} y
+   * @param {number} reach px
+   * @returns {number | null}
+   */
+  itemAt(x, y, reach = 3) {
+    const { collage, view } = this;
+    if (!collage.hasPoses) return null;
+    const at = view.toCanvas(x, y);
+    for (let k = collage.items.length - 1; k >= 0; k--) {
+      const item = collage.items[k];
+      const look = collage.looks.get(item.shape);
+      if (!look) continue;
+      const [px, py, angle, scale] = collage.shown.subarray(4 * k, 4 * k + 4);
+      if (Math.hypot(at.x - px, at.y - py) > 1.5 * look.extent * scale) continue;
+      const own = matrixOf({ x: px, y: py, angle, scale }, item.stretch).invertSelf().transformPoint(at);
+      this.pen.resetTransform();
+      this.pen.lineWidth = (2 * reach) / (view.zoom * scale);
+      const path = look.outlinePath;
+      if (this.pen.isPointInPath(path, own.x, own.y) || this.pen.isPointInStroke(path, own.x, own.y)) {
+        return item.id;
+      }
+    }
+    return null;
+  }
+
+  /**
+   * The handle at a point of the window.
+   * @param {number} x
+   * @param {number} y
+   * @param {number} reach px
+   */
+  handleAt(x, y, reach) {
+    return this.handles().find(({ at }) => Math.hypot(at[0] - x, at[1] - y) <= reach) ?? null;
+  }
+}
+
+/** @param {{x: number, y: number}} at @returns {[number, number]} */
+function point({ x, y }) {
+  return [x, y];
+}
+
+/** @param {[number, number]} from @param {[number, number]} to @returns {[number, number]} */
+function unit(from, to) {
+  const [x, y] = [to[0] - from[0], to[1] - from[1]];
+  const length = Math.hypot(x, y) || 1;
+  return [x / length, y / length];
+}
+
+/** @param {Element} element */
+function coloursOf(element) {
+  const style = getComputedStyle(element);
+  const names = ["desk", "paper", "edge", "accent", "hover", "bad", "pin", "on-pin", "handle", "marquee"];
+  const found = names.map((name) => style.getPropertyValue(`--${name}`).trim());
+  const [desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee] = found;
+  return { desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee };
+}

@@ -1,0 +1,290 @@
+// @ts-check
+/** The page: its parts, and what passes between them. */
+
+import { actionsOf } from "./actions.js";
+import { Badge } from "./badge.js";
+import { Bar } from "./bar.js";
+import { Choice } from "./choice.js";
+import { Collage } from "./collage.js";
+import { Connection } from "./connection.js";
+import { byId } from "./dom.js";
+import { Dropping } from "./dropping.js";
+import { Exporting } from "./exporting.js";
+import { Gestures } from "./gestures.js";
+import { Hand, together } from "./hand.js";
+import { listenToKeys } from "./keys.js";
+import { Menu } from "./menu.js";
+import { Palette } from "./palette.js";
+import { Panels } from "./panels.js";
+import { Sprites } from "./sprites.js";
+import { Stage } from "./stage.js";
+import { say, tell } from "./toasts.js";
+import { View } from "./view.js";
+
+/** @typedef {import("./wire.js").Said} Said */
+/** @typedef {import("./connection.js").Frame} Frame */
+
+/** What chrome covers of the window, px. */
+const MARGIN = 28;
+
+export class Studio {
+  constructor() {
+    this.isCalm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+    this.canvas = /** @type {HTMLCanvasElement} */ (byId("canvas"));
+    this.collage = new Collage();
+    this.connection = new Connection({
+      said: (message) => this.said(message),
+      frame: (frame) => this.framed(frame),
+      changed: (isOpen) => this.connected(isOpen),
+    });
+    this.view = new View(() => this.redraw());
+    this.choice = new Choice(() => this.chosen());
+    this.sprites = new Sprites(() => this.redraw());
+    this.stage = new Stage(this.canvas, this.collage, this.view, this.sprites, this.choice);
+    this.hand = new Hand(this.collage, this.connection);
+    this.gestures = new Gestures(this.stage, this.view, this.choice, this.hand, {
+      changed: () => this.redraw(),
+      menu: (x, y) => this.menu.open(x, y + this.canvas.getBoundingClientRect().top, this.choice.ids.size > 0),
+    });
+    this.dropping = new Dropping(this.connection);
+    this.exporting = new Exporting(this.connection, this.collage);
+    const actions = actionsOf(this);
+    this.actions = new Map(actions.map((action) => [action.id, action]));
+    this.bar = new Bar(this.actions);
+    this.badge = new Badge({ show: (ids) => this.showItems(ids), stop: () => this.connection.send({ type: "stop" }) });
+    this.palette = new Palette(actions);
+    this.menu = new Menu(this.actions);
+    this.panels = new Panels(this);
+    listenToKeys(actions, { pans: (isHeld) => (this.gestures.isPanning = isHeld) });
+    this.isDirty = false;
+    this.last = 0;
+    this.unacked = 0;
+    this.listen();
+  }
+
+  listen() {
+    addEventListener("resize", () => this.resized());
+    new ResizeObserver(() => this.resized()).observe(this.canvas);
+    const dark = matchMedia("(prefers-color-scheme: dark)");
+    dark.addEventListener("change", () => this.themed());
+    matchMedia("(prefers-reduced-motion: reduce)").addEventListener("change", (event) => (this.isCalm = event.matches));
+    document.addEventListener("visibilitychange", () => this.ack());
+  }
+
+  begin() {
+    const theme = localStorage.getItem("theme");
+    if (theme) document.documentElement.dataset.theme = theme;
+    this.themed();
+    this.resized();
+    this.connection.open();
+    this.refresh();
+    if (innerWidth >= 1000) this.panels.toggle("items");
+  }
+
+  /** @param {Said} message */
+  said(message) {
+    if (message.type === "shapes") this.collage.addShapes(message.shapes);
+    else if (message.type === "scene") this.changed(message);
+    else if (message.type === "state") this.stated(message);
+    else tell(message.text, { isError: message.is_error });
+  }
+
+  /** @param {import("./wire.js").Scene} scene */
+  changed(scene) {
+    const before = this.collage.scene;
+    this.collage.setScene(scene);
+    this.choice.keep(this.collage.rows);
+    if (!before || before.width !== scene.width || before.height !== scene.height) {
+      this.view.whole = { width: scene.width, height: scene.height };
+      this.view.fit(false);
+    }
+    document.title = `${scene.name} – Packwork studio`;
+    this.refresh();
+  }
+
+  /** @param {import("./wire.js").State} state */
+  stated(state) {
+    const before = this.collage.state;
+    this.collage.state = state;
+    this.badge.show(state);
+    if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy) this.refresh();
+    this.redraw();
+  }
+
+  /** @param {Frame} frame */
+  framed(frame) {
+    const isFirst = !this.collage.hasPoses;
+    this.collage.setFrame(frame);
+    this.unacked = frame.number;
+    if (document.hidden) this.ack();
+    if (isFirst) this.refresh();
+    this.redraw();
+  }
+
+  ack() {
+    if (this.unacked) this.connection.send({ type: "ack", frame: this.unacked });
+    this.unacked = 0;
+  }
+
+  /** @param {boolean} isOpen */
+  connected(isOpen) {
+    document.body.classList.toggle("lost", !isOpen);
+    this.badge.connected(isOpen);
+    if (isOpen) this.unacked = 0;
+    else this.collage.hand.clear();
+  }
+
+  chosen() {
+    const count = this.choice.ids.size;
+    const [id] = this.choice.ids;
+    if (count) say(count === 1 ? `${this.collage.item(id)?.name} chosen` : `${count} items chosen`);
+    this.refresh();
+  }
+
+  /** Bring all but the canvas up to how things are. */
+  refresh() {
+    const count = this.choice.ids.size;
+    const [id] = this.choice.ids;
+    const name = count === 1 ? this.collage.item(id)?.name ?? "" : count ? `${count} items` : "";
+    this.bar.show(this.collage.scene?.name ?? "", name);
+    byId("empty").hidden = this.collage.hasPoses;
+    if (this.collage.scene) byId("empty-text").textContent = "Pouring …";
+    this.panels.refresh();
+    this.redraw();
+  }
+
+  redraw() {
+    if (this.isDirty) return;
+    this.isDirty = true;
+    requestAnimationFrame((now) => this.draw(now));
+  }
+
+  /** @param {number} now */
+  draw(now) {
+    this.isDirty = false;
+    const passed = Math.min(now - this.last, 100);
+    this.last = now;
+    const moves = this.collage.hasPoses && this.collage.ease(passed, this.isCalm);
+    const glides = this.view.step();
+    const lacks = this.sprites.begin();
+    this.stage.draw();
+    this.ack();
+    if (moves || glides || lacks || this.sprites.left < 0) this.redraw();
+  }
+
+  resized() {
+    const box = this.canvas.getBoundingClientRect();
+    const panel = document.body.classList.contains("with-panel") && innerWidth >= 700 ? byId("panel").getBoundingClientRect().width + 24 : 0;
+    const isWide = innerWidth >= 700;
+    Object.assign(this.view.size, { width: box.width, height: box.height, left: (isWide ? 76 : 12) + panel, right: isWide ? MARGIN : 12, top: MARGIN, bottom: isWide ? 72 : 118 });
+    this.stage.resize();
+    this.view.refit();
+  }
+
+  themed() {
+    this.stage.recolour();
+    this.redraw();
+  }
+
+  toggleTheme() {
+    const isDark = getComputedStyle(document.documentElement).colorScheme.startsWith("dark");
+    const theme = isDark ? "light" : "dark";
+    document.documentElement.dataset.theme = theme;
+    localStorage.setItem("theme", theme);
+    this.themed();
+  }
+
+  pour() {
+    this.connection.send({ type: "pour", seed: Math.floor(Math.random() * 2 ** 31) });
+  }
+
+  /** @param {number} step */
+  chooseNext(step) {
+    const { items, rows } = this.collage;
+    if (!items.length) return;
+    const [id] = this.choice.ids;
+    const at = id === undefined ? (step > 0 ? -1 : 0) : rows.get(id) ?? 0;
+    this.choice.set([items[(at + step + items.length) % items.length].id]);
+  }
+
+  chooseAlike() {
+    const names = new Set([...this.choice.ids].map((id) => this.collage.item(id)?.name));
+    this.choice.set(this.collage.items.filter((item) => names.has(item.name)).map((item) => item.id));
+  }
+
+  escape() {
+    if (!this.gestures.cancel()) this.choice.set([]);
+  }
+
+  get held() {
+    return [...this.choice.ids].map((id) => this.collage.item(id)?.held.some(Boolean) ?? false);
+  }
+
+  get areHeld() {
+    return this.held.length > 0 && this.held.every(Boolean);
+  }
+
+  get anyHeld() {
+    return this.held.some(Boolean);
+  }
+
+  /** @param {boolean} isHeld */
+  hold(isHeld) {
+    this.connection.do({ kind: isHeld ? "hold" : "release", items: [...this.choice.ids] });
+  }
+
+  duplicate() {
+    this.connection.do(together([...this.choice.ids].map((item) => ({ kind: "duplicate", item }))));
+  }
+
+  exchange() {
+    const [first, second] = this.choice.ids;
+    this.connection.do({ kind: "exchange", first, second });
+  }
+
+  remove() {
+    this.connection.do({ kind: "remove", items: [...this.choice.ids] });
+    this.choice.set([]);
+  }
+
+  /** @param {number} factor */
+  resize(factor) {
+    this.connection.do(together([...this.choice.ids].map((item) => ({ kind: "scale", item, factor }))));
+  }
+
+  /** @param {number} degrees */
+  turn(degrees) {
+    const turns = [...this.choice.ids].map((item) => {
+      const angle = ((this.collage.pose(item)?.angle ?? 0) * 180) / Math.PI + degrees;
+      return { kind: "turn", item, angle };
+    });
+    this.connection.do(together(turns));
+  }
+
+  /**
+   * Move what is chosen by shares of the canvas, or else the canvas itself.
+   * @param {number} x
+   * @param {number} y
+   */
+  nudge(x, y) {
+    const { width, height } = this.view.whole;
+    const side = Math.max(width, height);
+    if (!this.choice.ids.size) return this.view.pan(-10 * side * x * this.view.zoom, -10 * side * y * this.view.zoom);
+    const moves = [...this.choice.ids].map((item) => {
+      const row = 4 * (this.collage.rows.get(item) ?? 0);
+      return { kind: "move", item, x: this.collage.poses[row] + side * x, y: this.collage.poses[row + 1] + side * y };
+    });
+    this.connection.do(together(moves));
+  }
+
+  showChosen() {
+    this.showItems([...this.choice.ids]);
+  }
+
+  /** @param {number[]} ids */
+  showItems(ids) {
+    const box = this.collage.box(ids);
+    if (box) this.view.show(box);
+    this.choice.set(ids);
+  }
+}

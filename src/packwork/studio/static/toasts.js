@@ -1,0 +1,32 @@
+// @ts-check
+/** Lines for people: shown for a while, and read out. */
+
+import { byId, h } from "./dom.js";
+
+const SECONDS = 6;
+const MOST = 4;
+
+/**
+ * Show a line; errors stay longer.
+ * @param {string} text
+ * @param {{isError?: boolean, act?: {label: string, run: () => void}}} [more]
+ */
+export function tell(text, { isError = false, act } = {}) {
+  const list = byId("toasts");
+  const same = [...list.children].find((toast) => toast.getAttribute("data-text") === text);
+  same?.remove();
+  const toast = h("div", { class: isError ? "toast error" : "toast", role: isError ? "alert" : "status", "data-text": text }, h("span", {}, text));
+  if (act) toast.append(h("button", { type: "button", onclick: () => { act.run(); toast.remove(); } }, act.label));
+  toast.append(h("button", { type: "button", class: "close", "aria-label": "Close", onclick: () => toast.remove() }, "×"));
+  list.append(toast);
+  while (list.children.length > MOST) list.firstElementChild?.remove();
+  setTimeout(() => toast.remove(), 1000 * SECONDS * (isError || act ? 2 : 1));
+}
+
+/**
+ * Say something to screen readers alone.
+ * @param {string} text
+ */
+export function say(text) {
+  byId("said").textContent = text;
+}

@@ -1,0 +1,48 @@
+// @ts-check
+/**
+ * What page and studio say to each other.
+ *
+ * Written by ``tools/write_wire.py`` from the schema; nothing here is run.
+ *
+ * @typedef {{type: "ack", frame: number}} Ack
+ * @typedef {{kind: "add", asset: string, x: number, y: number, area: number, angle?: number}} Add
+ * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
+ * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
+ * @typedef {{type: "count", count: number}} Count
+ * @typedef {{kind: "cover", share: number}} Cover
+ * @typedef {{type: "do", n: number, command: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption | Together | Grab | Drop)}} Do
+ * @typedef {{kind: "drop"}} Drop
+ * @typedef {{kind: "duplicate", item: number}} Duplicate
+ * @typedef {{kind: "exchange", first: number, second: number}} Exchange
+ * @typedef {{kind: "grab", items: number[]}} Grab
+ * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
+ * @typedef {{type: "leap", to: ("undo" | "redo")}} Leap
+ * @typedef {{type: "line", text: string, is_error?: boolean}} Line
+ * @typedef {{kind: "move", item: number, x: number, y: number}} Move
+ * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number}} PlaceContainer
+ * @typedef {{type: "pour", seed: number}} Pour
+ * @typedef {{kind: "recolour", items: number[], colour: string}} Recolour
+ * @typedef {{kind: "release", items: number[], properties?: ("place" | "angle" | "size")[]}} Release
+ * @typedef {{kind: "remove", items: number[]}} Remove
+ * @typedef {{kind: "rename", item: number, name: string}} Rename
+ * @typedef {{kind: "replace", item: number, asset: string}} Replace
+ * @typedef {{kind: "reshape", rings: [number, number][][]}} Reshape
+ * @typedef {{type: "room", source: string}} Room
+ * @typedef {Line | Scene | Shapes | State} Said
+ * @typedef {{kind: "scale", item: number, factor: number}} Scale
+ * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any}} Scene
+ * @typedef {{type: "set", options: any}} Set
+ * @typedef {{kind: "set_container", asset: string}} SetContainer
+ * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
+ * @typedef {{key: string, outline: string, box: [number, number, number, number], fill: string, ink: string, svg: string}} Shape
+ * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
+ * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, saved: boolean}} State
+ * @typedef {{type: "stop"}} Stop
+ * @typedef {{type: "swap", items: number[], source: string}} Swap
+ * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, held: [boolean, boolean, boolean]}} Thing
+ * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption)[]}} Together
+ * @typedef {Ack | Bring | Count | Do | Leap | Pour | Room | Set | Stop | Swap} Told
+ * @typedef {{kind: "turn", item: number, angle: number}} Turn
+ * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
+ */
+export {};

@@ -1,0 +1,176 @@
+"""One page that looks at the desk: what it is sent, and what it asks for."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from collections import deque
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol
+
+from packwork.live.owner import Leap
+from packwork.scene.pose import Poses
+from packwork.studio import wire
+from packwork.studio.desk import NOT_YET, Desk
+from packwork.studio.wire import Line, Scene, Shapes, State
+
+STATE_SECONDS = 0.1
+"""Time between two states of which only the covered share differs. Chosen."""
+
+MOST_LINES = 32
+"""Lines that wait for a page at most. Chosen."""
+
+
+class Wire(Protocol):
+    """What carries messages to a page."""
+
+    async def send_text(self, data: str) -> None:
+        """Send a message."""
+
+    async def send_bytes(self, data: bytes) -> None:
+        """Send a frame."""
+
+
+class Tab:
+    """A page.
+
+    Parameters
+    ----------
+    desk
+        What it looks at.
+    carrier
+        What carries messages to it.
+    bring
+        Does what needs files: by the message's type.
+    """
+
+    def __init__(
+        self, desk: Desk, carrier: Wire, bring: Mapping[str, Callable[[Any], object]]
+    ) -> None:
+        self._desk, self._carrier, self._bring = desk, carrier, bring
+        self._woken = asyncio.Event()
+        self._lines: deque[Line] = deque(maxlen=MOST_LINES)
+        self._known: set[str] = set()
+        self._scene: Scene | None = None
+        self._state: State | None = None
+        self._state_at = 0.0
+        self._frame = self._acked = 0
+        self._seen: tuple[Poses, int] | None = None
+        self._posted: deque[tuple[int, int]] = deque()
+        self._newest = 0
+
+    def wake(self, line: Line | None = None) -> None:
+        """Have the page told what is new, and a line if there is one."""
+        if line is not None:
+            self._lines.append(line)
+        self._woken.set()
+
+    async def send(self) -> None:
+        """Send what is new, for as long as the page is there."""
+        self._desk.listen(self, self.wake)
+        self.wake()
+        try:
+            while True:
+                await self._woken.wait()
+                self._woken.clear()
+                await self._send_news()
+        finally:
+            self._desk.forget(self)
+
+    async def _send_news(self) -> None:
+        while self._lines:
+            await self._say(self._lines.popleft())
+        view = self._desk.view
+        if view is None:
+            return
+        owner = self._desk.owner
+        done = 0 if owner is None else owner.frame.done
+        state = self._desk.state(view)
+        scene = await self._desk.scene(view)
+        if self._scene is None or scene.version != self._scene.version:
+            await self._send_scene(scene)
+            self._seen = None
+        await self._send_state(state)
+        if (
+            self._acked == self._frame
+            and view.poses is not None
+            and (self._seen is None or self._seen[0] is not view.poses or self._seen[1] != done)
+        ):
+            self._frame += 1
+            self._seen = (view.poses, done)
+            known = self._done(done)
+            data = wire.frame_bytes(self._frame, scene.version, known, state.moving, view.numbers)
+            await self._carrier.send_bytes(data)
+
+    async def _send_scene(self, scene: Scene) -> None:
+        keys = dict.fromkeys(thing.shape for thing in scene.items if thing.shape not in self._known)
+        self._known.update(keys)
+        if keys:
+            shapes = self._desk.shapes.shapes
+            await self._say(Shapes(shapes=tuple(shapes[key] for key in keys)))
+        self._scene = scene
+        await self._say(scene)
+
+    async def _send_state(self, state: State) -> None:
+        before, now = self._state, time.monotonic()
+        if state == before:
+            return
+        is_alike = before is not None and state.moving and _apart(state) == _apart(before)
+        if is_alike and now - self._state_at < STATE_SECONDS:
+            return
+        self._state, self._state_at = state, now
+        await self._say(state)
+
+    async def _say(self, message: wire.Said) -> None:
+        await self._carrier.send_text(message.model_dump_json())
+
+    def _done(self, done: int) -> int:
+        """Newest of this page's commands that a frame of the session knows."""
+        while self._posted and self._posted[0][0] <= done:
+            self._newest = self._posted.popleft()[1]
+        return self._newest
+
+    def receive(self, text: str) -> None:
+        """Do what the page asks for; what means nothing is answered by a line."""
+        try:
+            self._act(wire.read(text))
+        except wire.UnreadableError as error:
+            self.wake(Line(text=str(error)))
+
+    def _act(self, message: wire.Told) -> None:
+        desk = self._desk
+        if isinstance(message, wire.Ack):
+            if self._acked < message.frame <= self._frame:
+                self._acked = message.frame
+                self._woken.set()
+        elif isinstance(message, wire.Do):
+            self._post(message)
+        elif isinstance(message, wire.Leap):
+            if desk.owner is not None:
+                desk.owner.post(Leap(message.to))
+        elif isinstance(message, wire.Stop):
+            desk.stop()
+        elif isinstance(message, wire.Pour):
+            desk.pour(message.seed)
+        elif isinstance(message, wire.Count):
+            count = message.count
+            desk.change(lambda session: session.count(count))
+        elif isinstance(message, wire.Set):
+            options = message.options
+            desk.change(lambda session: session.set(**options))
+        else:
+            self._bring[message.type](message)
+
+    def _post(self, message: wire.Do) -> None:
+        owner = self._desk.owner
+        if owner is None:
+            self.wake(Line(text=NOT_YET))
+        elif owner.post(message.command):
+            self._posted.append((owner.posted, message.n))
+        else:
+            self.wake(Line(text="too much is waiting to be done; that was left out"))
+
+
+def _apart(state: State) -> State:
+    """A state without what changes with every frame."""
+    return state.model_copy(update={"covered": 0.0, "progress": 0.0})

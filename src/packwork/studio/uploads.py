@@ -1,0 +1,100 @@
+"""Files that a page sends: in a private folder, in batches, with limits of size and count."""
+
+from __future__ import annotations
+
+import re
+import secrets
+import tempfile
+from pathlib import Path
+
+from packwork.errors import ReadError
+
+MOST_BYTES = 64_000_000
+"""Size of one file at most. Chosen: more than readers take of drawings."""
+
+MOST_BYTES_IN_ALL = 1_000_000_000
+"""Size of all files at most. Chosen."""
+
+MOST_FILES = 2_000
+"""Files at most. Chosen."""
+
+LONGEST_NAME = 120
+
+_NO_LETTER = re.compile(r"[^\w .()+-]")
+_BATCH = re.compile(r"[0-9a-f]{16}")
+
+
+class Uploads:
+    """Files in folders of their own, gone when the studio closes."""
+
+    def __init__(self) -> None:
+        self._folder = tempfile.TemporaryDirectory(prefix="packwork-studio-")
+        self._files, self._bytes = 0, 0
+
+    def close(self) -> None:
+        """Remove all files."""
+        self._folder.cleanup()
+
+    def new_batch(self) -> str:
+        """Name of an empty batch, which nobody can guess."""
+        name = secrets.token_hex(8)
+        (self.root / name).mkdir()
+        return name
+
+    @property
+    def root(self) -> Path:
+        """Where batches lie."""
+        return Path(self._folder.name)
+
+    def folder(self, batch: str) -> Path:
+        """Folder of a batch.
+
+        Raises
+        ------
+        ReadError
+            If there is none of that name.
+        """
+        if not _BATCH.fullmatch(batch) or not (self.root / batch).is_dir():
+            raise ReadError("files", "there are no such files; drop them again")
+        return self.root / batch
+
+    def add(self, batch: str, name: str, data: bytes) -> None:
+        """Keep a file under its own name, or one like it.
+
+        Raises
+        ------
+        ReadError
+            If it is too large, or there are too many.
+        """
+        shown = name[:60]
+        if len(data) > MOST_BYTES:
+            raise ReadError(shown, f"is larger than {MOST_BYTES / 1e6:g} MB")
+        if self._files >= MOST_FILES or self._bytes + len(data) > MOST_BYTES_IN_ALL:
+            raise ReadError(shown, f"is one too many; {MOST_FILES} files or 1 GB are the most")
+        self._files += 1
+        self._bytes += len(data)
+        _free(self.folder(batch), safe_name(name)).write_bytes(data)
+
+
+def safe_name(name: str) -> str:
+    """File name without folders and signs that mean something to a system.
+
+    Examples
+    --------
+    >>> safe_name("../../etc/pass<wd>.svg"), safe_name("..")
+    ('pass_wd_.svg', 'file')
+    """
+    plain = _NO_LETTER.sub("_", name.replace("\\", "/").rpartition("/")[2]).strip(" .")
+    stem, dot, ending = plain.rpartition(".")
+    if dot and len(ending) <= 8:
+        return f"{stem[: LONGEST_NAME - 9]}.{ending}" if stem else f"file.{ending}"
+    return plain[:LONGEST_NAME] or "file"
+
+
+def _free(folder: Path, name: str) -> Path:
+    """Path of a name that is not taken there."""
+    path, number = folder / name, 1
+    while path.exists():
+        number += 1
+        path = folder / f"{Path(name).stem} {number}{Path(name).suffix}"
+    return path

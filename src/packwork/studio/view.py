@@ -1,0 +1,151 @@
+"""What a page shows of a moment, wherever it comes from: a run on its way, or a session."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.live.document import PROPERTIES, Document
+from packwork.live.face.drawing import FINENESS, Drawing, drawing_of, path_of
+from packwork.live.face.pouring import Moment
+from packwork.scene.container import Container
+from packwork.scene.item import Item
+from packwork.scene.pose import Poses
+from packwork.studio.wire import Scene, Shape, Thing
+
+CONTAINER_FINENESS = FINENESS / 4
+"""By how much the container's line may be off on the page, as a share of its extent. Chosen."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class View:
+    """All that is drawn.
+
+    Parameters
+    ----------
+    container, items, ids, weights, held, options
+        As a document has them.
+    poses
+        As many as items; None before they have a place.
+    """
+
+    container: Container
+    items: tuple[Item, ...]
+    ids: IntArray
+    weights: FloatArray
+    held: BoolArray
+    options: Mapping[str, Any] = field(default_factory=dict)
+    poses: Poses | None
+
+    @classmethod
+    def of_document(cls, document: Document, poses: Poses | None = None) -> View:
+        """What a document looks like, or would with other poses."""
+        return cls(
+            container=document.container,
+            items=document.items,
+            ids=document.ids,
+            weights=document.weights,
+            held=document.held,
+            options=document.options.model_dump(),
+            poses=poses or document.poses,
+        )
+
+    @classmethod
+    def of_moment(cls, moment: Moment) -> View:
+        """What a run looks like on its way."""
+        count = len(moment.items) if moment.poses is not None else 0
+        return cls(
+            container=moment.container,
+            items=moment.items[:count],
+            ids=np.arange(count),
+            weights=np.ones(count),
+            held=np.zeros((count, len(PROPERTIES)), dtype=bool),
+            poses=moment.poses,
+        )
+
+    def is_like(self, other: View) -> bool:
+        """Whether nothing differs but poses."""
+        return (
+            self.container is other.container
+            and self.options == other.options
+            and _same(self.ids, other.ids)
+            and _same(self.weights, other.weights)
+            and _same(self.held, other.held)
+            and len(self.items) == len(other.items)
+            and all(a is b for a, b in zip(self.items, other.items, strict=True))
+        )
+
+    @property
+    def numbers(self) -> FloatArray:
+        """``(n, 4)`` x, y, angle and scale of each item."""
+        if self.poses is None:
+            return np.zeros((0, 4))
+        columns = (self.poses.x, self.poses.y, self.poses.angle, self.poses.scale)
+        return np.column_stack(columns)
+
+
+def _same(one: np.ndarray, other: np.ndarray) -> bool:
+    return one is other or np.array_equal(one, other)
+
+
+class Scenes:
+    """Scenes of views, each drawn once; not for several threads at once."""
+
+    def __init__(self) -> None:
+        self._drawings: dict[int, tuple[Item, Drawing]] = {}
+        self._areas: dict[int, float] = {}
+        self._last: tuple[View, Scene] | None = None
+        self._outline: tuple[Container, str] | None = None
+        self.shapes: dict[str, Shape] = {}
+        """Looks by their keys."""
+
+    def of(self, view: View) -> Scene:
+        """Scene of a view; the last one where nothing but poses differs."""
+        if self._last is not None and self._last[0].is_like(view):
+            self._last = (view, self._last[1])
+            return self._last[1]
+        version = 1 if self._last is None else self._last[1].version + 1
+        container = view.container
+        scene = Scene(
+            version=version,
+            name=container.name,
+            outline=self._path(container),
+            width=container.width,
+            height=container.height,
+            unit=container.unit,
+            items=tuple(self._thing(view, k) for k in range(len(view.items))),
+            options=dict(view.options),
+        )
+        self._last = (view, scene)
+        return scene
+
+    def _thing(self, view: View, k: int) -> Thing:
+        item = view.items[k]
+        place, angle, size = view.held[k].tolist()
+        return Thing(
+            id=int(view.ids[k]),
+            shape=self._drawing(item).key,
+            name=item.name,
+            weight=float(view.weights[k]),
+            stretch=1.0 if view.poses is None else float(view.poses.stretch[k]),
+            held=(place, angle, size),
+        )
+
+    def _drawing(self, item: Item) -> Drawing:
+        # The item is kept beside: another one could have its place in memory.
+        if id(item) not in self._drawings:
+            drawing = drawing_of(item)
+            self._drawings[id(item)] = (item, drawing)
+            said = {name: getattr(drawing, name) for name in Shape.model_fields}
+            self.shapes[drawing.key] = Shape(**said)
+        return self._drawings[id(item)][1]
+
+    def _path(self, container: Container) -> str:
+        if self._outline is None or self._outline[0] is not container:
+            path = path_of(container.outline, CONTAINER_FINENESS)
+            self._outline = (container, path)
+        return self._outline[1]

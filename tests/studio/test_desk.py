@@ -1,0 +1,197 @@
+"""The desk and the pages that look at it: frames, commands, history, several pages."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from packwork.live.face.opening import Opening, opening_of
+from packwork.studio import wire
+from packwork.studio.desk import Desk
+from packwork.studio.exporting import Exporter
+from packwork.studio.view import View
+
+
+def poses_of(frame: bytes) -> np.ndarray:
+    return np.frombuffer(frame[16:], "<f4").reshape(-1, 4)
+
+
+def test_a_page_hears_shapes_then_the_scene_then_frames(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified and page.frames)
+        kinds = [message["type"] for message in page.messages]
+        assert kinds.index("shapes") < kinds.index("scene") < kinds.index("state")
+        assert len(page.last("scene")["items"]) == 12
+        assert len(page.last("shapes")["shapes"]) == 3
+        assert poses_of(page.frames[-1]).shape == (12, 4)
+
+    play(scenario)
+
+
+def test_one_frame_is_in_flight(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page, other = open_page(), open_page()
+        page.acknowledges = False
+        await page.until(lambda: page.frames)
+        await other.until(lambda: other.is_certified)
+        other.tell(type="do", n=1, command={"kind": "move", "item": 0, "x": 300.0, "y": 300.0})
+        await other.until(lambda: other.done == 1 and other.is_certified)
+        assert len(page.frames) == 1
+        page.acknowledge()
+        await page.until(lambda: len(page.frames) == 2)
+        assert poses_of(page.frames[-1])[0, 0] == pytest.approx(300.0)
+
+    play(scenario)
+
+
+def test_a_drag_moves_neighbours_settles_and_is_one_step_back(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified and page.frames)
+        before = poses_of(page.frames[-1])
+        x, y = map(float, before[0, :2])
+        page.tell(type="do", n=1, command={"kind": "grab", "items": [0]})
+        for step in range(20):
+            move = {"kind": "move", "item": 0, "x": x + (300 - x) * step / 19, "y": y}
+            page.tell(type="do", n=2 + step, command=move)
+            await asyncio.sleep(0.005)
+        await page.until(lambda: page.done == 21)
+        assert not page.last("state")["certified"]
+        page.tell(type="do", n=22, command={"kind": "drop"})
+        await page.until(lambda: page.done == 22 and page.is_certified)
+        after = poses_of(page.frames[-1])
+        assert (np.abs(after - before)[1:] > 1e-3).any()
+        assert page.last("state")["can_undo"]
+        page.tell(type="leap", to="undo")
+        await page.until(lambda: page.last("state")["can_redo"] and page.is_certified)
+        await page.until(lambda: np.array_equal(poses_of(page.frames[-1]), before))
+        assert not page.last("state")["can_undo"]
+
+    play(scenario)
+
+
+def test_two_pages_see_one_session(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        one, other = open_page(), open_page()
+        await one.until(lambda: one.is_certified)
+        await other.until(lambda: other.is_certified)
+        one.tell(type="do", n=1, command={"kind": "hold", "items": [3]})
+        await other.until(lambda: any(thing["held"][0] for thing in other.last("scene")["items"]))
+        held = [thing["id"] for thing in other.last("scene")["items"] if all(thing["held"])]
+        assert held == [3]
+        await one.until(lambda: one.done == 1)
+        assert other.done == 0
+
+    play(scenario)
+
+
+def test_what_has_no_meaning_is_a_line_and_nothing_else(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        page.tell(type="do", n=1, command={"kind": "remove", "items": [99]})
+        page.tell(type="bring", sources=["/etc/passwd"])
+        page.tell(type="bring", sources=["file:../../etc"])
+        page.tell(type="room", source="builtin:nothing")
+        page.tell(type="set", options={"padding": "wide"})
+        page.tell(type="nonsense")
+        await page.until(lambda: len(page.said("line")) == 6)
+        for line in page.said("line"):
+            assert line["is_error"]
+            assert "\n" not in line["text"]
+            assert "Traceback" not in line["text"]
+            assert "packwork-studio" not in line["text"]
+        await page.until(lambda: page.is_certified)
+        assert len(page.last("scene")["items"]) == 12
+
+    play(scenario)
+
+
+def test_items_come_go_and_are_exchanged(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        page.tell(type="bring", sources=["builtin:star", "builtin:moon"])
+        await page.until(lambda: len(page.last("scene")["items"]) == 14 and page.is_certified)
+        page.tell(type="swap", items=[0, 1], source="builtin:moon")
+        await page.until(
+            lambda: [t["name"] for t in page.last("scene")["items"]].count("moon") == 3
+        )
+        page.tell(type="count", count=9)
+        await page.until(lambda: len(page.last("scene")["items"]) == 9 and page.is_certified)
+
+    play(scenario)
+
+
+def test_another_container_is_filled_anew_in_one_step(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        page.tell(type="room", source="builtin:bear")
+        await page.until(lambda: page.last("scene")["name"] == "bear" and page.is_certified)
+        page.tell(type="leap", to="undo")
+        await page.until(lambda: page.last("scene")["name"] == "circle" and page.is_certified)
+        assert not page.last("state")["can_undo"]
+
+    play(scenario)
+
+
+def test_pouring_anew_keeps_what_is_held(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified and page.frames)
+        before = poses_of(page.frames[-1])
+        page.tell(type="do", n=1, command={"kind": "hold", "items": [5]})
+        page.tell(type="pour", seed=4)
+
+        def is_elsewhere() -> bool:
+            return not np.array_equal(poses_of(page.frames[-1])[0], before[0])
+
+        await page.until(lambda: page.done == 1 and page.is_certified and is_elsewhere())
+        assert poses_of(page.frames[-1])[5] == pytest.approx(before[5])
+
+    play(scenario)
+
+
+@pytest.mark.parametrize("kind", ["svg", "pdf", "png", "dxf", "geojson", "packwork"])
+def test_all_formats_are_exported(play, kind: str) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        data, media = await Exporter(desk).file({"format": kind, "options": {}})
+        assert data
+        assert media
+
+    async def waiting(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        await scenario(desk, open_page)
+
+    play(waiting)
+
+
+def test_a_desk_begins_with_a_run_that_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:
+    recipe = opening_of(["circle", "star"], 5, levels="50", epochs=60).recipe
+    desk = Desk(Opening(recipe=recipe))
+    counts: list[int] = []
+    see = desk._see
+    monkeypatch.setattr(
+        desk, "_see", lambda view, moment: (counts.append(len(view.items)), see(view, moment))
+    )
+    desk._open()
+    desk.close()
+    assert counts[0] == 0
+    assert counts.count(5) > 3
+    assert desk.owner is not None
+    assert desk.owner.frame.in_the_way == ()
+
+
+def test_a_view_is_like_another_but_for_poses(opening: Opening) -> None:
+    document = opening.document
+    assert document is not None
+    one, other = View.of_document(document), View.of_document(document, document.poses)
+    assert one.is_like(other)
+    data = wire.frame_bytes(7, 1, 3, True, one.numbers)
+    assert wire.HEAD.unpack(data[:16]) == (7, 1, 3, wire.MOVING)
