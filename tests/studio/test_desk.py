@@ -195,3 +195,21 @@ def test_a_view_is_like_another_but_for_poses(opening: Opening) -> None:
     assert one.is_like(other)
     data = wire.frame_bytes(7, 1, 3, True, one.numbers)
     assert wire.HEAD.unpack(data[:16]) == (7, 1, 3, wire.MOVING)
+
+
+def test_nothing_is_called_certified_that_the_page_does_not_show(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page, other = open_page(), open_page()
+        page.acknowledges = False
+        await other.until(lambda: other.is_certified)
+        await page.until(lambda: page.frames)
+        other.tell(type="do", n=1, command={"kind": "move", "item": 0, "x": 300.0, "y": 300.0})
+        await other.until(lambda: other.done == 1 and other.is_certified)
+        await page.until(lambda: page.last("state")["moving"])
+        assert not page.last("state")["certified"]
+        while not page.is_certified:
+            page.acknowledge()
+            await asyncio.sleep(0.01)
+        assert poses_of(page.frames[-1])[0, 0] == pytest.approx(300.0)
+
+    play(scenario)

@@ -12,6 +12,7 @@ from packwork.live.owner import Leap
 from packwork.scene.pose import Poses
 from packwork.studio import wire
 from packwork.studio.desk import NOT_YET, Desk
+from packwork.studio.view import View
 from packwork.studio.wire import Line, Scene, Shapes, State
 
 STATE_SECONDS = 0.1
@@ -90,17 +91,28 @@ class Tab:
         if self._scene is None or scene.version != self._scene.version:
             await self._send_scene(scene)
             self._seen = None
+        is_late = await self._send_frame(view, done, scene.version, state.moving)
+        if is_late and not state.moving:
+            # What is said of a layout waits until that layout is what the page shows.
+            state = state.model_copy(update={"moving": True, "certified": False, "entangled": ()})
         await self._send_state(state)
-        if (
-            self._acked == self._frame
-            and view.poses is not None
-            and (self._seen is None or self._seen[0] is not view.poses or self._seen[1] != done)
-        ):
-            self._frame += 1
-            self._seen = (view.poses, done)
-            known = self._done(done)
-            data = wire.frame_bytes(self._frame, scene.version, known, state.moving, view.numbers)
-            await self._carrier.send_bytes(data)
+
+    async def _send_frame(self, view: View, done: int, version: int, moving: bool) -> bool:
+        """Send where items are, if the page does not know; whether that has to wait."""
+        if view.poses is None or self._is_seen(view.poses, done):
+            return False
+        if self._acked != self._frame:
+            return True
+        self._frame += 1
+        self._seen = (view.poses, done)
+        known = self._done(done)
+        data = wire.frame_bytes(self._frame, version, known, moving, view.numbers)
+        await self._carrier.send_bytes(data)
+        return False
+
+    def _is_seen(self, poses: Poses, done: int) -> bool:
+        """Whether the newest frame had these poses, and knew as many commands."""
+        return self._seen is not None and self._seen[0] is poses and self._seen[1] == done
 
     async def _send_scene(self, scene: Scene) -> None:
         keys = dict.fromkeys(thing.shape for thing in scene.items if thing.shape not in self._known)

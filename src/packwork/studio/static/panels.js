@@ -43,9 +43,16 @@ export class Panels {
     const close = button("close", "Close the panel", () => this.toggle(this.current), { class: "close" });
     this.body = h("div", { class: "body" });
     this.panel.replaceChildren(h("div", { class: "head" }, h("h2", {}, label), close), this.body);
-    this.choices ??= await this.load();
-    if (this.current === "room") this.fillRoom(this.body);
-    if (this.current === "items") this.fillItems(this.body);
+    this.fillBody(this.body);
+    if (this.choices) return;
+    this.choices = await this.load();
+    if (this.body.isConnected) this.fillBody(this.body);
+  }
+
+  /** @param {HTMLElement} body */
+  fillBody(body) {
+    if (this.current === "room") this.fillRoom(body);
+    if (this.current === "items") this.fillItems(body);
   }
 
   async load() {

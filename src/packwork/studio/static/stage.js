@@ -312,7 +312,7 @@ function unit(from, to) {
 /** @param {Element} element */
 function coloursOf(element) {
   const style = getComputedStyle(element);
-  const names = ["desk", "paper", "edge", "accent", "hover", "bad", "pin", "on-pin", "handle", "marquee"];
+  const names = ["desk", "paper", "edge", "mark", "hover", "wrong", "pin", "on-pin", "handle", "marquee"];
   const found = names.map((name) => style.getPropertyValue(`--${name}`).trim());
   const [desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee] = found;
   return { desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee };

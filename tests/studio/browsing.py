@@ -1,0 +1,148 @@
+"""A studio in a process of its own, and a browser that is there already."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
+
+PATIENCE_SECONDS = 30.0
+
+
+def browser_path() -> str | None:
+    """The Chromium of this machine; None if it has none."""
+    return next((path for name in NAMES if (path := shutil.which(name))), None)
+
+
+class Server:
+    """``packwork studio`` in a process.
+
+    Parameters
+    ----------
+    inputs
+        As on the command line.
+    """
+
+    def __init__(self, *inputs: str) -> None:
+        self.inputs = inputs
+        self.address = ""
+        self.process: subprocess.Popen[str] | None = None
+
+    def start(self) -> Server:
+        line = [sys.executable, "-m", "packwork", "studio", "--no-browser", *self.inputs]
+        self.process = subprocess.Popen(line, stdout=subprocess.PIPE, text=True, env=os.environ)
+        assert self.process.stdout is not None
+        self.address = re.search(r"http://\S+", self.process.stdout.readline())[0]
+        return self
+
+    @property
+    def port(self) -> str:
+        return re.search(r":(\d+)/", self.address)[1]
+
+    def kill(self) -> None:
+        """End it as a crash would."""
+        if self.process is not None:
+            self.process.kill()
+            self.process.wait()
+            assert self.process.stdout is not None
+            self.process.stdout.close()
+
+    def stop(self) -> None:
+        """End it as Ctrl-C would."""
+        if self.process is not None and self.process.poll() is None:
+            self.process.terminate()
+            try:
+                self.process.wait(10)
+            except subprocess.TimeoutExpired:
+                self.process.kill()
+                self.process.wait()
+            assert self.process.stdout is not None
+            self.process.stdout.close()
+
+
+@contextmanager
+def chromium() -> Iterator[Any]:
+    """A browser without a window."""
+    from playwright.sync_api import sync_playwright
+
+    with sync_playwright() as driver:
+        path, options = browser_path(), ["--no-sandbox", "--force-prefers-reduced-motion"]
+        browser = driver.chromium.launch(executable_path=path, args=options)
+        yield browser
+        browser.close()
+
+
+class Desk:
+    """The page as a person has it: what is on it, and a hand.
+
+    Parameters
+    ----------
+    page
+        Of the browser.
+    """
+
+    def __init__(self, page: Any, address: str) -> None:
+        self.page = page
+        self.faults: list[str] = []
+        page.on("pageerror", lambda error: self.faults.append(str(error)))
+        page.on("console", self._hear)
+        page.goto(address)
+
+    def _hear(self, message: Any) -> None:
+        # That a server is gone while it is started anew is what is tested.
+        if message.type == "error" and "ERR_CONNECTION" not in message.text:
+            self.faults.append(message.text)
+
+    def look(self, script: str) -> Any:
+        """Value of an expression on the page; nothing there is ever made of text."""
+        return self.page.evaluate(f"() => {script}")
+
+    def until(self, script: str) -> None:
+        """Wait until an expression is true."""
+        end = time.monotonic() + PATIENCE_SECONDS
+        while not self.look(script):
+            assert time.monotonic() < end, (
+                f"waited for {script}: {self.look('studio.collage.state')}"
+            )
+            self.page.wait_for_timeout(10)
+
+    def settled(self) -> None:
+        """Wait until all lies, certified."""
+        self.until(
+            "Boolean(globalThis.studio?.collage.state?.certified && !studio.collage.state.busy "
+            "&& studio.collage.hasPoses && studio.collage.hand.size === 0)"
+        )
+
+    def place(self, item: int) -> tuple[float, float]:
+        """Where an item is on the window."""
+        x, y = self.look(
+            f"(() => {{ const p = studio.collage.pose({item});"
+            " const s = studio.view.toScreen(p.x, p.y);"
+            " const r = studio.canvas.getBoundingClientRect();"
+            " return [s.x + r.left, s.y + r.top]; })()"
+        )
+        return x, y
+
+    def drag(self, start: tuple[float, float], end: tuple[float, float], steps: int = 8) -> None:
+        """Press, move, let go."""
+        mouse = self.page.mouse
+        mouse.move(*start)
+        mouse.down()
+        mouse.move(*end, steps=steps)
+        mouse.up()
+
+    def picture(self, name: str) -> None:
+        """Keep what it looks like, if that is asked for."""
+        folder = os.environ.get("PACKWORK_STUDIO_PICTURES")
+        if folder:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+            self.page.screenshot(path=str(Path(folder) / f"{name}.png"))

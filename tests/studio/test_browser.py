@@ -1,0 +1,238 @@
+"""The studio as people use it, in a Chromium that is there; skipped where none is."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from studio.browsing import Desk, Server, browser_path, chromium
+
+pytestmark = [
+    pytest.mark.skipif(browser_path() is None, reason="no Chromium on this machine"),
+    # One browser and one server do for all.
+    pytest.mark.xdist_group("browser"),
+]
+
+WIDE = {"width": 1440, "height": 900}
+PHONE = {"width": 390, "height": 844}
+TILE = (
+    '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">'
+    '<path fill="teal" d="M0 0h9v4H5v5H0z"/></svg>'
+)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    pytest.importorskip("playwright")
+    with chromium() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    made = Server("circle", "star", "heart", "moon", "-n", "14").start()
+    yield made
+    made.stop()
+
+
+@pytest.fixture
+def open_desk(browser: Any, server: Server) -> Iterator[Callable[..., Desk]]:
+    """Opens a page, by default a wide one; at the end none has met a fault."""
+    desks: list[Desk] = []
+
+    def opened(size: dict[str, int] = WIDE, address: str = "", **more: Any) -> Desk:
+        context = browser.new_context(viewport=size, accept_downloads=True, **more)
+        desk = Desk(context.new_page(), address or server.address)
+        desks.append(desk)
+        desk.settled()
+        return desk
+
+    yield opened
+    for desk in desks:
+        assert desk.faults == []
+        desk.page.context.close()
+
+
+def test_a_drag_is_followed_settles_and_is_undone(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.picture("laid")
+    before = desk.look("[...studio.collage.poses]")
+    start = desk.place(0)
+    middle = desk.look("[studio.view.toScreen(300, 300).x, studio.view.toScreen(300, 300).y + 49]")
+    desk.page.mouse.move(*start)
+    desk.page.mouse.down()
+    desk.page.mouse.move(*middle, steps=8)
+    desk.until("studio.collage.state.moving")
+    desk.picture("dragged")
+    desk.page.mouse.up()
+    desk.settled()
+    desk.picture("dropped")
+    assert desk.look("[...studio.choice.ids]") == [0]
+    assert desk.look("[...studio.collage.poses]") != before
+    desk.page.keyboard.press("Control+z")
+    was = json.dumps(before, separators=(",", ":"))
+    desk.until(f"JSON.stringify([...studio.collage.poses]) === {json.dumps(was)}")
+    desk.page.keyboard.press("Control+Shift+z")
+    desk.settled()
+
+
+def test_handles_turn_and_scale(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.page.mouse.click(*desk.place(1))
+    assert desk.look("[...studio.choice.ids]") == [1]
+    offset = desk.look("studio.canvas.getBoundingClientRect().top")
+    angle = desk.look("studio.collage.pose(1).angle")
+    *_, turn = desk.look("studio.stage.handles().map(h => h.at)")
+    x, y = desk.place(1)
+    desk.drag((turn[0], turn[1] + offset), (x + 80, y + 30))
+    desk.settled()
+    assert abs(desk.look("studio.collage.pose(1).angle") - angle) > 0.2
+    scale = desk.look("studio.collage.pose(1).scale")
+    corner = desk.look("studio.stage.handles()[2].at")
+    x, y = desk.place(1)
+    inner = (x + 0.6 * (corner[0] - x), y + 0.6 * (corner[1] + offset - y))
+    desk.drag((corner[0], corner[1] + offset), inner)
+    desk.settled()
+    assert desk.look("studio.collage.pose(1).scale") < 0.85 * scale
+    for _ in range(2):
+        desk.page.keyboard.press("Control+z")
+    desk.settled()
+
+
+def test_the_keyboard_alone_chooses_moves_holds_and_exports(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    keys = desk.page.keyboard
+    keys.press("n")
+    keys.press("n")
+    assert desk.look("studio.choice.ids.size") == 1
+    keys.press("ArrowRight")
+    desk.settled()
+    keys.press("h")
+    desk.until("studio.areHeld")
+    desk.picture("held")
+    keys.press("Shift+H")
+    desk.until("!studio.anyHeld")
+    count = desk.look("studio.collage.items.length")
+    keys.press("d")
+    desk.until(f"studio.collage.items.length === {count + 1}")
+    desk.settled()
+    keys.press("?")
+    keys.type("choose all")
+    desk.picture("palette")
+    keys.press("Enter")
+    desk.until(f"studio.choice.ids.size === {count + 1}")
+    keys.press("Escape")
+    assert desk.look("studio.choice.ids.size") == 0
+    for _ in range(3):
+        keys.press("Control+z")
+    desk.settled()
+
+
+@pytest.mark.parametrize("kind", ["svg", "pdf", "png", "geojson", "packwork"])
+def test_exports_are_files(open_desk: Callable[..., Desk], kind: str) -> None:
+    desk = open_desk()
+    desk.page.keyboard.press("Control+e")
+    desk.page.locator(f"dialog.export input[value={kind}]").check()
+    desk.picture("export")
+    with desk.page.expect_download() as waiting:
+        desk.page.locator("dialog.export button[type=submit]").click()
+    data = Path(waiting.value.path()).read_bytes()
+    begins = {
+        "svg": b"<?xml",
+        "pdf": b"%PDF",
+        "png": b"\x89PNG",
+        "geojson": b"{",
+        "packwork": b"PK",
+    }
+    assert data.startswith(begins[kind])
+    assert waiting.value.suggested_filename.endswith(f".{kind}")
+
+
+def test_files_are_brought_and_what_fails_is_a_line(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    desk = open_desk()
+    count = desk.look("studio.collage.items.length")
+    (tmp_path / "tile.svg").write_text(TILE, encoding="utf-8")
+    (tmp_path / "broken.svg").write_text("<svg", encoding="utf-8")
+    desk.page.locator("input[type=file]").set_input_files(
+        [tmp_path / "tile.svg", tmp_path / "broken.svg"]
+    )
+    desk.until(f"studio.collage.items.length === {count + 1}")
+    assert desk.look("studio.collage.items.at(-1).name") == "tile"
+    desk.until("document.querySelectorAll('.toast').length > 0")
+    text = desk.page.locator(".toast").first.inner_text()
+    assert "broken.svg" in text
+    assert "/" not in text.replace("left out", "")
+    desk.picture("brought")
+    desk.settled()
+    desk.page.keyboard.press("Control+z")
+    desk.until(f"studio.collage.items.length === {count}")
+    desk.settled()
+
+
+def test_another_container_is_chosen_by_its_picture(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.page.locator("#tab-room").click()
+    desk.page.locator(".grid [aria-label=cat]").click()
+    desk.until("studio.collage.scene.name === 'cat'")
+    desk.settled()
+    desk.picture("container")
+    desk.page.keyboard.press("Control+z")
+    desk.until("studio.collage.scene.name === 'circle'")
+    desk.settled()
+
+
+def test_a_reload_and_a_second_page_show_the_same(open_desk: Callable[..., Desk]) -> None:
+    desk, other = open_desk(), open_desk(PHONE)
+    desk.page.keyboard.press("n")
+    desk.page.keyboard.press("h")
+    other.until("studio.collage.items.some(item => item.held[0])")
+    desk.page.reload()
+    desk.settled()
+    assert desk.look("studio.collage.items.some(item => item.held[0])")
+    assert desk.look("studio.collage.state.can_undo")
+    desk.page.keyboard.press("Control+z")
+    other.until("!studio.collage.items.some(item => item.held[0])")
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("size", [PHONE, {"width": 1024, "height": 768}], ids=["phone", "tablet"])
+def test_nothing_reaches_out_of_the_window(
+    open_desk: Callable[..., Desk], size: dict[str, int], scheme: str
+) -> None:
+    desk = open_desk(size, color_scheme=scheme, has_touch=size is PHONE)
+    desk.picture(f"{size['width']}-{scheme}")
+    assert desk.look("document.documentElement.scrollWidth <= innerWidth")
+    assert desk.look(
+        "[...document.querySelectorAll('#bar button, #tabs button, #badge')]"
+        ".filter(b => b.offsetParent).every(b => { const r = b.getBoundingClientRect();"
+        " return r.left >= 0 && r.right <= innerWidth && r.bottom <= innerHeight; })"
+    )
+
+
+def test_every_button_and_field_has_a_name(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    for panel in ("room", "items"):
+        if desk.look(f"document.getElementById('tab-{panel}').ariaPressed") != "true":
+            desk.page.locator(f"#tab-{panel}").click()
+        desk.page.wait_for_timeout(100)
+        nameless = desk.look(
+            "[...document.querySelectorAll('button, input, select, textarea')].filter(e =>"
+            " !(e.ariaLabel || e.textContent.trim() || e.labels?.length || e.ariaHidden))"
+            ".map(e => e.outerHTML)"
+        )
+        assert nameless == []
+
+
+def test_a_page_that_does_not_know_the_token_sees_nothing(browser: Any, server: Server) -> None:
+    page = browser.new_page()
+    page.goto(server.address.partition("#")[0])
+    page.wait_for_timeout(400)
+    assert page.evaluate("() => studio.collage.scene === null && !studio.connection.isOpen")
+    assert page.locator("#badge").inner_text().endswith("reconnecting …")
+    page.close()
