@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -236,3 +237,30 @@ def test_a_page_that_does_not_know_the_token_sees_nothing(browser: Any, server: 
     assert page.evaluate("() => studio.collage.scene === null && !studio.connection.isOpen")
     assert page.locator("#badge").inner_text().endswith("reconnecting …")
     page.close()
+
+
+def test_a_page_goes_on_by_itself_after_a_crash(
+    browser: Any, tmp_path: Path, monkeypatch: Any
+) -> None:
+    monkeypatch.setenv("PACKWORK_CACHE_DIR", os.environ.get("PACKWORK_CACHE_DIR") or str(tmp_path))
+    first = Server("circle", "star", "-n", "6").start()
+    context = browser.new_context(viewport=WIDE)
+    desk = Desk(context.new_page(), first.address)
+    desk.settled()
+    desk.until("studio.collage.state.saved")
+    desk.page.keyboard.press("n")
+    desk.page.keyboard.press("h")
+    desk.until("studio.areHeld")
+    first.kill()
+    desk.until("!studio.connection.isOpen")
+    second = Server("--again").start()
+    try:
+        assert second.address == first.address
+        desk.until("studio.connection.isOpen")
+        desk.settled()
+        assert desk.look("studio.collage.items.filter(item => item.held[0]).length") == 1
+        assert desk.look("studio.collage.state.can_undo")
+        assert desk.faults == []
+    finally:
+        second.stop()
+        context.close()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated
 
 import typer
@@ -36,6 +37,9 @@ def studio(
     port: Annotated[
         int, typer.Option("--port", help="Port to listen at; 0 for one that is free.", max=65_535)
     ] = 0,
+    again: Annotated[
+        bool, typer.Option("--again", help="Go on with what was on the desk last.")
+    ] = False,
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Open the browser on it.")
     ] = True,
@@ -55,6 +59,8 @@ def studio(
 
     [bold]packwork studio work.packwork[/]  a session; also a recipe.toml or a layout.geojson
 
+    [bold]packwork studio --again[/]  what was on the desk last, with all that undo leads to
+
     Needs the extra: pip install '.[studio]'
     """
     with clear_errors():
@@ -66,9 +72,21 @@ def studio(
 
         for module in ("starlette", "uvicorn", "websockets"):
             found(module, "all that the studio needs: pip install '.[studio]'")
-        from packwork.live.face.opening import opening_of
+        from packwork.live.face.opening import Opening, opening_of
+        from packwork.studio import desks
         from packwork.studio.serving import Place, serve
 
+        if again and (inputs or count is not None):
+            raise RecipeError("again", "goes on with what was there; leave all else out")
         opening = opening_of(inputs or [], count, seed=seed)
+        kept: desks.Kept | None
+        if again:
+            kept = desks.last()
+            opening = Opening(file=kept.file)
+        elif opening.file is not None:
+            kept = desks.of_file(opening.file)
+        else:
+            kept = desks.new()
+            opening = replace(opening, kept_in=None if kept is None else kept.file)
         place = Place(host="127.0.0.1" if host == "localhost" else host, port=port)
-        serve(opening, place, browses=browser, tell=typer.echo)
+        serve(opening, place, kept, browses=browser, tell=typer.echo)

@@ -12,12 +12,14 @@ from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
+from pathlib import Path
 
 from packwork.errors import PackworkError
 from packwork.live.commands.command import Command
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
-from packwork.live.face.opening import Opening, session_in
+from packwork.live.face.keeping import Keeper
+from packwork.live.face.opening import Opening, kept_in, opened
 from packwork.live.face.pouring import Moment, poured, poured_again
 from packwork.live.named import NamedSession
 from packwork.live.owner import Owner
@@ -26,6 +28,9 @@ from packwork.studio.view import Scenes, View
 from packwork.studio.wire import Line, Scene, State
 
 Session = NamedSession
+
+QUIET_SECONDS = 2.0
+"""How long nothing has to move until the session's file may be written anew. Chosen."""
 
 NOT_YET = "the desk is still being laid; try it again in a moment"
 
@@ -48,6 +53,8 @@ class Desk:
         self._stop = threading.Event()
         self._moment: View | None = None
         self._busy, self._progress = "", 0.0
+        self._keeper: Keeper | None = None
+        self._tidying: asyncio.Task[None] | None = None
         self._listeners: dict[object, Callable[[Line | None], object]] = {}
         self.owner: Owner[Session] | None = None
         """The thread that owns the session; None until there is one."""
@@ -56,14 +63,20 @@ class Desk:
         """Begin with what was given; returns at once."""
         self._loop = asyncio.get_running_loop()
         self.work("Pouring", self._open)
+        self._tidying = asyncio.create_task(self._tidy())
 
     def close(self) -> None:
-        """End all threads."""
+        """End all threads; what is on the desk is kept, if it is kept anywhere."""
+        if self._tidying is not None and self._loop is not None:
+            self._loop.call_soon_threadsafe(self._tidying.cancel)
         self._stop.set()
         self._worker.shutdown(cancel_futures=True)
         self._drawer.shutdown(cancel_futures=True)
-        if self.owner is not None:
-            self.owner.__exit__(None, None, None)
+        owner, keeper = self.owner, self._keeper
+        if owner is not None:
+            if keeper is not None:
+                owner.call(keeper.end)
+            owner.__exit__(None, None, None)
 
     def listen(self, who: object, told: Callable[[Line | None], object]) -> None:
         """Have somebody told, in the event loop, that something has changed, or a line."""
@@ -114,7 +127,7 @@ class Desk:
             can_redo=frame is not None and frame.can_redo,
             busy=self._busy,
             progress=self._progress,
-            saved=False,
+            saved=self._keeper is not None,
         )
 
     def work(self, what: str, job: Callable[[], object]) -> None:
@@ -143,8 +156,9 @@ class Desk:
     def _open(self) -> None:
         """Make the first session, in the worker."""
         opening = self._opening
+        keeper = None
         if opening.file is not None:
-            session = session_in(opening.file)
+            session, keeper = opened(opening.file)
         elif opening.recipe is not None:
             layout = poured(
                 opening.recipe, lambda moment: self._see(View.of_moment(moment), moment)
@@ -154,9 +168,32 @@ class Desk:
             session = NamedSession(opening.document)
         else:
             return
+        if keeper is None and opening.kept_in is not None:
+            keeper = self._kept(opening.kept_in, session)
+        self._keeper = keeper
         owner = Owner(session, self._follow, polishes=True)
         owner.__enter__()
         self.owner = owner
+
+    def _kept(self, file: Path, session: Session) -> Keeper | None:
+        """What keeps a session; None, and a line, if it cannot be kept."""
+        try:
+            return kept_in(file, session)
+        except PackworkError as error:
+            self._tell_of(error)
+            return None
+
+    async def _tidy(self) -> None:
+        """Write the session's file anew in quiet moments, so that a crash is soon made good."""
+        seen = None
+        while True:
+            await asyncio.sleep(QUIET_SECONDS)
+            owner, keeper = self.owner, self._keeper
+            if owner is None or keeper is None:
+                continue
+            before, seen = seen, owner.frame.document
+            if seen is before and owner.waiting == 0 and keeper.is_long:
+                self.change(keeper.tidy)
 
     def _pour(
         self, owner: Owner[Session], seed: int, make: Callable[[Session], Sequence[Command]]

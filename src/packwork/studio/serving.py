@@ -13,6 +13,7 @@ from packwork.errors import PackworkError
 from packwork.live.face.opening import Opening
 from packwork.studio.app import guarded
 from packwork.studio.desk import Desk
+from packwork.studio.desks import Kept
 from packwork.studio.guard import new_token
 from packwork.studio.uploads import Uploads
 from packwork.studio.wire import MOST_TEXT
@@ -31,22 +32,28 @@ class Place:
         Address of this machine.
     port
         0 for any that is free.
-    token
-        What the page has to know; a new one if None.
     """
 
     host: str = HERE
     port: int = 0
-    token: str | None = None
 
 
-def serve(opening: Opening, place: Place, *, browses: bool, tell: Callable[[str], object]) -> None:
+def serve(
+    opening: Opening,
+    place: Place,
+    kept: Kept | None,
+    *,
+    browses: bool,
+    tell: Callable[[str], object],
+) -> None:
     """Serve until Ctrl-C.
 
     Parameters
     ----------
     opening
         What the desk begins with.
+    kept
+        Where it is kept, and was served before; None for nowhere.
     browses
         Whether the browser is opened on it.
     tell
@@ -57,10 +64,19 @@ def serve(opening: Opening, place: Place, *, browses: bool, tell: Callable[[str]
     PackworkError
         If the port is taken.
     """
-    bound = _bound(place)
+    port, known = (place.port, None) if kept is None or place.port else kept.address
+    try:
+        bound = _bound(Place(host=place.host, port=port))
+    except PackworkError:
+        if port == place.port:
+            raise
+        # Another program is there by now: its page has to be opened anew.
+        bound, known = _bound(place), None
     host, port = bound.getsockname()[:2]
     name = f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
-    token = place.token or new_token()
+    token = known or new_token()
+    if kept is not None:
+        kept.remember(port, token)
     address = f"http://{name}/#{token}"
     uploads = Uploads()
     config = uvicorn.Config(

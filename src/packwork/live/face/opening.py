@@ -9,6 +9,7 @@ from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.live.document import Document
+from packwork.live.face.keeping import Keeper
 from packwork.live.file.disk import ENDING, Disk
 from packwork.live.named import NamedSession
 from packwork.readers.layouts.read import read_written
@@ -37,11 +38,14 @@ class Opening:
         To be shown as it is.
     file
         A session's, to be gone on from.
+    kept_in
+        File in which the session is kept, with a journal; None to keep it nowhere.
     """
 
     recipe: Recipe | None = None
     document: Document | None = None
     file: Path | None = None
+    kept_in: Path | None = None
 
 
 def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) -> Opening:
@@ -96,28 +100,30 @@ def _drafted(count: int | None, options: dict[str, Any]) -> dict[str, Any]:
     return {"effort": "draft", **({} if count is None else {"count": count}), **given}
 
 
-def session_in(path: Path) -> NamedSession:
-    """Session that a file holds, all done again that its journal adds.
+def opened(path: Path) -> tuple[NamedSession, Keeper]:
+    """Session that a file holds, all done again that its journal adds, and what keeps it there.
 
     Raises
     ------
     ReadError
         If it is no session file, or a spoilt one.
     """
-    return opened(path)[0]
-
-
-def opened(path: Path, *, journal: bool = False) -> tuple[NamedSession, Disk]:
-    """Session that a file holds, and what keeps it there.
-
-    Parameters
-    ----------
-    journal
-        Whether all that is done from now on is noted beside the file.
-    """
-    disk = Disk(path, is_journaled=journal)
+    disk = Disk(path, is_journaled=True)
     kept, entries = disk.read()
     session = NamedSession(kept.document)
     session.go_on_from(kept)
     disk.go_on(session, entries)
-    return session, disk
+    return session, Keeper(disk)
+
+
+def kept_in(path: Path, session: NamedSession) -> Keeper:
+    """What keeps a new session in a file.
+
+    Raises
+    ------
+    WriteError
+        If nothing can be written there.
+    """
+    keeper = Keeper(Disk(path, is_journaled=True))
+    keeper.begin(session)
+    return keeper

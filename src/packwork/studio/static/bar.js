@@ -17,12 +17,13 @@ export class Bar {
     /** @type {Map<string, HTMLButtonElement[]>} */
     this.buttons = new Map();
     this.title = h("span", { id: "title" }, "");
+    this.saved = h("span", { id: "saved", hidden: true, title: "All you do is kept on this machine: packwork studio --again goes on with it" }, "saved");
     this.level = h("span", { id: "level", "aria-hidden": "true" }, "");
     const share = /** @type {Action} */ (actions.get("export"));
     const leave = h("button", { type: "button", class: "primary", id: "export", title: hint(share), onclick: share.run }, "Export");
     this.buttons.set("export", [leave]);
     byId("bar").append(
-      h("div", { class: "group" }, h("img", { src: "/static/icon.svg", alt: "", width: "26", height: "26" }), h("span", { class: "name" }, "Packwork"), this.title),
+      h("div", { class: "group" }, h("img", { src: "/static/icon.svg", alt: "", width: "26", height: "26" }), h("span", { class: "name" }, "Packwork"), this.title, this.saved),
       h("div", { class: "group", role: "group", "aria-label": "History" }, ...LEFT.map((id) => this.button(id))),
       h("div", { class: "group end", role: "group", "aria-label": "View" }, ...RIGHT.map((id) => this.button(id)), leave),
     );
@@ -41,9 +42,11 @@ export class Bar {
   /**
    * @param {string} title
    * @param {string} chosen
+   * @param {boolean} isSaved
    */
-  show(title, chosen) {
+  show(title, chosen, isSaved) {
     this.title.textContent = title;
+    this.saved.hidden = !isSaved;
     this.name.textContent = chosen;
     byId("choice").hidden = !chosen;
     for (const [id, buttons] of this.buttons) {

@@ -75,6 +75,8 @@ export class Palette {
   /** @param {Action} action */
   act(action) {
     if (!isPossible(action)) return;
+    // What is hidden may keep the focus until the next frame, and with it the keys.
+    this.field.blur();
     this.dialog.close();
     action.run();
   }

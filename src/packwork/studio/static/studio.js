@@ -107,7 +107,7 @@ export class Studio {
     const before = this.collage.state;
     this.collage.state = state;
     this.badge.show(state);
-    if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy) this.refresh();
+    if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
   }
 
@@ -131,7 +131,14 @@ export class Studio {
     document.body.classList.toggle("lost", !isOpen);
     this.badge.connected(isOpen);
     if (isOpen) this.unacked = 0;
-    else this.collage.hand.clear();
+    else this.lost();
+  }
+
+  /** Forget what the hand has: the studio may come back without it. */
+  lost() {
+    this.hand.began.clear();
+    this.collage.hand.clear();
+    this.gestures.cancel();
   }
 
   chosen() {
@@ -146,7 +153,7 @@ export class Studio {
     const count = this.choice.ids.size;
     const [id] = this.choice.ids;
     const name = count === 1 ? this.collage.item(id)?.name ?? "" : count ? `${count} items` : "";
-    this.bar.show(this.collage.scene?.name ?? "", name);
+    this.bar.show(this.collage.scene?.name ?? "", name, this.collage.state?.saved ?? false);
     byId("empty").hidden = this.collage.hasPoses;
     if (this.collage.scene) byId("empty-text").textContent = "Pouring …";
     this.panels.refresh();

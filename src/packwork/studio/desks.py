@@ -1,0 +1,110 @@
+"""Where desks are kept and were served: so that what was not saved is found again.
+
+Each desk is a session file in a private folder, with a journal; beside it stand the port and the
+token of its page, so that a page that is still open goes on by itself when its desk is opened
+again.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import os
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from packwork.errors import PackworkError
+from packwork.folders import private_folder
+
+MOST_DESKS = 8
+"""Desks that are kept; then the one that was left alone for longest is written over. Chosen."""
+
+ENDING = ".packwork"
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A desk on disk.
+
+    Parameters
+    ----------
+    file
+        The session's.
+    place
+        Where its port and token stand; None if nothing may be kept.
+    """
+
+    file: Path
+    place: Path | None
+
+    @property
+    def address(self) -> tuple[int, str | None]:
+        """Port and token that its page had; 0 and None if there was none."""
+        if self.place is None:
+            return 0, None
+        try:
+            said = json.loads(self.place.read_text(encoding="utf-8"))
+            port, token = said["port"], said["token"]
+        except (OSError, ValueError, TypeError, KeyError):
+            return 0, None
+        is_sound = isinstance(port, int) and 0 < port < 65_536 and isinstance(token, str)
+        return (port, token) if is_sound and len(token) >= 24 and token.isascii() else (0, None)
+
+    def remember(self, port: int, token: str) -> None:
+        """Keep where its page is, for the same user alone to read."""
+        if self.place is not None:
+            with contextlib.suppress(OSError):
+                self.place.unlink(missing_ok=True)
+                flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL
+                with os.fdopen(os.open(self.place, flags, 0o600), "w", encoding="utf-8") as out:
+                    json.dump({"port": port, "token": token}, out)
+
+
+def of_file(file: Path) -> Kept:
+    """Desk of a session file that somebody has named."""
+    folder = private_folder("studio")
+    name = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:16]
+    return Kept(file, None if folder is None else folder / f"{name}.json")
+
+
+def new() -> Kept | None:
+    """A desk that nothing is on, or the one left alone for longest; None if none may be kept."""
+    folder = private_folder("studio")
+    if folder is None:
+        return None
+    files = [folder / f"desk-{number}{ENDING}" for number in range(1, MOST_DESKS + 1)]
+    file = min(files, key=_last_used)
+    for one in (file, file.with_name(file.name + ".log")):
+        one.unlink(missing_ok=True)
+    return Kept(file, file.with_suffix(".json"))
+
+
+def last() -> Kept:
+    """The desk that was used last.
+
+    Raises
+    ------
+    PackworkError
+        If there is none.
+    """
+    found = max(_known(), key=_last_used, default=None)
+    if found is None:
+        raise PackworkError("there is no desk to go on with; leave --again out")
+    return Kept(found, found.with_suffix(".json"))
+
+
+def _known() -> Iterator[Path]:
+    folder = private_folder("studio")
+    if folder is not None:
+        yield from folder.glob(f"desk-*{ENDING}")
+
+
+def _last_used(file: Path) -> float:
+    """When a desk was last written to; 0 if it is none."""
+    times = [0.0]
+    for one in (file, file.with_name(file.name + ".log")):
+        with contextlib.suppress(OSError):
+            times.append(one.stat().st_mtime)
+    return max(times)

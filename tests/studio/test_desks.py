@@ -1,0 +1,112 @@
+"""Desks on disk: found again with all that undo leads to, also after a crash."""
+
+from __future__ import annotations
+
+import asyncio
+import os
+from pathlib import Path
+
+import pytest
+
+import packwork as pw
+from packwork.errors import PackworkError
+from packwork.live.commands.items import Rename
+from packwork.live.document import Document
+from packwork.live.face import keeping
+from packwork.live.face.opening import Opening, kept_in, opened
+from packwork.live.named import NamedSession
+from packwork.studio import desks
+from packwork.studio.desk import Desk
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setenv("PACKWORK_CACHE_DIR", str(tmp_path))
+    return tmp_path / "studio"
+
+
+def test_the_desk_left_alone_for_longest_is_written_over(folder: Path) -> None:
+    with pytest.raises(PackworkError, match="no desk to go on with"):
+        desks.last()
+    for time in range(desks.MOST_DESKS):
+        kept = desks.new()
+        assert kept is not None
+        kept.file.write_bytes(b"")
+        os.utime(kept.file, (1_000 + time, 1_000 + time))
+    assert desks.last().file.name == f"desk-{desks.MOST_DESKS}.packwork"
+    again = desks.new()
+    assert again is not None
+    assert again.file.name == "desk-1.packwork"
+
+
+def read(file: Path) -> NamedSession:
+    """What a file holds, left as it is."""
+    session, keeper = opened(file)
+    keeper.end(session)
+    return session
+
+
+def test_a_place_is_remembered_for_its_user_alone() -> None:
+    kept = desks.of_file(Path("work.packwork"))
+    assert kept.address == (0, None)
+    kept.remember(8123, "t" * 32)
+    assert kept.address == (8123, "t" * 32)
+    assert kept.place is not None
+    if os.name == "posix":
+        assert kept.place.stat().st_mode & 0o077 == 0
+
+
+@pytest.mark.parametrize("said", ["", "[]", "{}", '{"port": 1, "token": "short"}', '{"port": "x"}'])
+def test_a_place_that_means_nothing_is_none(said: str) -> None:
+    kept = desks.of_file(Path("work.packwork"))
+    assert kept.place is not None
+    kept.place.write_text(said, encoding="utf-8")
+    assert kept.address == (0, None)
+
+
+def test_what_was_done_before_a_crash_is_there_again(dozen: pw.Layout, tmp_path: Path) -> None:
+    file = tmp_path / "desk.packwork"
+    session = NamedSession(Document.of(dozen))
+    left = kept_in(file, session)
+    for name in ("one", "two"):
+        session.apply(Rename(item=0, name=name))
+    # Nothing more is written: as a crash leaves it.
+    left._disk.close(session)
+    again, keeper = opened(file)
+    assert again.document.items[0].name == "two"
+    assert len(again.history) == 2
+    keeper.end(again)
+    assert read(file).document.items[0].name == "two"
+
+
+def test_a_long_journal_is_written_into_the_file(
+    dozen: pw.Layout, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(keeping, "LONGEST_JOURNAL", 300)
+    session = NamedSession(Document.of(dozen))
+    keeper = kept_in(tmp_path / "desk.packwork", session)
+    assert not keeper.is_long
+    for number in range(9):
+        session.apply(Rename(item=0, name=f"a long name {number}"))
+    assert keeper.is_long
+    keeper.tidy(session)
+    assert not keeper.is_long
+    keeper.end(session)
+    assert len(read(tmp_path / "desk.packwork").history) == 9
+
+
+def test_a_desk_that_is_closed_is_kept(opening: Opening, tmp_path: Path) -> None:
+    file = tmp_path / "desk.packwork"
+
+    async def work() -> None:
+        desk = Desk(Opening(document=opening.document, kept_in=file))
+        await desk.begin()
+        while desk.owner is None:
+            await asyncio.sleep(0.01)
+        desk.owner.post(Rename(item=0, name="kept"))
+        await asyncio.to_thread(desk.close)
+
+    asyncio.run(work())
+    session = read(file)
+    assert session.document.items[0].name == "kept"
+    assert session.history.can_undo
