@@ -188,6 +188,46 @@ def test_another_container_is_chosen_by_its_picture(open_desk: Callable[..., Des
     desk.settled()
 
 
+def test_words_of_two_scripts_fill_it_and_undo_brings_the_old_back(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    count = desk.look("studio.collage.items.length")
+    desk.page.locator("#tab-words").click()
+    desk.page.locator("#text").fill("Straße, 9\nسلام, 7\nGarten, 5\nhope, 3")
+    desk.page.get_by_text("Fill with words").click()
+    desk.until("studio.collage.items.some(item => item.name === 'Straße')")
+    desk.settled()
+    names = set(desk.look("studio.collage.items.map(item => item.name)"))
+    assert names == {"Straße", "سلام", "Garten", "hope"}
+    desk.picture("words")
+    desk.page.locator("#canvas").click(position={"x": 1420, "y": 820})
+    desk.page.keyboard.press("Control+z")
+    desk.until(f"studio.collage.items.length === {count}")
+    desk.settled()
+
+
+def test_one_of_six_others_is_taken(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    before = desk.look("[...studio.collage.poses]")
+    desk.page.locator("#tab-more").click()
+    desk.page.get_by_text("Try six others").click()
+    desk.until("studio.variants.found.length === 6")
+    desk.picture("more")
+    desk.page.locator(".variants .choice").nth(2).click()
+    was = json.dumps(before, separators=(",", ":"))
+    desk.until(f"JSON.stringify([...studio.collage.poses]) !== {json.dumps(was)}")
+    desk.settled()
+    desk.page.locator("#tab-options").click()
+    desk.page.locator("#panel select").first.select_option("shared")
+    desk.until("studio.collage.scene.options.sizes === 'shared'")
+    desk.picture("options")
+    for _ in range(2):
+        desk.page.keyboard.press("Control+z")
+    desk.until("studio.collage.scene.options.sizes === 'free'")
+    desk.settled()
+
+
 def test_a_reload_and_a_second_page_show_the_same(open_desk: Callable[..., Desk]) -> None:
     desk, other = open_desk(), open_desk(PHONE)
     desk.page.keyboard.press("n")
@@ -218,7 +258,7 @@ def test_nothing_reaches_out_of_the_window(
 
 def test_every_button_and_field_has_a_name(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
-    for panel in ("room", "items"):
+    for panel in ("room", "items", "words", "options", "more"):
         if desk.look(f"document.getElementById('tab-{panel}').ariaPressed") != "true":
             desk.page.locator(f"#tab-{panel}").click()
         desk.page.wait_for_timeout(100)

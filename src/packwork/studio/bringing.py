@@ -14,6 +14,7 @@ from packwork.live.commands.container import SetContainer
 from packwork.live.commands.items import Replace
 from packwork.live.commands.together import Together
 from packwork.live.composed import brought
+from packwork.live.face.asking import questions
 from packwork.live.face.bringing import (
     container_of,
     items_of,
@@ -58,7 +59,7 @@ class Bringer:
     @property
     def acts(self) -> Mapping[str, Callable[[Any], object]]:
         """What is done, by type of message."""
-        return {"bring": self._bring, "room": self._room, "swap": self._swap}
+        return {"bring": self._bring, "room": self._room, "swap": self._swap, "fill": self._fill}
 
     def _bring(self, message: wire.Bring) -> None:
         self._read(lambda: self._brought(message))
@@ -88,6 +89,15 @@ class Bringer:
 
         self._read(read)
 
+    def _fill(self, message: wire.Fill) -> None:
+        def read() -> None:
+            source = self._source(message.source)
+            if message.use == "words" and message.source.startswith(FILES):
+                source = str(only_file(self._uploads.folder(message.source.removeprefix(FILES))))
+            self._desk.fill(message.use, source, message.count)
+
+        self._read(read, "Pouring")
+
     def _swap(self, message: wire.Swap) -> None:
         def read() -> None:
             (item, *_) = items_of([self._source(message.source)]).items
@@ -95,7 +105,7 @@ class Bringer:
 
         self._read(read)
 
-    def _read(self, job: Callable[[], object]) -> None:
+    def _read(self, job: Callable[[], object], what: str = "Reading") -> None:
         """Have something read; what is refused names no folder of ours."""
 
         def read() -> None:
@@ -104,7 +114,7 @@ class Bringer:
             except PackworkError as error:
                 raise PackworkError(self._named(str(error))) from error
 
-        self._desk.work("Reading", read)
+        self._desk.work(what, read)
 
     def _source(self, asked: str) -> str:
         """What a page calls something, as readers call it."""
@@ -143,6 +153,7 @@ def choices() -> dict[str, Any]:
         if one.outline is not None
     ]
     return {
+        "options": [asdict(one) for one in questions()],
         "containers": containers,
         "items": [_choice(one.item) for one in offered_items() if one.item is not None],
     }

@@ -15,19 +15,25 @@ from functools import partial
 from pathlib import Path
 
 from packwork.errors import PackworkError
-from packwork.live.commands.command import Command
+from packwork.live.commands.command import Command, Library
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.face.keeping import Keeper
 from packwork.live.face.opening import Opening, kept_in, opened
-from packwork.live.face.pouring import Moment, poured, poured_again
+from packwork.live.face.pouring import Moment, in_place, poured, poured_again, poured_into
 from packwork.live.named import NamedSession
 from packwork.live.owner import Owner
 from packwork.scene.pose import Poses
 from packwork.studio.view import Scenes, View
-from packwork.studio.wire import Line, Scene, State
+from packwork.studio.wire import Line, Scene, State, Variant
 
 Session = NamedSession
+
+News = Line | Variant
+"""What all pages are told beside what there is to be seen."""
+
+VARIANTS = 6
+"""How many are tried when more are asked for. Chosen."""
 
 QUIET_SECONDS = 2.0
 """How long nothing has to move until the session's file may be written anew. Chosen."""
@@ -55,7 +61,7 @@ class Desk:
         self._busy, self._progress = "", 0.0
         self._keeper: Keeper | None = None
         self._tidying: asyncio.Task[None] | None = None
-        self._listeners: dict[object, Callable[[Line | None], object]] = {}
+        self._listeners: dict[object, Callable[[News | None], object]] = {}
         self.owner: Owner[Session] | None = None
         """The thread that owns the session; None until there is one."""
 
@@ -78,7 +84,7 @@ class Desk:
                 owner.call(keeper.end)
             owner.__exit__(None, None, None)
 
-    def listen(self, who: object, told: Callable[[Line | None], object]) -> None:
+    def listen(self, who: object, told: Callable[[News | None], object]) -> None:
         """Have somebody told, in the event loop, that something has changed, or a line."""
         self._listeners[who] = told
 
@@ -152,6 +158,40 @@ class Desk:
             self.say(NOT_YET)
         else:
             self.work("Pouring", partial(self._pour, self.owner, seed, make))
+
+    def fill(self, use: str, source: str, count: int | None) -> None:
+        """Fill the container with other items, in the worker that calls this."""
+        if self.owner is None:
+            raise PackworkError(NOT_YET)
+        document = self.owner.frame.document
+
+        def show(moment: Moment) -> None:
+            self._see(View.of_moment(moment), moment)
+
+        layout = poured_into(document, use, source, count, show, self._stop.is_set)
+
+        def act(session: Session) -> None:
+            commands = in_place(session.document, session.library, layout)
+            session.apply(Together(commands=tuple(commands)))  # type: ignore[arg-type]
+
+        self.owner.call(act).result()
+
+    def try_more(self, seed: int) -> None:
+        """Have other places tried for the same items, each told when it is there."""
+        if self.owner is None:
+            self.say(NOT_YET)
+        else:
+            self.work("Trying others", partial(self._try_more, self.owner, seed))
+
+    def _try_more(self, owner: Owner[Session], seed: int) -> None:
+        document = owner.frame.document
+        for number in range(seed, seed + VARIANTS):
+            if self._stop.is_set():
+                return
+            self._progress = (number - seed) / VARIANTS
+            found = poured_again(document, number, lambda _: None, self._stop.is_set)
+            placed = View.of_document(found.applied(document, Library()))
+            self._wake(Variant(seed=number, covered=_covered(placed), command=found))
 
     def _open(self) -> None:
         """Make the first session, in the worker."""
@@ -245,12 +285,12 @@ class Desk:
         """Tell all pages a line, from any thread."""
         self._wake(Line(text=text[:500], is_error=is_error))
 
-    def _wake(self, line: Line | None = None) -> None:
+    def _wake(self, line: News | None = None) -> None:
         """Tell all who listen, from any thread."""
         if self._loop is not None and not self._loop.is_closed():
             self._loop.call_soon_threadsafe(self._tell, line)
 
-    def _tell(self, line: Line | None) -> None:
+    def _tell(self, line: News | None) -> None:
         for told in tuple(self._listeners.values()):
             told(line)
 

@@ -11,7 +11,7 @@ from typing import Any, Protocol
 from packwork.live.owner import Leap
 from packwork.scene.pose import Poses
 from packwork.studio import wire
-from packwork.studio.desk import NOT_YET, Desk
+from packwork.studio.desk import NOT_YET, Desk, News
 from packwork.studio.view import View
 from packwork.studio.wire import Line, Scene, Shapes, State
 
@@ -50,7 +50,7 @@ class Tab:
     ) -> None:
         self._desk, self._carrier, self._bring = desk, carrier, bring
         self._woken = asyncio.Event()
-        self._lines: deque[Line] = deque(maxlen=MOST_LINES)
+        self._lines: deque[News] = deque(maxlen=MOST_LINES)
         self._known: set[str] = set()
         self._scene: Scene | None = None
         self._state: State | None = None
@@ -60,7 +60,7 @@ class Tab:
         self._posted: deque[tuple[int, int]] = deque()
         self._newest = 0
 
-    def wake(self, line: Line | None = None) -> None:
+    def wake(self, line: News | None = None) -> None:
         """Have the page told what is new, and a line if there is one."""
         if line is not None:
             self._lines.append(line)
@@ -164,6 +164,8 @@ class Tab:
             desk.stop()
         elif isinstance(message, wire.Pour):
             desk.pour(message.seed)
+        elif isinstance(message, wire.More):
+            desk.try_more(message.seed)
         elif isinstance(message, wire.Count):
             count = message.count
             desk.change(lambda session: session.count(count))

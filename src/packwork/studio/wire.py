@@ -16,6 +16,7 @@ from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 from packwork.errors import PackworkError
 from packwork.live.commands.any_command import AnyCommand
 from packwork.live.commands.command import ItemIds
+from packwork.live.commands.placing import Arrange
 
 HEAD = struct.Struct("<4I")
 """Of a frame: its number, the version of the scene it is of, the newest command of this page that
@@ -101,6 +102,22 @@ class Room(Message):
     source: Annotated[str, Field(min_length=1, max_length=200)]
 
 
+class Fill(Message):
+    """Fill the container with other items, all of those there taken away."""
+
+    type: Literal["fill"] = "fill"
+    use: Literal["items", "words", "photos"]
+    source: Annotated[str, Field(min_length=1, max_length=200)]
+    count: Annotated[int, Field(ge=1, le=2_000)] | None = None
+
+
+class More(Message):
+    """Try the same items from other first places, beside what there is."""
+
+    type: Literal["more"] = "more"
+    seed: Annotated[int, Field(ge=0, lt=2**30)]
+
+
 class Set(Message):
     """Set numbers for all items, as people write them."""
 
@@ -109,7 +126,7 @@ class Set(Message):
 
 
 Told: TypeAlias = Annotated[
-    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Set,
+    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | More | Set,
     Field(discriminator="type"),
 ]
 """What a page says."""
@@ -176,6 +193,17 @@ class State(Message):
     saved: bool
 
 
+class Variant(Message):
+    """Other places for the same items."""
+
+    type: Literal["variant"] = "variant"
+    seed: int
+    """What it was begun with; variants asked for together have it from that of the asking on."""
+    covered: float
+    command: Arrange
+    """What puts it in place of what there is."""
+
+
 class Line(Message):
     """A line for people: what was refused, or left out."""
 
@@ -184,7 +212,7 @@ class Line(Message):
     is_error: bool = True
 
 
-Said: TypeAlias = Annotated[Shapes | Scene | State | Line, Field(discriminator="type")]
+Said: TypeAlias = Annotated[Shapes | Scene | State | Variant | Line, Field(discriminator="type")]
 """What the studio says; poses come as frames."""
 
 TOLD: TypeAdapter[Told] = TypeAdapter(Told)

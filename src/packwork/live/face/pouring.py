@@ -5,14 +5,19 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from packwork import threads, uses
 from packwork.arrays import FloatArray, IntArray
-from packwork.live.commands.command import made
+from packwork.live.assets import named_container, named_item
+from packwork.live.commands.command import Command, Library, made
+from packwork.live.commands.container import SetContainer, SetOption
+from packwork.live.commands.items import Add, Remove
 from packwork.live.commands.placing import Arrange
 from packwork.live.document import Document
+from packwork.live.options import LiveOptions
 from packwork.pipeline import run, warm_up_once
 from packwork.pipeline.job import Job
 from packwork.progress import Step, Stop, never
@@ -78,6 +83,72 @@ def poured_again(document: Document, seed: int, shown: Shown, stop: Stop = never
     return arranged(document.ids[kept].tolist(), layout.poses)
 
 
+def poured_into(
+    document: Document, use: str, source: str, count: int | None, shown: Shown, stop: Stop = never
+) -> Layout:
+    """Other items in the container of a document: a run of their own.
+
+    Parameters
+    ----------
+    use
+        ``items``, ``words`` or ``photos``.
+    source
+        Of them: a folder or a bundled name, or the file of a text or a table.
+    count
+        Items in all; as many as the use takes by itself if None.
+
+    Raises
+    ------
+    ReadError
+        If nothing of them can be used.
+    """
+    given: dict[str, Any] = {"effort": "draft", "canvas": canvas_of(document)}
+    if count is not None:
+        given["count"] = count
+    if use == "words":
+        recipe = uses.words_recipe("page", source, **given)
+    elif use == "photos":
+        recipe = uses.photos_recipe("page", [source], **given)
+    else:
+        recipe = make_recipe(container="page", items=[source], **given)
+    return _run(uses.read(recipe, None, document.container), shown, stop)[0]
+
+
+def in_place(document: Document, library: Library, layout: Layout) -> list[Command]:
+    """Commands after which the items of a layout are there, and none of those before."""
+    options = LiveOptions.of(layout.manifest)
+    poses, container = layout.poses, layout.container
+    kept = ("padding", "sizes", "size_ratio", "rotate")
+    asked = [
+        made(SetOption, name=name, value=getattr(options, name))
+        for name in kept
+        if getattr(options, name) != getattr(document.options, name)
+    ]
+    brought = [
+        made(
+            Add,
+            asset=named_item(library, replace(item, weight=float(weight))),
+            x=float(poses.x[k]),
+            y=float(poses.y[k]),
+            area=item.outline.area * float(poses.scale[k]) ** 2,
+            angle=math.degrees(poses.angle[k]),
+        )
+        for k, (item, weight) in enumerate(zip(layout.items, layout.weights, strict=True))
+    ]
+    other = (
+        []
+        if container is document.container
+        else [made(SetContainer, asset=named_container(library, container))]
+    )
+    return [*other, *brought, made(Remove, items=tuple(document.ids.tolist())), *asked]
+
+
+def canvas_of(document: Document) -> str:
+    """Canvas of a document, as options say it."""
+    container = document.container
+    return f"{container.width:.17g}x{container.height:.17g}{container.unit}"
+
+
 def arranged(numbers: Sequence[int], poses: Poses) -> Arrange:
     """Command that puts items to poses, by their numbers."""
     columns = (poses.x, poses.y, np.degrees(poses.angle), poses.scale)
@@ -124,8 +195,7 @@ def _recipe(document: Document, seed: int) -> Recipe:
         count=len(document),
         effort="draft",
         seed=seed,
-        canvas=f"{document.container.width:.17g}x{document.container.height:.17g}"
-        f"{document.container.unit}",
+        canvas=canvas_of(document),
         padding=f"{options.padding:.17g}{document.container.unit}",
         sizes=options.sizes,
         size_ratio=options.size_ratio,

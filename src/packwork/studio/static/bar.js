@@ -11,8 +11,11 @@ const RIGHT = ["farther", "closer", "fit", "theme", "keys"];
 const CHOSEN = ["hold", "release", "duplicate", "exchange", "remove"];
 
 export class Bar {
-  /** @param {Map<string, Action>} actions */
-  constructor(actions) {
+  /**
+   * @param {Map<string, Action>} actions
+   * @param {(colour: string) => void} recolour
+   */
+  constructor(actions, recolour) {
     this.actions = actions;
     /** @type {Map<string, HTMLButtonElement[]>} */
     this.buttons = new Map();
@@ -28,7 +31,8 @@ export class Bar {
       h("div", { class: "group end", role: "group", "aria-label": "View" }, ...RIGHT.map((id) => this.button(id)), leave),
     );
     this.name = h("span", { class: "chosen-name" });
-    byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)));
+    byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)),
+      h("input", { type: "color", value: "#1f6f78", title: "Give one colour", "aria-label": "Give one colour", onchange: (/** @type {Event} */ event) => recolour(/** @type {HTMLInputElement} */ (event.target).value) }));
   }
 
   /** @param {string} id */

@@ -21,6 +21,8 @@ export class Dropping {
     /** @type {(batch: string) => void} */
     this.then = (batch) => this.bring(batch);
     this.depth = 0;
+    /** Whether what comes takes the place of all that is there. */
+    this.replaces = false;
     addEventListener("dragenter", (event) => this.entered(event, 1));
     addEventListener("dragleave", (event) => this.entered(event, -1));
     addEventListener("dragover", (event) => event.preventDefault());
@@ -62,7 +64,10 @@ export class Dropping {
 
   /** @param {string} batch */
   bring(batch) {
-    this.connection.send({ type: "bring", sources: [`file:${batch}`] });
+    const source = `file:${batch}`;
+    if (!this.replaces) return this.connection.send({ type: "bring", sources: [source] });
+    this.connection.send({ type: "fill", use: "items", source });
+    this.replaces = false;
   }
 
   /** @param {string} batch */

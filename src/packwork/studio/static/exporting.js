@@ -13,6 +13,8 @@ const FORMATS = /** @type {const} */ ([
   ["pdf", "PDF", "for printing", ["background", "show_container", "bleed"]],
   ["png", "PNG", "a picture", ["pixels", "background", "show_container"]],
   ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "show_container"]],
+  ["webp", "WebP", "a small picture for the web", ["pixels", "background", "show_container"]],
+  ["tif", "TIFF", "a picture for printers", ["pixels", "background", "show_container"]],
   ["dxf", "DXF", "for cutters and CAD, in mm", []],
   ["geojson", "GeoJSON", "outlines, to be measured or edited again", []],
   ["packwork", "Session", "all of it, with all that undo leads to", []],

@@ -2,12 +2,16 @@
 /** The panels at the side: container and items. */
 
 import { byId, button, h, icon, vector } from "./dom.js";
+import { fillOptions } from "./options.js";
 import { tell } from "./toasts.js";
+import { fillWords } from "./words.js";
 
 /** @typedef {import("./studio.js").Studio} Studio */
 /** @typedef {import("./wire.js").Thing} Thing */
 
-const PANELS = /** @type {const} */ ([["room", "shape", "Container"], ["items", "items", "Items"]]);
+const PANELS = /** @type {const} */ ([
+  ["room", "shape", "Container"], ["items", "items", "Items"], ["words", "words", "Words"], ["options", "options", "Options"], ["more", "more", "More"],
+]);
 /** Rows of a list at most. */
 const MOST = 400;
 const THUMB = 40;
@@ -53,6 +57,9 @@ export class Panels {
   fillBody(body) {
     if (this.current === "room") this.fillRoom(body);
     if (this.current === "items") this.fillItems(body);
+    if (this.current === "words") fillWords(body, this.studio);
+    if (this.current === "options") fillOptions(body, this.studio, this.choices?.options ?? []);
+    if (this.current === "more") this.studio.variants.fill(body);
   }
 
   async load() {
@@ -88,7 +95,8 @@ export class Panels {
       h("button", { type: "button", class: "choice", title: one.name, "aria-label": `Add ${one.name}`, onclick: () => connection.send({ type: "bring", sources: [`builtin:${one.name}`] }) }, thumbOf(one)));
     body.replaceChildren(
       h("div", { class: "drop-here" }, h("p", {}, "Drop drawings, pictures or folders anywhere."),
-        h("button", { type: "button", onclick: () => dropping.choose() }, "Choose files")),
+        h("button", { type: "button", onclick: () => dropping.choose() }, "Choose files"),
+        h("label", { class: "tick" }, h("input", { type: "checkbox", checked: dropping.replaces, onchange: (/** @type {Event} */ event) => (dropping.replaces = /** @type {HTMLInputElement} */ (event.target).checked) }), "in place of what is there")),
       h("label", { class: "row" }, "In all", this.counter),
       this.list, h("details", {}, h("summary", {}, "Add bundled ones"), h("div", { class: "grid small" }, ...grid)));
     this.listed = "";

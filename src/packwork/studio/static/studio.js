@@ -19,6 +19,7 @@ import { Panels } from "./panels.js";
 import { Sprites } from "./sprites.js";
 import { Stage } from "./stage.js";
 import { say, tell } from "./toasts.js";
+import { Variants } from "./variants.js";
 import { View } from "./view.js";
 
 /** @typedef {import("./wire.js").Said} Said */
@@ -50,10 +51,12 @@ export class Studio {
     this.exporting = new Exporting(this.connection, this.collage);
     const actions = actionsOf(this);
     this.actions = new Map(actions.map((action) => [action.id, action]));
-    this.bar = new Bar(this.actions);
+    this.bar = new Bar(this.actions, (colour) => this.recolour(colour));
     this.badge = new Badge({ show: (ids) => this.showItems(ids), stop: () => this.connection.send({ type: "stop" }) });
     this.palette = new Palette(actions);
     this.menu = new Menu(this.actions);
+    this.text = "";
+    this.variants = new Variants(this);
     this.panels = new Panels(this);
     listenToKeys(actions, { pans: (isHeld) => (this.gestures.isPanning = isHeld) });
     this.isDirty = false;
@@ -86,6 +89,7 @@ export class Studio {
     if (message.type === "shapes") this.collage.addShapes(message.shapes);
     else if (message.type === "scene") this.changed(message);
     else if (message.type === "state") this.stated(message);
+    else if (message.type === "variant") this.variants.add(message);
     else tell(message.text, { isError: message.is_error });
   }
 
@@ -252,6 +256,11 @@ export class Studio {
   remove() {
     this.connection.do({ kind: "remove", items: [...this.choice.ids] });
     this.choice.set([]);
+  }
+
+  /** @param {string} colour */
+  recolour(colour) {
+    if (this.choice.ids.size) this.connection.do({ kind: "recolour", items: [...this.choice.ids], colour });
   }
 
   /** @param {number} factor */

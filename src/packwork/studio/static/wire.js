@@ -14,10 +14,12 @@
  * @typedef {{kind: "drop"}} Drop
  * @typedef {{kind: "duplicate", item: number}} Duplicate
  * @typedef {{kind: "exchange", first: number, second: number}} Exchange
+ * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null)}} Fill
  * @typedef {{kind: "grab", items: number[]}} Grab
  * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
  * @typedef {{type: "leap", to: ("undo" | "redo")}} Leap
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
+ * @typedef {{type: "more", seed: number}} More
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
  * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number}} PlaceContainer
  * @typedef {{type: "pour", seed: number}} Pour
@@ -28,7 +30,7 @@
  * @typedef {{kind: "replace", item: number, asset: string}} Replace
  * @typedef {{kind: "reshape", rings: [number, number][][]}} Reshape
  * @typedef {{type: "room", source: string}} Room
- * @typedef {Line | Scene | Shapes | State} Said
+ * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
  * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any}} Scene
  * @typedef {{type: "set", options: any}} Set
@@ -41,8 +43,9 @@
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, held: [boolean, boolean, boolean]}} Thing
  * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption)[]}} Together
- * @typedef {Ack | Bring | Count | Do | Leap | Pour | Room | Set | Stop | Swap} Told
+ * @typedef {Ack | Bring | Count | Do | Fill | Leap | More | Pour | Room | Set | Stop | Swap} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
+ * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
  */
 export {};

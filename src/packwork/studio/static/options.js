@@ -1,0 +1,52 @@
+// @ts-check
+/** The panel of numbers for all items, drawn from the fields that the studio tells of. */
+
+import { h } from "./dom.js";
+
+/** @typedef {{name: string, help: string, choices: string[], range: number[], default: any}} Question */
+
+const LABELS = /** @type {Record<string, string>} */ ({ padding: "Gap", sizes: "Sizes", size_ratio: "Size ratio", rotate: "Turns", evenness: "Evenness" });
+
+/**
+ * @param {HTMLElement} body
+ * @param {import("./studio.js").Studio} studio
+ * @param {Question[]} questions
+ */
+export function fillOptions(body, studio, questions) {
+  const now = studio.collage.scene?.options ?? {};
+  const set = (/** @type {string} */ name, /** @type {any} */ value) => studio.connection.send({ type: "set", options: { [name]: value } });
+  body.replaceChildren(...questions.map((one) => (one.choices.length ? choiceOf(one, now, set) : sliderOf(one, now, set, studio))),
+    h("p", { class: "hint" }, "Pour anew (R) fills again with these."));
+}
+
+/** @param {Question} one @param {Record<string, any>} now @param {(name: string, value: any) => void} set */
+function choiceOf(one, now, set) {
+  const value = String(now[one.name] ?? one.default);
+  const choices = one.choices.includes(value) ? one.choices : [...one.choices, value];
+  const field = h("select", { onchange: (/** @type {Event} */ event) => set(one.name, /** @type {HTMLSelectElement} */ (event.target).value) },
+    ...choices.map((choice) => h("option", { value: choice, selected: choice === value }, /^\d+$/.test(choice) ? `within ${choice}°` : choice)));
+  return labelled(one, field);
+}
+
+/**
+ * @param {Question} one
+ * @param {Record<string, any>} now
+ * @param {(name: string, value: any) => void} set
+ * @param {import("./studio.js").Studio} studio
+ */
+function sliderOf(one, now, set, studio) {
+  const value = Number(now[one.name] ?? one.default);
+  const [least, most, step] = one.range;
+  const unit = one.name === "padding" ? ` ${studio.collage.scene?.unit ?? ""}` : "";
+  const shown = h("output", {}, `${value}${unit}`);
+  const field = h("input", { type: "range", min: least, max: Math.max(most, value), step, value: String(value),
+    oninput: (/** @type {Event} */ event) => (shown.textContent = `${/** @type {HTMLInputElement} */ (event.target).value}${unit}`),
+    onchange: (/** @type {Event} */ event) => set(one.name, Number(/** @type {HTMLInputElement} */ (event.target).value)) });
+  return labelled(one, field, shown);
+}
+
+/** @param {Question} one @param {HTMLElement} field @param {HTMLElement} [shown] */
+function labelled(one, field, shown) {
+  field.id = `ask-${one.name}`;
+  return h("div", { class: "question" }, h("label", { for: field.id }, h("span", { class: "asked" }, h("strong", {}, LABELS[one.name] ?? one.name), shown), field), h("p", { class: "hint" }, one.help));
+}
