@@ -328,3 +328,11 @@ def test_a_picture_that_cannot_be_written_leaves_the_older_one(tmp_path: Path) -
     assert kept.read_bytes()[1:4] == b"PNG"
     with pytest.raises(ValueError, match="unknown file extension"):
         cloud.to_file(tmp_path / "a.bogus")
+
+
+def test_half_of_a_wide_margin_lies_along_the_edge() -> None:
+    made = WordCloud(width=200, height=100, margin=20, random_state=1, prefer_horizontal=1)
+    shown = made.generate_from_frequencies(WEIGHTS).to_array().max(axis=2) > 60
+    rows, columns = np.nonzero(shown)
+    nearest = min(rows.min(), columns.min(), 99 - rows.max(), 199 - columns.max())
+    assert 9 <= nearest <= 12

@@ -263,7 +263,7 @@ def _with_edge(asked: CloudSettings) -> Container:
     container = asked.container
     if container.outline.area < container.width * container.height:
         return container
-    edge = max(asked.margin, EDGE * min(container.width, container.height)) - asked.margin / 2
+    edge = max(asked.margin / 2, EDGE * min(container.width, container.height)) - asked.margin / 2
     left, top, right, bottom = container.outline.bounds
     if right - left <= 4 * edge or bottom - top <= 4 * edge:
         return container

@@ -36,7 +36,8 @@ from packwork.wordcloud.setting import (
     placed,
     relative_steps,
 )
-from packwork.wordcloud.words import STOPWORDS, frequencies, tokens, with_bigrams
+from packwork.wordcloud.tokenization import process_tokens, unigrams_and_bigrams
+from packwork.wordcloud.words import STOPWORDS, tokens
 from packwork.writers.atomic import write_atomic
 from packwork.writers.options import TextChoice
 from packwork.writers.png import png_bytes
@@ -174,14 +175,11 @@ class WordCloud:
         )
         stops = {word.lower() for word in self.stopwords}
         if self.collocations:
-            return with_bigrams(
-                words,
-                stops,
-                normalize_plurals=self.normalize_plurals,
-                threshold=self.collocation_threshold,
+            return unigrams_and_bigrams(
+                words, stops, self.normalize_plurals, self.collocation_threshold
             )
         kept = [word for word in words if word.lower() not in stops]
-        return frequencies(kept, normalize_plurals=self.normalize_plurals)
+        return process_tokens(kept, self.normalize_plurals)[0]
 
     def generate_from_text(self, text: str) -> Self:
         """Place the words of a text."""

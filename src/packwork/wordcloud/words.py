@@ -1,13 +1,9 @@
-"""Texts to frequencies as programs of the other package expect them: words and bigrams."""
+"""Texts to words as programs of the other package expect them."""
 
 from __future__ import annotations
 
-import math
 import re
-from collections import Counter
-from collections.abc import Iterable, Mapping
 from importlib import resources
-from itertools import pairwise
 
 from packwork.readers.words.matching import found_in
 
@@ -45,84 +41,3 @@ def tokens(
     if not include_numbers:
         words = [word for word in words if not word.isdigit()]
     return [word for word in words if len(word) >= min_word_length]
-
-
-def frequencies(words: Iterable[str], *, normalize_plurals: bool) -> dict[str, int]:
-    """Counts by the form that each word mostly has.
-
-    Examples
-    --------
-    >>> frequencies(["Bear", "bears", "bear", "bear"], normalize_plurals=True)
-    {'bear': 4}
-    """
-    return _fused(words, normalize_plurals)[0]
-
-
-def with_bigrams(
-    words: list[str], stops: set[str], *, normalize_plurals: bool, threshold: float
-) -> dict[str, int]:
-    """Counts of words and of pairs whose Dunning score is above a threshold.
-
-    Words lose the places that they have in such pairs (Manning, Raghavan and Schütze,
-    "Foundations of Statistical Natural Language Processing", 5.3.4).
-
-    Examples
-    --------
-    >>> words = "white rabbit and white rabbit and bears and bees".split()
-    >>> with_bigrams(words, {"and"}, normalize_plurals=False, threshold=5)
-    {'bears': 1, 'bees': 1, 'white rabbit': 2}
-    """
-    kept = [word for word in words if word.lower() not in stops]
-    pairs = [
-        f"{first} {second}"
-        for first, second in pairwise(words)
-        if not {first.lower(), second.lower()} & stops
-    ]
-    counts, forms = _fused(kept, normalize_plurals)
-    single, total = dict(counts), len(kept)
-    for pair, count in _fused(pairs, normalize_plurals)[0].items():
-        first, second = (forms[word.lower()] for word in pair.split(" "))
-        if _score(count, single[first], single[second], total) > threshold:
-            counts[first] -= count
-            counts[second] -= count
-            counts[pair] = count
-    return {word: count for word, count in counts.items() if count > 0}
-
-
-def _fused(words: Iterable[str], normalize_plurals: bool) -> tuple[dict[str, int], dict[str, str]]:
-    """Counts by the most frequent form, and that form by each lower-case word."""
-    cases: dict[str, Counter[str]] = {}
-    for word in words:
-        cases.setdefault(word.lower(), Counter())[word] += 1
-    singular: dict[str, str] = {}
-    for key in list(cases) if normalize_plurals else ():
-        if key.endswith("s") and not key.endswith("ss") and key[:-1] in cases:
-            singular[key] = key[:-1]
-            for form, count in cases.pop(key).items():
-                cases[key[:-1]][form[:-1]] += count
-    counts, forms = _settled(cases)
-    for plural, key in singular.items():
-        while key in singular:  # of "basss", "bass" and "bas" each leads to the next
-            key = singular[key]
-        forms[plural] = forms[key]
-    return counts, forms
-
-
-def _settled(cases: Mapping[str, Counter[str]]) -> tuple[dict[str, int], dict[str, str]]:
-    forms = {key: max(found, key=lambda form: found[form]) for key, found in cases.items()}
-    return {forms[key]: found.total() for key, found in cases.items()}, forms
-
-
-def _score(pair: int, first: int, second: int, total: int) -> float:
-    """Dunning's likelihood ratio of a pair, words and total being counts."""
-    if total <= first or total <= second:
-        return 0.0
-    apart = _log(pair, first, second / total) + _log(second - pair, total - first, second / total)
-    together = _log(pair, first, pair / first)
-    together += _log(second - pair, total - first, (second - pair) / (total - first))
-    return -2 * (apart - together)
-
-
-def _log(hits: int, trials: int, chance: float) -> float:
-    likely, unlikely = max(chance, 1e-10), max(1 - chance, 1e-10)
-    return math.log(likely) * hits + math.log(unlikely) * (trials - hits)
