@@ -158,3 +158,16 @@ def test_a_kernel_knows_the_text_of_all_that_it_calls(package: Path) -> None:
     assert call(package, program)[0] == first
     (package / "called" / "_kernels.py").write_text(CALLED.format(2))
     assert call(package, program)[0] != first
+
+
+@NEEDS_JIT
+def test_a_kernel_that_was_kept_brings_no_modules_of_helpers_with_it(package: Path) -> None:
+    (package / "called" / "_kernels.py").write_text(
+        CALLED.replace("@helper\n", "import numpy as np\n\n\n@helper\n").format(
+            "np.zeros((2, 3)).sum() + len(np.ones(4).reshape(2, 2))"
+        )
+    )
+    heavy = "numba.np.arrayobj"
+    program = f"import sys; {PROGRAM}; print({heavy!r} in sys.modules)"
+    assert call(package, program)[0].split() == ["2.0", "True"]
+    assert call(package, program)[0].split() == ["2.0", "False"]

@@ -17,6 +17,7 @@ import contextlib
 import functools
 import hashlib
 import inspect
+import io
 import logging
 import pickle
 import re
@@ -32,6 +33,7 @@ from numba.core import serialize
 from numba.core.caching import NullCache
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
+from numba.core.environment import Environment, lookup_environment
 from numba.core.runtime import rtsys
 
 from packwork.folders import Store
@@ -289,7 +291,7 @@ def _calls_of(library: Any) -> tuple[Call, ...]:
 
 def _loaded(kept: bytes, target_context: Any) -> Any:
     """A kernel that was kept; None if what it calls is not what it was compiled for."""
-    calls, state = pickle.loads(kept)  # noqa: S301
+    calls, state = Unpickler(io.BytesIO(kept)).load()
     for call in calls:
         getattr(sys.modules[call.module], call.name).compile(call.types)
         # Numba numbers the symbols of a process. One that is missing would end the process.
@@ -299,6 +301,30 @@ def _loaded(kept: bytes, target_context: Any) -> Any:
     # every function of NumPy, SciPy's linear algebra among it: longer than all kernels.
     rtsys.initialize(target_context)
     return CompileResult._rebuild(target_context, *state)
+
+
+@final
+class Unpickler(pickle.Unpickler):
+    """Reads what was kept, without importing the modules that compiled functions stand in.
+
+    Helpers of Numba's are among them: its arrays and texts would take longer than all kernels.
+    """
+
+    def find_class(self, module: str, name: str, /) -> Any:
+        """What a name in the entry means."""
+        return _environment if name == "_rebuild_env" else super().find_class(module, name)
+
+
+def _environment(module: str, constants: list[Any], name: str) -> Any:
+    """Objects that machine code uses: only constants, globals are compiled into it."""
+    environment = lookup_environment(name)
+    if environment is None:
+        loaded = sys.modules.get(module)
+        environment = Environment({"__name__": module} if loaded is None else vars(loaded))
+        environment.consts[:] = constants
+        environment.env_name = name
+        Environment._memo[name] = environment
+    return environment
 
 
 def _state(compiled: Any) -> tuple[Any, ...]:
