@@ -63,7 +63,7 @@ def make_parser() -> argparse.ArgumentParser:
     """
     parser = argparse.ArgumentParser(
         prog=_own_name(),
-        description="A word cloud, with the options of wordcloud_cli.",
+        description="A simple command line for word clouds, with the options of wordcloud_cli.",
     )
     file: dict[str, Any] = {"metavar": "FILE"}
     parser.add_argument("--text", default=STANDARD, help="text; default: standard input", **file)
