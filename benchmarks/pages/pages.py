@@ -15,6 +15,7 @@ from benchmarks.paper import paper, resolution
 from benchmarks.peers import peer_pages
 from benchmarks.quality import charts, evenness, forces, parts, photos, quality
 from benchmarks.robustness import files_page, robustness
+from benchmarks.studio import studio
 from benchmarks.words import pairs_page, words_page
 
 PAGES: dict[str, Callable[[Manifest], str]] = {
@@ -32,6 +33,7 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
             "charts": charts, "engine": engine, "files": files_page, "films": film,
             "forces": forces, "live": live, "outlines": outlines, "parts": parts, "photos": photos,
             "quality": quality, "robustness": robustness,
+            "studio": studio,
         }.items()
     },
 }  # fmt: skip

@@ -141,3 +141,12 @@ def test_whoever_listens_is_told_of_every_frame(dozen: pw.Layout) -> None:
         owner.post(Move(item=0, x=300.0, y=300.0))
     assert told == list(range(1, owner.frame.number + 1))
     assert owner.frame.entangled == ()
+
+
+def test_what_was_not_settled_when_it_was_left_is_settled(dozen: pw.Layout) -> None:
+    session = Session(Document.of(dozen))
+    session.apply(Move(item=0, x=300.0, y=300.0))
+    with Owner(session) as owner:
+        pass
+    assert owner.frame.in_the_way == ()
+    assert not session.marks.touched

@@ -36,7 +36,7 @@ def asked() -> list[tuple[str, str, str]]:
         else:
             assert isinstance(route, Route)
             path = route.path.replace("{batch}", "0" * 16)
-            found += [("http", method, path) for method in route.methods or ()]
+            found += [("http", method, path) for method in sorted(route.methods or ())]
     return found
 
 

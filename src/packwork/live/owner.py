@@ -38,6 +38,11 @@ POLISHED_AT_ONCE = 8
 Chosen."""
 
 
+MOST_TRIES = 3
+"""Settles in turn where one does not certify the whole. More take longer until what is in the way
+is told. Chosen."""
+
+
 class Leap(Enum):
     """What is posted beside commands: a way through the history."""
 
@@ -127,9 +132,10 @@ class Owner(Generic[AnySession]):
         self._changed = threading.Condition()
         self._is_over = False
         self._refused: deque[str] = deque(maxlen=MOST_REFUSED)
-        self._is_touched = False
+        # A session that goes on after a crash may not have been settled.
+        self._is_touched = bool(session.marks.touched) or not session.is_at_rest
         self._failure: Exception | None = None
-        self._done = 0
+        self._done = self._tries = 0
         self.posted = 0
         """How many commands, leaps and calls were taken."""
         self.frame = self._framed(0, session.in_the_way)
@@ -206,6 +212,8 @@ class Owner(Generic[AnySession]):
                 self._changed.wait(IDLE_SECONDS)
             taken = [self._waiting.popleft() for _ in range(len(self._waiting))]
             is_over = self._is_over
+        if taken:
+            self._tries = 0
         for number, posted in taken:
             self._do(posted)
             self._done = number
@@ -224,9 +232,12 @@ class Owner(Generic[AnySession]):
     def _settle(self) -> None:
         """Finish what was touched, unless something is posted meanwhile: then it is not begun."""
         found = self._session.settle_unless(self._is_wanted)
-        if found is not None:
-            self._is_touched = False
-            self._show(found.in_the_way)
+        if found is None:
+            return
+        self._tries += 1
+        # What is in conflict after one settle is where the next one begins.
+        self._is_touched = bool(found.in_the_way) and self._tries < MOST_TRIES
+        self._show(None if self._is_touched else found.in_the_way)
 
     def _polish(self) -> None:
         """Try a few turns; shown only where they have moved something."""

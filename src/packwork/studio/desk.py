@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import asyncio
 import threading
+from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -35,6 +36,9 @@ News = Line | Variant
 VARIANTS = 6
 """How many are tried when more are asked for. Chosen."""
 
+MOST_UNHEARD = 8
+"""Lines that wait for the first page. Chosen."""
+
 QUIET_SECONDS = 2.0
 """How long nothing has to move until the session's file may be written anew. Chosen."""
 
@@ -60,6 +64,7 @@ class Desk:
         self._moment: View | None = None
         self._busy, self._progress = "", 0.0
         self._keeper: Keeper | None = None
+        self._unheard: deque[News] = deque(maxlen=MOST_UNHEARD)
         self._tidying: asyncio.Task[None] | None = None
         self._listeners: dict[object, Callable[[News | None], object]] = {}
         self.owner: Owner[Session] | None = None
@@ -87,6 +92,9 @@ class Desk:
     def listen(self, who: object, told: Callable[[News | None], object]) -> None:
         """Have somebody told, in the event loop, that something has changed, or a line."""
         self._listeners[who] = told
+        for line in self._unheard:
+            told(line)
+        self._unheard.clear()
 
     def forget(self, who: object) -> None:
         """Tell somebody nothing more."""
@@ -291,6 +299,8 @@ class Desk:
             self._loop.call_soon_threadsafe(self._tell, line)
 
     def _tell(self, line: News | None) -> None:
+        if line is not None and not self._listeners:
+            self._unheard.append(line)
         for told in tuple(self._listeners.values()):
             told(line)
 

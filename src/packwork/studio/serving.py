@@ -104,6 +104,8 @@ def _bound(place: Place) -> socket.socket:
     bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         bound.bind((place.host, place.port))
+        # From now on a browser that is early waits, and is not turned away.
+        bound.listen()
     except (OSError, OverflowError) as error:
         bound.close()
         raise PackworkError(

@@ -52,7 +52,7 @@ class Leap(Message):
 
 
 class Ack(Message):
-    """A frame was drawn: the next may come."""
+    """A frame has come: the next may."""
 
     type: Literal["ack"] = "ack"
     frame: Annotated[int, Field(ge=0, lt=2**32)]

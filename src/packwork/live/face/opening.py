@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from packwork.errors import RecipeError
+from packwork.inputs import forget_input
 from packwork.live.document import Document
 from packwork.live.face.keeping import Keeper
 from packwork.live.file.disk import ENDING, Disk
@@ -110,9 +112,12 @@ def opened(path: Path) -> tuple[NamedSession, Keeper]:
     """
     disk = Disk(path, is_journaled=True)
     kept, entries = disk.read()
+    # What is read is not written to, but for what is kept there.
+    forget_input(disk.journal)
     session = NamedSession(kept.document)
     session.go_on_from(kept)
-    disk.go_on(session, entries)
+    # A crash may have come between a gesture and its settle: only now is it known where all lay.
+    disk.go_on(session, chain(entries, [("settle", None)]))
     return session, Keeper(disk)
 
 

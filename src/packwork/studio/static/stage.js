@@ -33,6 +33,8 @@ export class Stage {
     this.marquee = null;
     this.colours = coloursOf(canvas);
     this.ratio = 1;
+    /** Whether the last picture was one of the fast ones. */
+    this.wasMoving = false;
   }
 
   /** Take over the colours of the theme. */
@@ -47,8 +49,10 @@ export class Stage {
     this.canvas.height = Math.round(clientHeight * this.ratio);
   }
 
-  draw() {
+  /** @param {boolean} isMoving what moves is drawn faster, not as finely */
+  draw(isMoving = false) {
     const { pen, ratio } = this;
+    pen.imageSmoothingQuality = isMoving ? "low" : "high";
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.fillStyle = this.colours.desk;
     pen.fillRect(0, 0, this.canvas.width, this.canvas.height);
@@ -88,9 +92,8 @@ export class Stage {
   }
 
   drawItems() {
-    const { pen, collage, sprites } = this;
+    const { collage, sprites } = this;
     const perUnit = this.view.zoom * this.ratio;
-    pen.imageSmoothingQuality = "high";
     const last = collage.hand;
     const late = [];
     for (let k = 0; k < collage.items.length; k++) {

@@ -71,7 +71,6 @@ export class Studio {
     const dark = matchMedia("(prefers-color-scheme: dark)");
     dark.addEventListener("change", () => this.themed());
     matchMedia("(prefers-reduced-motion: reduce)").addEventListener("change", (event) => (this.isCalm = event.matches));
-    document.addEventListener("visibilitychange", () => this.ack());
   }
 
   begin() {
@@ -120,7 +119,8 @@ export class Studio {
     const isFirst = !this.collage.hasPoses;
     this.collage.setFrame(frame);
     this.unacked = frame.number;
-    if (document.hidden) this.ack();
+    // The next one may come while this one is drawn: of several the newest is shown.
+    this.ack();
     if (isFirst) this.refresh();
     this.redraw();
   }
@@ -140,6 +140,7 @@ export class Studio {
 
   /** Forget what the hand has: the studio may come back without it. */
   lost() {
+    this.collage.state = null;
     this.hand.began.clear();
     this.collage.hand.clear();
     this.gestures.cancel();
@@ -178,8 +179,9 @@ export class Studio {
     const moves = this.collage.hasPoses && this.collage.ease(passed, this.isCalm);
     const glides = this.view.step();
     const lacks = this.sprites.begin();
-    this.stage.draw();
-    this.ack();
+    this.stage.draw(moves || this.hand.isFull);
+    if (this.stage.wasMoving && !moves) this.redraw();
+    this.stage.wasMoving = moves || this.hand.isFull;
     if (moves || glides || lacks || this.sprites.left < 0) this.redraw();
   }
 

@@ -1,0 +1,1 @@
+"""Benchmarks of the studio, in a browser that is there."""
