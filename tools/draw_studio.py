@@ -1,0 +1,43 @@
+"""Make the pictures of docs/studio.md, in a Chromium that is there."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from PIL import Image
+
+ROOT = Path(__file__).parents[1]
+sys.path.append(str(ROOT / "tests"))
+
+FOLDER = ROOT / "docs" / "studio"
+SIZE = {"width": 1440, "height": 900}
+
+
+def main() -> None:
+    """Open a desk, drag an item, try others."""
+    from studio.browsing import Desk, Server, chromium
+
+    FOLDER.mkdir(exist_ok=True)
+    server = Server().start()
+    with chromium() as browser:
+        desk = Desk(browser.new_page(viewport=SIZE), server.address)
+        desk.settled()
+        start = desk.place(12)
+        desk.page.mouse.move(*start)
+        desk.page.mouse.down()
+        desk.page.mouse.move(900, 430, steps=30)
+        desk.page.screenshot(path=str(FOLDER / "dragged.png"))
+        desk.page.mouse.up()
+        desk.page.locator("#tab-more").click()
+        desk.page.get_by_text("Try six others").click()
+        desk.until("studio.variants.found.length === 6")
+        desk.settled()
+        desk.page.screenshot(path=str(FOLDER / "more.png"))
+    server.stop()
+    for path in FOLDER.glob("*.png"):
+        Image.open(path).convert("RGB").quantize(256).save(path, optimize=True)
+
+
+if __name__ == "__main__":
+    main()
