@@ -43,7 +43,11 @@ def package(tmp_path: Path) -> Path:
 def call(package: Path, program: str = PROGRAM, **changes: str) -> tuple[str, str]:
     """What a program prints that uses the package, and what on standard error."""
     paths = os.pathsep.join([str(package.parent), *filter(None, sys.path)])
-    cache = {"PACKWORK_CACHE_DIR": str(package.parent / "cache")}
+    # Python knows changed sources by their size and second: what it keeps of them would be stale.
+    cache = {
+        "PACKWORK_CACHE_DIR": str(package.parent / "cache"),
+        "PYTHONDONTWRITEBYTECODE": "1",
+    }
     done = subprocess.run(
         [sys.executable, "-c", program],
         env={**os.environ, "PYTHONPATH": paths, **cache, **changes},

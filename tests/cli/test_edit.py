@@ -153,3 +153,22 @@ def test_what_has_no_meaning_in_a_session(
     assert code == 2
     assert message in said
     assert work.read_bytes() == before
+
+
+def test_a_session_is_changed_where_it_is_with_what_its_journal_holds(
+    saved: Path, tmp_path: Path
+) -> None:
+    work = tmp_path / "work.packwork"
+    session = pw.Layout.load(saved).edit()
+    session.save(work, journal=True)
+    session.duplicate(0)
+    code, said = run(work, "-n", "7", "-o", work)
+    assert code == 2
+    assert "is open in another session" in said
+    session.close()
+    assert run(work, "-n", "7", "-o", work)[0] == 0
+    with pw.Session.open(work, journal=True) as again:
+        assert len(again.document) == 7
+        again.undo()
+        assert len(again.document) == 9
+    assert sorted(tmp_path.glob("work.*")) == [work, tmp_path / "work.packwork.log"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import threading
 import time
 
@@ -11,10 +12,11 @@ import packwork as pw
 from packwork.live import owner as module
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Drop, Grab
-from packwork.live.commands.items import Rename
+from packwork.live.commands.items import Remove, Rename
 from packwork.live.commands.placing import Move
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
+from packwork.live.log import Log, read_entries
 from packwork.live.owner import Leap, Owner
 from packwork.live.session import Session
 
@@ -150,3 +152,44 @@ def test_what_was_not_settled_when_it_was_left_is_settled(dozen: pw.Layout) -> N
         pass
     assert owner.frame.in_the_way == ()
     assert not session.marks.touched
+
+
+def test_whoever_has_an_answer_sees_what_the_call_has_changed(dozen: pw.Layout) -> None:
+    def remove(session: Session) -> None:
+        session.apply(Remove(items=(0,)))
+
+    with Owner(Session(Document.of(dozen))) as owner:
+        owner.call(remove).result(10)
+        seen = owner.frame
+    assert len(seen.document) == 11
+    assert seen.in_the_way is None
+
+
+def test_what_was_broken_off_is_done_again_byte_for_byte(dozen: pw.Layout) -> None:
+    stream = io.StringIO()
+    session = Session(Document.of(dozen), log=Log(stream))
+    with Owner(session, polishes=True) as owner:
+        for step in range(12):
+            x, wait = 200.0 + 9 * step, 0.02 * (step % 4)
+            assert owner.post(Move(item=step % 3, x=x, y=300.0))
+            time.sleep(wait)
+        for leap in (Leap.UNDO, Leap.REDO, Leap.UNDO):
+            assert owner.post(leap)
+            time.sleep(0.1)
+    # As when a hand comes in the middle of a settle, and of a polish.
+    session.apply(Move(item=4, x=250.0, y=250.0))
+    session.flow(epochs=20)
+    for asked in (2, 5, 9):
+        counted = iter(range(1_000))
+        assert session.settle_unless(lambda: next(counted) > asked) is None  # noqa: B023
+    session.settle()
+    assert session.polish(8, lambda: True) == 0
+    session.polish(8)
+    session.log.flush()
+    assert stream.getvalue().count("broken_off") >= 3
+    entries = read_entries(iter(stream.getvalue().splitlines(keepends=True)), "log")
+    again = Session.replay(Document.of(dozen), entries)
+    for column in ("x", "y", "angle", "scale"):
+        made, remade = (getattr(one.document.poses, column) for one in (session, again))
+        assert (made == remade).all()
+    assert again.marks == session.marks

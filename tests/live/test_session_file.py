@@ -20,9 +20,12 @@ from hypothesis import strategies as st
 from PIL import Image
 
 import packwork as pw
-from packwork.errors import PackworkError, ReadError
+from packwork.arrays import FloatArray
+from packwork.errors import PackworkError, ReadError, RecipeError, WriteError
+from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.document import Document
 from packwork.live.file.archive import packed, unpacked
+from packwork.live.file.arrays import text_of
 from packwork.live.file.session_file import read_session
 from packwork.scene.item import PhotoArt
 from packwork.scene.pose import Poses
@@ -116,6 +119,22 @@ def test_what_is_saved_goes_on_as_what_is_opened(tmp_path: Path) -> None:
     assert is_equal(session.document, again.document)
 
 
+def test_a_save_while_items_flow_does_not_forget_where_they_lay(tmp_path: Path) -> None:
+    ways = []
+    layout = pw.fill("circle", "hexagon", count=60, **QUICK)
+    for is_saved in (False, True):
+        session = layout.edit()
+        session.apply(Grab(items=(2,)))
+        for share in (30, 40, 50, 60, 70):
+            session.move(2, f"{share}%", "50%")
+            session.flow(epochs=8)
+        session.apply(Drop())
+        if is_saved:
+            session.save(tmp_path / "a.packwork")
+        ways.append((session.settle().moved, session.marks.rough))
+    assert ways[1] == ways[0]
+
+
 def test_the_words_of_a_reopened_session_are_text(tmp_path: Path) -> None:
     session = words().edit()
     session.save(tmp_path / "a.packwork")
@@ -185,6 +204,69 @@ def test_a_gesture_that_was_not_ended_is_not_done_again(tmp_path: Path) -> None:
     again = pw.Session.open(file)
     assert not again.is_grabbed
     assert is_equal(again.document, session.document)
+
+
+def test_only_one_session_writes_a_file(tmp_path: Path) -> None:
+    file = tmp_path / "work.packwork"
+    with icons().edit() as first:
+        first.save(file, journal=True)
+        first.duplicate(0)
+        with pytest.raises(WriteError, match="is open in another session"):
+            pw.Session.open(file, journal=True)
+        second = pw.Session.open(file)
+        with pytest.raises(WriteError, match="is open in another session"):
+            second.save()
+        first.duplicate(0)
+    assert len(pw.Session.open(file).document) == 11
+    with pw.Session.open(file, journal=True) as third:
+        assert len(third.document) == 11
+
+
+def test_a_file_that_others_have_changed_is_not_overwritten(tmp_path: Path) -> None:
+    file = tmp_path / "work.packwork"
+    icons().edit().save(file)
+    one, other = pw.Session.open(file), pw.Session.open(file)
+    one.duplicate(0)
+    one.save()
+    other.remove(0)
+    with pytest.raises(WriteError, match="was changed by others"):
+        other.save()
+    other.save(tmp_path / "elsewhere.packwork")
+    assert len(pw.Session.open(file).document) == 10
+
+
+def test_a_save_that_fails_leaves_the_journal_going(tmp_path: Path) -> None:
+    file, folder = tmp_path / "work.packwork", tmp_path / "folder.packwork"
+    folder.mkdir()
+    session = icons().edit()
+    session.save(file, journal=True)
+    session.move(0, "50%", "50%")
+    session.flow(epochs=3)
+    with pytest.raises(WriteError):
+        session.save(folder)
+    session.apply(Grab(items=(0,)))
+    with pytest.raises(RecipeError, match="held by the hand"):
+        session.save(tmp_path / "elsewhere.packwork")
+    session.apply(Drop())
+    session.flow(epochs=20)
+    session.settle()
+    session.close()
+    again = pw.Session.open(file)
+    for axis in fields(Poses):
+        done = getattr(again.document.poses, axis.name)
+        assert np.array_equal(done, getattr(session.document.poses, axis.name))
+
+
+def test_a_session_saved_elsewhere_goes_on_there(tmp_path: Path) -> None:
+    first, second = tmp_path / "first.packwork", tmp_path / "second.packwork"
+    session = icons().edit()
+    session.save(first, journal=True)
+    session.duplicate(0)
+    session.save(second)
+    session.duplicate(0)
+    session.save()
+    assert len(pw.Session.open(first).document) == 10
+    assert len(pw.Session.open(second).document) == 11
 
 
 def test_nothing_is_saved_while_something_is_held_by_the_hand(tmp_path: Path) -> None:
@@ -295,6 +377,30 @@ def test_drawings_go_through_the_gate(good: bytes) -> None:
     assert "script" not in markup
     assert "passwd" not in markup
     assert "M0 0h9v9z" in markup
+
+
+SCRIBBLE = np.random.default_rng(0).uniform(-50, 50, (3_000, 2))
+ONE_IN_ANOTHER = np.tile([[0, 0], [9, 0], [9, 9.0]], (3_000, 1))
+
+
+@pytest.mark.parametrize("part", ["items/", "containers/"])
+@pytest.mark.parametrize(
+    ("points", "starts", "said"),
+    [
+        (SCRIBBLE, [0, len(SCRIBBLE)], "crosses itself about"),
+        (ONE_IN_ANOTHER, list(range(0, len(ONE_IN_ANOTHER) + 1, 3)), "pairs of rings in each"),
+    ],
+)
+def test_outlines_that_would_take_minutes_are_refused(
+    good: bytes, part: str, points: FloatArray, starts: list[int], said: str
+) -> None:
+    def spoil(parts: dict[str, bytes]) -> None:
+        for name in [one for one in parts if one.startswith(part)]:
+            thing = json.loads(parts[name])
+            thing["outline"] = {"points": text_of(points), "starts": starts}
+            parts[name] = json.dumps(thing).encode()
+
+    assert said in refused(changed(good, spoil))
 
 
 def zip_of(**parts: bytes) -> bytes:

@@ -15,7 +15,8 @@ from typing import Any
 
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
-PATIENCE_SECONDS = 30.0
+PATIENCE_SECONDS = 120.0
+"""A first run compiles kernels, beside other tests."""
 
 
 def browser_path() -> str | None:

@@ -18,7 +18,7 @@ from packwork.studio.desk import Desk
 from packwork.studio.tab import Tab
 from packwork.studio.uploads import Uploads
 
-PATIENCE_SECONDS = 30.0
+PATIENCE_SECONDS = 120.0
 
 
 class Page:

@@ -10,6 +10,7 @@ from typing import Any
 
 import pytest
 
+from packwork import compiled
 from studio.browsing import Desk, Server, browser_path, chromium
 
 pytestmark = [
@@ -282,22 +283,27 @@ def test_a_page_that_does_not_know_the_token_sees_nothing(browser: Any, server: 
 def test_a_page_goes_on_by_itself_after_a_crash(
     browser: Any, tmp_path: Path, monkeypatch: Any
 ) -> None:
-    monkeypatch.setenv("PACKWORK_CACHE_DIR", os.environ.get("PACKWORK_CACHE_DIR") or str(tmp_path))
+    kernels = compiled.STORE.folder
+    if "PACKWORK_CACHE_DIR" not in os.environ and kernels is not None:
+        # Desks in a folder of their own, kernels where they are.
+        monkeypatch.setenv("NUMBA_CACHE_DIR", str(kernels.parent.parent))
+        monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
     first = Server("circle", "star", "-n", "6").start()
     context = browser.new_context(viewport=WIDE)
-    desk = Desk(context.new_page(), first.address)
-    desk.settled()
-    desk.until("studio.collage.state.saved")
-    desk.page.keyboard.press("n")
-    # What was only just moved is settled by the server that comes after.
-    desk.page.keyboard.press("ArrowRight")
-    desk.settled()
-    desk.page.keyboard.press("h")
-    desk.until("studio.areHeld")
-    first.kill()
-    desk.until("!studio.connection.isOpen")
-    second = Server("--again").start()
+    second = Server("--again")
     try:
+        desk = Desk(context.new_page(), first.address)
+        desk.settled()
+        desk.until("studio.collage.state.saved")
+        desk.page.keyboard.press("n")
+        # What was only just moved is settled by the server that comes after.
+        desk.page.keyboard.press("ArrowRight")
+        desk.settled()
+        desk.page.keyboard.press("h")
+        desk.until("studio.areHeld")
+        first.kill()
+        desk.until("!studio.connection.isOpen")
+        second.start()
         assert second.address == first.address
         desk.until("studio.connection.isOpen")
         desk.settled()
@@ -305,5 +311,6 @@ def test_a_page_goes_on_by_itself_after_a_crash(
         assert desk.look("studio.collage.state.can_undo")
         assert desk.faults == []
     finally:
+        first.stop()
         second.stop()
         context.close()

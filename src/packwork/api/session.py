@@ -42,12 +42,12 @@ class Session(NamedSession):
     True
     """
 
+    _disk: Disk | None = None
+
     @property
     def layout(self) -> Layout:
         """The layout as it is now: what saves, shows and measures itself."""
         return public(super().layout)
-
-    _disk: Disk | None = None
 
     @classmethod
     def open(cls, path: str | Path, *, journal: bool = False) -> Session:
@@ -64,16 +64,15 @@ class Session(NamedSession):
         ------
         ReadError
             If it is no session file, or a spoilt one.
+        WriteError
+            If a journal is asked for and another session writes it.
         """
         disk = Disk(path, is_journaled=journal)
-        kept, entries = disk.read()
-        session = cls(kept.document)
-        session.go_on_from(kept)
-        disk.go_on(session, entries)
+        session = disk.opened(cls)
         session._disk = disk
         return session
 
-    def save(self, path: str | Path | None = None, *, journal: bool = False) -> None:
+    def save(self, path: str | Path | None = None, *, journal: bool | None = None) -> None:
         """Write the session to a file: layout, drawings, what is held, all that undo leads to.
 
         The file opens anywhere: it holds photographs (4,000 px on the longer side) and fonts too.
@@ -84,21 +83,26 @@ class Session(NamedSession):
         path
             Such as ``work.packwork``; unless given, the file that was opened or saved last.
         journal
-            As for :meth:`open`.
+            As for :meth:`open`; unless given, as before for the same file, none for another.
 
         Raises
         ------
         RecipeError
             If there is no such file yet, or something is held by the hand.
         WriteError
-            If it cannot be written; what was there is as it was.
+            If it cannot be written, another session writes it, or it was changed by others since
+            it was read. What was there is as it was, and so is the session.
         """
-        if path is not None:
-            self.close()
-            self._disk = Disk(path, is_journaled=journal)
-        if self._disk is None:
+        before = self._disk
+        if path is None and before is None:
             raise RecipeError("path", "the session has no file yet; give one, as work.packwork")
-        self._disk.save(self)
+        disk = before
+        if disk is None or (path is not None and not disk.is_at(path)):
+            disk = Disk(path or "", is_journaled=False)
+        disk.save(self, journal)
+        self._disk = disk
+        if before is not None and before is not disk:
+            before.close(self)
 
     def recipe(self, folder: str | Path) -> SessionRecipe:
         """Write a folder with a recipe that goes on from here; how it is run.

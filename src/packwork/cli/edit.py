@@ -19,6 +19,7 @@ from packwork.recipe import Recipe
 
 if TYPE_CHECKING:
     from packwork.live.document import Property
+    from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
     from packwork.scene.item import Item
 
@@ -138,7 +139,7 @@ def edit(
         writers.check_outputs([*outputs, *sides])
         if no_clobber:
             writers.check_new([*outputs, *sides])
-        session = _opened(layout, items)
+        session, disk = _opened(layout, items)
         for path in (*outputs, *sides):
             check_no_input(path)
         asked = {
@@ -162,7 +163,7 @@ def edit(
             session.count(count)
         if cover is not None:
             session.cover(cover)
-        if not _written(session, [*outputs, *sides], report, pixels, quiet):
+        if not _written(session, disk, [*outputs, *sides], report, pixels, quiet):
             raise typer.Exit(SHORTFALL)
 
 
@@ -170,8 +171,8 @@ def _is_session(path: Path) -> bool:
     return path.suffix.lower() == ".packwork"
 
 
-def _opened(path: Path, items: Specs) -> NamedSession:
-    """A session that begins with a file: of a session, or of a layout and its drawings."""
+def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
+    """A session that begins with a file, and the file if it is a session's own."""
     from packwork.live.document import Document
     from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
@@ -180,36 +181,35 @@ def _opened(path: Path, items: Specs) -> NamedSession:
 
     if not _is_session(path):
         found = read_written(path)
-        return NamedSession(Document.of(drawn_by(found, _read(items)) if items else found))
+        made = drawn_by(found, _read(items)) if items else found
+        return NamedSession(Document.of(made)), None
     if items:
         raise RecipeError("items", "are in a session file already; leave them out")
     disk = Disk(path, is_journaled=False)
-    kept, entries = disk.read()
-    session = NamedSession(kept.document)
-    session.go_on_from(kept)
-    disk.go_on(session, entries)
-    return session
+    return disk.opened(NamedSession), disk
 
 
 def _written(
-    session: NamedSession, outputs: Sequence[Path], report: Path | None, pixels: int, quiet: bool
+    session: NamedSession,
+    disk: Disk | None,
+    outputs: Sequence[Path],
+    report: Path | None,
+    pixels: int,
+    quiet: bool,
 ) -> bool:
     """Settle, write and show a session's layout; whether it is certified."""
     from packwork import writers
     from packwork.cli.show import Paper, certificate_line, metrics_table, printing
-    from packwork.live.file.session_file import session_bytes
-    from packwork.live.file.things import Things
+    from packwork.live.file.disk import Disk
     from packwork.metrics.measure import measure
 
     done = session.finish()
     made = session.layout
     drawing = writers.write_options(pixels=pixels)
     files = [
-        (path, session_bytes(session.kept(), Things()))
-        if _is_session(path)
-        else (path, writers.encoded(made, path, drawing))
+        (path, writers.encoded(made, path, drawing))
         for path in outputs
-        if path != report
+        if path != report and not _is_session(path)
     ]
     metrics = measure(made).as_dict()
     said = {
@@ -221,7 +221,11 @@ def _written(
     }
     if report is not None:
         files.append((report, writers.json_bytes(said)))
-    writers.write_all(files)
+    with contextlib.ExitStack() as saved:
+        for path in filter(_is_session, outputs):
+            own = disk if disk and disk.is_at(path) else Disk(path, is_journaled=False)
+            files.append((path, saved.enter_context(own.replacing(session))))
+        writers.write_all(files)
     console = Paper(quiet=quiet, highlight=False)
     with printing():
         console.print(metrics_table(metrics, made.container.unit))

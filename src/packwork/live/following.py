@@ -115,6 +115,20 @@ class Following:
         """What keeps the layout from its certificate, a sentence each."""
         return self._certificate.in_the_way(self._document)
 
+    def _begin_anew(self) -> None:
+        """Have a flow that knows no more than documents and marks say; nothing moves yet."""
+        now, base = self._document, self._base
+        self._flow = Flow(now)
+        _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
+        self._flow.moved[rows] = differing(now.poses.some(rows), base.poses.some(theirs))
+        self._hold()
+
+    def _flow_again(self) -> None:
+        """Have what is not settled go on."""
+        if self._flow is not None:
+            self._flow.stir(self._rows(self.marks.touched))
+            self._hold()
+
     def _follow(self, flow: Flow) -> None:
         """Take over where the flow has brought the items."""
         self._document = self._document.with_poses(flow.poses)

@@ -17,6 +17,8 @@ class Kept:
     ----------
     document
         The present one.
+    base
+        The one in which all had been settled last: what has flowed in vain goes back to it.
     history
         What undo and redo lead to.
     marks
@@ -24,5 +26,6 @@ class Kept:
     """
 
     document: Document
+    base: Document
     history: History
     marks: Marks

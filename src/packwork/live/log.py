@@ -16,18 +16,22 @@ from packwork.errors import ReadError
 from packwork.live.commands.any_command import COMMANDS, AnyCommand
 from packwork.live.commands.command import Library
 from packwork.live.file.brought import BROUGHT, brought_of, brought_record
+from packwork.live.neighbourhood.flow import COARSEST, FINEST
 from packwork.readers.unfit import naming
 
 Entry: TypeAlias = tuple[str, Any]
-"""``do`` a command; ``flow`` of a level, so many epochs; ``settle``; ``polish`` by trials;
-``undo``; ``redo``; and before a command that needs it, an ``item`` or a ``container`` of the
-library by its name."""
+"""``do`` a command; ``flow`` of a level, so many epochs; ``settle``, or one ``broken_off``;
+``polish`` by trials; ``undo``; ``redo``; ``kept`` in a file; and before a command that needs it,
+an ``item`` or a ``container`` of the library by its name."""
 
 MOST_ENTRIES = 10_000_000
 """Lines of a log at most. Chosen."""
 
-MOST_EPOCHS = 1_000_000
-"""Epochs of one line at most. Chosen."""
+MOST_EPOCHS = 100_000
+"""Epochs of one line at most: more than an hour of a drag. Chosen."""
+
+MOST_TRIALS = 10_000
+"""Trials of one line at most. Chosen."""
 
 
 class Log:
@@ -133,11 +137,11 @@ def _entry(line: str, number: int, name: str) -> Entry:
 
 
 def _checked(kind: str, value: Any, name: str) -> Entry | None:
-    if kind in {"settle", "undo", "redo"}:
+    if kind in {"settle", "broken_off", "undo", "redo", "kept"}:
         return kind, None
     if kind == "flow" and _is_flow(value):
         return kind, (value[0], value[1])
-    if kind == "polish" and _is_whole(value, 1):
+    if kind == "polish" and _is_whole(value, 1, MOST_TRIALS):
         return kind, value
     if kind == "do":
         try:
@@ -155,11 +159,10 @@ def _is_flow(value: Any) -> bool:
     return (
         isinstance(value, list)
         and len(value) == 2
-        and _is_whole(value[0], 8)
-        and value[0] <= 8_192
-        and _is_whole(value[1], 0)
+        and _is_whole(value[0], COARSEST, FINEST)
+        and _is_whole(value[1], 0, MOST_EPOCHS)
     )
 
 
-def _is_whole(value: Any, least: int) -> bool:
-    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= MOST_EPOCHS
+def _is_whole(value: Any, least: int, most: int) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool) and least <= value <= most

@@ -265,11 +265,15 @@ class Owner(Generic[AnySession]):
 
     def _answer(self, call: _Call) -> None:
         """Make a call; what it raises goes to whoever waits for its answer."""
+        before = self._session.document
         try:
             found = call.function(self._session)
         except Exception as error:  # noqa: BLE001
             call.answer.set_exception(error)
         else:
+            if self._session.document is not before:
+                # Whoever waits for the answer may look at once.
+                self._show(None)
             call.answer.set_result(found)
 
     def _show(self, in_the_way: tuple[str, ...] | None) -> None:

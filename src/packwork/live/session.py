@@ -134,7 +134,7 @@ class Session(Following):
                 break
         return done
 
-    def settle(self, stop: Stop = never) -> Settlement:
+    def settle(self) -> Settlement:
         """Finish what was touched exactly, and certify the whole.
 
         Raises
@@ -142,7 +142,7 @@ class Session(Following):
         RecipeError
             If something is grabbed.
         """
-        found = self._finish(stop)
+        found = self._finish(never)
         self._settled()
         return found
 
@@ -162,9 +162,8 @@ class Session(Following):
             self._settled()
             return found
         self._document, self.marks = before, marks
-        if self._flow is not None:
-            self._flow.turn_to(before)
-            self._hold()
+        self.log.note("broken_off")
+        self._begin_anew()
         return None
 
     def _finish(self, stop: Stop) -> Settlement:
@@ -207,7 +206,7 @@ class Session(Following):
         trials
             How many at most.
         stop
-            Asked before each batch; True ends with what there is.
+            Asked before each batch; True leaves all as it was.
 
         Returns
         -------
@@ -217,11 +216,13 @@ class Session(Following):
         if trials < 1 or self._grabbed or self.marks.touched or not self.marks.rough:
             return 0
         before = self._document
-        self.log.note("polish", trials)
-        self.marks.polished += 1
         # What was put somewhere by hand stays as it was put.
         rows = self._rows(self.marks.rough - self.marks.by_hand)
-        done = polish(before, rows, trials, self.marks.polished, self.shapes, stop)
+        done = polish(before, rows, trials, self.marks.polished + 1, self.shapes, stop)
+        if stop():
+            return 0
+        self.log.note("polish", trials)
+        self.marks.polished += 1
         if done.is_clean:
             self._document = self._base = done.document
         if self._flow is not None:
@@ -282,6 +283,10 @@ class Session(Following):
                 self.settle()
             elif kind == "polish":
                 self.polish(value)
+            elif kind == "kept":
+                self.kept()
+            elif kind == "broken_off":
+                self._begin_anew()
             else:
                 self._leap(kind)
         return gestures
@@ -296,20 +301,20 @@ class Session(Following):
         """
         if self._grabbed:
             raise RecipeError("save", "something is held by the hand; drop it first")
-        found = Kept(self._document, self.history, self.marks)
+        self.log.note("kept")
+        found = Kept(self._document, self._base, self.history, self.marks)
         self.go_on_from(found)
         return found
 
     def go_on_from(self, kept: Kept) -> None:
         """Take over what a file holds, nothing else: so that the same follows wherever it is."""
-        self._document, self.history, self.marks = kept.document, kept.history, kept.marks
+        self._document, self._base = kept.document, kept.base
+        self.history, self.marks = kept.history, kept.marks
         self.shapes, self._certificate = Shapes(), Certificate()
         self._grabbed, self._before, self._flow = (), None, None
-        self._base = self._document
         if self.marks.touched:
-            self._flow = Flow(self._document)
-            self._flow.stir(self._rows(self.marks.touched))
-            self._hold()
+            self._begin_anew()
+            self._flow_again()
 
     def _run(self, epochs: int, resolution: int | None = None) -> None:
         """Run epochs, and note it."""

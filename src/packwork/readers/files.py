@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import stat
+from collections.abc import Iterator
 from pathlib import Path
 
 from packwork.errors import PackworkError, ReadError
@@ -41,17 +43,59 @@ def _read_file(path: str | Path, most: int) -> bytes:
         raise ReadError(
             path, "was in the memory of the program that wrote this recipe; give a file"
         )
-    try:
-        # Opening a pipe waits for its writer, and a device never ends.
-        status = Path(path).stat()
-        mode = status.st_mode
-        if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
-            raise ReadError(path, "is a pipe or a device; give a file on disk")
-        if stat.S_ISREG(mode) and status.st_size > most:
-            raise _too_large(path, most)
+    with _telling(path):
+        _check_file(path, most)
         note_input(path)
         with Path(path).open("rb") as file:
             return file.read(most + 1)
+
+
+def read_lines(path: str | Path, most: int, longest: int) -> Iterator[str]:
+    """Lines of a UTF-8 file of at most ``most`` bytes that this program goes on writing.
+
+    What is no UTF-8 is replaced by a mark of that.
+
+    Parameters
+    ----------
+    longest
+        Characters of a line at most.
+
+    Raises
+    ------
+    ReadError
+        As for ``read_bytes``, and if a line is longer.
+
+    Examples
+    --------
+    >>> next(read_lines("no such file.log", 10, 10))
+    Traceback (most recent call last):
+    packwork.errors.ReadError: no such file.log: there is no such file
+    """
+    with _telling(path):
+        _check_file(path, most)
+        with Path(path).open(encoding="utf-8", errors="replace", newline="\n") as file:
+            while line := file.readline(longest + 1):
+                if len(line) > longest:
+                    raise ReadError(path, f"has a line of more than {longest:,} characters")
+                yield line
+
+
+def _check_file(path: str | Path, most: int) -> None:
+    """Refuse what is no file of at most ``most`` bytes."""
+    # Opening a pipe waits for its writer, and a device never ends.
+    status = Path(path).stat()
+    mode = status.st_mode
+    if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
+        raise ReadError(path, "is a pipe or a device; give a file on disk")
+    if stat.S_ISREG(mode) and status.st_size > most:
+        raise _too_large(path, most)
+
+
+@contextlib.contextmanager
+def _telling(path: str | Path) -> Iterator[None]:
+    """Have what the system says of a file be told as ours."""
+    try:
+        yield
     except PackworkError:
         raise
     except FileNotFoundError:

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from packwork.errors import RecipeError
-from packwork.inputs import forget_input
 from packwork.live.document import Document
 from packwork.live.face.keeping import Keeper
 from packwork.live.file.disk import ENDING, Disk
@@ -111,14 +109,7 @@ def opened(path: Path) -> tuple[NamedSession, Keeper]:
         If it is no session file, or a spoilt one.
     """
     disk = Disk(path, is_journaled=True)
-    kept, entries = disk.read()
-    # What is read is not written to, but for what is kept there.
-    forget_input(disk.journal)
-    session = NamedSession(kept.document)
-    session.go_on_from(kept)
-    # A crash may have come between a gesture and its settle: only now is it known where all lay.
-    disk.go_on(session, chain(entries, [("settle", None)]))
-    return session, Keeper(disk)
+    return disk.opened(NamedSession), Keeper(disk)
 
 
 def kept_in(path: Path, session: NamedSession) -> Keeper:

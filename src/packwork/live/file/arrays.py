@@ -6,12 +6,15 @@ import base64
 import binascii
 
 import numpy as np
+from shapely import LinearRing
 
 from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.file.records import FARTHEST, OutlineRecord
+from packwork.readers.budget.crossings import Allowance
+from packwork.readers.budget.nesting import check_nesting
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.unfit import UnfitError
 
@@ -68,13 +71,18 @@ def outline_record(outline: Outline) -> OutlineRecord:
     )
 
 
-def outline_of(record: OutlineRecord) -> Outline:
+def outline_of(record: OutlineRecord, allowance: Allowance) -> Outline:
     """The outline bit for bit; mended, if its rings are not what an outline's have to be.
+
+    Parameters
+    ----------
+    allowance
+        For crossings of all outlines of a file.
 
     Raises
     ------
     UnfitError
-        If it is none.
+        If it is none, or a scribble.
     ShapeError
         If it has no area.
     """
@@ -87,6 +95,8 @@ def outline_of(record: OutlineRecord) -> Outline:
     ):
         raise UnfitError("holds an outline whose rings do not fit its points")
     outline = Outline(points, starts)
+    allowance.spend(outline.rings)
+    check_nesting([LinearRing(ring) for ring in outline.rings])
     region = outline.region
     if not region.is_valid or not np.isclose(region.area, outline.area, rtol=SAME):
         outline = Outline.from_region(valid(region))

@@ -96,7 +96,7 @@ def art_of(record: ArtRecord) -> Art:
         If it holds what no drawing of ours holds.
     """
     if isinstance(record, FlatRecord):
-        return FlatArt(_colour(record.fill))
+        return FlatArt(colour_of(record.fill))
     if isinstance(record, VectorRecord):
         return _vector_of(record)
     if isinstance(record, PhotoRecord):
@@ -144,7 +144,14 @@ def _vector_of(record: VectorRecord) -> VectorArt:
     return VectorArt(made.markup, matrix, record.is_traced)
 
 
-def _colour(text: str) -> str:
+def colour_of(text: str) -> str:
+    """The same text, if it is a colour.
+
+    Raises
+    ------
+    UnfitError
+        If it is none.
+    """
     try:
         css_colour(text)
     except ValueError:

@@ -69,10 +69,11 @@ def brought_of(value: Any, kind: str) -> tuple[str, Item | Container]:
         found = Brought.model_validate(value, strict=False)
     except ValidationError as error:
         raise UnfitError(f"holds what cannot be read: {refusal(error, Brought)}") from None
+    shared = Shared(lambda key: _font(found, key))
     if kind == "container" and found.container is not None:
-        return found.name, container_of(found.container)
+        return found.name, container_of(found.container, shared)
     if kind == "item" and found.item is not None:
-        return found.name, item_of(found.item, Shared(lambda key: _font(found, key)))
+        return found.name, item_of(found.item, shared)
     raise UnfitError(f"holds a line of kind {kind} without one")
 
 

@@ -7,13 +7,16 @@ gestures it holds already is known as such.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
-import io
 import json
 import logging
+import os
 from collections.abc import Iterable, Iterator
 from pathlib import Path
-from typing import IO
+from typing import IO, TypeVar
+
+from filelock import FileLock, Timeout
 
 from packwork.errors import ReadError, RecipeError, WriteError
 from packwork.inputs import forget_input
@@ -23,17 +26,26 @@ from packwork.live.file.things import Things
 from packwork.live.kept import Kept
 from packwork.live.log import Entry, Log, read_entries
 from packwork.live.session import Session
-from packwork.readers.files import exists, read_bytes
+from packwork.phrasing import number_of
+from packwork.readers.files import exists, read_bytes, read_lines
 from packwork.writers.atomic import write_atomic
 
 ENDING = ".packwork"
 """Of session files."""
 
+LONGEST_LINE = 256_000_000
+"""Characters of a journal's line at most: an item with a large photograph. Chosen."""
+
 _LOG = logging.getLogger("packwork")
+
+_Session = TypeVar("_Session", bound=Session)
 
 
 class Disk:
     """Where a session is kept.
+
+    For as long as a journal is written nobody else may write the file: a lock beside it says so,
+    which the system gives back when the process ends, however it ends.
 
     Parameters
     ----------
@@ -45,24 +57,117 @@ class Disk:
 
     def __init__(self, path: str | Path, *, is_journaled: bool) -> None:
         self.path = Path(path)
-        self._is_journaled = is_journaled
+        self.is_journaled = is_journaled
         self._things = Things()
         self._digest = ""
+        self._lock = FileLock(f"{self.path}.lock", blocking=False, thread_local=False)
         self._stream: IO[str] | None = None
+        self._log: Log | None = None
 
     @property
     def journal(self) -> Path:
         """The file beside, of what came later."""
         return self.path.with_name(self.path.name + ".log")
 
-    def read(self) -> tuple[Kept, Iterator[Entry]]:
-        """What the file holds, and what its journal adds to it.
+    def opened(self, kind: type[_Session]) -> _Session:
+        """A session of a kind that goes on from the file and from its journal.
 
         Raises
         ------
         ReadError
             If either is spoilt, or the journal is of another file.
+        WriteError
+            If a journal is asked for and another session writes it.
         """
+        with contextlib.ExitStack() as undone:
+            if self.is_journaled:
+                self._own()
+                undone.callback(self._disown)
+            kept, entries = self._read()
+            session = kind(kept.document)
+            session.go_on_from(kept)
+            self._go_on(session, entries)
+            undone.pop_all()
+        return session
+
+    def is_at(self, path: str | Path) -> bool:
+        """Whether a path is that of the file, by whatever name."""
+        return os.path.realpath(path) == os.path.realpath(self.path)
+
+    def save(self, session: Session, journal: bool | None = None) -> None:
+        """Write the file, and begin its journal anew.
+
+        Parameters
+        ----------
+        journal
+            Whether one is kept from now on; None for as before.
+
+        Raises
+        ------
+        RecipeError
+            If something is grabbed.
+        WriteError
+            If nothing can be written there, or others write the file; what was there is as it was.
+        """
+        with self.replacing(session, journal) as data:
+            write_atomic(self.path, data)
+
+    @contextlib.contextmanager
+    def replacing(self, session: Session, journal: bool | None = None) -> Iterator[bytes]:
+        """The file's new bytes, for the block to write; nobody else writes the file meanwhile.
+
+        Raises
+        ------
+        RecipeError, WriteError
+            As for :meth:`save`.
+        """
+        was_owned = self._lock.is_locked
+        kept = session.kept()
+        self._own()
+        try:
+            data = session_bytes(kept, self._things, self._replaced())
+            yield data
+            self._digest = hashlib.sha256(data).hexdigest()
+            self.is_journaled = self.is_journaled if journal is None else journal
+            if self.is_journaled:
+                self._begin(session)
+            else:
+                self._end(session)
+                self.journal.unlink(missing_ok=True)
+        finally:
+            if not (self._log or (was_owned and self.is_journaled)):
+                self._disown()
+
+    def close(self, session: Session) -> None:
+        """End the journal; it stays, and what it holds is done again when the file is opened."""
+        self._end(session)
+        self._disown()
+
+    def _own(self) -> None:
+        """Keep others from writing the file."""
+        if self._lock.is_locked:
+            return
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            self._lock.acquire()
+        except Timeout:
+            raise WriteError(
+                self.path, "is open in another session; close it there, or save under another name"
+            ) from None
+        except OSError as error:
+            reason = error.strerror or error
+            raise WriteError(self.path, f"nothing can be written beside it ({reason})") from error
+
+    def _disown(self) -> None:
+        """Let others write the file."""
+        if self._lock.is_locked:
+            # While it is still ours: whoever waits for it then sees that it is gone, and makes one.
+            with contextlib.suppress(OSError):
+                Path(self._lock.lock_file).unlink()
+            self._lock.release()
+
+    def _read(self) -> tuple[Kept, Iterator[Entry]]:
+        """What the file holds, and what its journal adds to it."""
         data = read_bytes(self.path, MOST_BYTES)
         forget_input(self.path)
         found = read_session(data, str(self.path))
@@ -70,63 +175,62 @@ class Disk:
         entries = self._later(found.follows) if exists(self.journal) else iter(())
         return found.kept, entries
 
-    def go_on(self, session: Session, entries: Iterable[Entry]) -> None:
-        """Do to a session what a journal adds, and begin the next journal.
-
-        Raises
-        ------
-        ReadError
-            If the journal is spoilt.
-        """
+    def _go_on(self, session: Session, entries: Iterable[Entry]) -> None:
+        """Do to a session what a journal adds, and begin the next journal."""
         try:
             gestures = session.repeat(entries)
         except RecipeError as error:
             raise ReadError(self.journal, f"asks for what has no meaning: {error}") from None
         if gestures:
-            _LOG.warning("%s: %d gestures that had not been saved", self.path, gestures)
-        if self._is_journaled:
+            said = number_of(gestures, "gesture")
+            _LOG.warning("%s: %s done again that had not been saved", self.path, said)
+        if self.is_journaled:
             # What was recovered is written before anything new is done to it.
             (self.save if gestures else self._begin)(session)
 
-    def save(self, session: Session) -> None:
-        """Write the file, and begin its journal anew.
+    def _replaced(self) -> str:
+        """Digest of the file that is to be replaced; empty if there is none.
 
         Raises
         ------
-        RecipeError
-            If something is grabbed.
         WriteError
-            If nothing can be written there; what was there is as it was.
+            If it is not the one that was read or written last.
         """
-        data = session_bytes(session.kept(), self._things, self._digest)
-        write_atomic(self.path, data)
-        self._digest = hashlib.sha256(data).hexdigest()
-        if self._is_journaled:
-            self._begin(session)
-        elif exists(self.journal):
-            self.journal.unlink()
-
-    def close(self, session: Session) -> None:
-        """End the journal; it stays, and what it holds is done again when the file is opened."""
-        if self._stream is not None:
-            session.log.flush()
-            session.log = Log()
-            self._stream.close()
-            self._stream = None
+        if not exists(self.path):
+            return self._digest
+        try:
+            with self.path.open("rb") as file:
+                found = hashlib.file_digest(file, "sha256").hexdigest()
+        except OSError as error:
+            raise WriteError(self.path, f"cannot be read: {error.strerror or error}") from error
+        if self._digest not in {"", found}:
+            raise WriteError(
+                self.path, "was changed by others since it was read; save under another name"
+            )
+        return found
 
     def _begin(self, session: Session) -> None:
-        self.close(session)
+        """Begin a journal that goes on from the file as it is."""
+        self._end(session)
         try:
             write_atomic(self.journal, (json.dumps({"follows": self._digest}) + "\n").encode())
             self._stream = self.journal.open("a", encoding="utf-8", newline="\n")
         except OSError as error:
             raise WriteError(self.journal, f"cannot be written: {error}") from error
-        session.log = Log(self._stream)
+        self._log = session.log = Log(self._stream)
+
+    def _end(self, session: Session) -> None:
+        if self._stream is None or self._log is None:
+            return
+        self._log.flush()
+        if session.log is self._log:
+            session.log = Log()
+        self._stream.close()
+        self._stream = self._log = None
 
     def _later(self, replaced: str) -> Iterator[Entry]:
         """Entries of the journal that the file does not hold."""
-        text = read_bytes(self.journal, MOST_BYTES).decode("utf-8", "replace")
-        lines = iter(io.StringIO(text))
+        lines = read_lines(self.journal, MOST_BYTES, LONGEST_LINE)
         follows = _follows(next(lines, ""))
         if follows and follows == replaced:
             # A crash came between the new file and its journal.
@@ -135,7 +239,7 @@ class Disk:
             raise ReadError(
                 self.journal, f"is no journal of {self.path.name} as it is now; move it away"
             )
-        return _whole(read_entries(lines, str(self.journal)))
+        return _whole_gestures(read_entries(lines, str(self.journal)))
 
 
 def _follows(line: str) -> str:
@@ -147,7 +251,7 @@ def _follows(line: str) -> str:
     return str(said.get("follows", "")) if isinstance(said, dict) else ""
 
 
-def _whole(entries: Iterator[Entry]) -> Iterator[Entry]:
+def _whole_gestures(entries: Iterator[Entry]) -> Iterator[Entry]:
     """Entries without a gesture at the end that was not ended."""
     open_: list[Entry] = []
     for entry in entries:

@@ -48,10 +48,13 @@ class SessionRecord(Options):
     items: tuple[_Path, ...]
     containers: tuple[_Path, ...]
     documents: Annotated[
-        tuple[DocumentRecord, ...], Field(min_length=1, max_length=2 * MOST_ENTRIES + 1)
+        tuple[DocumentRecord, ...], Field(min_length=1, max_length=2 * MOST_ENTRIES + 2)
     ]
     present: Annotated[int, Field(ge=0)]
     """Which of the documents is the present one: undo leads to those before it."""
+    unsettled: bool = False
+    """Whether the last of the documents is the one in which all had been settled last; unless so,
+    the present one is."""
     marks: MarksRecord = MarksRecord()
 
 
@@ -71,7 +74,8 @@ def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
         If the file of a photograph is no longer there.
     """
     past, future = kept.history.past, kept.history.future
-    documents = [*past, kept.document, *future]
+    is_unsettled = kept.base is not kept.document
+    documents = [*past, kept.document, *future, *([kept.base] if is_unsettled else [])]
     items = _Listed(lambda item: things.item(item))
     containers = _Listed(lambda container: things.container(container))
 
@@ -84,6 +88,7 @@ def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
         items=items.paths,
         containers=containers.paths,
         present=len(past),
+        unsettled=is_unsettled,
         marks=_marks_record(kept.marks),
     )
     used = {*items.paths, *containers.paths}
@@ -135,15 +140,19 @@ def _read(parts: Mapping[str, bytes]) -> SessionFile:
         path: item_of(decoded(ItemRecord, _part(parts, path)), shared) for path in set(record.items)
     }
     items: list[Item] = [known[path] for path in record.items]
-    walls = [container_of(decoded(ContainerRecord, _part(parts, p))) for p in record.containers]
+    walls = [
+        container_of(decoded(ContainerRecord, _part(parts, path)), shared)
+        for path in record.containers
+    ]
     documents = list(documents_of(record.documents, Parts(items, walls)))
+    base = documents.pop() if record.unsettled else None
     if record.present >= len(documents):
         raise UnfitError(f"holds {len(documents)} documents and no number {record.present}")
     document = documents[record.present]
     history = History(documents[: record.present], documents[record.present + 1 :])
     marks = _marks_of(record.marks)
     marks.keep(set(document.ids.tolist()))
-    return SessionFile(Kept(document, history, marks), record.follows)
+    return SessionFile(Kept(document, base or document, history, marks), record.follows)
 
 
 def _marks_record(marks: Marks) -> MarksRecord:

@@ -15,6 +15,7 @@ from packwork.live.file.arrays import outline_of, outline_record, points_of, tex
 from packwork.live.file.art import (
     art_of,
     art_record,
+    colour_of,
     matrix_of,
     matrix_record,
     photo_of,
@@ -30,6 +31,7 @@ from packwork.live.file.records import (
     RunRecord,
     WordRecord,
 )
+from packwork.readers.budget.crossings import MAX_CROSSINGS, Allowance
 from packwork.readers.fonts.guard import checked_face
 from packwork.readers.unfit import UnfitError
 from packwork.recipe.refusals import refusal
@@ -55,6 +57,7 @@ class Shared:
         self._read = read
         self._fonts: dict[tuple[str, str, int, float | None], FontFile] = {}
         self._outlines: dict[OutlineRecord, Outline] = {}
+        self._allowance = Allowance(MAX_CROSSINGS)
 
     def outline(self, record: OutlineRecord) -> Outline:
         """The outline of a record.
@@ -67,7 +70,7 @@ class Shared:
             If it has no area.
         """
         if record not in self._outlines:
-            self._outlines[record] = outline_of(record)
+            self._outlines[record] = outline_of(record, self._allowance)
         return self._outlines[record]
 
     def font(self, run: RunRecord) -> FontFile:
@@ -166,7 +169,7 @@ def item_of(record: ItemRecord, shared: Shared) -> Item:
         art_of(record.art),
         Label(label.name, label.link, label.title),
         None if text is None else _text_of(text, shared),
-        record.halo,
+        colour_of(record.halo) if record.halo else "",
         None if datum is None else Datum(datum.row, datum.value, datum.category, datum.group),
         record.weight,
     )
@@ -192,8 +195,13 @@ def container_record(container: Container) -> ContainerRecord:
     )
 
 
-def container_of(record: ContainerRecord) -> Container:
+def container_of(record: ContainerRecord, shared: Shared) -> Container:
     """The container of a record.
+
+    Parameters
+    ----------
+    shared
+        What several records of a file have in common.
 
     Raises
     ------
@@ -206,7 +214,7 @@ def container_of(record: ContainerRecord) -> Container:
     return Container(
         record.name,
         record.source,
-        outline_of(record.outline),
+        shared.outline(record.outline),
         record.width,
         record.height,
         record.unit,

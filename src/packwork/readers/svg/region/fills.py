@@ -14,18 +14,10 @@ from shapely.geometry import LinearRing, MultiLineString, Polygon
 
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry.polygon import FillRule, Region, enclosed, region, signed_area
-from packwork.readers.account import spend
 from packwork.readers.budget.crossings import Allowance
-from packwork.readers.unfit import TooRichError
-
-MAX_NESTED = 200_000
-"""Pairs of rings whose boxes meet, by estimate: two seconds' work. Chosen."""
-
-_PAIR_NS, _RING_NS = 1e4, 150.0
-"""For a pair of rings whose boxes meet, and for any pair of rings. Measured."""
+from packwork.readers.budget.nesting import check_nesting
 
 _MANY = 2_000
-_SAMPLED = 60
 
 
 def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) -> Region:
@@ -58,7 +50,7 @@ def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) ->
     if is_large:
         # Before crossings are looked for one by one, which may take as long.
         allowance.spend(rings)
-        _check_nesting(kept)
+        check_nesting(kept)
     together = MultiLineString(kept)
     if not kept or not together.is_simple:
         if not is_large:
@@ -69,18 +61,6 @@ def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) ->
     if rule == "nonzero":
         kept = [ring for ring, is_edge in zip(kept, _are_edges(kept), strict=True) if is_edge]
     return enclosed(kept)
-
-
-def _check_nesting(rings: Sequence[LinearRing]) -> None:
-    if not rings:
-        return
-    boxes = shapely.box(*shapely.bounds(rings).T)
-    sample = boxes[:: 1 + len(boxes) // _SAMPLED]
-    met = shapely.STRtree(boxes).query(sample).shape[1] - len(sample)
-    pairs = met / len(sample) * len(boxes) / 2
-    if pairs > MAX_NESTED:
-        raise TooRichError(f"has about {pairs:,.0f} pairs of rings in each other")
-    spend(_PAIR_NS * pairs + _RING_NS * len(rings) ** 2, f"has {len(rings):,} rings in one shape")
 
 
 def _are_edges(rings: Sequence[LinearRing]) -> BoolArray:
