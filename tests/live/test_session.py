@@ -155,6 +155,26 @@ def test_a_replay_gives_the_same_bytes(dozen: pw.Layout, same: Same) -> None:
         assert same(again.document.poses, session.document.poses)
 
 
+def test_polish_leaves_what_was_put_last_and_the_angle_of_what_was_put_before(
+    session: pw.Session,
+) -> None:
+    session.turn(3, 77.0)
+    session.move(3, 300.0, 280.0)
+    session.settle()
+    before = session.document.poses
+    session.polish(30)
+    after = session.document.poses
+    assert (before.x[3], before.angle[3]) == (after.x[3], after.angle[3])
+    session.move(7, 200.0, 300.0)
+    session.settle()
+    before = session.document.poses
+    session.polish(60)
+    after = session.document.poses
+    assert after.angle[3] == before.angle[3]
+    assert after.x[7] == before.x[7]
+    assert session.is_certified
+
+
 def test_a_log_that_was_cut_off_loses_its_last_line_only() -> None:
     lines = ['{"flow": [100, 3]}', '{"settle": null}', '{"do": {"kind": "mo']
     assert list(read_entries(iter(lines), "log")) == [("flow", (100, 3)), ("settle", None)]

@@ -170,6 +170,14 @@ def test_slits_are_not_looked_for_among_hairs(caplog):
     assert "is all edges" in caplog.text
 
 
+def test_slits_are_not_looked_for_among_steps_far_finer_than_they_would_be(caplog):
+    steps = np.repeat(np.arange(9_000.0), 2)
+    stair = np.vstack([np.column_stack([steps[1:], steps[:-1]]), [[0, 8_999]]])
+    container = Container("stair", "stair", Outline.from_rings([stair]), 9e3, 9e3)
+    assert closed_slits(container, "auto") is container
+    assert "far more finely" in caplog.text
+
+
 def test_a_slit_that_parts_nothing_is_closed_too(drawn):
     comb = '<path d="M0 0H99.9V80H100.1V0H200V100H0z"/>'
     slit = read_container(

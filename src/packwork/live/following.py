@@ -170,7 +170,11 @@ class Following:
         turned, changed = now.angle != before.angle, differing(before, now)
         self.marks.given |= set(numbers[moved].tolist())
         self.marks.turned |= set(numbers[turned].tolist())
-        self.marks.by_hand |= set(numbers[moved | turned].tolist())
+        by_hand = set(numbers[moved | turned].tolist())
+        if not self.marks.touched:
+            self.marks.lately.clear()
+        self.marks.lately |= by_hand
+        self.marks.by_hand |= by_hand
         new = np.flatnonzero(changed & ~np.isin(numbers, list(self.marks.touched)))
         if len(new):
             self.marks.left |= set(numbers[flow.touching.rings(new, LEFT) >= 0].tolist())

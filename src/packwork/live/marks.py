@@ -21,7 +21,9 @@ class Marks:
     left
         What lay beside items before the hand took them away.
     by_hand
-        Put somewhere by hand since the last leap: polish leaves it there.
+        Put somewhere or turned by hand since the last leap: polish leaves its angle.
+    lately
+        Of these, since the last settle but one: polish leaves it where it is.
     rough
         Settled, yet not polished.
     polished
@@ -35,6 +37,7 @@ class Marks:
     turned: set[int] = field(default_factory=set)
     left: set[int] = field(default_factory=set)
     by_hand: set[int] = field(default_factory=set)
+    lately: set[int] = field(default_factory=set)
     rough: set[int] = field(default_factory=set)
     polished: int = 0
     tried: int = 0

@@ -12,7 +12,7 @@ from packwork.live.certificate import Certificate, Settlement, promise_of
 from packwork.live.change import Change, Stale, differing
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Drop, Grab
-from packwork.live.document import Document
+from packwork.live.document import PROPERTIES, Document
 from packwork.live.following import Following, beyond
 from packwork.live.history import History
 from packwork.live.kept import Kept
@@ -216,15 +216,18 @@ class Session(Following):
         if trials < 1 or self._grabbed or self.marks.touched or not self.marks.rough:
             return 0
         before = self._document
-        # What was put somewhere by hand stays as it was put.
-        rows = self._rows(self.marks.rough - self.marks.by_hand)
-        done = polish(before, rows, trials, self.marks.polished + 1, self.shapes, stop)
+        # What was put somewhere last stays there; what was before keeps its angle.
+        rows = self._rows(self.marks.rough - self.marks.lately)
+        held = before.held.copy()
+        held[self._rows(self.marks.by_hand), PROPERTIES.index("angle")] = True
+        strict = replace(before, held=held)
+        done = polish(strict, rows, trials, self.marks.polished + 1, self.shapes, stop)
         if stop():
             return 0
         self.log.note("polish", trials)
         self.marks.polished += 1
         if done.is_clean:
-            self._document = self._base = done.document
+            self._document = self._base = before.with_poses(done.document.poses)
         if self._flow is not None:
             self._flow.turn_to(self._document)
         self.marks.tried += trials

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
 import shapely
 
 from packwork.geometry.outline import Outline
@@ -34,6 +35,11 @@ MOST_DENSE = 0.5
 """Area within the slits' width of the edges, counted edge by edge, as a share of the bounds, up
 to which slits are looked for. Hairs and spirals have 2 to 20, and growing them takes minutes;
 maps have less than a tenth. Larger takes longer, smaller leaves slits of fine maps. Tried."""
+
+MOST_FINE = 12.0
+"""Vertices within a slit's width of a vertex, on average, up to which slits are looked for. Stairs
+of far finer steps than that can take minutes to be grown; coasts have 2 to 4. Larger takes longer,
+smaller leaves slits of what is drawn finely. Tried."""
 
 _WELD = 1e-3
 _LEAST = 1e-3
@@ -73,6 +79,9 @@ def closed_slits(container: Container, asked: str) -> Container:
     if before.length * width > MOST_DENSE * (right - left) * (bottom - top):
         notice("is all edges, so its slits were not looked for")
         return container
+    if _fineness(outline, width) > MOST_FINE:
+        notice("is drawn far more finely than its slits would be wide, so they were not looked for")
+        return container
     after = without_slits(before, width, is_auto=is_auto)
     if after is before:
         return container
@@ -111,6 +120,13 @@ def without_slits(region: Region, width: float, *, is_auto: bool) -> Region:
     if is_auto and (is_little or not (is_long or _seams(closed) < _seams(region))):
         return region
     return closed
+
+
+def _fineness(outline: Outline, width: float) -> float:
+    """Vertices in the same cell of a width, on average."""
+    cells = np.floor(outline.points / width).astype(np.int64)
+    _, counts = np.unique(cells, axis=0, return_counts=True)
+    return float((counts**2).sum() / len(cells))
 
 
 def _seams(region: Region) -> int:

@@ -33,6 +33,7 @@ class MarksRecord(Options):
     turned: _Ids = ()
     left: _Ids = ()
     by_hand: _Ids = ()
+    lately: _Ids = ()
     rough: _Ids = ()
     polished: Annotated[int, Field(ge=0, le=2**53)] = 0
     tried: Annotated[int, Field(ge=0, le=2**53)] = 0

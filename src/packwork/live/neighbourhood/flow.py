@@ -93,13 +93,14 @@ class Flow:
     """
 
     def __init__(self, document: Document) -> None:
+        self.touching = Touching(document)
         self.turn_to(document)
 
     def turn_to(self, document: Document) -> None:
         """Go on with another document; nothing moves until something is stirred."""
         self._document = document
         self.poses = document.poses
-        self.touching = Touching(document)
+        self.touching = self.touching.turned_to(document)
         self._left = np.zeros(len(document), dtype=np.int64)
         self._given: IntArray = np.zeros(0, dtype=np.int64)
         self._grounds: dict[int, Ground] = {}

@@ -42,8 +42,26 @@ class Touching:
                 known[key] = covers.cover(shape, ROUGH * shape.extent)
             outlines.append(known[key])
         self._arrangement = Arrangement(outlines, document.container.outline, places_of(poses))
-        areas = document.own_areas * poses.scale**2
-        self.reach = REACH * float(np.sqrt(np.median(areas) / np.pi)) if len(areas) else 0.0
+        self._document = document
+        self.reach = _reach_of(document)
+
+    def turned_to(self, document: Document) -> Touching:
+        """Neighbours in another document: these, brought up to date, where no shape is another."""
+        before, now = self._document, places_of(document.poses)
+        if (
+            before.container is not document.container
+            or len(before) != len(document)
+            or any(
+                one is not other for one, other in zip(before.items, document.items, strict=True)
+            )
+            or (before.poses.stretch != document.poses.stretch).any()
+        ):
+            return Touching(document)
+        changed = np.flatnonzero((now != self._arrangement.places).any(axis=1))
+        self._arrangement.put(changed, now[changed])
+        self._document = document
+        self.reach = _reach_of(document)
+        return self
 
     def follow(self, items: IntArray, poses: Poses) -> None:
         """Take over where items ``(m,)`` are; ``poses``: of all."""
@@ -67,6 +85,11 @@ class Touching:
             front = inner[found[inner] < 0]
             found[front] = ring
         return found
+
+
+def _reach_of(document: Document) -> float:
+    areas = document.own_areas * document.poses.scale**2
+    return REACH * float(np.sqrt(np.median(areas) / np.pi)) if len(areas) else 0.0
 
 
 def places_of(poses: Poses) -> FloatArray:
