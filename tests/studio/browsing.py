@@ -13,6 +13,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+import pytest
+
+WIDE = {"width": 1440, "height": 900}
+PHONE = {"width": 390, "height": 844}
+
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 PATIENCE_SECONDS = 120.0
@@ -22,6 +27,14 @@ PATIENCE_SECONDS = 120.0
 def browser_path() -> str | None:
     """The Chromium of this machine; None if it has none."""
     return next((path for name in NAMES if (path := shutil.which(name))), None)
+
+
+in_browser = [
+    pytest.mark.skipif(browser_path() is None, reason="no Chromium on this machine"),
+    # One browser and one server do for all.
+    pytest.mark.xdist_group("browser"),
+]
+"""Marks of modules whose tests drive a browser."""
 
 
 class Server:

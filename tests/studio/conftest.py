@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
 from contextlib import suppress
 from typing import Any
 
@@ -17,6 +17,8 @@ from packwork.studio.bringing import Bringer
 from packwork.studio.desk import Desk
 from packwork.studio.tab import Tab
 from packwork.studio.uploads import Uploads
+from studio.browsing import WIDE, Server, chromium
+from studio.browsing import Desk as PageDesk
 
 PATIENCE_SECONDS = 120.0
 
@@ -118,3 +120,35 @@ async def _played(scenario: Scenario, opening: Opening) -> None:
                 await task
         await asyncio.to_thread(desk.close)
         uploads.close()
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    pytest.importorskip("playwright")
+    with chromium() as found:
+        yield found
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[Server]:
+    made = Server("circle", "star", "heart", "moon", "-n", "14").start()
+    yield made
+    made.stop()
+
+
+@pytest.fixture
+def open_desk(browser: Any, server: Server) -> Iterator[Callable[..., PageDesk]]:
+    """Opens a page, by default a wide one; at the end none has met a fault."""
+    desks: list[PageDesk] = []
+
+    def opened(size: dict[str, int] = WIDE, address: str = "", **more: Any) -> PageDesk:
+        context = browser.new_context(viewport=size, accept_downloads=True, **more)
+        desk = PageDesk(context.new_page(), address or server.address)
+        desks.append(desk)
+        desk.settled()
+        return desk
+
+    yield opened
+    for desk in desks:
+        assert desk.faults == []
+        desk.page.context.close()

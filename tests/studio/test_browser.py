@@ -4,59 +4,21 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from packwork import compiled
-from studio.browsing import Desk, Server, browser_path, chromium
+from studio.browsing import PHONE, WIDE, Desk, Server, in_browser
 
-pytestmark = [
-    pytest.mark.skipif(browser_path() is None, reason="no Chromium on this machine"),
-    # One browser and one server do for all.
-    pytest.mark.xdist_group("browser"),
-]
+pytestmark = in_browser
 
-WIDE = {"width": 1440, "height": 900}
-PHONE = {"width": 390, "height": 844}
 TILE = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">'
     '<path fill="teal" d="M0 0h9v4H5v5H0z"/></svg>'
 )
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Any]:
-    pytest.importorskip("playwright")
-    with chromium() as found:
-        yield found
-
-
-@pytest.fixture(scope="module")
-def server() -> Iterator[Server]:
-    made = Server("circle", "star", "heart", "moon", "-n", "14").start()
-    yield made
-    made.stop()
-
-
-@pytest.fixture
-def open_desk(browser: Any, server: Server) -> Iterator[Callable[..., Desk]]:
-    """Opens a page, by default a wide one; at the end none has met a fault."""
-    desks: list[Desk] = []
-
-    def opened(size: dict[str, int] = WIDE, address: str = "", **more: Any) -> Desk:
-        context = browser.new_context(viewport=size, accept_downloads=True, **more)
-        desk = Desk(context.new_page(), address or server.address)
-        desks.append(desk)
-        desk.settled()
-        return desk
-
-    yield opened
-    for desk in desks:
-        assert desk.faults == []
-        desk.page.context.close()
 
 
 def test_a_drag_is_followed_settles_and_is_undone(open_desk: Callable[..., Desk]) -> None:
@@ -161,7 +123,7 @@ def test_files_are_brought_and_what_fails_is_a_line(
     count = desk.look("studio.collage.items.length")
     (tmp_path / "tile.svg").write_text(TILE, encoding="utf-8")
     (tmp_path / "broken.svg").write_text("<svg", encoding="utf-8")
-    desk.page.locator("input[type=file]").set_input_files(
+    desk.page.locator("input[type=file]").first.set_input_files(
         [tmp_path / "tile.svg", tmp_path / "broken.svg"]
     )
     desk.until(f"studio.collage.items.length === {count + 1}")

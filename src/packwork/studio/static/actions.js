@@ -1,6 +1,8 @@
 // @ts-check
 /** All that can be asked for by button, key, menu and palette: each stands here once. */
 
+import { PANELS } from "./panels.js";
+
 /** @typedef {import("./dom.js").IconName} IconName */
 /**
  * @typedef {{id: string, label: string, keys: string[], run: () => void, icon?: IconName,
@@ -59,6 +61,8 @@ function items(studio) {
     { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && !studio.areHeld, run: () => studio.hold(true) },
     { id: "release", group: "Items", label: "Release", keys: ["Shift+H"], icon: "release", when: () => studio.anyHeld, run: () => studio.hold(false) },
     { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when, run: () => studio.duplicate() },
+    { id: "middle", group: "Items", label: "Put it in the middle", keys: ["M"], when: () => choice.ids.size === 1, run: () => studio.toMiddle() },
+    { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when, run: () => studio.replacing.open() },
     { id: "exchange", group: "Items", label: "Exchange the two", keys: ["X"], icon: "swap", when: () => choice.ids.size === 2, run: () => studio.exchange() },
     { id: "remove", group: "Items", label: "Remove", keys: ["Delete", "Backspace"], icon: "bin", when, run: () => studio.remove() },
     { id: "larger", group: "Items", label: "Larger", keys: ["+", "="], repeats: true, when, run: () => studio.resize(LARGER) },
@@ -87,6 +91,7 @@ function views(studio) {
     { id: "closer", group: "View", label: "Zoom in", keys: ["Mod+="], icon: "plus", repeats: true, run: () => view.zoomAt(1.25, ...middle()) },
     { id: "farther", group: "View", label: "Zoom out", keys: ["Mod+-"], icon: "minus", repeats: true, run: () => view.zoomAt(0.8, ...middle()) },
     { id: "chosen", group: "View", label: "Show what is chosen", keys: ["F"], when: () => studio.choice.ids.size > 0, run: () => studio.showChosen() },
+    ...PANELS.map(([id, , label], k) => ({ id: `panel-${id}`, group: /** @type {const} */ ("View"), label: `Panel: ${label}`, keys: [String(k + 1)], run: () => studio.panels.goTo(id) })),
     { id: "theme", group: "View", label: "Light or dark", keys: ["T"], icon: "theme", run: () => studio.toggleTheme() },
     { id: "keys", group: "View", label: "All actions and their keys", keys: ["?", "Mod+K"], icon: "help", run: () => studio.palette.open() },
   ];
@@ -98,5 +103,7 @@ function files(studio) {
     { id: "export", group: "File", label: "Export", keys: ["Mod+E"], icon: "export", when: () => studio.collage.hasPoses, run: () => studio.exporting.open() },
     { id: "save", group: "File", label: "Save the session as a file", keys: ["Mod+S"], when: () => studio.collage.hasPoses, run: () => studio.exporting.download("packwork", {}) },
     { id: "add", group: "File", label: "Add files", keys: ["Mod+O"], icon: "file", run: () => studio.dropping.choose() },
+    { id: "folder", group: "File", label: "Add a folder", keys: ["Mod+Shift+O"], run: () => studio.dropping.chooseFolder() },
+    { id: "room", group: "File", label: "Take a file as the container", keys: ["Shift+O"], run: () => studio.dropping.chooseOne((batch) => studio.dropping.fill(batch)) },
   ];
 }

@@ -7,8 +7,10 @@ import { shownKey } from "./keys.js";
 /** @typedef {import("./actions.js").Action} Action */
 
 const LEFT = ["undo", "redo", "pour"];
+/** Buttons whose drawing alone would be a riddle. */
+const LABELLED = new Set(["pour"]);
 const RIGHT = ["farther", "closer", "fit", "theme", "keys"];
-const CHOSEN = ["hold", "release", "duplicate", "exchange", "remove"];
+const CHOSEN = ["hold", "release", "duplicate", "replace", "exchange", "remove"];
 
 export class Bar {
   /**
@@ -21,7 +23,6 @@ export class Bar {
     this.buttons = new Map();
     this.title = h("span", { id: "title" }, "");
     this.saved = h("span", { id: "saved", hidden: true, title: "All you do is kept on this machine: packwork studio --again goes on with it" }, "saved");
-    this.level = h("span", { id: "level", "aria-hidden": "true" }, "");
     const share = /** @type {Action} */ (actions.get("export"));
     const leave = h("button", { type: "button", class: "primary", id: "export", title: hint(share), onclick: share.run }, "Export");
     this.buttons.set("export", [leave]);
@@ -31,14 +32,15 @@ export class Bar {
       h("div", { class: "group end", role: "group", "aria-label": "View" }, ...RIGHT.map((id) => this.button(id)), leave),
     );
     this.name = h("span", { class: "chosen-name" });
-    byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)),
-      h("input", { type: "color", value: "#1f6f78", title: "Give one colour", "aria-label": "Give one colour", onchange: (/** @type {Event} */ event) => recolour(/** @type {HTMLInputElement} */ (event.target).value) }));
+    this.colour = h("input", { type: "color", value: "#1f6f78", title: "Give one colour", "aria-label": "Give one colour", onchange: () => recolour(this.colour.value) });
+    byId("choice").append(this.name, ...CHOSEN.map((id) => this.button(id)), this.colour);
   }
 
   /** @param {string} id */
   button(id) {
     const action = /** @type {Action} */ (this.actions.get(id));
     const made = button(action.icon ?? "dots", action.label, () => action.run(), { title: hint(action), "data-do": id });
+    if (LABELLED.has(id)) made.append(h("span", { class: "label", "aria-hidden": "true" }, action.label));
     this.buttons.set(id, [...(this.buttons.get(id) ?? []), made]);
     return made;
   }
@@ -47,8 +49,10 @@ export class Bar {
    * @param {string} title
    * @param {string} chosen
    * @param {boolean} isSaved
+   * @param {string | null} colour of what is chosen, if it has one
    */
-  show(title, chosen, isSaved) {
+  show(title, chosen, isSaved, colour) {
+    if (colour && document.activeElement !== this.colour) this.colour.value = colour;
     this.title.textContent = title;
     this.saved.hidden = !isSaved;
     this.name.textContent = chosen;

@@ -26,7 +26,9 @@ export class Collage {
     this.items = [];
     /** @type {Map<number, number>} */
     this.rows = new Map();
+    /** @type {Float32Array} */
     this.poses = new Float32Array(0);
+    /** @type {Float32Array} */
     this.shown = new Float32Array(0);
     /** What the hand has, until a frame knows it. @type {Map<number, {pose: Pose, until: number}>} */
     this.hand = new Map();
@@ -152,6 +154,16 @@ export class Collage {
   /** @param {Thing} item */
   look(item) {
     return /** @type {Look} */ (this.looks.get(item.shape));
+  }
+
+  /**
+   * The one colour of an item, as colour fields take it; null of a drawing in several.
+   * @param {number} id
+   */
+  colour(id) {
+    const item = this.item(id);
+    const look = item && this.looks.get(item.shape);
+    return look && !look.svg ? look.fill.slice(0, 7) : null;
   }
 
   /**

@@ -6,6 +6,7 @@ import { tell } from "./toasts.js";
 
 /** @typedef {import("./connection.js").Connection} Connection */
 
+const DRAWINGS = ".svg,.svgz,image/*";
 const AT_ONCE = 4;
 const MOST = 1000;
 const MOST_TOLD = 3;
@@ -15,17 +16,18 @@ export class Dropping {
   constructor(connection) {
     this.connection = connection;
     this.veil = byId("drop");
-    this.field = h("input", { type: "file", multiple: true, class: "unseen", tabindex: "-1", "aria-hidden": "true",
-      accept: ".svg,.svgz,image/*", onchange: () => this.chosen() });
-    document.body.append(this.field);
+    const asks = { type: "file", class: "unseen", tabindex: "-1", "aria-hidden": "true" };
+    this.field = h("input", { ...asks, multiple: true, onchange: () => this.chosen(this.field) });
+    this.folder = h("input", { ...asks, multiple: true, webkitdirectory: true, onchange: () => this.chosen(this.folder) });
+    document.body.append(this.field, this.folder);
     /** @type {(batch: string) => void} */
     this.then = (batch) => this.bring(batch);
     this.depth = 0;
-    /** Whether what comes takes the place of all that is there. */
-    this.replaces = false;
+    /** What files come in as. @type {"beside" | "items" | "photos"} */
+    this.as = "beside";
     addEventListener("dragenter", (event) => this.entered(event, 1));
     addEventListener("dragleave", (event) => this.entered(event, -1));
-    addEventListener("dragover", (event) => event.preventDefault());
+    addEventListener("dragover", (event) => this.over(event));
     addEventListener("drop", (event) => this.dropped(event));
   }
 
@@ -38,36 +40,67 @@ export class Dropping {
   }
 
   /** @param {DragEvent} event */
+  over(event) {
+    event.preventDefault();
+    const target = placeOf(event);
+    for (const place of this.veil.children) place.classList.toggle("over", place === target);
+  }
+
+  /** @param {DragEvent} event */
   async dropped(event) {
     event.preventDefault();
     this.depth = 0;
     this.veil.hidden = true;
-    const target = event.target instanceof Element ? event.target.closest("[data-drops=room]") : null;
+    const isRoom = placeOf(event)?.getAttribute("data-drops") === "room";
     const files = await filesOf(event.dataTransfer);
-    if (files.length) await this.send(files, target ? (batch) => this.fill(batch) : (batch) => this.bring(batch));
+    if (files.length) await this.send(files, isRoom ? (batch) => this.fill(batch) : (batch) => this.bring(batch));
+  }
+
+  /** Ask for files that become items. */
+  choose() {
+    this.ask(DRAWINGS, true, (batch) => this.bring(batch));
+  }
+
+  /** Ask for a folder of them. */
+  chooseFolder() {
+    this.then = (batch) => this.bring(batch);
+    this.folder.value = "";
+    this.folder.click();
+  }
+
+  /**
+   * Ask for one drawing or picture.
+   * @param {(batch: string) => void} then told of the batch it is in
+   */
+  chooseOne(then) {
+    this.ask(DRAWINGS, false, then);
   }
 
   /**
    * Ask for files.
-   * @param {boolean} [isRoom] whether one is to become the container
+   * @param {string} accept endings and kinds
+   * @param {boolean} isMany
+   * @param {(batch: string) => void} then told of the batch they are in
    */
-  choose(isRoom = false) {
-    this.then = isRoom ? (batch) => this.fill(batch) : (batch) => this.bring(batch);
-    this.field.multiple = !isRoom;
+  ask(accept, isMany, then) {
+    this.then = then;
+    this.field.accept = accept;
+    this.field.multiple = isMany;
     this.field.value = "";
     this.field.click();
   }
 
-  chosen() {
-    if (this.field.files?.length) this.send([...this.field.files], this.then);
+  /** @param {HTMLInputElement} field */
+  chosen(field) {
+    const files = [...(field.files ?? [])].filter((file) => !file.name.startsWith("."));
+    if (files.length) this.send(files, this.then);
   }
 
   /** @param {string} batch */
   bring(batch) {
     const source = `file:${batch}`;
-    if (!this.replaces) return this.connection.send({ type: "bring", sources: [source] });
-    this.connection.send({ type: "fill", use: "items", source });
-    this.replaces = false;
+    if (this.as === "beside") this.connection.send({ type: "bring", sources: [source] });
+    else this.connection.send({ type: "fill", use: this.as, source });
   }
 
   /** @param {string} batch */
@@ -118,6 +151,14 @@ export class Dropping {
     const headers = { "x-name": encodeURIComponent(file.name), "content-type": "application/octet-stream" };
     return this.connection.ask(`/files/${batch}`, { method: "POST", headers, body: file });
   }
+}
+
+/**
+ * The element that says what files dropped there become.
+ * @param {DragEvent} event
+ */
+function placeOf(event) {
+  return event.target instanceof Element ? event.target.closest("[data-drops]") : null;
 }
 
 /**

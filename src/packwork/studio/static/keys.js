@@ -4,6 +4,7 @@
 /** @typedef {import("./actions.js").Action} Action */
 
 const IS_MAC = /Mac|iPhone|iPad/.test(navigator.platform);
+/** @type {Record<string, string>} */
 const SHOWN = { ArrowLeft: "←", ArrowRight: "→", ArrowUp: "↑", ArrowDown: "↓", Escape: "Esc", Delete: "Del" };
 
 /**
@@ -26,7 +27,7 @@ export function keyOf(event) {
  */
 export function shownKey(key) {
   const parts = key === "+" ? ["+"] : key.split(/\+(?=.)/);
-  return parts.map((part) => (part === "Mod" ? (IS_MAC ? "⌘" : "Ctrl") : SHOWN[/** @type {keyof SHOWN} */ (part)] ?? part)).join(" ");
+  return parts.map((part) => (part === "Mod" ? (IS_MAC ? "⌘" : "Ctrl") : SHOWN[part] ?? part)).join(" ");
 }
 
 /**

@@ -6,8 +6,8 @@ import { shownKey } from "./keys.js";
 
 /** @typedef {import("./actions.js").Action} Action */
 
-const OF_ITEMS = ["hold", "release", "duplicate", "exchange", "remove", "alike", "chosen"];
-const OF_NOTHING = ["add", "all", "pour", "fit", "export"];
+const OF_ITEMS = ["hold", "release", "middle", "duplicate", "replace", "exchange", "remove", "alike", "chosen"];
+const OF_NOTHING = ["add", "folder", "room", "all", "pour", "fit", "export"];
 
 export class Menu {
   /** @param {Map<string, Action>} actions */

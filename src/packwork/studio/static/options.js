@@ -5,6 +5,8 @@ import { h } from "./dom.js";
 
 /** @typedef {{name: string, help: string, choices: string[], range: number[], default: any}} Question */
 
+/** Characters of an explanation that is shown without being asked for. */
+const SHORT = 90;
 const LABELS = /** @type {Record<string, string>} */ ({ padding: "Gap", sizes: "Sizes", size_ratio: "Size ratio", rotate: "Turns", evenness: "Evenness" });
 
 /**
@@ -48,5 +50,8 @@ function sliderOf(one, now, set, studio) {
 /** @param {Question} one @param {HTMLElement} field @param {HTMLElement} [shown] */
 function labelled(one, field, shown) {
   field.id = `ask-${one.name}`;
-  return h("div", { class: "question" }, h("label", { for: field.id }, h("span", { class: "asked" }, h("strong", {}, LABELS[one.name] ?? one.name), shown), field), h("p", { class: "hint" }, one.help));
+  const help = one.help.length > SHORT
+    ? h("details", {}, h("summary", {}, "What it does"), h("p", { class: "hint" }, one.help))
+    : h("p", { class: "hint" }, one.help);
+  return h("div", { class: "question" }, h("label", { for: field.id }, h("span", { class: "asked" }, h("strong", {}, LABELS[one.name] ?? one.name), shown), field), help);
 }

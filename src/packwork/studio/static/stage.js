@@ -12,6 +12,8 @@ import { matrixOf } from "./collage.js";
 /** Distance of the turning handle from its corner, and half a handle, px. */
 const TURN_AWAY = 22;
 const HALF = 5;
+/** Half a handle of the smallest items, px. */
+const LEAST_HALF = 2.5;
 
 export class Stage {
   /**
@@ -149,10 +151,15 @@ export class Stage {
     if (k === undefined) return;
     const item = this.collage.items[k];
     const scale = this.toItem(k, item);
-    this.pen.strokeStyle = colour;
+    const path = this.collage.look(item).outlinePath;
+    const pixel = 1 / (this.view.zoom * Math.max(scale, 1e-9));
     this.pen.lineJoin = "round";
-    this.pen.lineWidth = width / (this.view.zoom * Math.max(scale, 1e-9));
-    this.pen.stroke(this.collage.look(item).outlinePath);
+    // A light rim under the line: no colour stands out from every drawing.
+    for (const [ink, wide] of /** @type {const} */ ([[this.colours.handle, width + 2.5], [colour, width]])) {
+      this.pen.strokeStyle = ink;
+      this.pen.lineWidth = wide * pixel;
+      this.pen.stroke(path);
+    }
   }
 
   /** @param {number} id */
@@ -231,18 +238,20 @@ export class Stage {
     pen.lineTo(...turn);
     pen.stroke();
     pen.setLineDash([]);
-    for (const { at, kind } of handles) this.drawHandle(at, kind);
+    const half = Math.min(Math.max(Math.hypot(b[0] - a[0], b[1] - a[1]) / 8, LEAST_HALF), HALF);
+    for (const { at, kind } of handles) this.drawHandle(at, kind, half);
   }
 
   /**
    * @param {[number, number]} at
    * @param {"scale" | "turn"} kind
+   * @param {number} half
    */
-  drawHandle([x, y], kind) {
+  drawHandle([x, y], kind, half) {
     const { pen, colours } = this;
     pen.beginPath();
-    if (kind === "turn") pen.arc(x, y, HALF + 0.5, 0, 2 * Math.PI);
-    else pen.rect(x - HALF, y - HALF, 2 * HALF, 2 * HALF);
+    if (kind === "turn") pen.arc(x, y, half + 0.5, 0, 2 * Math.PI);
+    else pen.rect(x - half, y - half, 2 * half, 2 * half);
     pen.fillStyle = colours.handle;
     pen.fill();
     pen.strokeStyle = colours.accent;

@@ -16,6 +16,7 @@ import { listenToKeys } from "./keys.js";
 import { Menu } from "./menu.js";
 import { Palette } from "./palette.js";
 import { Panels } from "./panels.js";
+import { Replacing } from "./replacing.js";
 import { Sprites } from "./sprites.js";
 import { Stage } from "./stage.js";
 import { say, tell } from "./toasts.js";
@@ -25,8 +26,11 @@ import { View } from "./view.js";
 /** @typedef {import("./wire.js").Said} Said */
 /** @typedef {import("./connection.js").Frame} Frame */
 
-/** What chrome covers of the window, px. */
+/** Least width at which panels stand beside the canvas, px, as in studio.css. */
+const WIDE = 700;
+/** What is left free beside the canvas, and above it for the bar of what is chosen, px. */
 const MARGIN = 28;
+const ABOVE = 62;
 
 export class Studio {
   constructor() {
@@ -58,7 +62,10 @@ export class Studio {
     this.text = "";
     this.variants = new Variants(this);
     this.panels = new Panels(this);
+    this.replacing = new Replacing(this);
     listenToKeys(actions, { pans: (isHeld) => (this.gestures.isPanning = isHeld) });
+    /** Whether this person has once taken an item: then nothing has to be explained. */
+    this.isKnown = localStorage.getItem("known") !== null;
     this.isDirty = false;
     this.last = 0;
     this.unacked = 0;
@@ -149,8 +156,15 @@ export class Studio {
   chosen() {
     const count = this.choice.ids.size;
     const [id] = this.choice.ids;
-    if (count) say(count === 1 ? `${this.collage.item(id)?.name} chosen` : `${count} items chosen`);
+    if (count) this.learnt(count === 1 ? `${this.collage.item(id)?.name} chosen` : `${count} items chosen`);
     this.refresh();
+  }
+
+  /** @param {string} text what a screen reader says of it */
+  learnt(text) {
+    say(text);
+    this.isKnown = true;
+    localStorage.setItem("known", "yes");
   }
 
   /** Bring all but the canvas up to how things are. */
@@ -158,8 +172,9 @@ export class Studio {
     const count = this.choice.ids.size;
     const [id] = this.choice.ids;
     const name = count === 1 ? this.collage.item(id)?.name ?? "" : count ? `${count} items` : "";
-    this.bar.show(this.collage.scene?.name ?? "", name, this.collage.state?.saved ?? false);
+    this.bar.show(this.collage.scene?.name ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id));
     byId("empty").hidden = this.collage.hasPoses;
+    byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.isKnown;
     if (this.collage.scene) byId("empty-text").textContent = "Pouring …";
     this.panels.refresh();
     this.redraw();
@@ -187,9 +202,11 @@ export class Studio {
 
   resized() {
     const box = this.canvas.getBoundingClientRect();
-    const panel = document.body.classList.contains("with-panel") && innerWidth >= 700 ? byId("panel").getBoundingClientRect().width + 24 : 0;
-    const isWide = innerWidth >= 700;
-    Object.assign(this.view.size, { width: box.width, height: box.height, left: (isWide ? 76 : 12) + panel, right: isWide ? MARGIN : 12, top: MARGIN, bottom: isWide ? 72 : 118 });
+    const isWide = innerWidth >= WIDE;
+    const panel = byId("panel").hidden ? { width: 0, height: 0 } : byId("panel").getBoundingClientRect();
+    const size = { width: box.width, height: box.height, top: ABOVE };
+    if (isWide) Object.assign(this.view.size, size, { left: 76 + (panel.width && panel.width + 24), right: MARGIN, bottom: 72 });
+    else Object.assign(this.view.size, size, { left: 12, right: 12, bottom: 118 + (panel.height && panel.height + 8) });
     this.stage.resize();
     this.view.refit();
   }
@@ -226,7 +243,15 @@ export class Studio {
   }
 
   escape() {
-    if (!this.gestures.cancel()) this.choice.set([]);
+    if (byId("panel").contains(document.activeElement)) this.canvas.focus();
+    else if (!this.gestures.cancel()) this.choice.set([]);
+  }
+
+  /** Put what is chosen in the middle of the canvas. */
+  toMiddle() {
+    const [item] = this.choice.ids;
+    const { width, height } = this.view.whole;
+    this.connection.do({ kind: "move", item, x: width / 2, y: height / 2 });
   }
 
   get held() {

@@ -1,0 +1,123 @@
+// @ts-check
+/** The panel of items: what comes in, and a list of what is there, to be changed in place. */
+
+import { button, h, icon } from "./dom.js";
+import { ItemEditor } from "./itemeditor.js";
+import { thumbOf } from "./thumbs.js";
+
+/** @typedef {import("./studio.js").Studio} Studio */
+/** @typedef {import("./wire.js").Thing} Thing */
+
+/** Rows of the list at most. */
+const MOST = 400;
+const AS = /** @type {const} */ ([["beside", "beside what is there"], ["items", "in place of it"], ["photos", "in place of it, as photos"]]);
+
+export class ItemList {
+  /** @param {Studio} studio */
+  constructor(studio) {
+    this.studio = studio;
+    this.editor = new ItemEditor(studio);
+    this.list = h("ul", { class: "items", "aria-label": "Items of the collage" });
+    this.counter = h("input", { type: "number", id: "count", min: "1", max: "10000",
+      onchange: () => studio.connection.send({ type: "count", count: Number(this.counter.value) || 1 }) });
+    this.listed = "";
+  }
+
+  /**
+   * @param {HTMLElement} body
+   * @param {import("./thumbs.js").Drawn[]} bundled
+   */
+  fill(body, bundled) {
+    const { connection } = this.studio;
+    const grid = bundled.map((/** @type {any} */ one) =>
+      h("button", { type: "button", class: "choice", title: one.name, "aria-label": `Add ${one.name}`, onclick: () => connection.send({ type: "bring", sources: [`builtin:${one.name}`] }) }, thumbOf(one)));
+    body.replaceChildren(this.incoming(),
+      h("details", {}, h("summary", {}, "Add bundled ones"), h("div", { class: "grid small" }, ...grid)),
+      h("label", { class: "row" }, "Items in all", this.counter), this.list);
+    this.listed = "";
+    this.refresh();
+  }
+
+  /** What files become, and buttons that ask for them. */
+  incoming() {
+    const { dropping } = this.studio;
+    const choose = h("select", { "aria-label": "What files do", onchange: () => (dropping.as = /** @type {any} */ (choose.value)) },
+      ...AS.map(([value, label]) => h("option", { value, selected: dropping.as === value }, label)));
+    return h("div", { class: "drop-here" }, h("p", {}, "Drop drawings, pictures or folders anywhere, or"),
+      h("div", { class: "row center" }, h("button", { type: "button", onclick: () => dropping.choose() }, "Choose files"),
+        h("button", { type: "button", onclick: () => dropping.chooseFolder() }, "A folder")),
+      h("label", { class: "row center" }, "They come", choose));
+  }
+
+  /** Bring the list up to what there is. */
+  refresh() {
+    if (!this.list.isConnected) return;
+    const { collage, choice } = this.studio;
+    const groups = [...grouped(collage.items).values()];
+    const key = JSON.stringify(groups.map((group) => [group[0].shape, group[0].name, group.map((one) => [one.id, one.held])]));
+    if (key !== this.listed) this.rewrite(groups);
+    this.listed = key;
+    if (document.activeElement !== this.counter) this.counter.value = String(collage.items.length);
+    for (const row of this.list.querySelectorAll("button.item")) row.setAttribute("aria-pressed", String(idsOf(row).some((id) => choice.has(id))));
+    this.edit(groups);
+  }
+
+  /** @param {Thing[][]} groups */
+  rewrite(groups) {
+    this.list.replaceChildren(...groups.slice(0, MOST).map((group) => this.row(group)));
+    if (groups.length > MOST) this.list.append(h("li", { class: "hint" }, `and ${groups.length - MOST} more`));
+  }
+
+  /**
+   * Show what can be changed under the row of what is chosen.
+   * @param {Thing[][]} groups
+   */
+  edit(groups) {
+    const { choice, collage } = this.studio;
+    const chosen = groups.filter((group) => group.some((one) => choice.has(one.id)));
+    const row = chosen.length === 1 ? this.list.querySelector('button.item[aria-pressed="true"]')?.closest("li") : null;
+    if (!row) return this.editor.element.remove();
+    if (this.editor.element.parentNode !== row) {
+      const focus = document.activeElement;
+      row.append(this.editor.element);
+      if (focus instanceof HTMLElement && this.editor.element.contains(focus)) focus.focus();
+    }
+    this.editor.show(collage.items.filter((one) => choice.has(one.id)));
+  }
+
+  /** @param {Thing[]} group */
+  row(group) {
+    const { connection, choice, collage } = this.studio;
+    const [first] = group;
+    const ids = group.map((one) => one.id);
+    const less = button("minus", `One ${first.name} less`, () => connection.do({ kind: "remove", items: [ids[ids.length - 1]] }));
+    const more = button("plus", `One ${first.name} more`, () => connection.do({ kind: "duplicate", item: first.id }));
+    less.disabled = collage.items.length < 2;
+    const held = group.some((one) => one.held.some(Boolean));
+    return h("li", {},
+      h("button", { type: "button", class: "item", "data-ids": ids.join(" "), "aria-pressed": "false", onclick: () => choice.set(ids) },
+        thumbOf(collage.look(first)), h("span", { class: "name" }, first.name), held && icon("pin")),
+      h("span", { class: "stepper", role: "group", "aria-label": `${group.length} ${first.name}` }, less, h("span", {}, String(group.length)), more));
+  }
+}
+
+/** @param {Element} row */
+function idsOf(row) {
+  return /** @type {HTMLElement} */ (row).dataset.ids?.split(" ").map(Number) ?? [];
+}
+
+/**
+ * Items by their look and name, in the order of names.
+ * @param {Thing[]} items
+ */
+function grouped(items) {
+  /** @type {Map<string, Thing[]>} */
+  const groups = new Map();
+  for (const item of items) {
+    const key = `${item.name}\n${item.shape}`;
+    const group = groups.get(key);
+    if (group) group.push(item);
+    else groups.set(key, [item]);
+  }
+  return new Map([...groups].sort(([a], [b]) => a.localeCompare(b)));
+}

@@ -1,0 +1,59 @@
+"""Panels: what they change is changed on the desk."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PIL import Image
+
+from studio.browsing import Desk, in_browser
+
+pytestmark = in_browser
+
+
+def test_name_weight_colour_and_drawing_are_changed_in_place(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    desk.page.locator("button.item", has_text="moon").click()
+    editor = desk.page.locator(".editor")
+    ids = desk.look("[...studio.choice.ids]")
+    first = f"studio.collage.item({ids[0]})"
+    editor.get_by_label("Weight").fill("3")
+    editor.get_by_label("Weight").press("Enter")
+    desk.until(f"{first}.weight === 3")
+    editor.get_by_label("Name").fill("crescent")
+    editor.get_by_label("Name").press("Enter")
+    desk.until(f"{first}.name === 'crescent'")
+    editor.get_by_label("Colour").fill("#aa2244")
+    desk.until(f"JSON.stringify(studio.collage.look({first})).includes('#aa2244')")
+    desk.settled()
+    desk.picture("edited")
+    editor.get_by_role("button", name="Replace").click()
+    desk.page.locator("dialog.replacing [aria-label=apple]").click()
+    desk.until(f"{first}.name === 'apple'")
+    assert desk.look("[...studio.choice.ids]") == ids
+    for _ in range(4):
+        desk.page.locator("#bar [data-do=undo]").click()
+    desk.until(f"{first}.name === 'moon' && {first}.weight === 1")
+    desk.settled()
+
+
+def test_a_folder_of_photos_comes_whole(open_desk: Callable[..., Desk], tmp_path: Path) -> None:
+    desk = open_desk()
+    count = desk.look("studio.collage.items.length")
+    for k in range(3):
+        picture = Image.effect_noise((90, 60), 60 + k).convert("RGB")
+        picture.save(tmp_path / f"photo {k}.jpg")
+    desk.page.get_by_label("What files do").select_option("photos")
+    with desk.page.expect_file_chooser() as waiting:
+        desk.page.get_by_role("button", name="A folder").click()
+    waiting.value.set_files(tmp_path)
+    desk.until("studio.collage.items.some(item => item.name === 'photo 1')")
+    desk.settled()
+    desk.picture("photos")
+    assert desk.look("studio.collage.items.every(item => item.name.startsWith('photo'))")
+    desk.page.locator("#bar [data-do=undo]").click()
+    desk.until(f"studio.collage.items.length === {count}")
+    desk.settled()
