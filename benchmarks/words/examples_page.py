@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import TypeAlias
 
 import numpy as np
 
 from benchmarks.kit.manifests import Manifest
 from benchmarks.kit.measuring import lasting, markdown_table, plainly
+from benchmarks.words.composition import BLUR
+from packwork.metrics.shape import REACH
 
 NONE = "-"
 SLOWER, FLATTER, FULLER = 4.0, 0.8, 1.1
@@ -19,6 +21,16 @@ HEADER = [
     "example", "words", "the peer's", "largest / median", "the peer's", "ink", "the peer's",
     "in our font", "first", "the peer's", "ratio", "again", "the peer's", "ratio",
 ]  # fmt: skip
+
+COMPOSED = {"inwards": "{:.2f}", "uneven": "{:.2f}", "near": "{:.1%}", "gap": "{:.2f}"}
+"""Columns of the second table, and how they are written."""
+
+COMPOSITION_TEXT = f"""Composition: "inwards" is the mean distance of ink, weighed by the size of
+its word, from where the free area is widest, over that of the free area itself (1 is spread evenly,
+less is nearer to the middle); "uneven" the standard deviation of the share of ink round each free
+pixel, over its mean, in a window of {100 * BLUR:g} % of the side of a square of that area. The
+shape: "near" is the share of the free area within {100 * REACH:g} % of its longer side from ink,
+"gap" the radius of the largest empty disc over that of the free area's largest."""
 
 Pair: TypeAlias = tuple[Manifest, Manifest]
 """Ours and the peer's."""
@@ -31,6 +43,7 @@ def body(section: Manifest) -> str:
     pairs = {name: pair for name, one in found.items() if (pair := done(one))}
     rows = [_row(name, *pair, alike.get(name)) for name, pair in pairs.items()]
     parts = [markdown_table(HEADER, rows), reached(list(pairs.values()), list(alike.values()))]
+    parts += composed(pairs)
     lines = [
         f"- {name}, {program}: {_why_not(one)}"
         for name, programs in found.items()
@@ -61,6 +74,18 @@ def reached(pairs: Sequence[Pair], alike: Sequence[Pair]) -> str:
         f"{sum(one >= FULLER for one in fuller)} of {len(fuller)}",
     ]
     return f"Ours: {'; '.join(said)}."
+
+
+def composed(pairs: Mapping[str, Pair]) -> list[str]:
+    """Where weight lies and whether the shape shows, a cloud a row; nothing if not measured."""
+    rows = [
+        [name, *(form.format(one[key]) for key, form in COMPOSED.items() for one in cloud)]
+        for name, pair in pairs.items()
+        for cloud in _clouds([pair])
+        if all(COMPOSED.keys() <= one.keys() for one in cloud)
+    ]
+    header = ["example", *(said for key in COMPOSED for said in (key, "the peer's"))]
+    return [COMPOSITION_TEXT, markdown_table(header, rows)] if rows else []
 
 
 def _clouds(pairs: Sequence[Pair]) -> Iterator[Pair]:

@@ -9,14 +9,16 @@ import os
 import runpy
 import sys
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from benchmarks.kit.manifests import Manifest
+from benchmarks.words.composition import composition
 from benchmarks.words.standing_in import Watched, standing_in, warm_up, watching
 
 SHOWN = 128
@@ -97,30 +99,42 @@ def _draw(clouds: list[Any], folder: Path, name: str) -> None:
 
 
 def figures(cloud: Any) -> Manifest:
-    """Words, sizes and ink of a cloud; its colours and contour are lost."""
+    """Words, sizes, ink and composition of a cloud; its colours and contour are lost."""
     sizes = np.array([entry[1] for entry in cloud.layout_], dtype=np.float64)
     cloud.contour_width, cloud.background_color, cloud.mode = 0, "black", "RGB"
-    cloud.recolor(color_func=lambda *_, **__: "white")
-    shown = np.asarray(cloud.to_image().convert("L")) >= SHOWN
+    shown = _grey(cloud, lambda *_, **__: "white") >= SHOWN
+    largest = float(sizes.max())
+    # Edges of letters are blended with the black behind them, which lessens their weight only.
+    heights = _grey(cloud, lambda *_, font_size, **__: (round(255 * font_size / largest),) * 3)
+    free = free_pixels(cloud.mask, shown.shape)
     return {
         "words": len(sizes),
-        "largest": float(sizes.max()),
+        "largest": largest,
         "median": float(np.median(sizes)),
-        "ink": float(shown.mean() / free_share(cloud.mask)),
+        "ink": float(shown.sum() / free.sum()),
+        **composition(shown, heights, free),
     }
 
 
-def free_share(mask: Any) -> float:
-    """Share of a mask's pixels that words may lie on: all that are not white; 1 without one.
+def _grey(cloud: Any, color_func: Callable[..., Any]) -> npt.NDArray[np.float64]:
+    """Pixels of a cloud in other colours, 0 to 255."""
+    cloud.recolor(color_func=color_func)
+    return np.asarray(cloud.to_image().convert("L"), dtype=np.float64)
 
-    >>> free_share(np.array([[0, 255], [255, 254]]))
-    0.5
+
+def free_pixels(mask: Any, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
+    """Pixels of a picture of that shape that words may lie on: all where a mask is not white.
+
+    >>> free_pixels(np.array([[0, 255], [255, 254]]), (2, 2)).tolist()
+    [[True, False], [False, True]]
     """
     if mask is None:
-        return 1.0
+        return np.ones(shape[:2], dtype=np.bool_)
     white = mask == 255 if mask.ndim == 2 else (mask[:, :, :3] == 255).all(axis=-1)
-    free = float(1 - white.mean())
-    return free or 1.0
+    if white.all():
+        return np.ones(shape[:2], dtype=np.bool_)
+    rows, columns = (np.arange(n) * m // n for n, m in zip(shape, white.shape, strict=False))
+    return np.asarray(~white[np.ix_(rows, columns)])
 
 
 def main(script: str, rounds: str, pictures: str, result: str) -> None:

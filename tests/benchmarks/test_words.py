@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from benchmarks.words import pairs, pairs_page, stand_ins, words_page
+from benchmarks.words import composition, examples_page, pairs, pairs_page, stand_ins, words_page
 from benchmarks.words.clouds import vocabulary
 from benchmarks.words.drop_in import default_cloud
 from benchmarks.words.examples import copied, stamped
-from benchmarks.words.one_example import free_share, measured
+from benchmarks.words.one_example import free_pixels, measured
 from benchmarks.words.standing_in import standing_in, watching
 from benchmarks.words.thin_shapes import thin_shapes
 from packwork import wordcloud as ours
@@ -116,8 +116,28 @@ def test_the_default_cloud_is_made_in_turn() -> None:
 def test_what_is_not_white_is_free() -> None:
     coloured = np.full((2, 2, 4), 255)
     coloured[0, 0, 2] = 0
-    assert free_share(coloured) == 0.25
-    assert free_share(None) == free_share(np.full((2, 2), 255)) == 1.0
+    assert free_pixels(coloured, (4, 4)).mean() == 0.25
+    for all_free in (None, np.full((2, 2), 255)):
+        assert free_pixels(all_free, (3, 4)).all()
+
+
+def test_weight_in_the_middle_and_at_the_edge_is_told() -> None:
+    free = np.ones((40, 40), bool)
+    middle, edge = np.zeros((40, 40), bool), np.zeros((40, 40), bool)
+    middle[15:25, 15:25], edge[:10] = True, True
+    inner, outer = (composition.composition(ink, ink * 1.0, free) for ink in (middle, edge))
+    assert inner["inwards"] < 0.5 < 1 < outer["inwards"]
+    assert min(inner["uneven"], outer["uneven"]) > 0.5
+    assert inner["near"] < 0.3
+    assert outer["gap"] > 0.5
+
+
+def test_compositions_stand_in_a_table_of_their_own() -> None:
+    cloud = {"words": 1, "inwards": 0.5, "uneven": 0.25, "near": 1.0, "gap": 0.1}
+    pair = ({"clouds": [cloud]}, {"clouds": [{**cloud, "inwards": 0.75}]})
+    _, table = examples_page.composed({"simple": pair})
+    assert "| simple | 0.50 | 0.75 | 0.25 | 0.25 | 100.0% | 100.0% | 0.10 | 0.10 |" in table
+    assert examples_page.composed({"simple": ({"clouds": []}, {"clouds": []})}) == []
 
 
 def test_there_are_words_enough() -> None:
@@ -140,7 +160,8 @@ def test_thin_shapes_are_ten_and_leave_most_of_their_canvas() -> None:
 def test_a_stand_in_has_the_size_of_what_it_stands_for(name: str) -> None:
     image = stand_ins.FILES[name]()
     assert image.size == {"alice_mask.png": (900, 900), "alice_color.png": (600, 800)}[name]
-    share = free_share(np.asarray(image))
+    seen = np.asarray(image)
+    share = free_pixels(seen, seen.shape).mean()
     assert 0.1 < share < 0.9
 
 
