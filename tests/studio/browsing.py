@@ -109,6 +109,8 @@ class Desk:
         self.faults: list[str] = []
         page.on("pageerror", lambda error: self.faults.append(str(error)))
         page.on("console", self._hear)
+        # Questions for files are the test's from the start: a key is faster than asking for them.
+        page.on("filechooser", lambda _: None)
         page.goto(address)
 
     def _hear(self, message: Any) -> None:

@@ -23,16 +23,14 @@ export class ItemList {
     this.listed = "";
   }
 
-  /**
-   * @param {HTMLElement} body
-   * @param {import("./thumbs.js").Drawn[]} bundled
-   */
-  fill(body, bundled) {
-    const { connection } = this.studio;
-    const grid = bundled.map((/** @type {any} */ one) =>
-      h("button", { type: "button", class: "choice", title: one.name, "aria-label": `Add ${one.name}`, onclick: () => connection.send({ type: "bring", sources: [`builtin:${one.name}`] }) }, thumbOf(one)));
+  /** @param {HTMLElement} body */
+  fill(body) {
+    const { connection, panels } = this.studio;
+    const grid = h("div", { class: "grid small" });
+    panels.load().then((choices) => grid.replaceChildren(...(choices?.items ?? []).map((/** @type {any} */ one) =>
+      h("button", { type: "button", class: "choice", title: one.name, "aria-label": `Add ${one.name}`, onclick: () => connection.send({ type: "bring", sources: [`builtin:${one.name}`] }) }, thumbOf(one)))));
     body.replaceChildren(this.incoming(),
-      h("details", {}, h("summary", {}, "Add bundled ones"), h("div", { class: "grid small" }, ...grid)),
+      h("details", {}, h("summary", {}, "Add bundled ones"), grid),
       h("label", { class: "row" }, "Items in all", this.counter), this.list);
     this.listed = "";
     this.refresh();

@@ -53,17 +53,18 @@ export class Panels {
     const close = button("close", "Close the panel", () => this.toggle(this.current), { class: "close" });
     this.body = h("div", { class: "body" });
     this.panel.replaceChildren(h("div", { class: "head" }, h("h2", {}, label), close), this.body);
-    this.fillBody(this.body);
-    if (this.choices || !(await this.load())) return;
-    if (this.body.isConnected) this.fillBody(this.body);
+    await this.fillBody(this.body);
   }
 
-  /** @param {HTMLElement} body */
-  fillBody(body) {
+  /**
+   * What is there at once is shown at once; what is bundled follows into its place, so that the focus stays.
+   * @param {HTMLElement} body
+   */
+  async fillBody(body) {
     if (this.current === "room") this.fillRoom(body);
-    if (this.current === "items") this.items.fill(body, this.choices?.items ?? []);
+    if (this.current === "items") this.items.fill(body);
     if (this.current === "words") fillWords(body, this.studio);
-    if (this.current === "options") fillOptions(body, this.studio, this.choices?.options ?? []);
+    if (this.current === "options") fillOptions(body, this.studio, (await this.load())?.options ?? []);
     if (this.current === "more") this.studio.variants.fill(body);
   }
 
@@ -93,13 +94,14 @@ export class Panels {
     const now = this.studio.collage.scene?.name;
     const word = h("input", { type: "text", id: "word", maxlength: "60", placeholder: "HELLO", "aria-label": "Word to fill" });
     const fill = () => word.value.trim() && connection.send({ type: "room", source: `text:${word.value.trim()}` });
-    const grid = (this.choices?.containers ?? []).map((/** @type {any} */ one) =>
-      h("button", { type: "button", class: "choice", title: one.name, "aria-label": one.name, "aria-pressed": String(one.name === now), onclick: () => connection.send({ type: "room", source: `builtin:${one.name}` }) }, picture(one)));
+    const grid = h("div", { class: "grid" });
     body.replaceChildren(
       h("div", { class: "drop-here", "data-drops": "room" }, h("p", {}, "Drop an SVG or a picture on the page, or choose one. Dark is inside."),
         h("button", { type: "button", onclick: () => dropping.chooseOne((batch) => dropping.fill(batch)) }, "Choose a file")),
       h("form", { class: "row", onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); fill(); } }, word, h("button", { type: "submit" }, "Fill a word")),
-      h("h3", {}, "Bundled"), h("div", { class: "grid" }, ...grid));
+      h("h3", {}, "Bundled"), grid);
+    this.load().then((choices) => grid.replaceChildren(...(choices?.containers ?? []).map((/** @type {any} */ one) =>
+      h("button", { type: "button", class: "choice", title: one.name, "aria-label": one.name, "aria-pressed": String(one.name === now), onclick: () => connection.send({ type: "room", source: `builtin:${one.name}` }) }, picture(one)))));
   }
 }
 
