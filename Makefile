@@ -10,7 +10,7 @@ BIN := .venv/bin
 LOWEST_BIN := .lowest/bin
 endif
 
-.PHONY: demo gallery figures site setup-browser test test-lowest check format clean
+.PHONY: demo gallery figures site setup-browser setup-page check-page test test-lowest check format clean
 
 demo: .venv/installed
 	$(BIN)/packwork demo
@@ -29,6 +29,15 @@ site: .venv/installed
 # A Chromium for the studio's tests in a browser; without one they are skipped. Debian and Ubuntu.
 setup-browser:
 	command -v chromium || apt-get install --yes --no-install-recommends chromium
+
+# What checks the studio's page in development, with Node: types, and axe-core for the tests.
+PAGE_TOOLS := typescript@7 axe-core@4
+
+setup-page:
+	npm install --silent --no-audit --no-fund --no-save --prefix .page $(PAGE_TOOLS)
+
+check-page: setup-page
+	.page/node_modules/.bin/tsc -p tools/page
 
 test: .venv/installed-dev
 	$(BIN)/ruff format --check src tests benchmarks examples tools

@@ -34,7 +34,6 @@ export class Badge {
     this.word.textContent = word;
     this.bar.style.transform = `scaleX(${state.busy ? state.progress : 0})`;
     this.stop.hidden = !state.busy;
-    this.button.setAttribute("aria-label", `${this.share.textContent} covered, ${word}`);
     if (!state.moving && word !== this.told) say(`${this.share.textContent} covered, ${word}`);
     this.told = word;
     if (state.certified) this.why.hidePopover?.();
