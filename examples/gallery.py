@@ -31,6 +31,7 @@ GROUPS = {
     "photos": "Photographs",
     "pile": "Piles",
     "chart": "Charts",
+    "batch": "Many at once",
     "python": "In Python",
 }
 """Headings by verb, in the page's order; a verb without one stands at the end, as it is."""

@@ -38,9 +38,9 @@ VERB_OF = {str(verb.name).lower(): verb for verb in VERBS}
 OFFERED = [(name, option) for name, verb in VERB_OF.items() for option in options_of(verb)]
 FILES = [option for model in (LayoutFiles, SideFiles, Terminal) for option in offered(model)]
 
-IN_ITS_OWN_WORDS = {"--count", "--font", "--color-by", "--add", "--hold"}
+IN_ITS_OWN_WORDS = {"--count", "--font", "--color-by", "--add", "--hold", "--output", "--report"}
 """Options of words that say the same thing as elsewhere, of words; what an edit adds, and holds,
-which a film does with its last picture."""
+which a film does with its last picture; files of each row of a table, and a table of all."""
 
 
 def defines(page: str, name: str) -> bool:

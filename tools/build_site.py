@@ -32,6 +32,7 @@ PAGES = {
         "python",
         "live",
         "studio",
+        "batch",
     ),
     "Reference": tuple(f"reference/{name}" for name in REFERENCE),
     "About": ("conventions", "architecture", "security"),

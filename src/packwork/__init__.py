@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from typing import Any
 
     from packwork.api.albums import photos
+    from packwork.api.batches import Batch, batch
     from packwork.api.history import History
     from packwork.api.judging import finish, measure
     from packwork.api.layout import Layout
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     __version__: str
 
 __all__ = [
+    "Batch",
     "Container",
     "FittedOutline",
     "FlatArt",
@@ -61,6 +63,7 @@ __all__ = [
     "Term",
     "WriteError",
     "__version__",
+    "batch",
     "chart",
     "fill",
     "finish",
@@ -77,6 +80,7 @@ __all__ = [
 ]
 
 _HOMES = {
+    "Batch": "packwork.api.batches:Batch",
     "Container": "packwork.scene.container:Container",
     "FittedOutline": "packwork.fit.fitted:FittedOutline",
     "FlatArt": "packwork.scene.item:FlatArt",
@@ -98,6 +102,7 @@ _HOMES = {
     "Step": "packwork.progress:Step",
     "Term": "packwork.losses.term:Term",
     "WriteError": "packwork.errors:WriteError",
+    "batch": "packwork.api.batches:batch",
     "chart": "packwork.api.verbs:chart",
     "fill": "packwork.api.verbs:fill",
     "finish": "packwork.api.judging:finish",

@@ -7,7 +7,7 @@ folders, patterns or files that name other files. Only programs that say so keep
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Final, TypeAlias
@@ -21,8 +21,8 @@ _KEEPING: Final[list[dict[_Identity, str]]] = []
 
 
 @contextmanager
-def noting_inputs() -> Iterator[None]:
-    """Keep notes of the files that are read inside the block.
+def noting_inputs() -> Iterator[Mapping[_Identity, str]]:
+    """Keep notes of the files that are read inside the block; names by which they were read.
 
     Examples
     --------
@@ -38,7 +38,7 @@ def noting_inputs() -> Iterator[None]:
     notes: dict[_Identity, str] = {}
     _KEEPING.append(notes)
     try:
-        yield
+        yield notes
     finally:
         # By identity: two empty notes are equal.
         _KEEPING[:] = [kept for kept in _KEEPING if kept is not notes]

@@ -23,6 +23,7 @@ SUMMARIES: Mapping[str, str] = {
     "photos": "Fill a container with photographs.",
     "pile": "Heap items of given sizes, under forces, until they are at rest.",
     "run": "Run a recipe file: the options of [bold]fill[/], kept.",
+    "batch": "Run a recipe for each row of a table, on all cores.",
     "edit": "Change a saved layout here and there; the rest makes room, certified again.",
     "studio": "Open a page in the browser on which a layout is made by hand.",
     "measure": "Measure a saved layout: coverage, overlap, what sticks out, evenness, gaps.",

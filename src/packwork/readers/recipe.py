@@ -68,6 +68,19 @@ def read_recipe(path: str | Path, *, allow_code: bool = False) -> dict[str, Any]
     ...     read_recipe(file)
     {'container': 'heart'}
     """
+    found = with_paths(read_template(path, allow_code=allow_code), found_from(Path(path).parent))
+    _name_files_elsewhere(path, found)
+    return found
+
+
+def read_template(path: str | Path, *, allow_code: bool = False) -> dict[str, Any]:
+    """Options of a recipe file as they stand there: names of files are not looked for yet.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        As for :func:`read_recipe`.
+    """
     text = read_text(path, MAX_BYTES)
     check_nesting(path, text)
     try:
@@ -79,9 +92,7 @@ def read_recipe(path: str | Path, *, allow_code: bool = False) -> dict[str, Any]
     _check_numbers(path, options)
     if not allow_code:
         check_no_code(options)
-    found = with_paths(options, found_from(Path(path).parent))
-    _name_files_elsewhere(path, found)
-    return found
+    return options
 
 
 def _check_numbers(path: str | Path, value: Any) -> None:

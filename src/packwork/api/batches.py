@@ -1,0 +1,154 @@
+"""Many runs at once in Python: a recipe for each row of a table."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from packwork import writers
+from packwork.batches.plan import Wanted, planned
+from packwork.batches.reading import table_of, templates_of
+from packwork.batches.report import rows_of
+from packwork.batches.run import carried_out, standing
+from packwork.batches.task import Outcome
+from packwork.display.extras import found
+from packwork.errors import RecipeError
+from packwork.progress import Stop, never
+from packwork.recipe.refusals import validated
+from packwork.writers.options import DrawingOptions
+
+if TYPE_CHECKING:
+    from pandas import DataFrame
+
+
+@dataclass(frozen=True, repr=False)
+class Batch:
+    """What a batch came to.
+
+    Parameters
+    ----------
+    outcomes
+        Of all rows, in their order: ``row``, ``name``, ``status`` (``made``, ``short`` for what
+        is not as asked, ``kept`` for what was made before, ``failed``, ``stopped``), ``outputs``,
+        ``metrics``, ``seconds``, ``said``.
+    """
+
+    outcomes: tuple[Outcome, ...]
+
+    def __len__(self) -> int:
+        return len(self.outcomes)
+
+    def __iter__(self) -> Iterator[Outcome]:
+        return iter(self.outcomes)
+
+    @property
+    def failed(self) -> tuple[Outcome, ...]:
+        """Rows of which nothing was made."""
+        return tuple(one for one in self.outcomes if one.status == "failed")
+
+    @property
+    def is_well(self) -> bool:
+        """Whether all rows are made as asked."""
+        return all(one.is_well for one in self.outcomes)
+
+    def to_dataframe(self) -> DataFrame:
+        """Rows with their metrics as columns.
+
+        Raises
+        ------
+        PackworkError
+            If pandas is not installed.
+        """
+        frame: DataFrame = found("pandas", "use the outcomes").DataFrame(rows_of(self.outcomes))
+        return frame
+
+    def __repr__(self) -> str:
+        counts: dict[str, int] = {}
+        for one in self.outcomes:
+            counts[one.status] = counts.get(one.status, 0) + 1
+        said = ", ".join(f"{count} {status}" for status, count in counts.items())
+        return f"<Batch: {len(self)} rows, {said}>"
+
+
+def batch(
+    recipe: str | Path | Mapping[str, Any],
+    table: str | Path | Sequence[Mapping[str, Any]] | Any = None,
+    output: str | Path | Sequence[str | Path] = (),
+    *,
+    workers: int | None = 1,
+    anew: bool = False,
+    allow_code: bool = False,
+    stop: Stop = never,
+    **drawing: Any,
+) -> Batch:
+    """Run a recipe for each row of a table, and write the files of each.
+
+    What was made before and would be the same is kept. A row that cannot be made is named in
+    what comes back; all others are made.
+
+    Parameters
+    ----------
+    recipe
+        A recipe file or options as a dict, in which ``{column}`` stands for a cell; or a folder of
+        recipe files.
+    table
+        A table's file, rows as dicts, or a data frame.
+    output
+        Files of a row, such as ``"out/{name}.svg"``; ``{row}`` is its number, ``{recipe}`` the
+        name of the recipe's file.
+    workers
+        Processes; None for one a core. With more than one a script has to call this under ``if
+        __name__ == "__main__":``, as for all of Python's processes.
+    anew
+        Make what is made already, too.
+    allow_code
+        Run code that the recipe names, as losses ``module:function``.
+    stop
+        Asked on the way; True ends with what there is.
+    drawing
+        How files are drawn, as for :meth:`Layout.save`.
+
+    Raises
+    ------
+    ReadError
+        If the recipe or the table cannot be read.
+    RecipeError
+        If no row could be made.
+    WriteError
+        If the ending of a file is none of ours.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> poster = {"container": "{shape}", "items": ["star"], "count": 3, "levels": "50"}
+    >>> rows = [{"shape": "heart"}, {"shape": "circle"}, {"shape": "no such"}]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     batch(poster, rows, folder + "/{shape}.svg")
+    <Batch: 3 rows, 2 made, 1 failed>
+    """
+    if workers != 1 and multiprocessing.parent_process() is not None:
+        raise RecipeError(
+            "workers",
+            'is asked for in a worker process: call this under if __name__ == "__main__":, or with '
+            "workers=1",
+        )
+    given = validated(DrawingOptions, drawing).model_dump()
+    writers.write_options(**given)
+    templates = templates_of(recipe, allow_code=allow_code)
+    read = table_of(table, [one.options for one in templates])
+    outputs = [output] if isinstance(output, str | Path) else list(output)
+    plan = planned(
+        Wanted(
+            templates=templates,
+            rows=read.rows,
+            columns=read.columns,
+            outputs=[str(one) for one in outputs],
+            drawing=given,
+            allows_code=allow_code,
+        )
+    )
+    now = standing(plan, anew=anew)
+    return Batch(tuple(carried_out(plan, now, workers, stop=stop)))

@@ -1,0 +1,87 @@
+"""A batch: what is not made yet, made; what was, kept."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+
+from packwork.batches.plan import Plan
+from packwork.batches.pool import outcomes, worker_count
+from packwork.batches.record import is_done
+from packwork.batches.task import Outcome, Task
+from packwork.progress import Stop, never
+
+Told = Callable[[Outcome], object]
+
+
+@dataclass(frozen=True)
+class Standing:
+    """How far a batch is.
+
+    Parameters
+    ----------
+    to_do
+        Tasks that are not made, or not any more as they would be.
+    kept
+        Of rows that are.
+    """
+
+    to_do: tuple[Task, ...]
+    kept: tuple[Outcome, ...]
+
+
+def standing(plan: Plan, *, anew: bool = False) -> Standing:
+    """What of a plan is made already.
+
+    Parameters
+    ----------
+    anew
+        Make all again.
+    """
+    to_do, kept = [], []
+    for task in plan.tasks:
+        found = None if anew else is_done(task.key, task.outputs)
+        if found is None:
+            to_do.append(task)
+        else:
+            kept.append(
+                Outcome(
+                    row=task.row,
+                    name=task.name,
+                    status="kept" if found.get("status") == "made" else "short",
+                    outputs=task.outputs,
+                    metrics=dict(found.get("metrics") or {}),
+                    seconds=0.0,
+                    said=str(found.get("said", "")),
+                )
+            )
+    return Standing(tuple(to_do), tuple(kept))
+
+
+def carried_out(
+    plan: Plan,
+    now: Standing,
+    workers: int | None = None,
+    told: Told = lambda _: None,
+    stop: Stop = never,
+) -> list[Outcome]:
+    """Outcomes of all rows, in their order; of those that were stopped too.
+
+    Parameters
+    ----------
+    workers
+        Processes; None for one a core.
+    told
+        Hears of each outcome as it comes.
+    """
+    found: list[Outcome] = [*plan.bad, *now.kept]
+    for outcome in outcomes(now.to_do, worker_count(workers, len(now.to_do)), stop):
+        found.append(outcome)
+        told(outcome)
+    met = {one.row for one in found}
+    found += _stopped(task for task in now.to_do if task.row not in met)
+    return sorted(found, key=lambda one: one.row)
+
+
+def _stopped(tasks: Iterable[Task]) -> list[Outcome]:
+    return [Outcome(row=task.row, name=task.name, status="stopped") for task in tasks]

@@ -1,0 +1,84 @@
+"""A contact sheet: small pictures of all rows on one, from their files."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from PIL import Image
+
+from packwork.errors import RecipeError
+from packwork.raster.drawing import drawn_png
+
+THUMB_PX = 240
+"""Longer side of a small picture. Larger takes more room, smaller shows less. Chosen."""
+
+GAP_PX = 16
+"""Between pictures, and round all. Chosen."""
+
+ASPECT = 4 / 3
+"""Width of a sheet over its height, about. Chosen."""
+
+MOST_PICTURES = 2_000
+"""On one sheet. More make a picture that few programs open. Chosen."""
+
+SEEN = (".png", ".webp", ".jpg", ".jpeg", ".svg")
+"""Endings of files that a sheet shows, the quickest first."""
+
+_SIZE = re.compile(
+    r'(<svg\b[^>]*?) width="(?P<width>[0-9.]+)[a-z]*" height="(?P<height>[0-9.]+)[a-z]*"'
+)
+
+
+def shown_of(outputs: Iterable[Path]) -> Path | None:
+    """The file of a row that a sheet shows; None if it has none such."""
+    by_ending = {path.suffix.lower(): path for path in outputs}
+    return next((by_ending[ending] for ending in SEEN if ending in by_ending), None)
+
+
+def sheet_bytes(files: Sequence[Path]) -> bytes:
+    """PNG of small pictures, in rows.
+
+    Raises
+    ------
+    RecipeError
+        If there are none, or too many.
+    """
+    if not 0 < len(files) <= MOST_PICTURES:
+        raise RecipeError(
+            "contact_sheet", f"takes 1 to {MOST_PICTURES:,} pictures, not {len(files):,}"
+        )
+    small = [_small(file) for file in files]
+    wide = max(one.width for one in small) + GAP_PX
+    high = max(one.height for one in small) + GAP_PX
+    across = min(len(files), math.ceil(math.sqrt(len(files) * ASPECT * high / wide)))
+    down = math.ceil(len(files) / across)
+    sheet = Image.new("RGB", (across * wide + GAP_PX, down * high + GAP_PX), "white")
+    for k, one in enumerate(small):
+        x = GAP_PX + k % across * wide + (wide - GAP_PX - one.width) // 2
+        y = GAP_PX + k // across * high + (high - GAP_PX - one.height) // 2
+        sheet.paste(one, (x, y), one)
+    stream = io.BytesIO()
+    sheet.save(stream, "PNG")
+    return stream.getvalue()
+
+
+def _small(file: Path) -> Image.Image:
+    """Small picture of a file that we have written."""
+    if file.suffix.lower() != ".svg":
+        source = io.BytesIO(file.read_bytes())
+    else:
+        source = io.BytesIO(drawn_png(_SIZE.sub(_smaller, file.read_text("utf-8"), count=1)))
+    with Image.open(source) as picture:
+        small = picture.convert("RGBA")
+    small.thumbnail((THUMB_PX, THUMB_PX), Image.Resampling.LANCZOS)
+    return small
+
+
+def _smaller(found: re.Match[str]) -> str:
+    width, height = float(found["width"]), float(found["height"])
+    factor = 2 * THUMB_PX / max(width, height)
+    return f'{found[1]} width="{width * factor:g}" height="{height * factor:g}"'

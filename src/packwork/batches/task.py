@@ -1,0 +1,191 @@
+"""One row of a batch: run, drawn, written with its record, in whatever process."""
+
+from __future__ import annotations
+
+import hashlib
+import logging
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal, TypeAlias
+
+from packwork import pipeline, threads, uses, writers
+from packwork.batches.record import inputs_of, key_of, record_path, relative
+from packwork.errors import PackworkError
+from packwork.inputs import check_no_input, noting_inputs
+from packwork.progress import NOBODY, Stop, never
+from packwork.recipe import make_recipe
+from packwork.writers.options import DrawingOptions
+
+Status: TypeAlias = Literal["made", "short", "kept", "failed", "stopped"]
+"""What has become of a row: ``short`` is made, but not as asked; ``kept`` was made before."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Task:
+    """What a row asks for; plain values, so that it goes to any process.
+
+    Parameters
+    ----------
+    row
+        Its number, from 1.
+    name
+        What it is called in messages.
+    options
+        Of the recipe, the row's cells in it, files by paths that the process finds.
+    outputs
+        Files to write.
+    drawing
+        How they are drawn: fields of ``DrawingOptions``.
+    """
+
+    row: int
+    name: str
+    options: Mapping[str, Any]
+    outputs: tuple[Path, ...]
+    drawing: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def key(self) -> str:
+        """Hash of all that is asked for."""
+        return key_of(self.options, self.outputs, self.drawing)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Outcome:
+    """What has become of a row.
+
+    Parameters
+    ----------
+    row, name, status, outputs
+        As above; outputs are those that are there.
+    metrics
+        Of the layout; empty if there is none.
+    seconds
+        That it took.
+    said
+        Why it failed, or is not as asked; empty else.
+    notices
+        What was told on the way.
+    """
+
+    row: int
+    name: str
+    status: Status
+    outputs: tuple[Path, ...] = ()
+    metrics: Mapping[str, Any] = field(default_factory=dict)
+    seconds: float = 0.0
+    said: str = ""
+    notices: tuple[str, ...] = ()
+
+    @property
+    def is_well(self) -> bool:
+        """Whether all is there, as asked."""
+        return self.status in {"made", "kept"}
+
+
+def failed(row: int, name: str, why: object) -> Outcome:
+    """Outcome of a row of which nothing was made, in one line."""
+    return Outcome(row=row, name=name, status="failed", said=" ".join(str(why).split())[:500])
+
+
+def make(task: Task, stop: Stop = never) -> Outcome:
+    """Run a row and write its files, all or none."""
+    began = time.perf_counter()
+    try:
+        with noting_inputs() as noted, hearing() as heard, threads.using(1):
+            run = pipeline.run(uses.read(make_recipe(**task.options)), NOBODY, stop)
+            if stop():
+                return Outcome(row=task.row, name=task.name, status="stopped")
+            options = writers.write_options(**task.drawing)
+            drawn = [(path, writers.encoded(run.layout, path, options)) for path in task.outputs]
+            for path in task.outputs:
+                check_no_input(path)
+            read = list(dict.fromkeys(noted.values()))
+        seconds = time.perf_counter() - began
+        told = _record(task, run, drawn, read, seconds)
+        writers.write_all([*drawn, (record_path(task.outputs), writers.json_bytes(told))])
+    except PackworkError as error:
+        return failed(task.row, task.name, error)
+    except MemoryError:
+        return failed(task.row, task.name, "there is not enough memory for this row")
+    return Outcome(
+        row=task.row,
+        name=task.name,
+        status=told["status"],
+        outputs=task.outputs,
+        metrics=told["metrics"],
+        seconds=seconds,
+        said=told["said"],
+        notices=tuple(dict.fromkeys(heard)),
+    )
+
+
+@contextmanager
+def hearing() -> Iterator[list[str]]:
+    """Collect what is told on the way, which is then told nowhere else.
+
+    Examples
+    --------
+    >>> with hearing() as heard:
+    ...     logging.getLogger("packwork").warning("its %s were closed", "slits")
+    >>> heard
+    ['its slits were closed']
+    """
+    heard: list[str] = []
+    handler = _Ear(heard)
+    logger = logging.getLogger("packwork")
+    before = logger.handlers, logger.propagate
+    logger.handlers, logger.propagate = [handler], False
+    try:
+        yield heard
+    finally:
+        logger.handlers, logger.propagate = before
+
+
+class _Ear(logging.Handler):
+    def __init__(self, heard: list[str]) -> None:
+        super().__init__(logging.WARNING)
+        self._heard = heard
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Keep its text."""
+        self._heard.append(record.getMessage())
+
+
+def _record(
+    task: Task,
+    run: pipeline.Run,
+    drawn: Sequence[tuple[Path, bytes]],
+    read: Sequence[str],
+    seconds: float,
+) -> dict[str, Any]:
+    """What is kept beside the files."""
+    report = run.report()
+    lacks = [f"{one['item']} is not placed: {one['reason']}" for one in report["unplaced"]]
+    lacks += [*report["broken"], *report["skipped"]]
+    if not run.certified and not lacks:
+        lacks.append("is not certified")
+    return {
+        "key": task.key,
+        "row": task.row,
+        "name": task.name,
+        "status": "made" if run.is_as_asked else "short",
+        "said": "" if run.is_as_asked else "; ".join(lacks)[:500],
+        "certified": run.certified,
+        "metrics": {**report["metrics"], "items": report["placed"], "seed": report["seed"]},
+        "seconds": round(seconds, 3),
+        "recipe": make_recipe(**task.options).plain(),
+        "inputs": inputs_of(task.options, read),
+        "outputs": {
+            name: hashlib.sha256(data).hexdigest()
+            for name, (_, data) in zip(relative(task.outputs), drawn, strict=True)
+        },
+    }
+
+
+def drawing_of(asked: Mapping[str, Any]) -> dict[str, Any]:
+    """Those of some options that say how files are drawn."""
+    return {key: asked[key] for key in DrawingOptions.model_fields if key in asked}

@@ -1,0 +1,91 @@
+"""Templates: a recipe, or a file's name, in which ``{column}`` stands for a cell of a row."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from datetime import date, datetime
+from typing import Any
+
+from packwork.errors import RecipeError
+
+ROW = "row"
+"""Stands for the number of a row, from 1, unless a column is called so."""
+
+RECIPE = "recipe"
+"""Stands for the name of the recipe's file, unless a column is called so."""
+
+_PLACE = re.compile(r"\{\{|\}\}|\{([^{}]*)\}")
+
+
+def columns_of(template: Any) -> Iterator[str]:
+    """Names of the columns that a template's texts, tables and arrays name.
+
+    Examples
+    --------
+    >>> list(columns_of({"container": "text:{name}", "items": ["{{a}}", "{drawing}"]}))
+    ['name', 'drawing']
+    """
+    if isinstance(template, Mapping):
+        for key, value in template.items():
+            yield from columns_of(key)
+            yield from columns_of(value)
+    elif isinstance(template, list | tuple):
+        for value in template:
+            yield from columns_of(value)
+    elif isinstance(template, str):
+        yield from (found[1] for found in _PLACE.finditer(template) if found[1] is not None)
+
+
+def filled(template: Any, row: Mapping[str, Any]) -> Any:
+    """A template with the cells of a row.
+
+    What is a column and nothing else is the cell as it is, a number where it is one; an empty one
+    leaves its option out. ``{{`` and ``}}`` stand for braces.
+
+    Raises
+    ------
+    RecipeError
+        If a cell that stands inside a longer text is empty.
+
+    Examples
+    --------
+    >>> filled({"container": "text:{name}", "count": "{n}", "seed": "{s}"}, {"name": "Ann", "n": 9})
+    {'container': 'text:Ann', 'count': 9}
+    """
+    if isinstance(template, Mapping):
+        pairs = ((key, filled(value, row)) for key, value in template.items())
+        return {filled(key, row): value for key, value in pairs if value is not None}
+    if isinstance(template, list | tuple):
+        found = [filled(value, row) for value in template]
+        return [value for value in found if value is not None]
+    if not isinstance(template, str):
+        return template
+    whole = _PLACE.fullmatch(template)
+    if whole and whole[1] is not None:
+        return _plain(row.get(whole[1]))
+    return _PLACE.sub(lambda found: _said(found, row), template)
+
+
+def _said(found: re.Match[str], row: Mapping[str, Any]) -> str:
+    if found[1] is None:
+        return found[0][0]
+    cell = _plain(row.get(found[1]))
+    if cell is None:
+        raise RecipeError(found[1], "is empty in this row; fill it in, or leave the row out")
+    return str(cell)
+
+
+def _plain(cell: Any) -> Any:
+    """A cell as recipes have values; None if it is empty."""
+    if hasattr(cell, "item") and not isinstance(cell, str):
+        cell = cell.item()
+    if isinstance(cell, str):
+        return str(cell).strip() or None
+    if isinstance(cell, float):
+        if cell != cell:
+            return None
+        return int(cell) if cell.is_integer() and abs(cell) < 2**53 else cell
+    if isinstance(cell, date | datetime):
+        return cell.isoformat()
+    return cell

@@ -1,0 +1,315 @@
+"""``packwork batch``: a recipe for each row of a table, on all cores, gone on with at any time."""
+
+from __future__ import annotations
+
+import time
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from packwork.cli import options as shared
+from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt, clear_errors
+from packwork.cli.terminal import printable, say
+from packwork.errors import RecipeError, WriteError
+from packwork.phrasing import enumerated, number_of
+
+if TYPE_CHECKING:
+    from packwork.batches.plan import Plan
+    from packwork.batches.run import Standing
+    from packwork.batches.task import Outcome, Status
+    from packwork.display.bar import TerminalBar
+
+MOST_NAMED = 20
+"""Rows that are named on the terminal; a report names all. Chosen."""
+
+_SAID: Mapping[Status, str] = {
+    "made": "made", "short": "made, but not as asked", "kept": "made already", "failed": "failed",
+    "stopped": "not made",
+}  # fmt: skip
+"""What is said of rows by their status."""
+
+MOST_NOTICES = 5
+"""Different notices that are told. Chosen."""
+
+
+@shared.by_name
+def batch(
+    recipe: Annotated[
+        Path,
+        typer.Argument(
+            metavar="RECIPE.toml",
+            help="A recipe in which {column} stands for a cell of the table; or a folder of "
+            "recipes.",
+        ),
+    ],
+    table: Annotated[
+        Path | None,
+        typer.Option("--table", help="CSV, TSV, JSON or Parquet: a run for each row."),
+    ] = None,
+    output: Annotated[
+        list[str],
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            help="A row's file, as 'out/{name}.svg': {row} is its number, {recipe} the name of "
+            "the recipe's file. May be given several times.",
+        ),
+    ] = [],  # noqa: B006
+    workers: Annotated[
+        int | None,
+        typer.Option("--workers", help="Processes at once; one a core unless given.", min=1),
+    ] = None,
+    dry_run: Annotated[
+        bool, typer.Option("--dry-run", help="Say what would be made, and make nothing.")
+    ] = False,
+    anew: Annotated[bool, typer.Option("--anew", help="Make what is made already, too.")] = False,
+    report: Annotated[
+        Path | None,
+        typer.Option("--report", help="Table of all rows with their metrics (CSV or JSON)."),
+    ] = None,
+    contact_sheet: Annotated[
+        Path | None,
+        typer.Option("--contact-sheet", help="Small pictures of all rows on one (PNG)."),
+    ] = None,
+    index: Annotated[
+        Path | None, typer.Option("--index", help="Page of all rows to look through (HTML).")
+    ] = None,
+    allow_code: Annotated[
+        bool,
+        typer.Option(
+            "--allow-code",
+            help="Run code that the recipe names, as losses MODULE:FUNCTION: only if you trust "
+            "whoever wrote both.",
+        ),
+    ] = False,
+    *,
+    pixels: int,
+    dpi: float | None,
+    background: str | None,
+    halo: str,
+    show_container: bool,
+    flatten: bool,
+    text: str,
+    bleed: str | None,
+    quiet: bool,
+) -> None:
+    """Run a recipe for each row of a table, on all cores.
+
+    A row that cannot be made is named, all others are; the same command goes on where it ended,
+    and makes anew what has changed. Exit code 1 if a row is not as asked.
+
+    [bold]packwork batch poster.toml --table people.csv -o 'out/{name}.svg' -o 'out/{name}.pdf'[/]
+
+    [bold]packwork batch poster.toml --table people.csv -o 'out/{name}.png' --dry-run[/]
+
+    [bold]packwork batch recipes/ -o 'out/{recipe}.svg' --index out/index.html[/]
+    """
+    with clear_errors():
+        from packwork import writers
+        from packwork.batches.plan import Wanted, planned
+        from packwork.batches.reading import table_of, templates_of
+        from packwork.batches.run import standing
+        from packwork.recipe.refusals import validated
+        from packwork.writers.options import DrawingOptions
+
+        drawing: dict[str, Any] = {
+            "pixels": pixels, "dpi": dpi, "background": background, "halo": halo,
+            "show_container": show_container, "flatten": flatten, "text": text, "bleed": bleed,
+        }  # fmt: skip
+        drawing = validated(DrawingOptions, drawing).model_dump()
+        writers.write_options(**drawing)
+        beside = Beside(report=report, contact_sheet=contact_sheet, index=index)
+        beside.check()
+        templates = templates_of(recipe, allow_code=allow_code)
+        read = table_of(table, [one.options for one in templates])
+        for notice in read.notices:
+            say(notice)
+        wanted = Wanted(
+            templates=templates,
+            rows=read.rows,
+            columns=read.columns,
+            outputs=output,
+            drawing=drawing,
+            allows_code=allow_code,
+        )
+        plan = planned(wanted)
+        beside.check_plan(plan)
+        if plan.outside:
+            say(f"rows read files outside the recipe's folder: {enumerated(plan.outside, 5)}")
+        now = standing(plan, anew=anew)
+        if dry_run:
+            _say_what_would_be(plan, now, quiet)
+            raise typer.Exit(SHORTFALL if plan.bad else 0)
+        raise typer.Exit(_carried_out(plan, now, workers, beside, quiet))
+
+
+@dataclass(frozen=True, kw_only=True)
+class Beside:
+    """What is written of all rows together; None for none.
+
+    Parameters
+    ----------
+    report, contact_sheet, index
+        As the options.
+    """
+
+    report: Path | None = None
+    contact_sheet: Path | None = None
+    index: Path | None = None
+
+    @property
+    def paths(self) -> list[Path]:
+        """Those that are asked for."""
+        return [p for p in (self.report, self.contact_sheet, self.index) if p is not None]
+
+    def check(self) -> None:
+        """Refuse what could not be written.
+
+        Raises
+        ------
+        WriteError
+            Before anything is run.
+        """
+        from packwork import writers
+        from packwork.batches.report import report_bytes
+
+        for path in self.paths:
+            writers.check_writable(path)
+        writers.check_outputs(self.paths)
+        if self.report is not None:
+            report_bytes(self.report, [])
+
+    def check_plan(self, plan: Plan) -> None:
+        """Refuse files that rows have too, and a sheet of what shows nothing.
+
+        Raises
+        ------
+        WriteError, RecipeError
+            Before anything is run.
+        """
+        from packwork.batches.naming import identity_of
+        from packwork.batches.sheet import SEEN, shown_of
+
+        taken = {identity_of(path) for task in plan.tasks for path in task.outputs}
+        for path in self.paths:
+            if identity_of(path) in taken:
+                raise WriteError(path, "is a row's file too; use another name")
+        if self.contact_sheet and plan.tasks and shown_of(plan.tasks[0].outputs) is None:
+            raise RecipeError("contact_sheet", f"needs rows' files of {enumerated(SEEN, 9)}")
+
+    def write(self, found: Sequence[Outcome]) -> list[Path]:
+        """Write what is asked for; which files these are."""
+        from packwork import writers
+        from packwork.batches.report import index_bytes, report_bytes
+        from packwork.batches.sheet import sheet_bytes, shown_of
+
+        shown = [file for one in found if (file := shown_of(one.outputs)) is not None]
+        made = []
+        if self.report is not None:
+            made.append((self.report, report_bytes(self.report, found)))
+        if self.index is not None:
+            made.append((self.index, index_bytes(self.index, found)))
+        if self.contact_sheet is not None and shown:
+            made.append((self.contact_sheet, sheet_bytes(shown)))
+        writers.write_all(made)
+        return [path for path, _ in made]
+
+
+class _Teller:
+    """Moves a bar: rows done and failed, how many a minute, time left."""
+
+    def __init__(self, bar: TerminalBar, to_do: int) -> None:
+        self._bar, self._to_do = bar, to_do
+        self._done = self._failed = 0
+        self._began = time.monotonic()
+
+    def __call__(self, outcome: Outcome) -> None:
+        """Count one more."""
+        self._done += 1
+        self._failed += outcome.status == "failed"
+        rate = self._done / max(time.monotonic() - self._began, 1e-3)
+        left = (self._to_do - self._done) / rate
+        text = f"{self._done} of {self._to_do} rows, {60 * rate:.0f} a minute, {_spoken(left)} left"
+        self._bar.tell(
+            self._done / self._to_do, text + (f", {self._failed} failed" if self._failed else "")
+        )
+
+
+def _spoken(seconds: float) -> str:
+    """Time as people say it.
+
+    Examples
+    --------
+    >>> _spoken(40), _spoken(600)
+    ('40 s', '10 min')
+    """
+    return f"{seconds:.0f} s" if seconds < 120 else f"{seconds / 60:.0f} min"
+
+
+def _carried_out(
+    plan: Plan, now: Standing, workers: int | None, beside: Beside, quiet: bool
+) -> int:
+    """Make what is to be made, and tell of it; the exit code."""
+    from packwork import threads
+    from packwork.batches.run import carried_out
+    from packwork.cli.running import compile_kernels
+    from packwork.display.bar import TerminalBar
+
+    if now.to_do:
+        with threads.using(1):
+            compile_kernels(TerminalBar(None, quiet))
+    bar, interrupt = TerminalBar(None, quiet), Interrupt()
+    with interrupt.listening():
+        with bar.showing():
+            teller = _Teller(bar, max(len(now.to_do), 1))
+            found = carried_out(plan, now, workers, teller, interrupt)
+        interrupt.is_over = True
+        written = beside.write(found)
+    _say_what_came(found, written, quiet)
+    if any(one.status == "stopped" for one in found):
+        say("stopped by Ctrl-C; the same command goes on with the rest")
+        return INTERRUPTED
+    return 0 if all(one.is_well for one in found) else SHORTFALL
+
+
+def _say_what_would_be(plan: Plan, now: Standing, quiet: bool) -> None:
+    """Tell of a dry run."""
+    if not quiet:
+        for task in now.to_do[:MOST_NAMED]:
+            typer.echo(printable(f"{task.row}. {task.name}: {', '.join(map(str, task.outputs))}"))
+        if len(now.to_do) > MOST_NAMED:
+            typer.echo(f"and {len(now.to_do) - MOST_NAMED:,} more")
+        typer.echo(
+            f"{number_of(len(now.to_do), 'row')} to make, {len(now.kept)} made already, "
+            f"{len(plan.bad)} that cannot be"
+        )
+    _name_bad(plan.bad)
+
+
+def _say_what_came(found: Sequence[Outcome], written: Sequence[Path], quiet: bool) -> None:
+    """Tell what has become of the rows, and name those that are not as asked."""
+    notices = Counter(notice for one in found for notice in one.notices)
+    for notice, times in notices.most_common(MOST_NOTICES):
+        say(f"{number_of(times, 'row')}: {notice}")
+    if len(notices) > MOST_NOTICES:
+        say(f"and {len(notices) - MOST_NOTICES} notices more")
+    _name_bad([one for one in found if one.status in {"failed", "short"}])
+    if not quiet:
+        counts = Counter(one.status for one in found)
+        said = [f"{counts[status]} {words}" for status, words in _SAID.items() if counts[status]]
+        typer.echo(f"{number_of(len(found), 'row')}: {', '.join(said)}")
+        if written:
+            typer.echo(printable(f"wrote {', '.join(map(str, written))}"))
+
+
+def _name_bad(bad: Sequence[Outcome]) -> None:
+    for one in bad[:MOST_NAMED]:
+        is_made = one.status == "short"
+        say(f"row {one.row} ({one.name}): {'made, but ' if is_made else ''}{one.said}")
+    if len(bad) > MOST_NAMED:
+        say(f"and {len(bad) - MOST_NAMED:,} rows more; --report names all")
