@@ -101,8 +101,8 @@ class Rasteriser:
         self.accumulation: Image = self._deposits[: rows + 1]
         """Swept areas, waiting for their running sum down the columns."""
         self._is_large = self.accumulation.nbytes > CACHE_BYTES
-        self._records = [Record(self.dtype) for _ in range(BANDS + 1)]
-        self._used = self._records[:1]
+        self._records = [Record(self.dtype)]
+        self._used = self._records
         self._magic = tuple(1.5 * 2.0 ** (52 - bits[self.dtype]) for bits in (_X_BITS, _AREA_BITS))
         self._points = np.zeros((0, 2))
         self._starts = np.zeros(1, dtype=np.int64)
@@ -216,6 +216,7 @@ class Rasteriser:
             self._used = self._records[:1]
             self._used[0].reserve(order, len(self._points), int(need))
             return
+        self._records += [Record(self.dtype) for _ in range(BANDS + 1 - len(self._records))]
         self._used = self._records
         band = self._bands()[order]
         for k, record in enumerate(self._used):

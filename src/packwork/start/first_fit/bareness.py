@@ -40,6 +40,7 @@ class Bareness:
         self._least = LEAST * np.count_nonzero(free)
         self._covered: BoolArray = np.zeros(free.shape, dtype=bool)
         self._away: FloatArray | None = None
+        self._farthest: FloatArray = np.zeros(len(free))  # of each row: most rows stay as they are
         self._is_filled = False
 
     def emptied(self) -> Bareness:
@@ -52,6 +53,7 @@ class Bareness:
             return None
         if self._away is None:
             self._away = np.where(self._free, distance_to(self._covered), 0.0)
+            self._farthest = self._away.max(axis=1)
         self._is_filled = not np.count_nonzero(self._away > self._far) > self._least
         return None if self._is_filled else self._away
 
@@ -66,10 +68,11 @@ class Bareness:
 
     def _lessen(self, away: FloatArray, top: int, left: int, item: BoolArray) -> None:
         """Distances round an item that was put there."""
-        reach = math.ceil(float(away.max()))
+        reach = math.ceil(float(self._farthest.max()))
         above, before = min(top, reach), min(left, reach)
-        window = away[top - above : top + item.shape[0] + reach]
-        window = window[:, left - before : left + item.shape[1] + reach]
+        rows = slice(top - above, top + item.shape[0] + reach)
+        window = away[rows, left - before : left + item.shape[1] + reach]
         shown = np.zeros(window.shape, dtype=bool)
         shown[above : above + item.shape[0], before : before + item.shape[1]] = item
         np.minimum(window, distance_to(shown), out=window)
+        self._farthest[rows] = away[rows].max(axis=1)

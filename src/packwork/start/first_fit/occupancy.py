@@ -60,6 +60,7 @@ class Occupancy:
         )
         self._free = np.empty((height, self._words), dtype=np.uint64)
         self._clearance: FloatArray | None = None
+        self._widest: FloatArray = np.zeros(height)  # of each row: most rows stay as they are
         self.widest = 0.0
         """Largest clearance, once that has been asked for."""
         self._refresh(0, height)
@@ -130,7 +131,8 @@ class Occupancy:
             height, width = self.shape
             m = self._margin
             self._clearance = distance_inside(self.taken[m : m + height, m : m + width] == 0)
-            self.widest = float(self._clearance.max())
+            self._widest = self._clearance.max(axis=1)
+            self.widest = float(self._widest.max())
         return self._clearance
 
     def _lessen(self, clearance: FloatArray, top: int, bottom: int, left: int, right: int) -> None:
@@ -144,4 +146,5 @@ class Occupancy:
         # Not ``distance_inside``: the window's own edge is no edge.
         away = distance_to(near != 0) - 0.5
         np.minimum(window, np.maximum(away, 0.0), out=window)
-        self.widest = float(clearance.max())
+        self._widest[rows] = clearance[rows].max(axis=1)
+        self.widest = float(self._widest.max())
