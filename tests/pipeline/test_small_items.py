@@ -32,7 +32,7 @@ def finished(scales: list[float]) -> Finished:
 def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    found = _without_dwarfs_that_may_be(job_of(3), np.ones(3), finished([0.5, 0.8, 1.0]))
+    found = _without_dwarfs_that_may_be(job_of(3), np.ones(3), finished([0.5, 0.8, 0.999]))
     assert found.undersized == ()
     # Of several attempts that of the one that is kept is told alone.
     assert not caplog.records

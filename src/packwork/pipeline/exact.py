@@ -52,6 +52,10 @@ Measured in decision 0022."""
 TRIALS_SHARE = 0.6
 """Share of the time left, where one was given, after which no more is tried. Chosen."""
 
+NOTED = 1.01
+"""How many times smaller than free sizes go an item is that is told of. Larger hides what may be
+seen, smaller tells of what nobody sees. Chosen."""
+
 DWARF = 3.0
 """How many times smaller than free sizes go an item may be and still count as placed: one line
 tells of such. Larger passes specks, smaller fails runs of a thousand icons for one long wordmark
@@ -174,6 +178,7 @@ def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished
         is_asked = "scale" in job.asked[k].values or "size" in job.asked[k].pin
         if short[k] > 1 + ROUNDING:
             (real if is_asked or short[k] > DWARF else small).append(k)
+    small = [k for k in small if short[k] > NOTED]
     said = ""
     if small:
         worst = max(small, key=lambda k: short[k])
