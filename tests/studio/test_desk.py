@@ -97,9 +97,10 @@ def test_what_has_no_meaning_is_a_line_and_nothing_else(play) -> None:
         page.tell(type="bring", sources=["/etc/passwd"])
         page.tell(type="bring", sources=["file:../../etc"])
         page.tell(type="room", source="builtin:nothing")
+        page.tell(type="room", source="text:A", font="/etc/hosts.ttf")
         page.tell(type="set", options={"padding": "wide"})
         page.tell(type="nonsense")
-        await page.until(lambda: len(page.said("line")) == 6)
+        await page.until(lambda: len(page.said("line")) == 7)
         for line in page.said("line"):
             assert line["is_error"]
             assert "\n" not in line["text"]

@@ -9,6 +9,8 @@ from PIL import Image
 
 from studio.browsing import Desk, in_browser
 
+ROOT = Path(__file__).parents[2]
+
 pytestmark = in_browser
 
 
@@ -56,4 +58,50 @@ def test_a_folder_of_photos_comes_whole(open_desk: Callable[..., Desk], tmp_path
     assert desk.look("studio.collage.items.every(item => item.name.startsWith('photo'))")
     desk.page.locator("#bar [data-do=undo]").click()
     desk.until(f"studio.collage.items.length === {count}")
+    desk.settled()
+
+
+def test_words_are_changed_in_place_in_a_font_of_the_machine(
+    open_desk: Callable[..., Desk],
+) -> None:
+    desk = open_desk()
+    desk.page.locator("#tab-words").click()
+    desk.until("studio.panels.words.palette.options.length > 3")
+    desk.page.locator("#text").fill("hope, 12\njoy, 7\nlove, 5\nGlück, 3")
+    desk.page.get_by_label("Colours").select_option("tol-bright")
+    desk.page.get_by_text("Fill with words").click()
+    desk.until("studio.collage.items.some(item => item.name === 'Glück')")
+    desk.settled()
+    fills = desk.look("studio.collage.items.map(item => studio.collage.colour(item.id))")
+    assert "#4477aa" in fills
+    joy = desk.look("studio.collage.items.find(item => item.name === 'joy').id")
+    desk.page.locator("#text").fill("hope, 12\njoy, 10\nGlück, 3\npeace, 4")
+    desk.page.get_by_text("Change these, keep their places").click()
+    desk.until("studio.collage.items.some(item => item.name === 'peace')")
+    desk.settled()
+    desk.picture("words-changed")
+    assert desk.look(f"studio.collage.item({joy}).name") == "joy"
+    names = desk.look("studio.collage.items.map(item => item.name)")
+    assert sorted(names) == ["Glück", "hope", "joy", "peace"]
+    for _ in range(2):
+        desk.page.locator("#bar [data-do=undo]").click()
+    desk.until("studio.collage.items.some(item => item.name === 'moon')")
+    desk.settled()
+
+
+def test_a_word_in_a_font_file_is_the_container(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.page.locator("#tab-room").click()
+    font = next((ROOT / "src/packwork/bundled/fonts").glob("*.otf"))
+    with desk.page.expect_file_chooser() as waiting:
+        desk.page.get_by_label("Font", exact=True).select_option("own")
+    waiting.value.set_files(font)
+    desk.until("(studio.panels.roomFont.value ?? '').startsWith('file:')")
+    desk.page.locator("#word").fill("Ol")
+    desk.page.locator("#word").press("Enter")
+    desk.until("studio.collage.scene.name === 'Ol'")
+    desk.settled()
+    desk.picture("word-container")
+    desk.page.locator("#bar [data-do=undo]").click()
+    desk.until("studio.collage.scene.name === 'circle'")
     desk.settled()

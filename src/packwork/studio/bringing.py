@@ -13,13 +13,15 @@ from packwork.live.commands.command import Command, made
 from packwork.live.commands.container import SetContainer
 from packwork.live.commands.items import Replace
 from packwork.live.commands.together import Together
-from packwork.live.composed import brought
+from packwork.live.composed import brought, words_of
 from packwork.live.face.asking import questions
 from packwork.live.face.bringing import (
     container_of,
     items_of,
     offered_containers,
+    offered_fonts,
     offered_items,
+    offered_palettes,
     only_file,
 )
 from packwork.live.face.drawing import FINENESS, drawing_of, path_of
@@ -59,7 +61,13 @@ class Bringer:
     @property
     def acts(self) -> Mapping[str, Callable[[Any], object]]:
         """What is done, by type of message."""
-        return {"bring": self._bring, "room": self._room, "swap": self._swap, "fill": self._fill}
+        return {
+            "bring": self._bring,
+            "room": self._room,
+            "swap": self._swap,
+            "fill": self._fill,
+            "words": self._words,
+        }
 
     def _bring(self, message: wire.Bring) -> None:
         self._read(lambda: self._brought(message))
@@ -84,7 +92,9 @@ class Bringer:
 
         def read() -> None:
             canvas = self._desk.canvas
-            container.append(container_of(self._container(message.source), canvas))
+            container.append(
+                container_of(self._container(message.source), canvas, self._font(message.font))
+            )
             self._desk.pour(0, make)
 
         self._read(read)
@@ -94,9 +104,24 @@ class Bringer:
             source = self._source(message.source)
             if message.use == "words" and message.source.startswith(FILES):
                 source = str(only_file(self._uploads.folder(message.source.removeprefix(FILES))))
-            self._desk.fill(message.use, source, message.count)
+            options: dict[str, Any] = {"count": message.count}
+            if message.use == "words":
+                options |= {"font": self._font(message.font), "palette": message.palette}
+            self._desk.fill(message.use, source, options)
 
         self._read(read, "Pouring")
+
+    def _words(self, message: wire.Words) -> None:
+        def read() -> None:
+            font = self._font(message.font)
+            options = {} if font is None else {"fonts": [font]}
+
+            def act(session: NamedSession) -> None:
+                session.set_words(words_of(session.document, dict(message.words), options))
+
+            self._desk.change(act)
+
+        self._read(read)
 
     def _swap(self, message: wire.Swap) -> None:
         def read() -> None:
@@ -129,6 +154,14 @@ class Bringer:
             return str(only_file(self._uploads.folder(asked.removeprefix(FILES))))
         return asked if asked.startswith(TEXT) else self._source(asked)
 
+    def _font(self, asked: str | None) -> str | None:
+        """A font as readers call it: pages name no files of this machine."""
+        if asked is None or asked in offered_fonts():
+            return asked
+        if asked.startswith(FILES):
+            return str(only_file(self._uploads.folder(asked.removeprefix(FILES))))
+        raise ReadError(asked[:40], "is neither an installed font nor a file that was sent")
+
     def _named(self, text: str) -> str:
         """A line without the folder that nobody knows."""
         return _FOLDER.sub("", text.replace(str(self._uploads.root), ""))
@@ -155,6 +188,8 @@ def choices() -> dict[str, Any]:
     return {
         "options": [asdict(one) for one in questions()],
         "containers": containers,
+        "fonts": offered_fonts(),
+        "palettes": offered_palettes(),
         "items": [_choice(one.item) for one in offered_items() if one.item is not None],
     }
 

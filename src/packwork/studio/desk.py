@@ -9,11 +9,12 @@ from __future__ import annotations
 import asyncio
 import threading
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
+from typing import Any
 
 from packwork.errors import PackworkError
 from packwork.live.commands.command import Command, Library
@@ -167,7 +168,7 @@ class Desk:
         else:
             self.work("Pouring", partial(self._pour, self.owner, seed, make))
 
-    def fill(self, use: str, source: str, count: int | None) -> None:
+    def fill(self, use: str, source: str, options: Mapping[str, Any]) -> None:
         """Fill the container with other items, in the worker that calls this."""
         if self.owner is None:
             raise PackworkError(NOT_YET)
@@ -176,7 +177,7 @@ class Desk:
         def show(moment: Moment) -> None:
             self._see(View.of_moment(moment), moment)
 
-        layout = poured_into(document, use, source, count, show, self._stop.is_set)
+        layout = poured_into(document, use, source, options, show, self._stop.is_set)
 
         def act(session: Session) -> None:
             commands = in_place(session.document, session.library, layout)

@@ -132,6 +132,7 @@ class Scenes:
             name=item.name,
             weight=float(view.weights[k]),
             stretch=1.0 if view.poses is None else float(view.poses.stretch[k]),
+            is_word=item.text is not None,
             held=(place, angle, size),
         )
 

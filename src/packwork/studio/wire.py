@@ -29,6 +29,9 @@ MOST_TEXT = 1_000_000
 """Characters of a message at most: a container's outline of 20,000 points. Chosen."""
 
 
+Weight: TypeAlias = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+
+
 class Message(BaseModel):
     """One message."""
 
@@ -100,6 +103,8 @@ class Room(Message):
 
     type: Literal["room"] = "room"
     source: Annotated[str, Field(min_length=1, max_length=200)]
+    font: Annotated[str, Field(max_length=200)] | None = None
+    """Of a word: an installed family, or a file that was sent before."""
 
 
 class Fill(Message):
@@ -109,6 +114,21 @@ class Fill(Message):
     use: Literal["items", "words", "photos"]
     source: Annotated[str, Field(min_length=1, max_length=200)]
     count: Annotated[int, Field(ge=1, le=2_000)] | None = None
+    font: Annotated[str, Field(max_length=200)] | None = None
+    """Of words, as of a container."""
+    palette: Annotated[str, Field(max_length=200)] | None = None
+    """Of words."""
+
+
+class Words(Message):
+    """Have these words with these weights; those that stay keep their places."""
+
+    type: Literal["words"] = "words"
+    words: Annotated[
+        tuple[tuple[Annotated[str, Field(min_length=1, max_length=200)], Weight], ...],
+        Field(min_length=1, max_length=2_000),
+    ]
+    font: Annotated[str, Field(max_length=200)] | None = None
 
 
 class More(Message):
@@ -126,7 +146,7 @@ class Set(Message):
 
 
 Told: TypeAlias = Annotated[
-    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | More | Set,
+    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Words | More | Set,
     Field(discriminator="type"),
 ]
 """What a page says."""
@@ -158,6 +178,7 @@ class Thing(Message):
     name: str
     weight: float
     stretch: float
+    is_word: bool
     held: tuple[bool, bool, bool]
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.fonts import installed_families
 from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, builtin_item, container_names, icon_names
 from packwork.readers.container import read_container
@@ -14,6 +15,7 @@ from packwork.readers.items import ItemsRead, read_items
 from packwork.readers.primitives import NAMES
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.scene.palette import PALETTES
 
 
 @dataclass(frozen=True)
@@ -75,15 +77,36 @@ def items_of(sources: Sequence[str]) -> ItemsRead:
     return read_items(sources)
 
 
-def container_of(source: str, canvas: str | None) -> Container:
+def offered_fonts() -> tuple[str, ...]:
+    """Families that words can be set in, as the machine has them.
+
+    Examples
+    --------
+    >>> "inter display" in offered_fonts()
+    True
+    """
+    return tuple(sorted(installed_families()))
+
+
+def offered_palettes() -> dict[str, tuple[str, ...]]:
+    """Colours that words can have, by the names of the palettes."""
+    return dict(PALETTES)
+
+
+def container_of(source: str, canvas: str | None, font: str | None = None) -> Container:
     """Container of a bundled name, ``text:WORD`` or a file that was given.
+
+    Parameters
+    ----------
+    font
+        Of the word; the bundled one if None.
 
     Raises
     ------
     ReadError
         If it cannot be used.
     """
-    return read_container(source, canvas)
+    return read_container(source, canvas, font=font)
 
 
 def only_file(folder: Path) -> Path:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -84,7 +84,12 @@ def poured_again(document: Document, seed: int, shown: Shown, stop: Stop = never
 
 
 def poured_into(
-    document: Document, use: str, source: str, count: int | None, shown: Shown, stop: Stop = never
+    document: Document,
+    use: str,
+    source: str,
+    options: Mapping[str, Any],
+    shown: Shown,
+    stop: Stop = never,
 ) -> Layout:
     """Other items in the container of a document: a run of their own.
 
@@ -94,8 +99,9 @@ def poured_into(
         ``items``, ``words`` or ``photos``.
     source
         Of them: a folder or a bundled name, or the file of a text or a table.
-    count
-        Items in all; as many as the use takes by itself if None.
+    options
+        ``count``, items in all, and of words ``font`` and ``palette``; what is None the use
+        decides by itself.
 
     Raises
     ------
@@ -103,8 +109,7 @@ def poured_into(
         If nothing of them can be used.
     """
     given: dict[str, Any] = {"effort": "draft", "canvas": canvas_of(document)}
-    if count is not None:
-        given["count"] = count
+    given |= {name: value for name, value in options.items() if value is not None}
     if use == "words":
         recipe = uses.words_recipe("page", source, **given)
     elif use == "photos":

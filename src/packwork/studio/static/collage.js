@@ -163,7 +163,9 @@ export class Collage {
   colour(id) {
     const item = this.item(id);
     const look = item && this.looks.get(item.shape);
-    return look && !look.svg ? look.fill.slice(0, 7) : null;
+    if (!look) return null;
+    const found = new Set(look.svg ? look.svg.match(/#[0-9a-f]{6}\b/gi) : [look.fill.slice(0, 7)]);
+    return found.size === 1 ? [...found][0] : null;
   }
 
   /**

@@ -2,10 +2,11 @@
 /** The panels at the side, and the one of containers. */
 
 import { byId, button, h, icon, vector } from "./dom.js";
+import { FontField } from "./fonts.js";
 import { ItemList } from "./items.js";
 import { fillOptions } from "./options.js";
 import { tell } from "./toasts.js";
-import { fillWords } from "./words.js";
+import { Words } from "./words.js";
 
 /** @typedef {import("./studio.js").Studio} Studio */
 
@@ -22,6 +23,8 @@ export class Panels {
     /** @type {any} */
     this.choices = null;
     this.items = new ItemList(studio);
+    this.words = new Words(studio);
+    this.roomFont = new FontField(studio, "Font");
     for (const [id, name, label] of PANELS) {
       byId("tabs").append(h("button", { type: "button", id: `tab-${id}`, "aria-pressed": "false", title: label, onclick: () => this.toggle(id) }, icon(name), h("span", {}, label)));
     }
@@ -63,7 +66,7 @@ export class Panels {
   async fillBody(body) {
     if (this.current === "room") this.fillRoom(body);
     if (this.current === "items") this.items.fill(body);
-    if (this.current === "words") fillWords(body, this.studio);
+    if (this.current === "words") this.words.fill(body);
     if (this.current === "options") fillOptions(body, this.studio, (await this.load())?.options ?? []);
     if (this.current === "more") this.studio.variants.fill(body);
   }
@@ -82,6 +85,7 @@ export class Panels {
   /** Bring the panel up to what there is. */
   refresh() {
     if (this.current === "items") this.items.refresh();
+    if (this.current === "words") this.words.refresh();
     const name = this.studio.collage.scene?.name;
     if (this.current === "room") {
       for (const one of this.panel.querySelectorAll(".grid .choice")) one.setAttribute("aria-pressed", String(one.getAttribute("aria-label") === name));
@@ -91,17 +95,21 @@ export class Panels {
   /** @param {HTMLElement} body */
   fillRoom(body) {
     const { connection, dropping } = this.studio;
-    const now = this.studio.collage.scene?.name;
     const word = h("input", { type: "text", id: "word", maxlength: "60", placeholder: "HELLO", "aria-label": "Word to fill" });
-    const fill = () => word.value.trim() && connection.send({ type: "room", source: `text:${word.value.trim()}` });
+    const fill = () => word.value.trim() && connection.send({ type: "room", source: `text:${word.value.trim()}`, font: this.roomFont.value });
     const grid = h("div", { class: "grid" });
     body.replaceChildren(
       h("div", { class: "drop-here", "data-drops": "room" }, h("p", {}, "Drop an SVG or a picture on the page, or choose one. Dark is inside."),
         h("button", { type: "button", onclick: () => dropping.chooseOne((batch) => dropping.fill(batch)) }, "Choose a file")),
-      h("form", { class: "row", onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); fill(); } }, word, h("button", { type: "submit" }, "Fill a word")),
+      h("form", { onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); fill(); } },
+        h("div", { class: "row" }, word, h("button", { type: "submit" }, "Fill a word")), this.roomFont.element),
       h("h3", {}, "Bundled"), grid);
-    this.load().then((choices) => grid.replaceChildren(...(choices?.containers ?? []).map((/** @type {any} */ one) =>
-      h("button", { type: "button", class: "choice", title: one.name, "aria-label": one.name, "aria-pressed": String(one.name === now), onclick: () => connection.send({ type: "room", source: `builtin:${one.name}` }) }, picture(one)))));
+    this.roomFont.fill();
+    this.load().then((choices) => {
+      grid.replaceChildren(...(choices?.containers ?? []).map((/** @type {any} */ one) =>
+        h("button", { type: "button", class: "choice", title: one.name, "aria-label": one.name, onclick: () => connection.send({ type: "room", source: `builtin:${one.name}` }) }, picture(one))));
+      this.refresh();
+    });
   }
 }
 

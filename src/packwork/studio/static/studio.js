@@ -59,7 +59,6 @@ export class Studio {
     this.badge = new Badge({ show: (ids) => this.showItems(ids), stop: () => this.connection.send({ type: "stop" }) });
     this.palette = new Palette(actions);
     this.menu = new Menu(this.actions);
-    this.text = "";
     this.variants = new Variants(this);
     this.panels = new Panels(this);
     this.replacing = new Replacing(this);
@@ -124,7 +123,10 @@ export class Studio {
   /** @param {Frame} frame */
   framed(frame) {
     const isFirst = !this.collage.hasPoses;
+    const state = this.collage.state;
     this.collage.setFrame(frame);
+    // What is said of the last layout is not true of this one.
+    if (frame.moving && state && !state.moving) this.stated({ ...state, moving: true, certified: false, entangled: [] });
     this.unacked = frame.number;
     // The next one may come while this one is drawn: of several the newest is shown.
     this.ack();

@@ -14,7 +14,7 @@
  * @typedef {{kind: "drop"}} Drop
  * @typedef {{kind: "duplicate", item: number}} Duplicate
  * @typedef {{kind: "exchange", first: number, second: number}} Exchange
- * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null)}} Fill
+ * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null), font?: (string | null), palette?: (string | null)}} Fill
  * @typedef {{kind: "grab", items: number[]}} Grab
  * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
  * @typedef {{type: "leap", to: ("undo" | "redo")}} Leap
@@ -29,7 +29,7 @@
  * @typedef {{kind: "rename", item: number, name: string}} Rename
  * @typedef {{kind: "replace", item: number, asset: string}} Replace
  * @typedef {{kind: "reshape", rings: [number, number][][]}} Reshape
- * @typedef {{type: "room", source: string}} Room
+ * @typedef {{type: "room", source: string, font?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
  * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any}} Scene
@@ -41,11 +41,12 @@
  * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, saved: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
- * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, held: [boolean, boolean, boolean]}} Thing
+ * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
  * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption)[]}} Together
- * @typedef {Ack | Bring | Count | Do | Fill | Leap | More | Pour | Room | Set | Stop | Swap} Told
+ * @typedef {Ack | Bring | Count | Do | Fill | Leap | More | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
+ * @typedef {{type: "words", words: [string, number][], font?: (string | null)}} Words
  */
 export {};

@@ -1,42 +1,75 @@
 // @ts-check
-/** The panel in which a text becomes words that fill the container. */
+/** The panel in which a text becomes words that fill the container, and words are changed. */
 
 import { h } from "./dom.js";
+import { FontField } from "./fonts.js";
 import { tell } from "./toasts.js";
 
 const EXAMPLE = "Paste a text here, or a table: a word and its weight on each line, as\nhope, 12\njoy, 7";
+const ROW = /^\s*(.*\S)\s*[,;\t]\s*([0-9]*\.?[0-9]+)\s*$/;
 
-/**
- * @param {HTMLElement} body
- * @param {import("./studio.js").Studio} studio
- */
-export function fillWords(body, studio) {
-  const text = h("textarea", { id: "text", rows: "10", placeholder: EXAMPLE, "aria-label": "Text or table of words", spellcheck: "false" });
-  text.value = studio.text;
-  text.oninput = () => (studio.text = text.value);
-  const count = h("input", { type: "number", id: "words-count", min: "1", max: "1000", value: "80", "aria-label": "How many words at most" });
-  const fill = h("button", { type: "submit", class: "primary" }, "Fill with words");
-  const form = h("form", { class: "stack", onsubmit: (/** @type {Event} */ event) => {
+export class Words {
+  /** @param {import("./studio.js").Studio} studio */
+  constructor(studio) {
+    this.studio = studio;
+    this.text = h("textarea", { id: "text", rows: "10", placeholder: EXAMPLE, "aria-label": "Text or table of words", spellcheck: "false", dir: "auto" });
+    this.count = h("input", { type: "number", id: "words-count", min: "1", max: "1000", value: "80" });
+    this.font = new FontField(studio, "Font");
+    this.palette = h("select", {});
+    this.update = h("button", { type: "button", onclick: () => this.change() }, "Change these, keep their places");
+    this.form = h("form", { class: "stack", onsubmit: (/** @type {Event} */ event) => this.submitted(event) },
+      this.text, h("label", { class: "row" }, "Words at most", this.count), this.font.element,
+      h("label", { class: "row" }, "Colours", this.palette), h("button", { type: "submit", class: "primary" }, "Fill with words"), this.update);
+  }
+
+  /** @param {HTMLElement} body */
+  async fill(body) {
+    body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet; undo brings that back."), this.form);
+    if (!this.text.value.trim()) this.text.value = this.table();
+    this.refresh();
+    const choices = await this.studio.panels.load();
+    if (!this.palette.options.length) {
+      this.palette.append(...Object.keys(choices?.palettes ?? {}).map((name) => h("option", { value: name, selected: name === "ink" }, name)));
+    }
+    await this.font.fill();
+  }
+
+  refresh() {
+    this.update.hidden = !this.studio.collage.items.some((item) => item.is_word);
+  }
+
+  /** Words that are there, heaviest first, as a table with weights up to 100. */
+  table() {
+    /** @type {Map<string, number>} */
+    const weights = new Map();
+    for (const item of this.studio.collage.items) if (item.is_word) weights.set(item.name, item.weight);
+    const most = Math.max(...weights.values());
+    const rows = [...weights].sort(([, a], [, b]) => b - a);
+    return rows.map(([word, weight]) => `${word}, ${Number(((100 * weight) / most).toPrecision(3))}`).join("\n");
+  }
+
+  /** Words and weights, if each line has both. @returns {[string, number][] | null} */
+  rows() {
+    const found = this.text.value.trim().split("\n").map((line) => ROW.exec(line));
+    if (found.some((row) => !row || !(Number(row[2]) > 0))) return null;
+    return found.map((row) => [/** @type {RegExpExecArray} */ (row)[1], Number(/** @type {RegExpExecArray} */ (row)[2])]);
+  }
+
+  change() {
+    const words = this.rows();
+    if (!words) return tell("each line needs a word and a weight above 0, as hope, 12", { isError: true });
+    this.studio.connection.send({ type: "words", words, font: this.font.value });
+  }
+
+  /** @param {Event} event */
+  async submitted(event) {
     event.preventDefault();
-    if (text.value.trim()) send(studio, text.value, Number(count.value) || 80);
-  } }, text, h("label", { class: "row" }, "Words at most", count), fill);
-  body.replaceChildren(h("p", { class: "hint" }, "Words are as large as they are often there. They take the place of what is on the sheet; undo brings that back."), form);
-}
-
-/**
- * @param {import("./studio.js").Studio} studio
- * @param {string} text
- * @param {number} count
- */
-async function send(studio, text, count) {
-  const { connection, dropping } = studio;
-  const isTable = text.trim().split("\n").every((line) => /[,;\t]\s*[0-9.]+\s*$/.test(line));
-  const lines = isTable ? `word,weight\n${text.trim().replace(/[;\t]/g, ",")}\n` : text;
-  try {
-    const { batch } = await (await connection.ask("/files", { method: "POST" })).json();
-    await dropping.sendOne(new File([lines], isTable ? "words.csv" : "words.txt"), batch);
-    connection.send({ type: "fill", use: "words", source: `file:${batch}`, count });
-  } catch (error) {
-    tell(/** @type {Error} */ (error).message, { isError: true });
+    if (!this.text.value.trim()) return this.text.focus();
+    const { dropping, connection } = this.studio;
+    const rows = this.rows();
+    const lines = rows ? ["word,weight", ...rows.map(([word, weight]) => `"${word.replaceAll('"', '""')}",${weight}`)].join("\n") : this.text.value;
+    const file = new File([lines], rows ? "words.csv" : "words.txt");
+    await dropping.send([file], (batch) => connection.send({
+      type: "fill", use: "words", source: `file:${batch}`, count: Number(this.count.value) || 80, font: this.font.value, palette: this.palette.value || null }));
   }
 }

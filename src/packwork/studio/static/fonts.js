@@ -1,0 +1,54 @@
+// @ts-check
+/** The field of a font: the bundled one, an installed family, or a file. */
+
+import { h } from "./dom.js";
+
+const OWN = "own";
+
+export class FontField {
+  /**
+   * @param {import("./studio.js").Studio} studio
+   * @param {string} label
+   */
+  constructor(studio, label) {
+    this.studio = studio;
+    /** What the studio is told; null of the bundled one. @type {string | null} */
+    this.value = null;
+    this.field = h("select", { "aria-label": label, onchange: () => this.changed() }, option("", "Inter Display, bundled"), option(OWN, "A font file …"));
+    this.element = h("label", { class: "row" }, label, this.field);
+  }
+
+  async fill() {
+    const choices = await this.studio.panels.load();
+    if (this.field.options.length > 2) return;
+    const families = (choices?.fonts ?? []).filter((/** @type {string} */ one) => one !== "inter display");
+    this.field.querySelector(`[value=${OWN}]`)?.before(...families.map((/** @type {string} */ one) => option(one, named(one))));
+  }
+
+  changed() {
+    if (this.field.value !== OWN) {
+      this.value = this.field.value || null;
+      return;
+    }
+    this.field.value = this.value ?? "";
+    this.studio.dropping.ask(".ttf,.otf,.ttc,.otc", false, (batch) => this.own(batch));
+  }
+
+  /** @param {string} batch of the file that was chosen */
+  own(batch) {
+    const name = this.studio.dropping.field.files?.[0]?.name ?? "your font";
+    this.value = `file:${batch}`;
+    this.field.prepend(option(this.value, name));
+    this.field.value = this.value;
+  }
+}
+
+/** @param {string} value @param {string} label */
+function option(value, label) {
+  return h("option", { value }, label);
+}
+
+/** A family, told in lower case, as people write it. @param {string} family */
+function named(family) {
+  return family.replace(/(^|\s)\S/g, (letter) => letter.toUpperCase());
+}
