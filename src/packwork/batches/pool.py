@@ -1,8 +1,8 @@
-"""Worker processes of this machine: tasks to outcomes, whatever becomes of a worker.
+"""Worker processes of this machine: calls to results, whatever becomes of a worker.
 
-A worker that dies, as one does for which there is not enough memory, takes with it only the row
-that it was at: rows that were under way are run again, one at a time, and the one that kills its
-worker again has failed.
+A worker that dies, as one does for which there is not enough memory, takes with it only what it
+was at: tasks that were under way are tried again, one at a time, and the one that kills its worker
+again has failed.
 """
 
 from __future__ import annotations
@@ -11,81 +11,120 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 from concurrent.futures.process import BrokenProcessPool
 from multiprocessing.synchronize import Event
+from typing import Generic, TypeVar
 
 from packwork import pipeline, threads
-from packwork.batches.task import Outcome, Task, failed, make
+from packwork.errors import PackworkError
 from packwork.progress import Stop, never
 
 AHEAD = 3
-"""Tasks for each worker that wait for it. More are begun in vain when all is stopped. Chosen."""
+"""Tasks that wait for a worker, beside those under way. More are begun in vain when all is stopped,
+and tried again when a worker dies; fewer leave workers waiting. Chosen."""
 
 LOOK_SECONDS = 0.2
 """Between two looks at whether to stop. Chosen."""
 
+Task = TypeVar("Task")
+Result = TypeVar("Result")
+
+Call = Callable[[Task, Stop], Result]
+"""What is done for a task, until it is to stop; at the top of a module, so that workers find it."""
+
 _stopped: Event | None = None
 
 
-def outcomes(tasks: Sequence[Task], workers: int, stop: Stop = never) -> Iterator[Outcome]:
-    """Outcomes of tasks, as they come; those that are not begun when it is stopped have none.
+class WorkerDiedError(PackworkError):
+    """A worker process was ended from outside, twice at the same task."""
+
+    def __init__(self) -> None:
+        super().__init__("its process was ended, as where memory runs out")
+
+
+def results(
+    tasks: Sequence[Task], call: Call[Task, Result], workers: int, stop: Stop = never
+) -> Iterator[tuple[Task, Result | Exception]]:
+    """Results of a call for each task, or what it raised, as they come.
+
+    Tasks that are not begun when it is stopped have none.
 
     Parameters
     ----------
     workers
         Processes; with 1 all is done in this one.
+
+    Examples
+    --------
+    >>> [result for _, result in results([2, 3], lambda task, stop: task**2, 1)]
+    [4, 9]
     """
     if workers == 1 or len(tasks) == 1:
         for task in tasks:
             if stop():
                 return
-            yield make(task, stop)
+            try:
+                found: Result | Exception = call(task, stop)
+            except Exception as error:  # noqa: BLE001
+                found = error
+            yield task, found
         return
     waiting = list(reversed(tasks))
     while waiting and not stop():
-        lost: list[Task] = []
-        yield from _some(waiting, min(workers, len(waiting)), stop, lost)
-        for task in lost:
+        pool = _Pool(call, min(workers, len(waiting)), stop)
+        yield from pool.run(waiting)
+        for task in pool.lost:
             if stop():
                 return
-            again: list[Task] = []
-            yield from _some([task], 1, stop, again)
-            for one in again:
-                yield failed(one.row, one.name, "its process was ended, as where memory runs out")
+            alone = _Pool(call, 1, stop)
+            yield from alone.run([task])
+            if alone.lost:
+                yield task, WorkerDiedError()
 
 
-def _some(waiting: list[Task], workers: int, stop: Stop, lost: list[Task]) -> Iterator[Outcome]:
-    """Outcomes until all is done or a worker dies; what was under way then is lost."""
-    context = multiprocessing.get_context("spawn")
-    event = context.Event()
-    executor = ProcessPoolExecutor(workers, context, _begin, (event,))
-    under_way: dict[Future[Outcome], Task] = {}
-    try:
-        while (waiting and not lost) or under_way:
-            while waiting and not lost and len(under_way) < workers + AHEAD and not stop():
-                task = waiting.pop()
-                try:
-                    under_way[executor.submit(_made, task)] = task
-                except BrokenProcessPool:
-                    lost.append(task)
-            if stop():
-                event.set()
-                waiting.clear()
-            for future in wait(under_way, LOOK_SECONDS, FIRST_COMPLETED).done:
-                task = under_way.pop(future)
-                try:
-                    outcome = future.result()
-                except BrokenProcessPool:
-                    lost.append(task)
-                    continue
-                except Exception as error:  # noqa: BLE001
-                    outcome = failed(task.row, task.name, f"{type(error).__name__}: {error}")
-                yield outcome
-    finally:
-        event.set()
-        executor.shutdown(wait=True, cancel_futures=True)
+class _Pool(Generic[Task, Result]):
+    """Workers until all is done or one of them dies; what was under way then is lost."""
+
+    def __init__(self, call: Call[Task, Result], workers: int, stop: Stop) -> None:
+        context = multiprocessing.get_context("spawn")
+        self._call, self._workers, self._stop = call, workers, stop
+        self._event = context.Event()
+        self._executor = ProcessPoolExecutor(workers, context, _begin, (self._event,))
+        self._under_way: dict[Future[Result], Task] = {}
+        self.lost: list[Task] = []
+
+    def run(self, waiting: list[Task]) -> Iterator[tuple[Task, Result | Exception]]:
+        """Results of those that wait, from the end of the list; what is left there is not begun."""
+        try:
+            while (waiting and not self.lost) or self._under_way:
+                if self._stop():
+                    self._event.set()
+                    waiting.clear()
+                self._submit(waiting)
+                for future in wait(self._under_way, LOOK_SECONDS, FIRST_COMPLETED).done:
+                    yield from self._taken(future)
+        finally:
+            self._event.set()
+            self._executor.shutdown(wait=True, cancel_futures=True)
+
+    def _submit(self, waiting: list[Task]) -> None:
+        while waiting and not self.lost and len(self._under_way) < self._workers + AHEAD:
+            task = waiting.pop()
+            try:
+                self._under_way[self._executor.submit(_called, self._call, task)] = task
+            except BrokenProcessPool:
+                self.lost.append(task)
+
+    def _taken(self, future: Future[Result]) -> Iterator[tuple[Task, Result | Exception]]:
+        task = self._under_way.pop(future)
+        try:
+            yield task, future.result()
+        except BrokenProcessPool:
+            self.lost.append(task)
+        except Exception as error:  # noqa: BLE001
+            yield task, error
 
 
 def _begin(stopped: Event) -> None:
@@ -107,8 +146,8 @@ def _end_with_parent() -> None:
         os._exit(1)
 
 
-def _made(task: Task) -> Outcome:
-    return make(task, never if _stopped is None else _stopped.is_set)
+def _called(call: Call[Task, Result], task: Task) -> Result:
+    return call(task, never if _stopped is None else _stopped.is_set)
 
 
 def worker_count(asked: int | None, tasks: int) -> int:

@@ -44,18 +44,24 @@ def rows_of(outcomes: Iterable[Outcome]) -> list[dict[str, Any]]:
             "seconds": round(one.seconds, 3),
             "said": one.said,
             "files": "; ".join(path.as_posix() for path in one.outputs),
-            **_flat(one.metrics),
+            **flat(one.metrics),
         }
         for one in outcomes
     ]
 
 
-def _flat(metrics: Mapping[str, Any], before: str = "") -> dict[str, Any]:
-    """Metrics by one name each."""
+def flat(metrics: Mapping[str, Any], before: str = "") -> dict[str, Any]:
+    """Metrics by one name each.
+
+    Examples
+    --------
+    >>> flat({"LC": 1, "exact": {"LC": 2}})
+    {'LC': 1, 'exact_LC': 2}
+    """
     found: dict[str, Any] = {}
     for key, value in metrics.items():
         if isinstance(value, Mapping):
-            found |= _flat(value, f"{before}{key}_")
+            found |= flat(value, f"{before}{key}_")
         else:
             found[before + key] = value
     return found

@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 from packwork.batches.plan import Plan
-from packwork.batches.pool import outcomes, worker_count
+from packwork.batches.pool import results, worker_count
 from packwork.batches.record import is_done
-from packwork.batches.task import Outcome, Task
+from packwork.batches.task import Outcome, Task, failed, make
 from packwork.progress import Stop, never
 
 Told = Callable[[Outcome], object]
@@ -75,7 +75,8 @@ def carried_out(
         Hears of each outcome as it comes.
     """
     found: list[Outcome] = [*plan.bad, *now.kept]
-    for outcome in outcomes(now.to_do, worker_count(workers, len(now.to_do)), stop):
+    for task, made in results(now.to_do, make, worker_count(workers, len(now.to_do)), stop):
+        outcome = failed(task.row, task.name, made) if isinstance(made, Exception) else made
         found.append(outcome)
         told(outcome)
     met = {one.row for one in found}

@@ -39,23 +39,28 @@ def shown_of(outputs: Iterable[Path]) -> Path | None:
     return next((by_ending[ending] for ending in SEEN if ending in by_ending), None)
 
 
-def sheet_bytes(files: Sequence[Path]) -> bytes:
+def sheet_bytes(pictures: Sequence[Path | bytes]) -> bytes:
     """PNG of small pictures, in rows.
+
+    Parameters
+    ----------
+    pictures
+        Files that we have written, or such files' bytes, of pixels.
 
     Raises
     ------
     RecipeError
         If there are none, or too many.
     """
-    if not 0 < len(files) <= MOST_PICTURES:
+    if not 0 < len(pictures) <= MOST_PICTURES:
         raise RecipeError(
-            "contact_sheet", f"takes 1 to {MOST_PICTURES:,} pictures, not {len(files):,}"
+            "contact_sheet", f"takes 1 to {MOST_PICTURES:,} pictures, not {len(pictures):,}"
         )
-    small = [_small(file) for file in files]
+    small = [_small(one) for one in pictures]
     wide = max(one.width for one in small) + GAP_PX
     high = max(one.height for one in small) + GAP_PX
-    across = min(len(files), math.ceil(math.sqrt(len(files) * ASPECT * high / wide)))
-    down = math.ceil(len(files) / across)
+    across = min(len(small), math.ceil(math.sqrt(len(small) * ASPECT * high / wide)))
+    down = math.ceil(len(small) / across)
     sheet = Image.new("RGB", (across * wide + GAP_PX, down * high + GAP_PX), "white")
     for k, one in enumerate(small):
         x = GAP_PX + k % across * wide + (wide - GAP_PX - one.width) // 2
@@ -66,9 +71,10 @@ def sheet_bytes(files: Sequence[Path]) -> bytes:
     return stream.getvalue()
 
 
-def _small(file: Path) -> Image.Image:
-    """Small picture of a file that we have written."""
-    if file.suffix.lower() != ".svg":
+def _small(file: Path | bytes) -> Image.Image:
+    if isinstance(file, bytes):
+        source = io.BytesIO(file)
+    elif file.suffix.lower() != ".svg":
         source = io.BytesIO(file.read_bytes())
     else:
         source = io.BytesIO(drawn_png(_SIZE.sub(_smaller, file.read_text("utf-8"), count=1)))

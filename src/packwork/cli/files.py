@@ -5,6 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Annotated
 
+from pydantic import Field
+
 from packwork.offers import Group, Offer, Verbs
 from packwork.options import Options
 
@@ -44,6 +46,22 @@ class SideFiles(Options):
 
     no_clobber: bool = False
     """Keep files that are there already: refuse to run if one is to be written."""
+
+
+class Choosing(Options):
+    """How many are tried."""
+
+    offers = Offer(group=Group.SOLVED, verbs=Verbs.EVERY)
+
+    best_of: Annotated[int, Field(ge=1, le=10_000)] = 1
+    """Try so many seeds, from --seed on, on all cores, and keep the best."""
+
+    best_by: str = "coverage"
+    """What the best of several is: coverage, evenness, or a metric of the report such as LC_ink,
+    with a minus where less is better."""
+
+    contact_sheet: Annotated[Path | None, Offer(group=Group.WRITTEN)] = None
+    """Write a picture (PNG) of all that --best-of has tried, the best first."""
 
 
 class Terminal(Options):

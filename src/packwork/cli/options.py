@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from packwork.cli.files import LayoutFiles, SideFiles, Terminal
+from packwork.cli.files import Choosing, LayoutFiles, SideFiles, Terminal
 from packwork.cli.flags import flag
 from packwork.offers import Offered, Verbs
 from packwork.options import Options, offered
@@ -18,14 +18,15 @@ from packwork.writers.film.options import FilmOptions
 
 Command = Callable[..., None]
 
-FILES: tuple[type[Options], ...] = (LayoutFiles, SideFiles, Terminal)
+FILES: tuple[type[Options], ...] = (LayoutFiles, Choosing, SideFiles, Terminal)
 """Models of options that only command lines have."""
 
 
 def of_verb(verb: Verbs) -> Callable[[Command], Command]:
     """Replace a command's ``**asked`` by all options of a verb, with the verb's defaults."""
     chosen = VERBS[verb].defaults
-    before, after = offered(LayoutFiles), (*offered(SideFiles), *offered(Terminal))
+    before = offered(LayoutFiles)
+    after = (*offered(Choosing), *offered(SideFiles), *offered(Terminal))
     listed = (*before, *options_of(verb), *after)
     return _with(
         flag(option, chosen[option.name]) if option.name in chosen else _as_it_is(option)
@@ -43,7 +44,7 @@ def of_any_recipe(without: Collection[str]) -> Callable[[Command], Command]:
     """
     changes = [option for option in offered(Recipe) if Verbs.FILL in option.verbs]
     drawn = [option for model in WRITTEN for option in offered(model)]
-    after = (*offered(SideFiles), *offered(Terminal))
+    after = (*offered(Choosing), *offered(SideFiles), *offered(Terminal))
     return _with(
         flag(option, None) if option in changes else _as_it_is(option)
         for option in in_groups((*offered(LayoutFiles), *changes, *drawn, *after))

@@ -19,6 +19,7 @@ from rich.console import Console
 from packwork import pipeline, threads, uses, writers
 from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
+from packwork.cli.files import Choosing
 from packwork.cli.notices import NOTICES, joined
 from packwork.cli.show import (
     Paper,
@@ -35,12 +36,13 @@ from packwork.cli.start_up import START_UP
 from packwork.cli.terminal import printable, say
 from packwork.cli.watch import WATCH
 from packwork.display.bar import TerminalBar
-from packwork.errors import PackworkError, WriteError
+from packwork.errors import PackworkError, RecipeError, WriteError
 from packwork.inputs import check_no_input
 from packwork.phrasing import number_of
 from packwork.progress import NOBODY
 from packwork.recipe import Recipe
 from packwork.recipe.film import film_options
+from packwork.recipe.refusals import validated
 from packwork.uses.room import NO_CONTAINER
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
@@ -69,6 +71,8 @@ class Outputs:
         container's picture (PNG); None for none.
     keeps_files
         Whether what is there already stays.
+    choosing
+        How many seeds are tried, and by what the best is kept.
     """
 
     files: Sequence[Path]
@@ -80,6 +84,7 @@ class Outputs:
     recipe: Path | None = None
     saliency: Path | None = None
     keeps_files: bool = False
+    choosing: Choosing = field(default_factory=Choosing)
 
     @property
     def kiss(self) -> str | None:
@@ -90,7 +95,8 @@ class Outputs:
     @property
     def sides(self) -> list[Path]:
         """What is written beside the layouts."""
-        sides = (self.report, self.diagnose, self.recipe, self.saliency)
+        sheet = self.choosing.contact_sheet
+        sides = (self.report, self.diagnose, self.recipe, self.saliency, sheet)
         return [side for side in sides if side is not None]
 
     @property
@@ -113,6 +119,7 @@ class Outputs:
         for side in self.sides:
             writers.check_writable(side)
         writers.check_outputs(self.every)
+        check_choosing(self.choosing)
         check_bleed(self.files, self.options.bleed)
         if self.keeps_files:
             writers.check_new(self.every)
@@ -183,6 +190,7 @@ def outputs_asked(
         recipe=asked["save_recipe"],
         saliency=asked.get("show_saliency"),
         keeps_files=asked["no_clobber"],
+        choosing=validated(Choosing, {name: asked[name] for name in Choosing.model_fields}),
     )
 
 
@@ -218,13 +226,15 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     interrupt = Interrupt()
     with interrupt.listening():
         with bar.showing():
-            run = pipeline.run(job, NOBODY if quiet else bar, interrupt, bool(outputs.films))
+            run, tried = _run(job, outputs, bar, interrupt, quiet)
             was_cut_short = interrupt.pressed
             began = time.perf_counter()
             films = _filmed(run, outputs, bar, interrupt)
         was_stopped = was_cut_short or len(films) < len(outputs.films)
         drawn, undrawn = _drawn(run, outputs)
-        written = [*drawn, *saved, *films]
+        if tried:
+            saved = outputs.saved_recipe(seeded(recipe, run))
+        written = [*drawn, *saved, *films, *_sheet(tried, outputs.choosing)]
         results = run.report(time.perf_counter() - began, START_UP.told())
         if not was_cut_short and (outputs.report is not None or not quiet):
             # Looks at pictures of all items, for which nobody waits who wants it to end.
@@ -253,6 +263,57 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             worth = "certified" if run.certified else "not certified"
             say(f"stopped by Ctrl-C; this is the best so far, {worth}")
     return INTERRUPTED if was_stopped else 0 if run.is_as_asked and not undrawn else SHORTFALL
+
+
+def _run(
+    job: pipeline.Job, outputs: Outputs, bar: TerminalBar, interrupt: Interrupt, quiet: bool
+) -> tuple[pipeline.Run, tuple[pipeline.Run, ...]]:
+    """A run, or the best of several, and all that were tried then."""
+    choosing, record = outputs.choosing, bool(outputs.films)
+    if choosing.best_of == 1:
+        return pipeline.run(job, NOBODY if quiet else bar, interrupt, record), ()
+    from packwork.batches.seeds import best_of
+
+    def tell(done: int) -> None:
+        bar.tell(done / choosing.best_of, f"{done} of {choosing.best_of} seeds")
+
+    found = best_of(
+        job.recipe, choosing.best_of, choosing.best_by, record, job.recipe.threads, tell, interrupt
+    )
+    return found.best, found.runs
+
+
+def _sheet(tried: Sequence[pipeline.Run], choosing: Choosing) -> list[tuple[Path, bytes]]:
+    """The picture of all that were tried, if it is asked for, and its bytes."""
+    if choosing.contact_sheet is None or not tried:
+        return []
+    from packwork.batches.sheet import THUMB_PX, sheet_bytes
+
+    pictures = [writers.png_bytes(run.layout, THUMB_PX) for run in tried]
+    return [(choosing.contact_sheet, sheet_bytes(pictures))]
+
+
+def check_choosing(choosing: Choosing) -> None:
+    """Refuse what has no meaning for a choice.
+
+    Raises
+    ------
+    RecipeError
+        Before anything has been run.
+    """
+    if choosing.best_of == 1:
+        for key, usual in Choosing().model_dump(exclude={"best_of"}).items():
+            if getattr(choosing, key) != usual:
+                raise RecipeError(key, "is of --best-of; say of how many, as --best-of 8")
+        return
+    from packwork.batches.seeds import check_metric
+
+    check_metric(choosing.best_by)
+
+
+def seeded(recipe: Recipe, run: pipeline.Run) -> Recipe:
+    """The recipe with the seed of a run."""
+    return recipe.model_copy(update={"seed": run.layout.manifest["seed"]})
 
 
 def compile_kernels(bar: TerminalBar) -> None:

@@ -1,0 +1,146 @@
+"""The best of several runs that differ in their seeds alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from packwork import pipeline, threads, uses
+from packwork.batches.pool import results, worker_count
+from packwork.batches.report import flat
+from packwork.batches.task import hearing
+from packwork.errors import PackworkError, RecipeError
+from packwork.metrics.measure import ExactShares, Metrics
+from packwork.phrasing import enumerated
+from packwork.pipeline import Run
+from packwork.progress import NOBODY, Stop, never
+from packwork.recipe import Recipe, make_recipe
+
+MOST = 10_000
+"""Runs of which the best is kept, at most. Chosen."""
+
+COVERAGE, EVENNESS = "coverage", "evenness"
+
+_MEANT = {COVERAGE: "exact_LC", EVENNESS: "-LnU"}
+"""What words stand for: a metric of the report; with a minus, less of it is better."""
+
+METRICS = (
+    *(name for name in Metrics.__annotations__ if name != "exact"),
+    *(f"exact_{name}" for name in ExactShares.__annotations__),
+)
+"""Of a report, by one name each."""
+
+Told = Callable[[int], object]
+
+
+@dataclass(frozen=True)
+class Seeded:
+    """A recipe, and whether its track is recorded."""
+
+    recipe: Mapping[str, Any]
+    record: bool
+
+
+@dataclass(frozen=True)
+class Choice:
+    """Runs of several seeds.
+
+    Parameters
+    ----------
+    runs
+        The best first; what is not as asked comes after all that is.
+    scores
+        What they were judged by, more is better.
+    """
+
+    runs: tuple[Run, ...]
+    scores: tuple[float, ...]
+
+    @property
+    def best(self) -> Run:
+        """The one to keep."""
+        return self.runs[0]
+
+
+def best_of(
+    recipe: Recipe,
+    count: int,
+    by: str = COVERAGE,
+    record: bool = False,
+    workers: int | None = None,
+    told: Told = lambda _: None,
+    stop: Stop = never,
+) -> Choice:
+    """Runs of a recipe's seed and those after it, the best first.
+
+    Each gives the same bytes as a run of its seed alone.
+
+    Parameters
+    ----------
+    by
+        ``coverage``, ``evenness`` or a metric of the report, with a minus where less is better.
+    record
+        Whether tracks are recorded, for films.
+    told
+        Hears how many are done.
+
+    Raises
+    ------
+    RecipeError
+        If there is no such metric.
+    PackworkError
+        If no seed gives anything.
+    """
+    check_metric(by)
+    plain = recipe.plain()
+    tasks = [Seeded({**plain, "seed": recipe.seed + k}, record) for k in range(count)]
+    found: list[Run] = []
+    failed: list[Exception] = []
+    for _, made in results(tasks, run_seed, worker_count(workers, count), stop):
+        if isinstance(made, Exception):
+            failed.append(made)
+        else:
+            found.append(made)
+        told(len(found) + len(failed))
+    if not found:
+        raise failed[0] if failed else PackworkError("stopped before there was anything to write")
+    scores = [score_of(run, by) for run in found]
+    order = sorted(
+        range(len(found)),
+        key=lambda k: (not found[k].is_as_asked, -scores[k], found[k].layout.manifest["seed"]),
+    )
+    return Choice(tuple(found[k] for k in order), tuple(scores[k] for k in order))
+
+
+def run_seed(task: Seeded, stop: Stop) -> Run:
+    """A run of one seed; what it tells on the way was told of the first already."""
+    with hearing(), threads.using(1):
+        return pipeline.run(uses.read(make_recipe(**task.recipe)), NOBODY, stop, task.record)
+
+
+def check_metric(by: str) -> None:
+    """Refuse what no report has.
+
+    Raises
+    ------
+    RecipeError
+        Naming all there are.
+    """
+    if _MEANT.get(by, by).removeprefix("-") not in METRICS:
+        there = enumerated([COVERAGE, EVENNESS, *METRICS], 30)
+        raise RecipeError("best_by", f"must be one of {there}, not {by[:40]!r}")
+
+
+def score_of(run: Run, by: str) -> float:
+    """What a run is worth, more is better.
+
+    Raises
+    ------
+    RecipeError
+        If there is no such metric.
+    """
+    check_metric(by)
+    meant = _MEANT.get(by, by)
+    value = float(flat(run.metrics.as_dict())[meant.removeprefix("-")])
+    return -value if meant.startswith("-") else value
