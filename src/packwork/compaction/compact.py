@@ -17,6 +17,8 @@ geometry and cut until no conflict is left.
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from packwork.arrays import IntArray
@@ -63,7 +65,13 @@ def compact(
 
 
 def compact_all(
-    arrangement: Arrangement, objective: Objective, turn: int, trust: float, gap: float, hair: float
+    arrangement: Arrangement,
+    objective: Objective,
+    turn: int,
+    trust: float,
+    gap: float,
+    hair: float,
+    stop: Callable[[], bool] = bool,
 ) -> None:
     """Move all items by blocks of neighbours, those at once that do not touch.
 
@@ -71,11 +79,15 @@ def compact_all(
     ----------
     turn
         Number of the round: others are cut elsewhere.
+    stop
+        Asked before each group of blocks that are moved at once; True leaves the others.
     """
     boxes = arrangement.board.boxes
     # What stands still is looked at from as far as two items come nearer; what moves, farther.
     reach = gap + 2 * TRAVEL * trust
     for group in colours(blocks(arrangement.places[:, :2], turn), boxes, reach):
+        if stop():
+            return
         near = [distances.nearby(boxes, items, gap + TRAVEL * trust) for items in group]
         calls = [
             (arrangement, objective, items, about, trust, gap, hair)

@@ -123,7 +123,8 @@ def anneal(
     rng
         The only source of randomness.
     stop
-        Asked before each batch of trials that are made at once; True ends the search.
+        Asked before each batch of trials that are made at once, and before each group of blocks
+        of the rounds over all items; True ends the search.
     tell
         Called with the number of each trial, once it has been kept or undone.
     pulling
@@ -146,7 +147,7 @@ def anneal(
                 tell(done)
             done += 1
         if done % every == 0:
-            search.sweep(done - 1)
+            search.sweep(done - 1, stop)
     return kept
 
 
@@ -202,9 +203,9 @@ class _Search:
         )
         return [gain > -np.inf for gain in gains]
 
-    def sweep(self, turn: int) -> None:
+    def sweep(self, turn: int, stop: Stop) -> None:
         """Rounds of compaction over all items."""
-        _sweep(self._arrangement, self._objective, self._lengths, turn)
+        _sweep(self._arrangement, self._objective, self._lengths, turn, stop)
 
     def _proposed(self) -> Iterator[Proposal]:
         """Trials without end, of the items as they are now."""
@@ -279,7 +280,9 @@ def made(
     )
 
 
-def _sweep(arrangement: Arrangement, objective: Objective, lengths: Lengths, turn: int) -> None:
+def _sweep(
+    arrangement: Arrangement, objective: Objective, lengths: Lengths, turn: int, stop: Stop
+) -> None:
     """Rounds of compaction over all items."""
     for index, trust in enumerate(np.geomspace(*TRUST, SWEEP_ROUNDS) * lengths.spacing):
-        compact_all(arrangement, objective, turn + index, trust, lengths.gap, lengths.hair)
+        compact_all(arrangement, objective, turn + index, trust, lengths.gap, lengths.hair, stop)

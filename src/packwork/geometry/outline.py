@@ -258,5 +258,8 @@ def joined(outlines: Sequence[Outline]) -> tuple[FloatArray, IntArray]:
     (6, [0, 3, 6])
     """
     points = np.concatenate([np.zeros((0, 2)), *(o.points for o in outlines)])
-    lengths = [np.diff(o.starts) for o in outlines]
-    return points, np.cumsum(np.concatenate([[0], *lengths]), dtype=np.int64)
+    before = np.cumsum([0, *(len(o.points) for o in outlines)])[:-1]
+    rings = [len(o.starts) - 1 for o in outlines]
+    ends = np.concatenate([[0], *(o.starts[1:] for o in outlines)]).astype(np.int64)
+    ends[1:] += np.repeat(before, rings)
+    return points, ends

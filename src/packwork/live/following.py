@@ -16,6 +16,7 @@ from packwork.live.marks import Marks
 from packwork.live.neighbourhood.flow import Flow
 from packwork.live.neighbourhood.settle import settle
 from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.neighbourhood.sights import Sights
 from packwork.metrics.violations import Violation
 from packwork.progress import Stop
 from packwork.scene.pose import Poses
@@ -49,6 +50,7 @@ class Following:
         """Covers of the outlines."""
         self.marks = Marks()
         """What has been done to which items."""
+        self._sights = Sights()
         self._grabbed: tuple[int, ...] = ()
         self._flow: Flow | None = None
         self._certificate = Certificate()
@@ -63,6 +65,11 @@ class Following:
     def is_at_rest(self) -> bool:
         """Whether the flow has nothing to move."""
         return self._flow is None or self._flow.is_at_rest
+
+    def make_ready(self) -> None:
+        """Have what takes long the first time done before the hand comes; changes nothing."""
+        if len(self._document):
+            Flow(self._document, self._sights).make_ready()
 
     def _put_back(self) -> set[int]:
         """Put back what flowed and lies far from what was touched; numbers of what is near.
@@ -118,7 +125,7 @@ class Following:
     def _begin_anew(self) -> None:
         """Have a flow that knows no more than documents and marks say; nothing moves yet."""
         now, base = self._document, self._base
-        self._flow = Flow(now)
+        self._flow = Flow(now, self._sights)
         _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
         self._flow.moved[rows] = differing(now.poses.some(rows), base.poses.some(theirs))
         self._hold()
@@ -143,7 +150,7 @@ class Following:
         self._document = after
         if change.stale == Stale.NOTHING:
             return
-        flow = self._flow = self._flow or Flow(before)
+        flow = self._flow = self._flow or Flow(before, self._sights)
         if change.stale <= Stale.RULES:
             flow.rule(after)
             return

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections import deque
 from collections.abc import Callable
 from concurrent.futures import Future
@@ -36,6 +37,11 @@ IDLE_SECONDS = 0.05
 POLISHED_AT_ONCE = 8
 """Trials of one polish while nobody touches anything. More hold up what is posted meanwhile.
 Chosen."""
+
+
+QUIET_SECONDS = 0.5
+"""How long nobody has touched anything until coverage is won back. Shorter holds up the next of
+several gestures, longer leaves gaps open for longer. Chosen."""
 
 
 MOST_TRIES = 3
@@ -136,6 +142,7 @@ class Owner(Generic[AnySession]):
         self._is_touched = bool(session.marks.touched) or not session.is_at_rest
         self._failure: Exception | None = None
         self._done = self._tries = 0
+        self._asked_at = time.monotonic()
         self.posted = 0
         """How many commands, leaps and calls were taken."""
         self.frame = self._framed(0, session.in_the_way)
@@ -213,7 +220,7 @@ class Owner(Generic[AnySession]):
             taken = [self._waiting.popleft() for _ in range(len(self._waiting))]
             is_over = self._is_over
         if taken:
-            self._tries = 0
+            self._tries, self._asked_at = 0, time.monotonic()
         for number, posted in taken:
             self._do(posted)
             self._done = number
@@ -224,7 +231,7 @@ class Owner(Generic[AnySession]):
             self._settle()
         elif taken:
             self._show(None if self._is_touched else self._session.in_the_way)
-        elif self._polishes and not is_over:
+        elif self._polishes and not is_over and self._is_quiet:
             self._polish()
         is_done = not self._waiting and (not self._is_touched or self._session.is_grabbed)
         return not (is_over and is_done)
@@ -243,6 +250,10 @@ class Owner(Generic[AnySession]):
         """Try a few turns; shown only where they have moved something."""
         if self._session.polish(POLISHED_AT_ONCE, self._is_wanted):
             self._show(self._session.in_the_way)
+
+    @property
+    def _is_quiet(self) -> bool:
+        return time.monotonic() - self._asked_at >= QUIET_SECONDS
 
     def _is_wanted(self) -> bool:
         """Whether a command waits to be done; calls have time."""

@@ -102,7 +102,7 @@ class Session(Following):
         for one, other in pairwise(documents):
             self._take(Change.between(one, other), one, other)
         if isinstance(command, Grab):
-            self._flow = self._flow or Flow(before)
+            self._flow = self._flow or Flow(before, self._sights)
             self._grabbed, self._before = command.items, before
             self._hold()
         elif isinstance(command, Drop):
@@ -176,7 +176,7 @@ class Session(Following):
         # What is in conflict is touched, whenever that came about.
         self.marks.touched |= beyond(wrong, near)
         if self.marks.touched and not stop():
-            self._flow = self._flow or Flow(self._document)
+            self._flow = self._flow or Flow(self._document, self._sights)
             flowed = self._document
             self._settle(self._flow, near, stop)
             if len(self.violations) > len(wrong):

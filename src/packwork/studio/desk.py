@@ -119,6 +119,8 @@ class Desk:
 
     async def scene(self, view: View) -> Scene:
         """Scene of a view; drawn aside, for new drawings take time."""
+        if (known := self._scenes.known(view)) is not None:
+            return known
         loop = asyncio.get_running_loop()
         return await loop.run_in_executor(self._drawer, self._scenes.of, view)
 
@@ -223,6 +225,7 @@ class Desk:
         owner = Owner(session, self._follow, polishes=True)
         owner.__enter__()
         self.owner = owner
+        owner.call(NamedSession.make_ready)
 
     def _kept(self, file: Path, session: Session) -> Keeper | None:
         """What keeps a session; None, and a line, if it cannot be kept."""

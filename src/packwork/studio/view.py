@@ -103,11 +103,15 @@ class Scenes:
         self.shapes: dict[str, Shape] = {}
         """Looks by their keys."""
 
+    def known(self, view: View) -> Scene | None:
+        """The last scene where nothing but poses differs; for any thread."""
+        last = self._last
+        return last[1] if last is not None and last[0].is_like(view) else None
+
     def of(self, view: View) -> Scene:
         """Scene of a view; the last one where nothing but poses differs."""
-        if self._last is not None and self._last[0].is_like(view):
-            self._last = (view, self._last[1])
-            return self._last[1]
+        if (known := self.known(view)) is not None:
+            return known
         version = 1 if self._last is None else self._last[1].version + 1
         container = view.container
         scene = Scene(

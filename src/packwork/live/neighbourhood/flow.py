@@ -16,12 +16,11 @@ from packwork.arrays import BoolArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.document import Document
+from packwork.live.neighbourhood.sights import Sights
 from packwork.live.neighbourhood.touching import Touching
-from packwork.pipeline.plan.padding import padded
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
-from packwork.solve.detail import Seen, seen_posed
 from packwork.solve.ensemble import Ensemble
 from packwork.solve.ground import Ground
 from packwork.solve.level import Level
@@ -57,6 +56,9 @@ CALM_SHARE = 0.5
 COARSEST, FINEST = 100, 800
 """Levels at which flow works, px on the longer side. Chosen."""
 
+RUNGS = 3
+"""Levels to a factor of two. More fit the items better, and each has to be made first. Chosen."""
+
 SIZE_STEP = 0.008
 """Longest change of the logarithm of size in an epoch. Larger shrinks what is only passed by.
 Tried."""
@@ -90,10 +92,13 @@ class Flow:
     ----------
     document
         Where it begins; given to :meth:`turn_to` when something else than poses has changed.
+    sights
+        What levels see, kept from flow to flow.
     """
 
-    def __init__(self, document: Document) -> None:
-        self.touching = Touching(document)
+    def __init__(self, document: Document, sights: Sights | None = None) -> None:
+        self._sights = sights or Sights()
+        self.touching = Touching(document, self._sights)
         self.turn_to(document)
 
     def turn_to(self, document: Document) -> None:
@@ -103,8 +108,6 @@ class Flow:
         self.touching = self.touching.turned_to(document)
         self._left = np.zeros(len(document), dtype=np.int64)
         self._given: IntArray = np.zeros(0, dtype=np.int64)
-        self._grounds: dict[int, Ground] = {}
-        self._known: dict[int, Seen] = {}
         self._active: IntArray = np.zeros(0, dtype=np.int64)
         self._working: tuple[Level, Motion] | None = None
         self._is_held: BoolArray = np.zeros((0, 3), dtype=bool)
@@ -112,7 +115,7 @@ class Flow:
         self._hardness = 1.0
         self._may: IntArray | None = None
         self._ring: IntArray = np.zeros(len(document), dtype=np.int64)
-        self._region = padded(document.container, document.options.padding)
+        self._region = self._sights.region(document.container, document.options.padding)
         self._outlines = [item.outline for item in document.items]
         areas = document.own_areas * document.poses.scale**2
         self._share = float(np.sqrt(np.median(areas))) if len(areas) else document.container.side
@@ -123,9 +126,22 @@ class Flow:
     def resolution(self) -> int:
         """Pixels of the level: the usual item is resolved, finer once nothing is moved."""
         is_calm = 0 < int(self._left.max(initial=0)) <= LINGER * CALM_SHARE
-        pixels = PIXELS * self._document.container.side / self._share
-        pixels *= FINER if is_calm and self._may is None else 1.0
-        return int(np.clip(round(pixels), COARSEST, FINEST))
+        return self._rung(FINER if is_calm and self._may is None else 1.0)
+
+    def _rung(self, finer: float) -> int:
+        """Pixels of a level so many times finer than the usual one, or about that."""
+        pixels = finer * PIXELS * self._document.container.side / self._share
+        # What a level sees is kept: few levels are made anew.
+        rung = round(RUNGS * np.log2(max(pixels, 1.0) / COARSEST))
+        return int(np.clip(round(COARSEST * 2 ** (rung / RUNGS)), COARSEST, FINEST))
+
+    def make_ready(self) -> None:
+        """Have levels seen before the hand comes: nothing that is asked for depends on it."""
+        everything = np.arange(len(self._outlines))
+        for finer in (1.0, FINER):
+            resolution = self._rung(finer)
+            self._sights.ground(self._region, resolution)
+            self._seen_of(everything, resolution)
 
     @property
     def is_at_rest(self) -> bool:
@@ -265,16 +281,13 @@ class Flow:
     def _seen_of(self, items: IntArray, resolution: int) -> list[Outline]:
         """Outlines of some items as a level sees them."""
         document = self._document
-        known = self._known.setdefault(resolution, Seen())
         outlines = [self._outlines[k] for k in items]
         px_per_cu, margin = resolution / document.container.side, document.options.padding / 2
-        return seen_posed(outlines, self.poses.some(items), px_per_cu, margin, known)
+        return self._sights.outlines(outlines, self.poses.some(items), px_per_cu, margin)
 
     def _room(self, active: IntArray, resolution: int) -> Ground:
         """What the items that stand still leave free."""
-        if resolution not in self._grounds:
-            self._grounds[resolution] = Ground.of(self._region, resolution)
-        ground = self._grounds[resolution]
+        ground = self._sights.ground(self._region, resolution)
         still = np.setdiff1d(np.arange(len(self._outlines)), active)
         if len(still) == 0:
             return ground

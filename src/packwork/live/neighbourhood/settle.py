@@ -150,7 +150,7 @@ def _finished(
     options = _options(document, movable, trials, seed)
     if sizes is not None:
         options = options.model_copy(update={"sizes": sizes})
-    result = finish(room, outlines, some, options, stop=stop)
+    result = finish(room, outlines, some, options, stop=stop, is_enough=stop)
     held = document.held[movable]
     made = replace(
         result.poses,

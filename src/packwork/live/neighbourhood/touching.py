@@ -6,16 +6,10 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
-from packwork.compaction.covers import Covers
 from packwork.compaction.kernels.distances import pairs_of
-from packwork.geometry.affine import stretched
-from packwork.geometry.outline import Outline
 from packwork.live.document import Document
+from packwork.live.neighbourhood.sights import Sights
 from packwork.scene.pose import Poses
-
-ROUGH = 0.03
-"""Tolerance of the covers, shares of an item's extent. Larger is faster and takes items for
-neighbours that are not. Chosen."""
 
 REACH = 0.6
 """Gap of two items that count as side by side at most, in radii of a disc as large as the usual
@@ -30,17 +24,15 @@ class Touching:
     ----------
     document
         Whose items, and where they are at first.
+    sights
+        Where covers are kept.
     """
 
-    def __init__(self, document: Document) -> None:
-        covers, known = Covers(), dict[tuple[int, float], Outline]()
-        poses, outlines = document.poses, []
-        for item, stretch in zip(document.items, poses.stretch.tolist(), strict=True):
-            key = (id(item.outline), stretch)
-            if key not in known:
-                shape = item.outline.mapped(stretched(stretch))
-                known[key] = covers.cover(shape, ROUGH * shape.extent)
-            outlines.append(known[key])
+    def __init__(self, document: Document, sights: Sights | None = None) -> None:
+        self._sights = sights = sights or Sights()
+        poses = document.poses
+        shapes = [item.outline for item in document.items]
+        outlines = sights.covers(shapes, poses.stretch.tolist())
         self._arrangement = Arrangement(outlines, document.container.outline, places_of(poses))
         self._document = document
         self.reach = _reach_of(document)
@@ -56,7 +48,7 @@ class Touching:
             )
             or (before.poses.stretch != document.poses.stretch).any()
         ):
-            return Touching(document)
+            return Touching(document, self._sights)
         changed = np.flatnonzero((now != self._arrangement.places).any(axis=1))
         self._arrangement.put(changed, now[changed])
         self._document = document

@@ -131,12 +131,12 @@ export class Hand {
   }
 
   /**
-   * Send the newest of what the pointer does once a frame.
+   * Send what the pointer does: the first at once, then the newest once a frame.
    * @param {() => object | null} make
    */
   later(make) {
     this.waiting = make;
-    if (!this.timer) this.timer = requestAnimationFrame(() => this.sendWaiting());
+    if (!this.timer) this.sendWaiting();
   }
 
   sendWaiting() {
@@ -144,7 +144,9 @@ export class Hand {
     this.timer = 0;
     const command = this.waiting?.();
     this.waiting = null;
-    if (command) this.connection.do(command);
+    if (!command) return;
+    this.connection.do(command);
+    this.timer = requestAnimationFrame(() => this.sendWaiting());
   }
 }
 

@@ -19,6 +19,8 @@ export class Sprites {
     /** @type {Map<string, HTMLImageElement | null>} */
     this.images = new Map();
     this.left = AT_ONCE;
+    /** Whether something was asked for that was not there yet. */
+    this.lacks = false;
   }
 
   /** Begin a frame. */
@@ -45,6 +47,7 @@ export class Sprites {
       this.made.set(look.key, sizes);
       return drawn;
     }
+    this.lacks = true;
     return nearest(sizes, size);
   }
 

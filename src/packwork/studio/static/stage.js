@@ -1,6 +1,7 @@
 // @ts-check
 /** The canvas: container, items, and what is marked on them. */
 
+import { Backdrop } from "./backdrop.js";
 import { matrixOf } from "./collage.js";
 
 /** @typedef {import("./collage.js").Collage} Collage */
@@ -12,6 +13,8 @@ import { matrixOf } from "./collage.js";
 /** Distance of the turning handle from its corner, and half a handle, px. */
 const TURN_AWAY = 22;
 const HALF = 5;
+/** Characters of path data from which on a drawing is a sprite and not a path. */
+const LONG = 6000;
 /** Half a handle of the smallest items, px. */
 const LEAST_HALF = 2.5;
 
@@ -25,7 +28,9 @@ export class Stage {
    */
   constructor(canvas, collage, view, sprites, choice) {
     this.canvas = canvas;
+    /** @type {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} */
     this.pen = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
+    this.backdrop = new Backdrop(collage);
     this.collage = collage;
     this.view = view;
     this.sprites = sprites;
@@ -35,8 +40,6 @@ export class Stage {
     this.marquee = null;
     this.colours = coloursOf(canvas);
     this.ratio = 1;
-    /** Whether the last picture was one of the fast ones. */
-    this.wasMoving = false;
   }
 
   /** Take over the colours of the theme. */
@@ -51,17 +54,55 @@ export class Stage {
     this.canvas.height = Math.round(clientHeight * this.ratio);
   }
 
-  /** @param {boolean} isMoving what moves is drawn faster, not as finely */
+  /**
+   * Draw all; whether another picture would be the same.
+   * @param {boolean} isMoving what moves is drawn faster, not as finely
+   */
   draw(isMoving = false) {
-    const { pen, ratio } = this;
-    pen.imageSmoothingQuality = isMoving ? "low" : "high";
-    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const { collage, view, backdrop } = this;
+    const { width, height } = this.canvas;
+    if (!width || !height) return true;
+    const key = [view.zoom, view.x, view.y, width, height, this.ratio, collage.scene, this.colours];
+    const found = collage.hasPoses ? backdrop.look(key, isMoving) : "new";
+    if (found === "new") this.drawGround(() => true, isMoving);
+    else {
+      if (found === "stale") this.drawBackdrop(width, height);
+      this.pen.resetTransform();
+      this.pen.drawImage(/** @type {OffscreenCanvas} */ (backdrop.picture), 0, 0);
+      if (isMoving) this.drawItems((k) => backdrop.loose[k] === 1);
+    }
+    this.drawMarks();
+    return found !== "new" || !collage.hasPoses;
+  }
+
+  /**
+   * Draw what lies still to a picture of its own.
+   * @param {number} width
+   * @param {number} height
+   */
+  drawBackdrop(width, height) {
+    const { backdrop, pen, sprites } = this;
+    this.pen = backdrop.pen(width, height);
+    sprites.lacks = false;
+    this.drawGround((k) => !backdrop.loose[k], false);
+    this.pen = pen;
+    backdrop.isWhole = !sprites.lacks;
+  }
+
+  /**
+   * Draw desk, container, and some items.
+   * @param {(k: number) => boolean} isDrawn
+   * @param {boolean} isFast
+   */
+  drawGround(isDrawn, isFast) {
+    const { pen } = this;
+    pen.imageSmoothingQuality = isFast ? "low" : "high";
+    pen.resetTransform();
     pen.fillStyle = this.colours.desk;
     pen.fillRect(0, 0, this.canvas.width, this.canvas.height);
     if (!this.collage.scene) return;
     this.drawContainer(this.collage.scene);
-    if (this.collage.hasPoses) this.drawItems();
-    this.drawMarks();
+    if (this.collage.hasPoses) this.drawItems(isDrawn);
   }
 
   /** @param {import("./wire.js").Scene} scene */
@@ -86,19 +127,24 @@ export class Stage {
 
   /** @param {number} k @param {import("./wire.js").Thing} item */
   toItem(k, item) {
-    const [x, y, angle, scale] = this.collage.shown.subarray(4 * k, 4 * k + 4);
-    const m = matrixOf({ x, y, angle, scale }, item.stretch);
-    this.toCanvas();
-    this.pen.transform(m.a, m.b, m.c, m.d, m.e, m.f);
+    const { shown } = this.collage;
+    const { view, ratio } = this;
+    const [angle, scale] = [shown[4 * k + 2], shown[4 * k + 3]];
+    const [root, wide] = [Math.sqrt(item.stretch), ratio * view.zoom];
+    const [cos, sin] = [wide * scale * Math.cos(angle), wide * scale * Math.sin(angle)];
+    const [x, y] = [wide * shown[4 * k] + ratio * view.x, wide * shown[4 * k + 1] + ratio * view.y];
+    this.pen.setTransform(cos * root, sin * root, -sin / root, cos / root, x, y);
     return scale;
   }
 
-  drawItems() {
+  /** @param {(k: number) => boolean} isDrawn */
+  drawItems(isDrawn) {
     const { collage, sprites } = this;
     const perUnit = this.view.zoom * this.ratio;
     const last = collage.hand;
     const late = [];
     for (let k = 0; k < collage.items.length; k++) {
+      if (!isDrawn(k)) continue;
       if (last.has(collage.items[k].id)) late.push(k);
       else this.drawItem(k, perUnit, sprites);
     }
@@ -115,6 +161,11 @@ export class Stage {
     const look = this.collage.looks.get(item.shape);
     if (!look || this.isOutOfSight(k, look.extent)) return;
     const scale = this.toItem(k, item);
+    if (look.inkPath && look.ink.length < LONG) {
+      this.pen.fillStyle = look.fill;
+      this.pen.fill(look.inkPath, "evenodd");
+      return;
+    }
     const [left, top, right, bottom] = look.box;
     const sprite = sprites.of(look, look.extent * scale * perUnit);
     if (sprite) this.pen.drawImage(sprite, left, top, right - left, bottom - top);

@@ -196,10 +196,9 @@ export class Studio {
     const moves = this.collage.hasPoses && this.collage.ease(passed, this.isCalm);
     const glides = this.view.step();
     const lacks = this.sprites.begin();
-    this.stage.draw(moves || this.hand.isFull);
-    if (this.stage.wasMoving && !moves) this.redraw();
-    this.stage.wasMoving = moves || this.hand.isFull;
-    if (moves || glides || lacks || this.sprites.left < 0) this.redraw();
+    const isMoving = moves || this.hand.isFull || Boolean(this.collage.state?.moving);
+    const isLast = this.stage.draw(isMoving);
+    if (moves || glides || lacks || this.sprites.left < 0 || !(isLast || isMoving)) this.redraw();
   }
 
   resized() {

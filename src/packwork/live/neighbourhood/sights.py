@@ -1,0 +1,95 @@
+"""What levels see of outlines and containers, kept for a whole session.
+
+All that is kept depends on what was asked alone, on nothing that was asked before: a session that
+is done again, without what was broken off, sees the same.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.compaction.covers import Covers
+from packwork.geometry.affine import stretched
+from packwork.geometry.outline import Outline
+from packwork.pipeline.plan.padding import padded
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.solve.detail import MARGIN_RUNGS, Seen, seen_posed
+from packwork.solve.ground import Ground
+
+ROUGH = 0.03
+"""Tolerance of the covers by which neighbours are found, shares of an item's extent. Larger is
+faster and takes items for neighbours that are not. Chosen."""
+
+MOST = 10_000
+"""Outlines that are kept at most; then all is made anew. Chosen."""
+
+
+class Sights:
+    """Outlines and containers as levels see them, each made once.
+
+    Examples
+    --------
+    >>> from packwork.readers.builtin import builtin_container, builtin_item
+    >>> sights, star = Sights(), builtin_item("star").outline
+    >>> one = Poses(*np.ones((4, 1)))
+    >>> sights.outlines([star], one, 1.0, 0.0)[0] is sights.outlines([star], one, 1.0, 0.0)[0]
+    True
+    """
+
+    def __init__(self) -> None:
+        self._seen: dict[tuple[float, float], Seen] = {}
+        self._kept: dict[int, Outline] = {}
+        self._covers: tuple[Sequence[Outline], Sequence[float], list[Outline]] = ((), (), [])
+        self._region: tuple[Container, float, Container] | None = None
+        self._grounds: dict[int, Ground] = {}
+
+    def region(self, container: Container, padding: float) -> Container:
+        """A container drawn in by half the padding."""
+        known = self._region
+        if known is not None and known[0] is container and known[1] == padding:
+            return known[2]
+        region = padded(container, padding)
+        self._region, self._grounds = (container, padding, region), {}
+        return region
+
+    def ground(self, region: Container, resolution: int) -> Ground:
+        """Ground of what :meth:`region` has answered last."""
+        if resolution not in self._grounds:
+            self._grounds[resolution] = Ground.of(region, resolution)
+        return self._grounds[resolution]
+
+    def covers(self, outlines: Sequence[Outline], stretches: Sequence[float]) -> list[Outline]:
+        """Outlines with few vertices that hold those given, stretched; those last asked for."""
+        known, alike, found = self._covers
+        if stretches != alike or any(a is not b for a, b in zip(known, outlines, strict=True)):
+            found = _covered(outlines, stretches)
+            self._covers = (outlines, stretches, found)
+        return found
+
+    def outlines(
+        self, outlines: Sequence[Outline], poses: Poses, px_per_cu: float, margin: float
+    ) -> list[Outline]:
+        """Outlines at a level, see :func:`packwork.solve.detail.seen_posed`."""
+        if len(self._kept) > MOST:
+            self._seen, self._kept = {}, {}
+        # They are known by their places in memory, which others must not get.
+        self._kept.update((id(outline), outline) for outline in outlines)
+        seen = self._seen.setdefault((px_per_cu, margin), Seen())
+        # Of sizes that share an outline the first would tell which: here they are the same.
+        rungs = np.rint(np.log2(poses.scale) * MARGIN_RUNGS) / MARGIN_RUNGS
+        return seen_posed(outlines, replace(poses, scale=2.0**rungs), px_per_cu, margin, seen)
+
+
+def _covered(outlines: Sequence[Outline], stretches: Sequence[float]) -> list[Outline]:
+    """Covers; copies stretched alike are made once."""
+    covers, known = Covers(), dict[tuple[int, float], Outline]()
+    for outline, stretch in zip(outlines, stretches, strict=True):
+        key = (id(outline), stretch)
+        if key not in known:
+            shape = outline.mapped(stretched(stretch))
+            known[key] = covers.cover(shape, ROUGH * shape.extent)
+    return [known[id(o), s] for o, s in zip(outlines, stretches, strict=True)]
