@@ -56,3 +56,15 @@ def test_parts_whose_covers_would_meet_become_one() -> None:
     cover = Covers().cover(outline, TOLERANCE)
     assert cover.region.is_valid
     assert cover.region.covers(outline.region)
+
+
+def test_parts_with_holes_and_islands_in_them_keep_them() -> None:
+    """Letters whose counters are free, one in the counter of another."""
+    ring = [3 * _blob(), (2 * _blob())[::-1]]
+    outline = Outline.from_rings([*ring, *(one / 4 for one in ring), _moved(_blob(), 9.0)])
+    covers = Covers()
+    cover = covers.cover(outline, TOLERANCE)
+    assert cover.region.is_valid
+    assert cover.region.covers(outline.region)
+    assert (len(cover.rings), len(covers.known)) == (5, 3)
+    assert cover.area < outline.area + 2 * TOLERANCE * outline.region.length

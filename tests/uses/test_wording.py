@@ -6,9 +6,11 @@ import io
 from collections import Counter
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
+import shapely
 from PIL import Image
 
 import packwork as pw
@@ -193,10 +195,29 @@ def test_words_stand_between_the_letters_of_others_unless_hulls_are_asked_for(
     assert bool(meeting) == may
 
 
-@pytest.mark.parametrize("holes", ["fill", "keep"])
-def test_counters_are_free_for_words_only_if_holes_are_kept(holes: str) -> None:
-    layout = pw.words("circle", {"OO": 9.0, "i": 1.0}, holes=holes, **QUICK)
-    assert layout.items[0].outline.has_holes == (holes == "keep")
+@pytest.mark.parametrize(
+    ("options", "are_free"),
+    [({"nest": False}, False), ({"nest": True}, True), ({"nest": False, "holes": "keep"}, True)],
+)
+def test_counters_are_free_for_words_if_they_nest_or_holes_are_kept(
+    options: dict[str, Any], are_free: bool
+) -> None:
+    run = fill(words_recipe("circle", {"O": 9.0, "i": 1.0}, **options, **QUICK))
+    assert run.layout.items[0].outline.has_holes == are_free
+    assert run.certified
+
+
+@pytest.mark.parametrize(("container", "are_free"), [("heart", False), ("ring", True)])
+def test_words_nest_where_sizes_give_way(container: str, are_free: bool) -> None:
+    layout = fill(words_recipe(container, {"O": 9.0, "i": 1.0})).layout
+    assert layout.items[0].outline.has_holes == are_free
+
+
+def test_a_word_lies_in_the_counter_of_a_larger_one() -> None:
+    run = fill(words_recipe("circle", {"O": 9.0, "i": 1.0}, sizes="graded"))
+    large, small = (outline.region for outline in run.layout.outlines)
+    assert run.certified
+    assert shapely.Polygon(large.geoms[0].exterior).covers(small)
 
 
 def test_words_that_turn_freely_never_stand_upside_down() -> None:

@@ -375,6 +375,10 @@ class WordsKeywords(
     font_weight: int
     """Weight of a family or a variable font: 400 is regular, 700 bold. Default: 700."""
 
+    nest: bool | None
+    """Words may stand in the counters of larger ones, such as in an O. Default: where sizes give
+    way."""
+
     weight_is: Literal["height", "area", "ink"]
     """What is in the proportion of the weights: height (of the letters), area (of the letters:
     their height by the root) or ink (of the whole word: long ones are lower). Default: 'height'."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -24,8 +25,8 @@ asked and find less that recurs. Chosen."""
 _Shape: TypeAlias = tuple[bytes, bytes]
 """Starts and points of an outline of extent 1, in parts of the tolerance."""
 
-_Key: TypeAlias = tuple[int, bytes]
-"""Number of a tolerance, and a ring about its first vertex."""
+_Key: TypeAlias = tuple[int | bytes, ...]
+"""Number of a tolerance, and the rings of a part about its first vertex."""
 
 
 class Covers:
@@ -72,21 +73,22 @@ class Covers:
 
     def cover(self, outline: Outline, tolerance: float) -> Outline:
         """Outline with fewer vertices that holds all of ``outline``; as ``outer_simplified``."""
-        if len(outline.rings) > 1 and not outline.has_holes and tolerance > 0:
-            parts = [self._part(ring, tolerance) for ring in outline.rings]
+        if len(outline.rings) > 1 and tolerance > 0:
+            parts = [self._part(rings, tolerance) for rings in outline.parts]
             if _are_apart(parts):
                 return Outline.from_rings([ring for part in parts for ring in part])
         return Outline.from_region(outer_simplified(outline.region, tolerance))
 
-    def _part(self, ring: FloatArray, tolerance: float) -> list[FloatArray]:
-        """Rings of the cover of one part."""
+    def _part(self, rings: Sequence[FloatArray], tolerance: float) -> list[FloatArray]:
+        """Rings of the cover of one part: its own ring, then those of its holes."""
         level = math.floor(STEPS * math.log2(tolerance))
         tolerance = 2.0 ** (level / STEPS)
-        first = ring[0]
-        about = ring - first
-        key = level, np.rint(about / (ALIKE * tolerance)).astype(np.int64).tobytes()
+        first = rings[0][0]
+        about = [ring - first for ring in rings]
+        alike = (np.rint(ring / (ALIKE * tolerance)).astype(np.int64).tobytes() for ring in about)
+        key = level, *alike
         if key not in self.known:
-            cover = outer_simplified(shapely.Polygon(about), tolerance)
+            cover = outer_simplified(shapely.Polygon(about[0], about[1:]), tolerance)
             self.known[key] = Outline.from_region(cover).rings
         return [one + first for one in self.known[key]]
 

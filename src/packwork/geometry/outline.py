@@ -168,6 +168,20 @@ class Outline:
         """Those of the rings that are no holes."""
         return [ring for ring, area in zip(self.rings, self._ring_areas, strict=True) if area > 0]
 
+    @property
+    def parts(self) -> list[list[FloatArray]]:
+        """Each ring that is no hole with the holes that follow it, as readers make them.
+
+        Examples
+        --------
+        >>> tile, hole = Outline.box(0, 0, 4, 4).rings[0], Outline.box(1, 1, 2, 2).rings[0][::-1]
+        >>> [len(part) for part in Outline.from_rings([tile, hole, tile + 9]).parts]
+        [2, 1]
+        """
+        begins = np.flatnonzero(self._ring_areas > 0)
+        ends = [*begins[1:].tolist(), len(self.rings)]
+        return [self.rings[k:end] for k, end in zip(begins.tolist(), ends, strict=True)]
+
     @cached_property
     def region(self) -> Region:
         """The same region as a Shapely polygon or multipolygon."""

@@ -90,6 +90,8 @@ def read_word_items(
 
     Parameters
     ----------
+    holes
+        Of all items; those of words are kept with the option ``nest`` too.
     asked
         How a table is written, where that was said.
 
@@ -107,6 +109,7 @@ def read_word_items(
     (['bear'], ['has 200 characters; the most is 100'])
     """
     fonts = open_fonts(options.fonts, options.font_weight, _one_language(options.language))
+    holes = "keep" if options.nest else holes
     items: list[Item] = []
     words: list[Word] = []
     undrawn: dict[str, str] = {}
@@ -263,7 +266,9 @@ def _placed_clear(covered: ClearInk, holes: Holes) -> tuple[Outline, Outline, Fl
     x, y = centre_of_area(outline) * EM_PX
     place = affine.similarity(-x, -y, 0.0, 1.0)
     whole = affine.compose(place, affine.similarity(0.0, 0.0, 0.0, EM_PX))
-    return outline.mapped(whole), covered.ink.mapped(whole), place
+    placed = outline.mapped(whole)
+    # One object where they are the same: measures need not ask whether one holds the other.
+    return placed, covered.ink.mapped(whole) if holes == "fill" else placed, place
 
 
 def _art(drawn: Lettering, place: FloatArray) -> VectorArt:

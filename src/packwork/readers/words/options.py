@@ -89,6 +89,10 @@ class WordOptions(Options):
     font_weight: Annotated[int, Field(ge=1, le=1_000), _TYPE] = 700
     """Weight of a family or a variable font: 400 is regular, 700 bold."""
 
+    nest: Annotated[bool | None, _TYPE] = None
+    """Words may stand in the counters of larger ones, such as in an O. Default: where sizes give
+    way."""
+
     weight_is: Annotated[WeightIs, _TYPE] = "height"
     """What is in the proportion of the weights: height (of the letters), area (of the
     letters: their height by the root) or ink (of the whole word: long ones are lower)."""

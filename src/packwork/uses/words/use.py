@@ -16,6 +16,7 @@ from packwork.pipeline.advice import smaller_copies
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.job import Job
 from packwork.pipeline.measure import Unmeasured, measured
+from packwork.pipeline.plan.plan import found_sizes
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
 from packwork.pipeline.read import AUTO, Material, read_named
@@ -266,12 +267,20 @@ def without(items: Sequence[Item], gone: Sequence[Item]) -> tuple[Item, ...]:
     return tuple(item for item in items if id(item) not in known)
 
 
+def nesting(asked: WordOptions, recipe: Recipe, room: Room) -> WordOptions:
+    """Options that say whether words stand in counters: unless asked, where sizes give way."""
+    if asked.nest is not None or room.container is None:
+        return asked
+    return asked.model_copy(update={"nest": found_sizes(recipe, room.container) == "graded"})
+
+
 def read_cloud(
     recipe: Recipe, asked: WordOptions, room: Room, given: Sequence[Item] | None
 ) -> Material:
     """Words of a recipe, and the items and photographs among them."""
     # Refuses cut photographs among words.
     crops(recipe)
+    asked = nesting(asked, recipe, room)
     words = read_word_items(words_counted(asked, room), recipe.holes, recipe)
     check_colours(recipe, words.words)
     named = read_named(recipe, given)
