@@ -189,9 +189,11 @@ class NamedSession(Session):
         listed = [ring.tolist() if isinstance(ring, np.ndarray) else ring for ring in rings]
         self.apply(made(Reshape, rings=listed))
 
-    def place_container(self, x: float = 0.0, y: float = 0.0, factor: float = 1.0) -> None:
-        """Move the container on its canvas and scale it about its middle."""
-        self.apply(made(PlaceContainer, x=x, y=y, factor=factor))
+    def place_container(
+        self, x: float = 0.0, y: float = 0.0, factor: float = 1.0, angle: float = 0.0
+    ) -> None:
+        """Move the container on its canvas, scale and turn it, in degrees, about its middle."""
+        self.apply(made(PlaceContainer, x=x, y=y, factor=factor, angle=angle))
 
     def set(self, **options: str | float | Sequence[str]) -> None:
         """Set numbers for all: ``padding``, ``sizes``, ``rotate``, ``force`` and so on."""

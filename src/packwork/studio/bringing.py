@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
+from functools import cache
 from typing import Any
 
 from packwork.errors import PackworkError, ReadError
@@ -26,11 +27,13 @@ from packwork.live.face.bringing import (
 )
 from packwork.live.face.drawing import FINENESS, drawing_of, path_of
 from packwork.live.named import NamedSession
+from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.studio import wire
 from packwork.studio.desk import Desk
 from packwork.studio.uploads import Uploads
+from packwork.units import canvas_size
 
 MOST_AT_ONCE = 24
 """Items that are put into the largest voids one by one; of more, all are poured anew. Chosen."""
@@ -42,6 +45,9 @@ FILES = "file:"
 
 BUILTIN = "builtin:"
 TEXT = "text:"
+
+SAME = "same"
+"""What the container of now is called."""
 
 
 class Bringer:
@@ -91,13 +97,17 @@ class Bringer:
         container: list[Container] = []
 
         def read() -> None:
-            canvas = self._desk.canvas
-            container.append(
-                container_of(self._container(message.source), canvas, self._font(message.font))
-            )
+            container.append(self._room_of(message))
             self._desk.pour(0, make)
 
         self._read(read)
+
+    def _room_of(self, message: wire.Room) -> Container:
+        view = self._desk.view
+        if message.source == SAME and message.canvas is not None and view is not None:
+            return on_canvas(view.container, canvas_size(message.canvas))
+        canvas = message.canvas or self._desk.canvas
+        return container_of(self._container(message.source), canvas, self._font(message.font))
 
     def _fill(self, message: wire.Fill) -> None:
         def read() -> None:
@@ -178,8 +188,9 @@ def replaced(session: NamedSession, numbers: Sequence[int], item: Item) -> Comma
     return made(Together, commands=[made(Replace, item=number, asset=asset) for number in numbers])
 
 
+@cache
 def choices() -> dict[str, Any]:
-    """Bundled containers and items, with pictures."""
+    """Bundled containers and items, with pictures, fonts and palettes; made once."""
     containers = [
         {"name": one.name, "path": path_of(one.outline, FINENESS), "box": one.outline.bounds}
         for one in offered_containers()

@@ -99,12 +99,18 @@ class Swap(Message):
 
 
 class Room(Message):
-    """Fill another container: a bundled one, ``text:WORD``, or a file that was sent before."""
+    """Fill another container.
+
+    It is a bundled one, ``text:WORD``, a file that was sent before, or ``same``: that of now on
+    another canvas.
+    """
 
     type: Literal["room"] = "room"
     source: Annotated[str, Field(min_length=1, max_length=200)]
     font: Annotated[str, Field(max_length=200)] | None = None
     """Of a word: an installed family, or a file that was sent before."""
+    canvas: Annotated[str, Field(max_length=40)] | None = None
+    """Its size, as on the command line; that of now if None."""
 
 
 class Fill(Message):

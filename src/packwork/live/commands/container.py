@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import replace
 from typing import Annotated, Any, Literal, cast
 
@@ -62,7 +63,7 @@ class Reshape(Command):
 
 
 class PlaceContainer(Command):
-    """Move and scale the container on its canvas."""
+    """Move, scale and turn the container on its canvas."""
 
     kind: Literal["place_container"] = "place_container"
     x: Number = 0.0
@@ -71,6 +72,8 @@ class PlaceContainer(Command):
     """By how much down."""
     factor: Annotated[Number, Field(ge=0.01, le=100)] = 1.0
     """By how much larger, about the middle of its box."""
+    angle: Number = 0.0
+    """By how much it turns about that, degrees, clockwise."""
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the container there."""
@@ -79,9 +82,11 @@ class PlaceContainer(Command):
             raise RecipeError("container", f"{self.x:g}, {self.y:g} is nowhere near the canvas")
         left, top, right, bottom = container.outline.bounds
         x, y = (left + right) / 2, (top + bottom) / 2
-        place = affine.similarity(
-            x * (1 - self.factor) + self.x, y * (1 - self.factor) + self.y, 0.0, self.factor
-        )
+        turn = math.radians(self.angle)
+        across, along = self.factor * math.cos(turn), self.factor * math.sin(turn)
+        to_x = x - across * x + along * y + self.x
+        to_y = y - along * x - across * y + self.y
+        place = affine.similarity(to_x, to_y, turn, self.factor)
         return replace(document, container=_outlined(container, container.outline.mapped(place)))
 
 

@@ -57,7 +57,9 @@ function choosing(studio) {
 function items(studio) {
   const { choice } = studio;
   const when = () => choice.ids.size > 0;
+  const sizes = () => when() || studio.room.isOn;
   return [
+    { id: "edit-room", group: "Items", label: "Edit the container, or leave off", keys: ["C"], icon: "shape", when: () => studio.collage.hasPoses, run: () => studio.editRoom() },
     { id: "hold", group: "Items", label: "Hold", keys: ["H"], icon: "pin", when: () => when() && !studio.areHeld, run: () => studio.hold(true) },
     { id: "release", group: "Items", label: "Release", keys: ["Shift+H"], icon: "release", when: () => studio.anyHeld, run: () => studio.hold(false) },
     { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when, run: () => studio.duplicate() },
@@ -65,10 +67,10 @@ function items(studio) {
     { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when, run: () => studio.replacing.open() },
     { id: "exchange", group: "Items", label: "Exchange the two", keys: ["X"], icon: "swap", when: () => choice.ids.size === 2, run: () => studio.exchange() },
     { id: "remove", group: "Items", label: "Remove", keys: ["Delete", "Backspace"], icon: "bin", when, run: () => studio.remove() },
-    { id: "larger", group: "Items", label: "Larger", keys: ["+", "="], repeats: true, when, run: () => studio.resize(LARGER) },
-    { id: "smaller", group: "Items", label: "Smaller", keys: ["-"], repeats: true, when, run: () => studio.resize(1 / LARGER) },
-    { id: "clockwise", group: "Items", label: "Turn clockwise", keys: ["."], repeats: true, when, run: () => studio.turn(TURN) },
-    { id: "anticlockwise", group: "Items", label: "Turn anticlockwise", keys: [","], repeats: true, when, run: () => studio.turn(-TURN) },
+    { id: "larger", group: "Items", label: "Larger", keys: ["+", "="], repeats: true, when: sizes, run: () => studio.resize(LARGER) },
+    { id: "smaller", group: "Items", label: "Smaller", keys: ["-"], repeats: true, when: sizes, run: () => studio.resize(1 / LARGER) },
+    { id: "clockwise", group: "Items", label: "Turn clockwise", keys: ["."], repeats: true, when: sizes, run: () => studio.turn(TURN) },
+    { id: "anticlockwise", group: "Items", label: "Turn anticlockwise", keys: [","], repeats: true, when: sizes, run: () => studio.turn(-TURN) },
   ];
 }
 

@@ -22,6 +22,8 @@ export class Dropping {
     document.body.append(this.field, this.folder);
     /** @type {(batch: string) => void} */
     this.then = (batch) => this.bring(batch);
+    /** Sheet that containers come on; null of that of now. @type {string | null} */
+    this.sheet = null;
     this.depth = 0;
     /** What files come in as. @type {"beside" | "items" | "photos"} */
     this.as = "beside";
@@ -105,7 +107,7 @@ export class Dropping {
 
   /** @param {string} batch */
   fill(batch) {
-    this.connection.send({ type: "room", source: `file:${batch}` });
+    this.connection.send({ type: "room", source: `file:${batch}`, canvas: this.sheet });
   }
 
   /**

@@ -71,6 +71,11 @@ export class Gestures {
    * @returns {Doing}
    */
   begun(event, at, kind) {
+    const room = this.stage.room;
+    if (room?.isOn) {
+      room.down(at, REACH[kind]);
+      return { act: "room", from: at, at, kind };
+    }
     const handle = this.stage.handleAt(at.x, at.y, REACH[kind]);
     if (handle) return { act: handle.kind, from: at, at, kind, about: this.about(handle), wide: false };
     const id = this.stage.itemAt(at.x, at.y, kind === "touch" ? 8 : 3);
@@ -135,6 +140,7 @@ export class Gestures {
     const [x, y] = [at.x - doing.from.x, at.y - doing.from.y];
     if (doing.act === "pan") this.view.pan(at.x - doing.at.x, at.y - doing.at.y);
     else if (doing.act === "marquee") this.marquee(doing, at);
+    else if (doing.act === "room") this.stage.room?.move(doing.from, at, snaps);
     else if (doing.act === "item") this.hand.move(x / zoom, y / zoom);
     else this.pull(doing, at, snaps);
     this.hears.changed();
@@ -204,6 +210,7 @@ export class Gestures {
   }
 
   end() {
+    this.stage.room?.drop();
     this.hand.drop();
     this.choice.isBusy = false;
     this.hears.changed();
@@ -211,6 +218,12 @@ export class Gestures {
 
   /** Leave off what the pointer does; whether it did anything. */
   cancel() {
+    if (this.stage.room?.grip) {
+      this.stage.room.cancel();
+      this.doing = null;
+      this.hears.changed();
+      return true;
+    }
     if (!this.hand.isFull) return false;
     this.hand.cancel();
     this.doing = null;
@@ -277,6 +290,12 @@ export class Gestures {
 
   /** @param {Point} at */
   pointer(at) {
+    const room = this.stage.room;
+    if (room?.isOn) {
+      const kind = room.gripAt(at, REACH.mouse)?.kind;
+      this.stage.canvas.dataset.over = kind === "scale" || kind === "turn" ? kind : "item";
+      return;
+    }
     const handle = this.stage.handleAt(at.x, at.y, REACH.mouse);
     const over = handle ? (handle.kind === "turn" ? "turn" : "scale") : this.choice.hovered !== null ? "item" : "";
     this.stage.canvas.dataset.over = this.isPanning || this.doing?.act === "pan" ? "pan" : over;
@@ -284,7 +303,7 @@ export class Gestures {
 }
 
 /**
- * @typedef {{act: "pan" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
+ * @typedef {{act: "pan" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
  *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, base?: number[],
  *   about?: Point, moves?: boolean, wide?: boolean}} Doing
  */

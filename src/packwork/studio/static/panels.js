@@ -8,6 +8,10 @@ import { fillOptions } from "./options.js";
 import { tell } from "./toasts.js";
 import { Words } from "./words.js";
 
+/** Sheets by the names that the command line has. */
+const SHEETS = ["A3", "A4", "A4-landscape", "A5", "A6", "letter", "letter-landscape", "600x600px"];
+const OTHER = "other";
+
 /** @typedef {import("./studio.js").Studio} Studio */
 
 export const PANELS = /** @type {const} */ ([
@@ -88,26 +92,49 @@ export class Panels {
     if (this.current === "words") this.words.refresh();
     const name = this.studio.collage.scene?.name;
     if (this.current === "room") {
+      this.panel.querySelector(".edit-room")?.setAttribute("aria-pressed", String(this.studio.room.isOn));
       for (const one of this.panel.querySelectorAll(".grid .choice")) one.setAttribute("aria-pressed", String(one.getAttribute("aria-label") === name));
     }
+  }
+
+  /** Sheets that can be asked for, that of now first. @returns {[string, string][]} */
+  sheets() {
+    const scene = this.studio.collage.scene;
+    const round = (/** @type {number} */ side) => Number(side.toPrecision(4));
+    const now = scene ? `${round(scene.width)} × ${round(scene.height)} ${scene.unit}` : "as it is";
+    return [["", now], ...SHEETS.map((one) => /** @type {[string, string]} */ ([one, one.replace("-", " ")])), [OTHER, "another size …"]];
+  }
+
+  /**
+   * Have the container on another sheet.
+   * @param {string} asked
+   */
+  resheet(asked) {
+    const size = asked === OTHER ? prompt("Width and height with a unit, as 300x200mm or 12x9in", "300x200mm") : asked;
+    if (!size) return;
+    this.studio.dropping.sheet = size;
+    this.studio.connection.send({ type: "room", source: "same", canvas: size });
   }
 
   /** @param {HTMLElement} body */
   fillRoom(body) {
     const { connection, dropping } = this.studio;
     const word = h("input", { type: "text", id: "word", maxlength: "60", placeholder: "HELLO", "aria-label": "Word to fill" });
-    const fill = () => word.value.trim() && connection.send({ type: "room", source: `text:${word.value.trim()}`, font: this.roomFont.value });
+    const fill = () => word.value.trim() && connection.send({ type: "room", source: `text:${word.value.trim()}`, font: this.roomFont.value, canvas: dropping.sheet });
     const grid = h("div", { class: "grid" });
+    const edit = h("button", { type: "button", class: "edit-room", "aria-pressed": String(this.studio.room.isOn), onclick: () => this.studio.editRoom() }, icon("shape"), "Edit its outline");
+    const sheet = h("select", { "aria-label": "Sheet", onchange: () => this.resheet(sheet.value) }, ...this.sheets().map(([value, label]) => h("option", { value, selected: value === dropping.sheet }, label)));
     body.replaceChildren(
       h("div", { class: "drop-here", "data-drops": "room" }, h("p", {}, "Drop an SVG or a picture on the page, or choose one. Dark is inside."),
         h("button", { type: "button", onclick: () => dropping.chooseOne((batch) => dropping.fill(batch)) }, "Choose a file")),
+      h("div", { class: "row" }, edit), h("label", { class: "row" }, "Sheet", sheet),
       h("form", { onsubmit: (/** @type {Event} */ event) => { event.preventDefault(); fill(); } },
         h("div", { class: "row" }, word, h("button", { type: "submit" }, "Fill a word")), this.roomFont.element),
       h("h3", {}, "Bundled"), grid);
     this.roomFont.fill();
     this.load().then((choices) => {
       grid.replaceChildren(...(choices?.containers ?? []).map((/** @type {any} */ one) =>
-        h("button", { type: "button", class: "choice", title: one.name, "aria-label": one.name, onclick: () => connection.send({ type: "room", source: `builtin:${one.name}` }) }, picture(one))));
+        h("button", { type: "button", class: "choice", title: one.name, "aria-label": one.name, onclick: () => connection.send({ type: "room", source: `builtin:${one.name}`, canvas: dropping.sheet }) }, picture(one))));
       this.refresh();
     });
   }

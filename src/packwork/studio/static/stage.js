@@ -36,6 +36,8 @@ export class Stage {
     this.sprites = sprites;
     this.choice = choice;
     this.outline = { text: "", path: new Path2D() };
+    /** The container in the hand. @type {import("./room.js").Room | null} */
+    this.room = null;
     /** @type {null | [number, number, number, number]} */
     this.marquee = null;
     this.colours = coloursOf(canvas);
@@ -108,15 +110,16 @@ export class Stage {
   /** @param {import("./wire.js").Scene} scene */
   drawContainer(scene) {
     const { pen, colours } = this;
-    if (this.outline.text !== scene.outline) {
-      this.outline = { text: scene.outline, path: new Path2D(scene.outline) };
-    }
+    const text = this.room?.path ?? scene.outline;
+    if (this.outline.text !== text) this.outline = { text, path: new Path2D(text) };
     this.toCanvas();
     pen.fillStyle = colours.paper;
     pen.fill(this.outline.path, "evenodd");
     pen.strokeStyle = colours.edge;
     pen.lineWidth = 1.25 / this.view.zoom;
     pen.stroke(this.outline.path);
+    // A sheet of paper has edges that matter.
+    if (scene.unit !== "px") pen.strokeRect(0, 0, scene.width, scene.height);
   }
 
   toCanvas() {
@@ -189,6 +192,7 @@ export class Stage {
     for (const id of choice.ids) this.outlineOf(id, colours.accent, 2);
     for (const item of collage.items) if (item.held.some(Boolean)) this.drawPin(item.id);
     this.drawHandles();
+    this.room?.draw(this.pen);
     if (this.marquee) this.drawMarquee(this.marquee);
   }
 

@@ -17,6 +17,7 @@ import { Menu } from "./menu.js";
 import { Palette } from "./palette.js";
 import { Panels } from "./panels.js";
 import { Replacing } from "./replacing.js";
+import { Room } from "./room.js";
 import { Sprites } from "./sprites.js";
 import { Stage } from "./stage.js";
 import { say, tell } from "./toasts.js";
@@ -46,6 +47,7 @@ export class Studio {
     this.choice = new Choice(() => this.chosen());
     this.sprites = new Sprites(() => this.redraw());
     this.stage = new Stage(this.canvas, this.collage, this.view, this.sprites, this.choice);
+    this.room = this.stage.room = new Room(this.stage, this.connection);
     this.hand = new Hand(this.collage, this.connection);
     this.gestures = new Gestures(this.stage, this.view, this.choice, this.hand, {
       changed: () => this.redraw(),
@@ -103,6 +105,7 @@ export class Studio {
     const before = this.collage.scene;
     this.collage.setScene(scene);
     this.choice.keep(this.collage.rows);
+    this.room.refresh();
     if (!before || before.width !== scene.width || before.height !== scene.height) {
       this.view.whole = { width: scene.width, height: scene.height };
       this.view.fit(false);
@@ -176,7 +179,7 @@ export class Studio {
     const name = count === 1 ? this.collage.item(id)?.name ?? "" : count ? `${count} items` : "";
     this.bar.show(this.collage.scene?.name ?? "", name, this.collage.state?.saved ?? false, this.collage.colour(id));
     byId("empty").hidden = this.collage.hasPoses;
-    byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.isKnown;
+    byId("hint").hidden = !this.collage.hasPoses || count > 0 || this.room.isOn || this.isKnown;
     if (this.collage.scene) byId("empty-text").textContent = "Pouring …";
     this.panels.refresh();
     this.redraw();
@@ -229,9 +232,21 @@ export class Studio {
     this.connection.send({ type: "pour", seed: Math.floor(Math.random() * 2 ** 31) });
   }
 
+  /** Have the container in the hand, or no longer. */
+  editRoom() {
+    this.room.turnOn(!this.room.isOn);
+    if (this.room.isOn) this.choice.set([]);
+    say(this.room.isOn ? "The container's frame and points can be dragged; N and P choose a point, arrows move it" : "The items again");
+    this.refresh();
+  }
+
   /** @param {number} step */
   chooseNext(step) {
     const { items, rows } = this.collage;
+    if (this.room.isOn) {
+      say(this.room.next(step));
+      return this.redraw();
+    }
     if (!items.length) return;
     const [id] = this.choice.ids;
     const at = id === undefined ? (step > 0 ? -1 : 0) : rows.get(id) ?? 0;
@@ -245,6 +260,7 @@ export class Studio {
 
   escape() {
     if (byId("panel").contains(document.activeElement)) this.canvas.focus();
+    else if (this.room.isOn && !this.room.grip) this.editRoom();
     else if (!this.gestures.cancel()) this.choice.set([]);
   }
 
@@ -293,11 +309,13 @@ export class Studio {
 
   /** @param {number} factor */
   resize(factor) {
+    if (this.room.isOn) return this.room.change({ factor });
     this.connection.do(together([...this.choice.ids].map((item) => ({ kind: "scale", item, factor }))));
   }
 
   /** @param {number} degrees */
   turn(degrees) {
+    if (this.room.isOn) return this.room.change({ angle: degrees });
     const turns = [...this.choice.ids].map((item) => {
       const angle = ((this.collage.pose(item)?.angle ?? 0) * 180) / Math.PI + degrees;
       return { kind: "turn", item, angle };
@@ -313,6 +331,7 @@ export class Studio {
   nudge(x, y) {
     const { width, height } = this.view.whole;
     const side = Math.max(width, height);
+    if (this.room.isOn) return this.room.nudge(side * x, side * y);
     if (!this.choice.ids.size) return this.view.pan(-10 * side * x * this.view.zoom, -10 * side * y * this.view.zoom);
     const moves = [...this.choice.ids].map((item) => {
       const row = 4 * (this.collage.rows.get(item) ?? 0);

@@ -21,7 +21,7 @@
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
  * @typedef {{type: "more", seed: number}} More
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
- * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number}} PlaceContainer
+ * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number, angle?: number}} PlaceContainer
  * @typedef {{type: "pour", seed: number}} Pour
  * @typedef {{kind: "recolour", items: number[], colour: string}} Recolour
  * @typedef {{kind: "release", items: number[], properties?: ("place" | "angle" | "size")[]}} Release
@@ -29,7 +29,7 @@
  * @typedef {{kind: "rename", item: number, name: string}} Rename
  * @typedef {{kind: "replace", item: number, asset: string}} Replace
  * @typedef {{kind: "reshape", rings: [number, number][][]}} Reshape
- * @typedef {{type: "room", source: string, font?: (string | null)}} Room
+ * @typedef {{type: "room", source: string, font?: (string | null), canvas?: (string | null)}} Room
  * @typedef {Line | Scene | Shapes | State | Variant} Said
  * @typedef {{kind: "scale", item: number, factor: number}} Scale
  * @typedef {{type: "scene", version: number, name: string, outline: string, width: number, height: number, unit: string, items: Thing[], options: any}} Scene
