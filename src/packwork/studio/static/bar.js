@@ -9,7 +9,7 @@ import { shownKey } from "./keys.js";
 const LEFT = ["undo", "redo", "pour"];
 /** Buttons whose drawing alone would be a riddle. */
 const LABELLED = new Set(["pour"]);
-const RIGHT = ["farther", "closer", "fit", "theme", "keys"];
+const RIGHT = ["farther", "closer", "fit", "faults", "theme", "keys"];
 const CHOSEN = ["hold", "release", "duplicate", "replace", "exchange", "remove"];
 
 export class Bar {

@@ -10,7 +10,7 @@ import { thumbOf } from "./thumbs.js";
 
 /** Rows of the list at most. */
 const MOST = 400;
-const AS = /** @type {const} */ ([["beside", "beside what is there"], ["items", "in place of it"], ["photos", "in place of it, as photos"]]);
+const AS = /** @type {const} */ ([["beside", "beside the others"], ["items", "in place of them"], ["photos", "so, as photos"]]);
 
 export class ItemList {
   /** @param {Studio} studio */

@@ -181,7 +181,7 @@ export class Room {
     this.drop();
   }
 
-  /** @param {CanvasRenderingContext2D} pen */
+  /** @param {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} pen */
   draw(pen) {
     if (!this.isOn || !this.rings.length) return;
     const { accent, handle } = this.stage.colours;

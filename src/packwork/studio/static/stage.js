@@ -36,6 +36,8 @@ export class Stage {
     this.sprites = sprites;
     this.choice = choice;
     this.outline = { text: "", path: new Path2D() };
+    /** Whether silhouettes are shown in place of drawings: free, covered, covered twice. */
+    this.showsFaults = false;
     /** The container in the hand. @type {import("./room.js").Room | null} */
     this.room = null;
     /** @type {null | [number, number, number, number]} */
@@ -64,7 +66,7 @@ export class Stage {
     const { collage, view, backdrop } = this;
     const { width, height } = this.canvas;
     if (!width || !height) return true;
-    const key = [view.zoom, view.x, view.y, width, height, this.ratio, collage.scene, this.colours];
+    const key = [view.zoom, view.x, view.y, width, height, this.ratio, collage.scene, this.colours, this.room?.preview, this.showsFaults];
     const found = collage.hasPoses ? backdrop.look(key, isMoving) : "new";
     if (found === "new") this.drawGround(() => true, isMoving);
     else {
@@ -113,7 +115,7 @@ export class Stage {
     const text = this.room?.path ?? scene.outline;
     if (this.outline.text !== text) this.outline = { text, path: new Path2D(text) };
     this.toCanvas();
-    pen.fillStyle = colours.paper;
+    pen.fillStyle = this.showsFaults ? colours.free : colours.paper;
     pen.fill(this.outline.path, "evenodd");
     pen.strokeStyle = colours.edge;
     pen.lineWidth = 1.25 / this.view.zoom;
@@ -164,6 +166,7 @@ export class Stage {
     const look = this.collage.looks.get(item.shape);
     if (!look || this.isOutOfSight(k, look.extent)) return;
     const scale = this.toItem(k, item);
+    if (this.showsFaults) return this.drawSilhouette(look);
     if (look.inkPath && look.ink.length < LONG) {
       this.pen.fillStyle = look.fill;
       this.pen.fill(look.inkPath, "evenodd");
@@ -172,6 +175,14 @@ export class Stage {
     const [left, top, right, bottom] = look.box;
     const sprite = sprites.of(look, look.extent * scale * perUnit);
     if (sprite) this.pen.drawImage(sprite, left, top, right - left, bottom - top);
+  }
+
+  /** Two of them on one another are darker. @param {import("./collage.js").Look} look */
+  drawSilhouette(look) {
+    this.pen.globalAlpha = 0.45;
+    this.pen.fillStyle = this.colours.taken;
+    this.pen.fill(look.outlinePath, "evenodd");
+    this.pen.globalAlpha = 1;
   }
 
   /** @param {number} k @param {number} extent */
@@ -379,8 +390,8 @@ function unit(from, to) {
 /** @param {Element} element */
 function coloursOf(element) {
   const style = getComputedStyle(element);
-  const names = ["desk", "paper", "edge", "mark", "hover", "wrong", "pin", "on-pin", "handle", "marquee"];
+  const names = ["desk", "paper", "edge", "mark", "hover", "wrong", "pin", "on-pin", "handle", "marquee", "free", "taken"];
   const found = names.map((name) => style.getPropertyValue(`--${name}`).trim());
-  const [desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee] = found;
-  return { desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee };
+  const [desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee, free, taken] = found;
+  return { desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee, free, taken };
 }

@@ -220,6 +220,14 @@ export class Studio {
     this.redraw();
   }
 
+  /** Show silhouettes in place of drawings, or drawings again. */
+  toggleFaults() {
+    this.stage.showsFaults = !this.stage.showsFaults;
+    document.body.classList.toggle("with-faults", this.stage.showsFaults);
+    say(this.stage.showsFaults ? "Orange is free, grey is covered, darker is covered twice" : "Drawings again");
+    this.redraw();
+  }
+
   toggleTheme() {
     const isDark = getComputedStyle(document.documentElement).colorScheme.startsWith("dark");
     const theme = isDark ? "light" : "dark";
