@@ -135,7 +135,7 @@ class Desk:
         """Wait until all lies, certified."""
         self.until(
             "Boolean(globalThis.studio?.collage.state?.certified && !studio.collage.state.busy "
-            "&& studio.collage.hasPoses && studio.collage.hand.size === 0)"
+            "&& studio.collage.hasPoses && studio.collage.hand.size === 0 && !studio.isEasing)"
         )
 
     def place(self, item: int) -> tuple[float, float]:

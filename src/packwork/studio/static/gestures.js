@@ -71,6 +71,7 @@ export class Gestures {
    * @returns {Doing}
    */
   begun(event, at, kind) {
+    if (this.stage.forces?.isDrawing) return { act: "force", from: at, at, kind };
     const room = this.stage.room;
     if (room?.isOn) {
       room.down(at, REACH[kind]);
@@ -141,6 +142,7 @@ export class Gestures {
     if (doing.act === "pan") this.view.pan(at.x - doing.at.x, at.y - doing.at.y);
     else if (doing.act === "marquee") this.marquee(doing, at);
     else if (doing.act === "room") this.stage.room?.move(doing.from, at, snaps);
+    else if (doing.act === "force") this.stage.forces?.draw(doing.from, at);
     else if (doing.act === "item") this.hand.move(x / zoom, y / zoom);
     else this.pull(doing, at, snaps);
     this.hears.changed();
@@ -211,6 +213,7 @@ export class Gestures {
 
   end() {
     this.stage.room?.drop();
+    this.stage.forces?.drop();
     this.hand.drop();
     this.choice.isBusy = false;
     this.hears.changed();
@@ -218,6 +221,11 @@ export class Gestures {
 
   /** Leave off what the pointer does; whether it did anything. */
   cancel() {
+    if (this.stage.forces?.cancel()) {
+      this.doing = null;
+      this.hears.changed();
+      return true;
+    }
     if (this.stage.room?.grip) {
       this.stage.room.cancel();
       this.doing = null;
@@ -303,7 +311,7 @@ export class Gestures {
 }
 
 /**
- * @typedef {{act: "pan" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
+ * @typedef {{act: "pan" | "force" | "room" | "marquee" | "item" | "turn" | "scale", from: Point, at: Point,
  *   kind: keyof typeof STILL, id?: number, single?: boolean, adds?: boolean, base?: number[],
  *   about?: Point, moves?: boolean, wide?: boolean}} Doing
  */

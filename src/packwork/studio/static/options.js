@@ -18,7 +18,8 @@ export function fillOptions(body, studio, questions) {
   const now = studio.collage.scene?.options ?? {};
   const set = (/** @type {string} */ name, /** @type {any} */ value) => studio.connection.send({ type: "set", options: { [name]: value } });
   body.replaceChildren(...questions.map((one) => (one.choices.length ? choiceOf(one, now, set) : sliderOf(one, now, set, studio))),
-    h("p", { class: "hint" }, "Pour anew (R) fills again with these."));
+    studio.forces.element, h("p", { class: "hint" }, "Pour anew (R) fills again with these."));
+  studio.forces.refresh();
 }
 
 /** @param {Question} one @param {Record<string, any>} now @param {(name: string, value: any) => void} set */

@@ -89,6 +89,7 @@ export class Panels {
   /** Bring the panel up to what there is. */
   refresh() {
     if (this.current === "items") this.items.refresh();
+    this.studio.forces.refresh();
     if (this.current === "words") this.words.refresh();
     const name = this.studio.collage.scene?.name;
     if (this.current === "room") {

@@ -5,6 +5,7 @@ import { boundsOf, pathOf, pulled, ringsOf, tellingPoints } from "./rings.js";
 
 /** @typedef {import("./rings.js").Ring} Ring */
 /** @typedef {{x: number, y: number}} Point */
+/** @typedef {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} Pen */
 /** @typedef {{kind: "point", ring: number, which: number} | {kind: "scale" | "turn" | "move"}} Grip */
 
 /** Distance of the turning handle from the frame, of the frame from the outline, half a handle, px. */
@@ -181,7 +182,7 @@ export class Room {
     this.drop();
   }
 
-  /** @param {CanvasRenderingContext2D | OffscreenCanvasRenderingContext2D} pen */
+  /** @param {Pen} pen */
   draw(pen) {
     if (!this.isOn || !this.rings.length) return;
     const { accent, handle } = this.stage.colours;

@@ -38,6 +38,8 @@ export class Stage {
     this.outline = { text: "", path: new Path2D() };
     /** Whether silhouettes are shown in place of drawings: free, covered, covered twice. */
     this.showsFaults = false;
+    /** @type {import("./forces.js").Forces | null} */
+    this.forces = null;
     /** The container in the hand. @type {import("./room.js").Room | null} */
     this.room = null;
     /** @type {null | [number, number, number, number]} */
@@ -204,6 +206,7 @@ export class Stage {
     for (const item of collage.items) if (item.held.some(Boolean)) this.drawPin(item.id);
     this.drawHandles();
     this.room?.draw(this.pen);
+    this.forces?.paint(this.pen);
     if (this.marquee) this.drawMarquee(this.marquee);
   }
 

@@ -10,6 +10,7 @@ import { Connection } from "./connection.js";
 import { byId } from "./dom.js";
 import { Dropping } from "./dropping.js";
 import { Exporting } from "./exporting.js";
+import { Forces } from "./forces.js";
 import { Gestures } from "./gestures.js";
 import { Hand, together } from "./hand.js";
 import { listenToKeys } from "./keys.js";
@@ -62,11 +63,14 @@ export class Studio {
     this.palette = new Palette(actions);
     this.menu = new Menu(this.actions);
     this.variants = new Variants(this);
+    this.forces = this.stage.forces = new Forces(this);
     this.panels = new Panels(this);
     this.replacing = new Replacing(this);
     listenToKeys(actions, { pans: (isHeld) => (this.gestures.isPanning = isHeld) });
     /** Whether this person has once taken an item: then nothing has to be explained. */
     this.isKnown = localStorage.getItem("known") !== null;
+    /** Whether what is shown is on its way to where it is. */
+    this.isEasing = false;
     this.isDirty = false;
     this.last = 0;
     this.unacked = 0;
@@ -118,9 +122,15 @@ export class Studio {
   stated(state) {
     const before = this.collage.state;
     this.collage.state = state;
-    this.badge.show(state);
+    this.badge.show(this.told);
     if (!before || before.can_undo !== state.can_undo || before.can_redo !== state.can_redo || before.busy !== state.busy || before.saved !== state.saved) this.refresh();
     this.redraw();
+  }
+
+  /** How things stand, as is true of what is shown: nothing is certified that is still on its way there. */
+  get told() {
+    const state = /** @type {import("./wire.js").State} */ (this.collage.state);
+    return this.isEasing ? { ...state, moving: true, certified: false } : state;
   }
 
   /** @param {Frame} frame */
@@ -130,6 +140,7 @@ export class Studio {
     this.collage.setFrame(frame);
     // What is said of the last layout is not true of this one.
     if (frame.moving && state && !state.moving) this.stated({ ...state, moving: true, certified: false, entangled: [] });
+    this.isEasing = true;
     this.unacked = frame.number;
     // The next one may come while this one is drawn: of several the newest is shown.
     this.ack();
@@ -197,6 +208,10 @@ export class Studio {
     const passed = Math.min(now - this.last, 100);
     this.last = now;
     const moves = this.collage.hasPoses && this.collage.ease(passed, this.isCalm);
+    if (this.isEasing && !moves) {
+      this.isEasing = false;
+      if (this.collage.state) this.badge.show(this.told);
+    }
     const glides = this.view.step();
     const lacks = this.sprites.begin();
     const isMoving = moves || this.hand.isFull || Boolean(this.collage.state?.moving);
