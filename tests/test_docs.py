@@ -42,9 +42,11 @@ FILES = [
 
 IN_ITS_OWN_WORDS = {
     "--count", "--font", "--color-by", "--add", "--hold", "--output", "--report", "--contact-sheet",
+    "--sizes",
 }  # fmt: skip
 """Options of words that say the same thing as elsewhere, of words; what an edit adds, and holds,
-which a film does with its last picture; files of each row of a table, and a table of all."""
+which a film does with its last picture; files of each row of a table, and a table of all;
+sizes of a layout that is there."""
 
 
 def defines(page: str, name: str) -> bool:

@@ -172,3 +172,27 @@ def test_a_session_is_changed_where_it_is_with_what_its_journal_holds(
         again.undo()
         assert len(again.document) == 9
     assert sorted(tmp_path.glob("work.*")) == [work, tmp_path / "work.packwork.log"]
+
+
+def test_names_may_hold_the_sign_of_an_option(saved: Path, tmp_path: Path) -> None:
+    session = pw.Layout.load(saved).edit()
+    session.rename(0, "a=b")
+    session.save(tmp_path / "a.packwork")
+    line = (tmp_path / "a.packwork", "--recolor", "a=b=red", "--turn", "a=b=10")
+    code, said = run(*line, "-o", tmp_path / "new.packwork")
+    assert code == 0, said
+    again = pw.Session.open(tmp_path / "new.packwork")
+    assert again.document.items[0].name == "a=b"
+    assert len(again.history) == 3
+
+
+def test_all_of_a_name_are_one_step_to_undo(saved: Path, tmp_path: Path) -> None:
+    code, _ = run(saved, "--recolor", "*=red", "-o", tmp_path / "new.packwork")
+    assert code == 0
+    assert len(pw.Session.open(tmp_path / "new.packwork").history) == 1
+
+
+def test_less_covered_than_asked_for_is_told(saved: Path, tmp_path: Path) -> None:
+    code, said = run(saved, "--cover", "99.9%", "-o", tmp_path / "new.svg")
+    assert code == 1
+    assert "is covered, not 99.9 %" in said

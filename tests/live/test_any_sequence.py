@@ -44,7 +44,11 @@ commands = st.one_of(
     st.builds(Duplicate, item=items),
     st.builds(Remove, items=st.tuples(items)),
     st.builds(Weigh, items=st.tuples(items), weight=numbers),
-    st.builds(Rename, item=items, name=st.text(min_size=1, max_size=9)),
+    st.builds(
+        Rename,
+        item=items,
+        name=st.text(st.characters(exclude_categories=["Cc", "Cs"]), min_size=1, max_size=9),
+    ),
     st.builds(Recolour, items=st.tuples(items), colour=st.sampled_from(["red", "#12", "teal"])),
     st.builds(PlaceContainer, x=st.floats(-60, 60), y=st.floats(-60, 60), factor=numbers),
     st.builds(SetOption, name=st.just("padding"), value=st.floats(0, 6)),

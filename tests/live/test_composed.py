@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
@@ -170,3 +172,56 @@ def test_a_narrower_turn_turns_what_is_beyond_it(icons: pw.Layout) -> None:
     angles = np.delete(session.document.poses.angle, held)
     assert np.abs(np.remainder(angles + np.pi, 2 * np.pi) - np.pi).max() <= np.radians(20) + 1e-9
     assert session.document.poses.angle[held] == kept
+
+
+def areas_by_name(session: pw.Session) -> dict[str, list[float]]:
+    found: dict[str, list[float]] = {}
+    for item, area in zip(session.document.items, session.layout.areas.tolist(), strict=True):
+        found.setdefault(item.name, []).append(area)
+    return found
+
+
+@pytest.fixture(scope="module")
+def spoken() -> pw.Layout:
+    counts = {"alpha": 5, "beta": 3, "gamma": 2, "delta": 1}
+    return pw.words("circle", counts, effort="draft", seed=1, epochs=40, levels="50")
+
+
+def test_copies_and_guests_of_words_can_be_seen(spoken: pw.Layout) -> None:
+    session = spoken.edit()
+    session.count(6)
+    session.add("star")
+    session.finish()
+    areas = areas_by_name(session)
+    assert min(areas["alpha"]) == pytest.approx(max(areas["alpha"]), rel=0.01)
+    assert areas["star"][0] > 0.1 * max(areas["alpha"])
+    assert session.is_certified
+
+
+def test_other_words_weigh_what_they_are_asked_to_and_no_copy_is_left(cloud: pw.Layout) -> None:
+    session = cloud.edit()
+    session.count(8)
+    session.words({"bear": 1, "omega": 4})
+    session.finish()
+    areas = areas_by_name(session)
+    assert {name: len(found) for name, found in areas.items()} == {"bear": 1, "omega": 1}
+    # Letters four times as high.
+    scales = dict(zip(areas, session.document.poses.scale.tolist(), strict=True))
+    assert scales["omega"] / scales["bear"] == pytest.approx(4, rel=0.02)
+
+
+def test_no_held_word_is_taken_away(spoken: pw.Layout) -> None:
+    session = spoken.edit()
+    session.hold("beta")
+    before = session.document
+    with pytest.raises(pw.RecipeError, match="beta: held, and not among these words"):
+        session.words({"alpha": 1})
+    assert session.document is before
+
+
+def test_words_of_a_file_of_shapes_are_replaced(spoken: pw.Layout, tmp_path: Path) -> None:
+    spoken.save(tmp_path / "cloud.geojson")
+    session = pw.Layout.load(tmp_path / "cloud.geojson").edit()
+    session.words({"alpha": 2, "omega": 1})
+    session.finish()
+    assert sorted(areas_by_name(session)) == ["alpha", "omega"]

@@ -255,13 +255,13 @@ def test_sizes_in_proportion_stay_so() -> None:
         (lambda s: s.weigh(0, -1), r"weight: "),
         (lambda s: s.hold(0, "colour"), r"properties"),
         (lambda s: s.recolor(0, "mud"), r"'mud' is no colour"),
-        (lambda s: s.exchange(0, 0), r"give two"),
+        (lambda s: s.exchange(0, 0), r"two different items"),
         (lambda s: s.remove("*"), r"nothing would be left"),
-        (lambda s: s.reshape([[(0, 0), (1, 1)]]), r"no area"),
+        (lambda s: s.reshape([[(0, 0), (1, 1)]]), r"three vertices"),
         (lambda s: s.set(colour=3), r"is no option of a session"),
         (lambda s: s.set(padding=-3), r"padding"),
         (lambda s: s.set(rotate="sideways"), r"rotate"),
-        (lambda s: s.weigh(0, 1e300), r"long is none"),
+        (lambda s: s.weigh(0, 1e300), r"nearer to it"),
         (lambda s: s.move(0, float("nan"), 0), r"x: "),
         (lambda s: s.turn(0, "up"), r"angle: "),
         (lambda s: s.reshape("abc"), r"rings"),
@@ -395,3 +395,67 @@ def test_names_colours_and_weights_move_nothing(session: pw.Session, same: Same)
 def test_an_exception_in_the_block_is_not_hidden(dozen: pw.Layout) -> None:
     with pytest.raises(RecipeError, match="owl"), dozen.edit() as session:
         session.move("owl", 1, 1)
+
+
+def test_several_items_are_one_list_and_one_step(session: pw.Session) -> None:
+    session.recolor([0, "star#2", (3, 4)], "red")
+    session.hold([0, 1])
+    assert len(session.history) == 2
+    assert np.flatnonzero(session.document.held[:, 0]).tolist() == [0, 1]
+
+
+def test_a_smaller_ratio_of_sizes_brings_them_together(session: pw.Session) -> None:
+    session.set(size_ratio=1)
+    areas = session.layout.areas
+    assert areas.max() / areas.min() == pytest.approx(1)
+    session.finish()
+    assert session.is_certified
+
+
+def test_evenness_stirs_what_it_is_asked_of(session: pw.Session) -> None:
+    session.set(evenness=3)
+    assert session.flow(epochs=4) == 4
+
+
+def test_a_polish_longer_than_a_log_takes_is_cut(tmp_path: Path, session: pw.Session) -> None:
+    session.save(tmp_path / "a.packwork", journal=True)
+    session.move(0, "50%", "50%")
+    session.settle()
+    session.polish(10_001, lambda: False)
+    session.close()
+    assert '{"polish": 10000}' in (tmp_path / "a.packwork.log").read_text()
+
+
+@pytest.mark.parametrize(
+    ("call", "said"),
+    [
+        (lambda s: s.rename(0, "a\x07b"), "control characters"),
+        (lambda s: s.set(padding=500), "padding"),
+        (lambda s: s.reshape(None), "list of rings"),
+        (lambda s: s.reshape([(0, 0), (500, 0), (500, 500)]), "three vertices"),
+        (lambda s: s.reshape([]), "one ring at least"),
+        (lambda s: s.replace(0, "builtin:icons"), "takes one item, not"),
+        (lambda s: s.add("star", x=100), "both x and y"),
+        (lambda s: s.add("star", y=100), "both x and y"),
+        (lambda s: s.flow(-1), "whole number from 0"),
+        (lambda s: s.flow("8"), "whole number from 0"),
+        (lambda s: s.flow(milliseconds=float("nan")), "0 or more"),
+        (lambda s: s.count(10**9), "from 1 to"),
+        (lambda s: s.find(99), "numbers go from 0 to"),
+        (lambda s: s.weigh(0, 1e9), "nearer"),
+    ],
+)
+def test_what_has_no_meaning_is_told_with_what_would_do(
+    session: pw.Session, call: Callable[[pw.Session], object], said: str
+) -> None:
+    before = session.document
+    with pytest.raises(RecipeError, match=said) as caught:
+        call(session)
+    assert "\n" not in str(caught.value)
+    assert session.document is before
+
+
+def test_a_session_is_saved_under_its_own_ending(tmp_path: Path, session: pw.Session) -> None:
+    with pytest.raises(pw.WriteError, match=r"end it in \.packwork"):
+        session.save(tmp_path / "a.svg")
+    assert list(tmp_path.iterdir()) == []

@@ -8,10 +8,10 @@ from typing import Any
 
 from packwork.api.layout import Layout, public
 from packwork.api.verbs import read_container, read_items
-from packwork.errors import RecipeError
+from packwork.errors import RecipeError, WriteError
 from packwork.live.composed import words_of
 from packwork.live.document import Document
-from packwork.live.file.disk import Disk
+from packwork.live.file.disk import ENDING, Disk
 from packwork.live.file.recipe import SessionRecipe, write_recipe
 from packwork.live.named import Coordinate, NamedSession, Which
 from packwork.readers.memory.values import Value
@@ -96,6 +96,10 @@ class Session(NamedSession):
         before = self._disk
         if path is None and before is None:
             raise RecipeError("path", "the session has no file yet; give one, as work.packwork")
+        if path is not None and Path(path).suffix.lower() != ENDING:
+            raise WriteError(
+                path, f"is no session's file; end it in {ENDING}, or save session.layout"
+            )
         disk = before
         if disk is None or (path is not None and not disk.is_at(path)):
             disk = Disk(path or "", is_journaled=False)
@@ -163,7 +167,10 @@ class Session(NamedSession):
 
     def replace(self, which: Which, source: Value) -> None:
         """Put another item in an item's place."""
-        self.replace_by(which, read_items(source)[0])
+        found = read_items(source)
+        if len(found) != 1:
+            raise RecipeError("replace", f"takes one item, not {len(found)}")
+        self.replace_by(which, found[0])
 
     def set_container(self, source: Value) -> None:
         """Fill another container, whatever :func:`read_container` reads, on a canvas as large."""

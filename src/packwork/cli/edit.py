@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import math
+import re
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, TypeAlias, cast
@@ -32,9 +33,15 @@ _FORMS = {
 _OF_MANY = frozenset({"remove", "hold", "recolor"})
 """Edits of all items of a name."""
 
-_HELP = {option.name: option.help for option in offered(Recipe)}
+_HELP = {
+    **{option.name: option.help for option in offered(Recipe)},
+    "sizes": "free: each item finds its size; shared: all stay in proportion; fixed: none changes.",
+}
 
 Specs: TypeAlias = list[str]
+
+NEARLY = 0.005
+"""Share of the container by which less than was asked for may be covered. Chosen."""
 
 DEFAULT_OUTPUT = Path("edited.svg")
 """File to write where none is named."""
@@ -163,8 +170,23 @@ def edit(
             session.count(count)
         if cover is not None:
             session.cover(cover)
-        if not _written(session, disk, [*outputs, *sides], report, pixels, quiet):
+        is_well = _written(session, disk, [*outputs, *sides], report, pixels, quiet)
+        if cover is not None and not _covers(session, cover):
+            is_well = False
+        if not is_well:
             raise typer.Exit(SHORTFALL)
+
+
+def _covers(session: NamedSession, cover: str) -> bool:
+    """Whether as much is covered as was asked for; told if not."""
+    from packwork.units import parse_share
+
+    asked, layout = float(str(parse_share(cover))), session.layout
+    covered = float(layout.areas.sum()) / layout.container.outline.area
+    if covered >= asked - NEARLY:
+        return True
+    say(f"{100 * covered:.1f} % is covered, not {100 * asked:g} %: no more goes here")
+    return False
 
 
 def _is_session(path: Path) -> bool:
@@ -239,7 +261,7 @@ def _written(
 
 def _planned(session: NamedSession, flag: str, spec: str) -> Callable[[], None]:
     """What one option asks for, of items that are there now."""
-    which, sign, value = (part.strip() for part in spec.partition("="))
+    which, sign, value = _parted(session, spec)
     if flag not in {"remove", "hold"} and not (sign and which and value):
         raise RecipeError(flag, f"must be {_FORMS[flag]}, not {spec[:60]!r}")
     if sign and (flag == "remove" or not value):
@@ -250,14 +272,28 @@ def _planned(session: NamedSession, flag: str, spec: str) -> Callable[[], None]:
 
     def make() -> None:
         with _about(flag):
-            for number in numbers:
-                _made(session, flag, number, value, others)
+            _made(session, flag, numbers, value, others)
 
     return make
 
 
-def _made(session: NamedSession, flag: str, item: int, value: str, others: tuple[int, ...]) -> None:
-    """Make one edit of one item."""
+def _parted(session: NamedSession, spec: str) -> tuple[str, str, str]:
+    """An item's name, ``=`` and what is asked of it; names may hold such signs too."""
+    names = {item.name for item in session.document.items}
+    ends = [k for k, letter in enumerate(spec) if letter == "="]
+    for end in (len(spec), *reversed(ends)):
+        which = spec[:end].strip()
+        if re.sub("#[0-9]+$", "", which) in names:
+            return which, spec[end : end + 1], spec[end + 1 :].strip()
+    which, sign, value = spec.partition("=")
+    return which.strip(), sign, value.strip()
+
+
+def _made(
+    session: NamedSession, flag: str, items: tuple[int, ...], value: str, others: tuple[int, ...]
+) -> None:
+    """Make one edit, of one item but where several go."""
+    item = items[0]
     if flag == "move":
         x, comma, y = value.partition(",")
         if not comma:
@@ -265,17 +301,20 @@ def _made(session: NamedSession, flag: str, item: int, value: str, others: tuple
         session.move(item, x, y)
     elif flag == "hold":
         ends = [end.strip() for end in value.split(",") if end]
-        session.hold(item, *cast("list[Property]", ends))
+        session.hold(items, *cast("list[Property]", ends))
     elif flag == "exchange":
         session.exchange(item, *others)
     elif flag == "remove":
-        session.remove(item)
+        session.remove(items)
     elif flag in {"turn", "scale"}:
         getattr(session, flag)(item, _number(flag, value))
     elif flag == "replace":
-        session.replace_by(item, _read([value])[0])
+        found = _read([value])
+        if len(found) != 1:
+            raise RecipeError(flag, f"takes one item, not {len(found)}")
+        session.replace_by(item, found[0])
     else:
-        session.recolor(item, value)
+        session.recolor(items, value)
 
 
 def _number(flag: str, text: str) -> float:

@@ -46,7 +46,10 @@ class Change:
     @classmethod
     def between(cls, before: Document, after: Document) -> Change:
         """What differs."""
-        is_pulled = after.options.force != before.options.force
+        is_pulled = any(
+            getattr(after.options, name) != getattr(before.options, name)
+            for name in ("force", "evenness")
+        )
         is_tighter = is_pulled or after.options.padding > before.options.padding
         if before.container is not after.container or is_tighter:
             return cls(Stale.EVERYTHING, np.union1d(before.ids, after.ids))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +15,7 @@ from packwork.live.commands.items import Add, Remove, Weigh
 from packwork.live.document import Document
 from packwork.live.neighbourhood.shapes import Shapes
 from packwork.live.neighbourhood.voids import widest_places
+from packwork.phrasing import enumerated
 from packwork.readers.words.items import WordsRead, read_word_items
 from packwork.scene.colour import hex_colour
 from packwork.scene.item import Item
@@ -29,11 +29,33 @@ SAME = 1e-6
 def brought(
     document: Document, library: Library, shapes: Shapes, items: Iterable[Item]
 ) -> Iterator[Add]:
-    """Commands that bring items to where most room is, as large as it is good for."""
+    """Commands that bring items to where most room is, as large as it is good for.
+
+    What is there already comes with the weight that it has there, all else with its own, in the
+    document's unit.
+    """
+    there = dict(zip(reversed(document.items), reversed(document.weights.tolist()), strict=True))
+    unit = _unit_of(document)
+    pairs = [(item, there.get(item, item.weight * unit)) for item in items]
+    yield from weighed(document, library, shapes, pairs)
+
+
+def weighed(
+    document: Document, library: Library, shapes: Shapes, pairs: Iterable[tuple[Item, float]]
+) -> Iterator[Add]:
+    """The same for items with weights in the document's unit."""
     places = widest_places(document, shapes)
-    for item, (x, y, radius) in zip(items, places, strict=False):
-        area = first_area(document, radius, item.weight)
-        yield made(Add, asset=named_item(library, item), x=x, y=y, area=area)
+    for (item, weight), (x, y, radius) in zip(pairs, places, strict=False):
+        area = first_area(document, radius, weight)
+        asset = named_item(library, item)
+        yield made(Add, asset=asset, x=x, y=y, area=area, weight=weight)
+
+
+def _unit_of(document: Document) -> float:
+    """What an item's own weight is multiplied by: words weigh what they cover."""
+    own = sum(item.weight for item in document.items)
+    total = float(document.weights.sum())
+    return total / own if own > 0 and total > 0 else 1.0
 
 
 def first_area(document: Document, radius: float, weight: float) -> float:
@@ -44,11 +66,12 @@ def first_area(document: Document, radius: float, weight: float) -> float:
     radius
         Of the disc, canvas units.
     weight
-        Of the item: where sizes are in shares, that is what it gets.
+        Of the item, in the document's unit: where sizes are in shares, or weights differ, that is
+        what it gets.
     """
     areas = document.own_areas * document.poses.scale**2
     usual = float(np.mean(areas)) if len(areas) else np.pi * radius**2
-    if document.options.sizes != "free":
+    if document.options.sizes != "free" or np.ptp(document.weights) > 0:
         mean = float(np.mean(document.weights)) if len(areas) else 1.0
         return usual * weight / mean
     least = usual / document.options.size_ratio**2
@@ -102,28 +125,47 @@ def worded(
     Words that stay are the same items; new ones come in the colours of the others, in turn.
     """
     now = {item.name: share for item, share in zip(read.items, read.areas, strict=True)}
-    rows = {item.name: k for k, item in enumerate(document.items) if item.name in now}
+    words = [k for k in range(len(document)) if _is_word(document, k)]
+    rows: dict[str, int] = {}
+    # Of copies the heaviest stays.
+    for k in sorted(words, key=lambda k: -document.weights[k]):
+        if document.items[k].name in now:
+            rows.setdefault(document.items[k].name, k)
+    gone = [k for k in words if k not in rows.values()]
+    _check_free(document, gone)
     # Shares are of another whole each time: what stays is as large as before in all.
-    kept = list(rows.values())
-    asked = sum(now[name] for name in rows)
-    unit = float(document.weights[kept].sum()) / asked if asked else 1.0
+    kept = list(rows.values()) or words
+    asked = sum(now[name] for name in rows) or sum(now.values())
+    unit = float(document.weights[kept].sum()) / asked if kept and asked else 1.0
     for name, k in rows.items():
         weight = unit * now[name]
         if abs(weight - document.weights[k]) > SAME * weight:
             yield made(Weigh, items=(int(document.ids[k]),), weight=weight)
     colours = list(dict.fromkeys(c for item in document.items if (c := one_colour(item.art))))
-    new = [
-        replace(item, weight=unit * now[item.name]) for item in read.items if item.name not in rows
-    ]
+    new = [item for item in read.items if item.name not in rows]
+    weights = [unit * now[item.name] for item in new]
     if colours:
         new = [recoloured(one, hex_colour(colours[k % len(colours)])) for k, one in enumerate(new)]
-    yield from brought(document, library, shapes, new)
-    gone = [
-        int(document.ids[k]) for k, item in enumerate(document.items)
-        if item.text is not None and item.name not in now
-    ]  # fmt: skip
+    yield from weighed(document, library, shapes, zip(new, weights, strict=True))
     if gone:
-        yield made(Remove, items=gone)
+        yield made(Remove, items=tuple(int(document.ids[k]) for k in gone))
+
+
+def _is_word(document: Document, k: int) -> bool:
+    """Whether an item is one of a cloud's words; files of shapes say so of all alone."""
+    if any(item.text is not None for item in document.items):
+        return document.items[k].text is not None
+    recipe = document.manifest.get("recipe")
+    return isinstance(recipe, Mapping) and recipe.get("words") is not None
+
+
+def _check_free(document: Document, rows: Iterable[int]) -> None:
+    """Refuse to take away what is held."""
+    held = [document.items[k].name for k in rows if document.held[k].any()]
+    if held:
+        raise RecipeError(
+            "words", f"{enumerated(held)}: held, and not among these words; release it first"
+        )
 
 
 def _scarcest(present: Counter[Item], count: int) -> Iterator[Item]:

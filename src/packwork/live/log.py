@@ -60,7 +60,8 @@ class Log:
     def note(self, kind: str, value: Any = None) -> None:
         """Add an entry; epochs that follow on epochs of the same level are added to them."""
         last = self._last
-        if kind == "flow" and last and last[0] == "flow" and last[1][0] == value[0]:
+        is_more = kind == "flow" and last and last[0] == "flow" and last[1][0] == value[0]
+        if is_more and last and last[1][1] + value[1] <= MOST_EPOCHS:
             self._last = ("flow", (value[0], last[1][1] + value[1]))
             return
         self._write()

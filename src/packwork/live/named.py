@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import fnmatch
 import re
 from collections.abc import Iterable, Sequence
@@ -30,9 +31,9 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.units import parse_share
 
-Which: TypeAlias = str | int
+Which: TypeAlias = str | int | Sequence[str | int]
 """An item: its name, ``owl``, or of several of that name ``owl#2``; ``*`` stands for any letters;
-or its number."""
+or its number. Where several go, a list of these too."""
 
 Coordinate: TypeAlias = str | float
 """Canvas units, or a length such as ``10mm``; ``45%`` is a share of the canvas' width or height."""
@@ -73,9 +74,12 @@ class NamedSession(Session):
             If there is none.
         """
         document = self.document
+        if isinstance(which, list | tuple | set | frozenset):
+            return tuple(dict.fromkeys(k for one in which for k in self.find(one)))
         if isinstance(which, Integral) and not isinstance(which, bool):
             if document.index(int(which)) is None:
-                raise RecipeError("item", f"there is no item {which}")
+                numbers = f"{document.ids.min()} to {document.ids.max()}"
+                raise RecipeError("item", f"there is no item {which}; numbers go from {numbers}")
             return (int(which),)
         text = str(which)
         names = [item.name for item in document.items]
@@ -138,12 +142,13 @@ class NamedSession(Session):
         self, items: Sequence[Item], x: Coordinate | None = None, y: Coordinate | None = None
     ) -> tuple[int, ...]:
         """Bring items, there or where there is most room; their numbers."""
+        if (x is None) != (y is None):
+            raise RecipeError("add", "takes both x and y, or neither")
         first, container = self.document.next_id, self.document.container
         commands = list(brought(self.document, self.library, self.shapes, items))
         placed = {}
-        if x is not None:
+        if x is not None and y is not None:
             placed["x"] = self._length("x", x, container.width)
-        if y is not None:
             placed["y"] = self._length("y", y, container.height)
         self._together([command.model_copy(update=placed) for command in commands])
         return tuple(range(first, first + len(items)))
@@ -163,7 +168,7 @@ class NamedSession(Session):
         self.apply(made(Replace, item=self.one(which), asset=named_item(self.library, item)))
 
     def weigh(self, which: Which, weight: float) -> None:
-        """Give items another weight; they grow or shrink accordingly."""
+        """Give items another weight, in the unit of ``layout.weights``; they grow or shrink."""
         self.apply(made(Weigh, items=self.find(which), weight=weight))
 
     def rename(self, which: Which, name: str) -> None:
@@ -186,7 +191,14 @@ class NamedSession(Session):
 
     def reshape(self, rings: Iterable[Iterable[tuple[float, float]]]) -> None:
         """Give the container other vertices, canvas units."""
-        listed = [ring.tolist() if isinstance(ring, np.ndarray) else ring for ring in rings]
+        try:
+            listed = [np.asarray(ring, dtype=np.float64).reshape(-1, 2).tolist() for ring in rings]
+        except (TypeError, ValueError):
+            raise RecipeError(
+                "rings", "must be a list of rings, each a list of vertices (x, y)"
+            ) from None
+        if not listed or any(len(ring) < 3 for ring in listed):
+            raise RecipeError("rings", "must be one ring at least, each of three vertices (x, y)")
         self.apply(made(Reshape, rings=listed))
 
     def place_container(
@@ -206,7 +218,9 @@ class NamedSession(Session):
     def count(self, count: int) -> None:
         """Have so many items: copies of what is least there come, of what is most there go."""
         if not isinstance(count, Integral) or isinstance(count, bool) or not 0 < count <= MAX_COUNT:
-            raise RecipeError("count", f"must be a whole number from 1, not {count!r}")
+            raise RecipeError(
+                "count", f"must be a whole number from 1 to {MAX_COUNT}, not {count!r}"
+            )
         self._together(list(counted(self.document, self.library, self.shapes, int(count))))
 
     def cover(self, share: str | float) -> None:
@@ -231,6 +245,8 @@ class NamedSession(Session):
     def _length(self, key: str, value: Coordinate, side: float) -> float:
         if isinstance(value, int | float) and not isinstance(value, bool):
             return float(value)
+        with contextlib.suppress(ValueError):
+            return float(str(value))
         return length_asked(key, str(value).strip(), self.document.container.unit, side)
 
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Iterable
 from dataclasses import asdict, replace
 from itertools import pairwise
+from numbers import Integral
 
 from packwork.errors import RecipeError
 from packwork.live.certificate import Certificate, Settlement, promise_of
@@ -16,7 +18,7 @@ from packwork.live.document import PROPERTIES, Document
 from packwork.live.following import Following, beyond
 from packwork.live.history import History
 from packwork.live.kept import Kept
-from packwork.live.log import Entry, Log
+from packwork.live.log import MOST_TRIALS, Entry, Log
 from packwork.live.neighbourhood.flow import Flow
 from packwork.live.neighbourhood.settle import polish
 from packwork.live.neighbourhood.shapes import Shapes
@@ -120,10 +122,14 @@ class Session(Following):
         Raises
         ------
         RecipeError
-            If neither is given.
+            If neither is given, or what is given is no number of them.
         """
         if epochs is None and milliseconds is None:
             raise RecipeError("flow", "give epochs or milliseconds")
+        if epochs is not None and (not isinstance(epochs, Integral) or epochs < 0):
+            raise RecipeError("flow", f"epochs must be a whole number from 0, not {epochs!r}")
+        if milliseconds is not None and not 0 <= milliseconds < math.inf:
+            raise RecipeError("flow", f"milliseconds must be 0 or more, not {milliseconds!r}")
         until = None if milliseconds is None else time.perf_counter() + milliseconds / 1e3
         done = 0
         while not self.is_at_rest and (epochs is None or done < epochs):
@@ -204,7 +210,7 @@ class Session(Following):
         Parameters
         ----------
         trials
-            How many at most.
+            How many at most, 10,000 in one call.
         stop
             Asked before each batch; True leaves all as it was.
 
@@ -215,6 +221,7 @@ class Session(Following):
         """
         if trials < 1 or self._grabbed or self.marks.touched or not self.marks.rough:
             return 0
+        trials = min(trials, MOST_TRIALS)
         before = self._document
         # What was put somewhere last stays there; what was before keeps its angle.
         rows = self._rows(self.marks.rough - self.marks.lately)

@@ -100,7 +100,11 @@ def sized(document: Document, what: str) -> Document:
     shares = extents / container.side
     bad = ~((shares > SHORTEST) & (shares < LONGEST))
     if bad.any():
-        raise RecipeError(what, f"an item {extents[bad][0]:.3g} {container.unit} long is none")
+        raise RecipeError(
+            what,
+            f"would make an item {extents[bad][0]:.3g} {container.unit} long; the canvas is "
+            f"{container.side:.3g} {container.unit}, so ask for a size nearer to it",
+        )
     return document
 
 

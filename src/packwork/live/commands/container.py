@@ -16,6 +16,7 @@ from packwork.geometry.overlay import valid
 from packwork.live.commands.command import FARTHEST, Command, Library, Number, known
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.options import LiveOptions
+from packwork.pipeline.plan.padding import check_padding
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.start.angles import nearest_allowed
@@ -105,15 +106,27 @@ class SetOption(Command):
             raise RecipeError(self.name[:40], f"is no option of a session; use one of {choices}")
         values: dict[str, Any] = {**dict(document.options), self.name: self.value}
         options = validated(LiveOptions, values)
-        if options.padding > document.container.side:
-            raise RecipeError("padding", f"{options.padding:g} is more than the canvas is long")
+        check_padding(document.container, options.padding, len(document))
         if (options.sizes, options.size_ratio) == (
             document.options.sizes,
             document.options.size_ratio,
         ):
             # Sizes that were given by hand stay what they are.
             return _turned(replace(document, options=options), document.options)
-        return document.with_ranges(options)
+        return _within(document.with_ranges(options), document.options)
+
+
+def _within(document: Document, before: LiveOptions) -> Document:
+    """The document with sizes in a narrower range, where that was asked for."""
+    options = document.options
+    if options.sizes != "free" or options.size_ratio >= before.size_ratio:
+        return document
+    scale, areas = document.poses.scale, document.own_areas
+    typical = np.sqrt(np.mean(areas * scale**2) / areas)
+    inside = np.clip(scale, typical / options.size_ratio, typical * options.size_ratio)
+    is_held = document.held[:, PROPERTIES.index("size")]
+    poses = replace(document.poses, scale=np.where(is_held, scale, inside))
+    return document.with_poses(poses).with_ranges(options)
 
 
 def _turned(document: Document, before: LiveOptions) -> Document:

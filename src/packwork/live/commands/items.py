@@ -24,9 +24,10 @@ from packwork.live.commands.command import (
     sized,
 )
 from packwork.live.document import PROPERTIES, Document
+from packwork.live.file.records import Text
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.item import Item
-from packwork.scene.label import Label
+from packwork.scene.label import MAX_LENGTH, Label
 from packwork.scene.pose import Poses
 from packwork.scene.recolour import recoloured
 
@@ -51,6 +52,8 @@ class Add(Command):
     """How large it begins, squared canvas units."""
     angle: Number = 0.0
     """Degrees, clockwise."""
+    weight: Annotated[Number, Field(ge=0)] | None = None
+    """In the document's unit of weights; None for the item's own."""
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the item, the last of all."""
@@ -59,7 +62,8 @@ class Add(Command):
             raise RecipeError("add", f"{self.x:g}, {self.y:g} is nowhere near the canvas")
         scale = math.sqrt(self.area / item.outline.area)
         pose = Poses([self.x], [self.y], math.radians(self.angle), scale)
-        return sized(_joined(document, item, pose, item.weight), "add")
+        weight = item.weight if self.weight is None else self.weight
+        return sized(_joined(document, item, pose, weight), "add")
 
 
 class Duplicate(Command):
@@ -147,7 +151,7 @@ class Rename(Command):
 
     kind: Literal["rename"] = "rename"
     item: ItemId
-    name: Annotated[str, Field(min_length=1)]
+    name: Annotated[Text, Field(min_length=1, max_length=MAX_LENGTH)]
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the name."""
@@ -167,7 +171,7 @@ class Recolour(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the colour."""
-        colour = hex_colour(parse_colour("recolour", self.colour))
+        colour = hex_colour(parse_colour("recolor", self.colour))
         made: dict[int, Item] = {}
         for number in self.items:
             k = index_of(document, number, "recolour")

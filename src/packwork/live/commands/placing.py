@@ -120,7 +120,7 @@ class Exchange(Command):
         """The document with the two exchanged."""
         i, j = (index_of(document, one, "exchange") for one in (self.first, self.second))
         if i == j:
-            raise RecipeError("exchange", f"{self.first} is one item; give two")
+            raise RecipeError("exchange", "takes two different items")
         poses, areas = document.poses, document.own_areas
         here, there = np.array([i, j]), np.array([j, i])
         other = poses.some(there)
