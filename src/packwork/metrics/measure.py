@@ -146,6 +146,8 @@ def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
 
 def _area_inside(item: Item) -> float | None:
     """Area of an item's ink, if that lies in its outline."""
+    if item.ink is item.outline:
+        return item.outline.area
     ink, outline = item.ink.region, item.outline.region
     if not (ink.is_valid and outline.is_valid):
         return None
