@@ -15,7 +15,7 @@ SIZE = {"width": 1440, "height": 900}
 
 
 def main() -> None:
-    """Open a desk, drag an item, try others."""
+    """Open a desk, drag an item, try others, edit another container."""
     from studio.browsing import Desk, Server, chromium
 
     FOLDER.mkdir(exist_ok=True)
@@ -34,6 +34,14 @@ def main() -> None:
         desk.until("studio.variants.found.length === 6")
         desk.settled()
         desk.page.screenshot(path=str(FOLDER / "more.png"))
+        desk.page.locator("#tab-room").click()
+        desk.page.locator(".grid [aria-label=fish]").click()
+        desk.until("studio.collage.scene.name === 'fish'")
+        desk.settled()
+        desk.page.get_by_role("button", name="Edit its outline").click()
+        desk.page.mouse.move(1400, 860)
+        desk.page.wait_for_timeout(200)
+        desk.page.screenshot(path=str(FOLDER / "container.png"))
     server.stop()
     for path in FOLDER.glob("*.png"):
         Image.open(path).convert("RGB").quantize(256).save(path, optimize=True)

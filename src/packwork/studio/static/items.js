@@ -78,6 +78,7 @@ export class ItemList {
     if (this.editor.element.parentNode !== row) {
       const focus = document.activeElement;
       row.append(this.editor.element);
+      row.scrollIntoView({ block: "nearest" });
       if (focus instanceof HTMLElement && this.editor.element.contains(focus)) focus.focus();
     }
     this.editor.show(collage.items.filter((one) => choice.has(one.id)));

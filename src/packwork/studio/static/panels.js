@@ -93,6 +93,8 @@ export class Panels {
     if (this.current === "words") this.words.refresh();
     const name = this.studio.collage.scene?.name;
     if (this.current === "room") {
+      const now = this.panel.querySelector('[aria-label=Sheet] option[value=""]');
+      if (now) now.textContent = this.sheets()[0][1];
       this.panel.querySelector(".edit-room")?.setAttribute("aria-pressed", String(this.studio.room.isOn));
       for (const one of this.panel.querySelectorAll(".grid .choice")) one.setAttribute("aria-pressed", String(one.getAttribute("aria-label") === name));
     }
