@@ -119,6 +119,15 @@ def test_what_is_saved_goes_on_as_what_is_opened(tmp_path: Path) -> None:
     assert is_equal(session.document, again.document)
 
 
+def test_a_name_that_no_file_can_hold_is_kept_as_well_as_can_be(tmp_path: Path) -> None:
+    drawing = tmp_path / "a\x07b.svg"
+    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v9z"/></svg>')
+    session = pw.fill("circle", [str(drawing)], count=2, **QUICK).edit()
+    session.save(tmp_path / "a.packwork")
+    again = pw.Session.open(tmp_path / "a.packwork")
+    assert again.document.items[0].name == "a\N{REPLACEMENT CHARACTER}b"
+
+
 def test_a_save_while_items_flow_does_not_forget_where_they_lay(tmp_path: Path) -> None:
     ways = []
     layout = pw.fill("circle", "hexagon", count=60, **QUICK)

@@ -21,11 +21,33 @@ MOST_CELLS = 10_000
 """Cells of one row of a table at most. Chosen."""
 
 
+def _is_sound(letter: str) -> bool:
+    return (ord(letter) >= 32 or letter in "\t\n\r") and not 0xD800 <= ord(letter) < 0xE000
+
+
 def _sound_text(text: str) -> str:
     """The same text, if any file can hold it."""
-    if any((ord(c) < 32 and c not in "\t\n\r") or 0xD800 <= ord(c) < 0xE000 for c in text):
+    if not all(map(_is_sound, text)):
         raise ValueError("must hold no control characters")
     return text
+
+
+def kept_text(text: str) -> str:
+    r"""A text as a file keeps it: what no file can hold is a sign in its place.
+
+    Examples
+    --------
+    >>> kept_text("a\x07b") == "a\N{REPLACEMENT CHARACTER}b"
+    True
+    """
+    sound = (
+        text
+        if all(map(_is_sound, text))
+        else "".join(
+            letter if _is_sound(letter) else "\N{REPLACEMENT CHARACTER}" for letter in text
+        )
+    )
+    return sound[:MOST_NAMED]
 
 
 def _turning(matrix: tuple[float, ...]) -> tuple[float, ...]:

@@ -30,6 +30,7 @@ from packwork.live.file.records import (
     OutlineRecord,
     RunRecord,
     WordRecord,
+    kept_text,
 )
 from packwork.readers.budget.crossings import MAX_CROSSINGS, Allowance
 from packwork.readers.fonts.guard import checked_face
@@ -136,12 +137,14 @@ def item_record(item: Item, things: Things) -> ItemRecord:
     label, datum = item.label, item.datum
     outline, ink = outline_record(item.outline), outline_record(item.ink)
     return ItemRecord(
-        name=item.name,
-        source=item.source,
+        name=kept_text(item.name),
+        source=kept_text(item.source),
         outline=outline,
         ink=None if ink == outline else ink,
         art=art_record(item.art, item.outline.extent),
-        label=LabelRecord(name=label.name, link=label.link, title=label.title),
+        label=LabelRecord(
+            name=kept_text(label.name), link=kept_text(label.link), title=kept_text(label.title)
+        ),
         text=None if item.text is None else _word_record(item.text, things),
         halo=item.halo,
         datum=None if datum is None else _datum_record(datum),
@@ -184,8 +187,8 @@ def container_record(container: Container) -> ContainerRecord:
         art = photo_record(behind.art, container.side / across)
         backdrop = BackdropRecord(art=art, matrix=matrix_record(behind.matrix))
     return ContainerRecord(
-        name=container.name,
-        source=container.source,
+        name=kept_text(container.name),
+        source=kept_text(container.source),
         outline=outline_record(container.outline),
         width=container.width,
         height=container.height,
@@ -283,12 +286,15 @@ def _run_of(run: RunRecord, shared: Shared) -> TextRun:
 
 
 def _datum_record(datum: Datum) -> DatumRecord:
-    row = {str(name): _cell(value) for name, value in datum.row.items()}
-    return DatumRecord(row=row, value=datum.value, category=datum.category, group=datum.group)
+    row = {kept_text(str(name)): _cell(value) for name, value in datum.row.items()}
+    category, group = kept_text(datum.category), kept_text(datum.group)
+    return DatumRecord(row=row, value=datum.value, category=category, group=group)
 
 
 def _cell(value: object) -> object:
     """A cell as a file can hold it."""
-    is_plain = value is None or isinstance(value, str | bool | int)
+    if isinstance(value, str):
+        return kept_text(value)
+    is_plain = value is None or isinstance(value, bool | int)
     is_number = isinstance(value, float) and value == value and abs(value) != float("inf")
     return value if is_plain or is_number else str(value)
