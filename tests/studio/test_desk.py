@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import asyncio
+import zipfile
 from collections.abc import Callable
+from io import BytesIO
+from pathlib import Path
 
 import numpy as np
 import pytest
 
+import packwork as pw
+from packwork.errors import PackworkError
 from packwork.live.face.opening import Opening, opening_of
 from packwork.studio import wire
 from packwork.studio.desk import Desk
@@ -158,7 +163,10 @@ def test_pouring_anew_keeps_what_is_held(play) -> None:
     play(scenario)
 
 
-@pytest.mark.parametrize("kind", ["svg", "pdf", "png", "dxf", "geojson", "packwork"])
+KINDS = ["svg", "pdf", "png", "dxf", "geojson", "packwork", "recipe", "film.svg", "film.gif"]
+
+
+@pytest.mark.parametrize("kind", KINDS)
 def test_all_formats_are_exported(play, kind: str) -> None:
     async def scenario(desk: Desk, open_page: Callable) -> None:
         data, media = await Exporter(desk).file({"format": kind, "options": {}})
@@ -171,6 +179,39 @@ def test_all_formats_are_exported(play, kind: str) -> None:
         await scenario(desk, open_page)
 
     play(waiting)
+
+
+def test_an_exported_recipe_runs(play, tmp_path: Path) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        data, _ = await Exporter(desk).file({"format": "recipe"})
+        zipfile.ZipFile(BytesIO(data)).extractall(tmp_path)
+
+    play(scenario)
+    (recipe,) = tmp_path.glob("*/recipe.toml")
+    assert "packwork run recipe.toml" in recipe.with_name("README.txt").read_text()
+    assert len(pw.run(recipe).items) == 12
+
+
+@pytest.mark.parametrize(
+    ("asked", "said"),
+    [
+        ({"format": "exe"}, "'exe'"),
+        ({"format": "film.gif", "options": {"fps": 0}}, "fps"),
+        ({"format": "film.gif", "options": {"background": 3}}, "background"),
+        ({"format": "svg", "options": {"nothing": 1}}, "nothing"),
+    ],
+)
+def test_what_cannot_be_exported_is_refused_in_a_line(play, asked: dict, said: str) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        with pytest.raises(PackworkError, match=said) as refusal:
+            await Exporter(desk).file(asked)
+        assert "\n" not in str(refusal.value)
+
+    play(scenario)
 
 
 def test_a_desk_begins_with_a_run_that_is_seen(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -66,6 +66,10 @@ class Following:
         """Whether the flow has nothing to move."""
         return self._flow is None or self._flow.is_at_rest
 
+    def begin_film(self) -> None:
+        """Keep the way of the items from now on."""
+        self._frames = Frames(self._document)
+
     def make_ready(self) -> None:
         """Have what takes long the first time done before the hand comes; changes nothing."""
         if len(self._document):

@@ -8,8 +8,9 @@ from packwork.live.document import Document
 from packwork.scene.pose import Poses
 from packwork.scene.track import Track, track_of
 
-MOST = 2_000
-"""Frames that are kept; of more every other one goes. Chosen."""
+MOST, MOST_PLACES = 2_000, 400_000
+"""Frames that are kept, and places of items in all; of more every other frame goes. Chosen: 16 MB.
+"""
 
 
 class Frames:
@@ -39,7 +40,7 @@ class Frames:
         if not np.array_equal(document.ids, self._ids):
             self._ids, self._poses = document.ids, []
         self._poses.append(document.poses)
-        if len(self._poses) > MOST:
+        if len(self._poses) > max(min(MOST, MOST_PLACES // max(len(self._ids), 1)), 2):
             self._poses = self._poses[::2]
 
     @property

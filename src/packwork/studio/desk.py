@@ -222,6 +222,7 @@ class Desk:
         if keeper is None and opening.kept_in is not None:
             keeper = self._kept(opening.kept_in, session)
         self._keeper = keeper
+        session.begin_film()
         owner = Owner(session, self._follow, polishes=True)
         owner.__enter__()
         self.owner = owner

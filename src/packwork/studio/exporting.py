@@ -6,7 +6,16 @@ import asyncio
 from typing import Any
 
 from packwork.errors import PackworkError, RecipeError
-from packwork.live.face.exporting import FORMATS, SESSION, kept_bytes, layout_bytes
+from packwork.live.face.exporting import (
+    FILM_FORMATS,
+    FORMATS,
+    RECIPE,
+    SESSION,
+    film_of,
+    kept_bytes,
+    layout_bytes,
+    recipe_zip,
+)
 from packwork.studio.desk import NOT_YET, Desk
 
 BINARY = "application/octet-stream"
@@ -45,6 +54,8 @@ class Exporter:
         kind, options = asked.get("format"), asked.get("options", {})
         if not isinstance(kind, str) or not isinstance(options, dict):
             raise RecipeError("export", "takes a format and options")
+        if kind not in (*FORMATS, *FILM_FORMATS, SESSION, RECIPE):
+            raise RecipeError("export", f"is not made as {kind[:20]!r}")
         owner = self._desk.owner
         if owner is None:
             raise PackworkError(NOT_YET)
@@ -52,7 +63,13 @@ class Exporter:
         if kind == SESSION:
             kept = await asyncio.wrap_future(owner.call(lambda session: session.kept()))
             return await asyncio.to_thread(kept_bytes, kept), BINARY
+        if kind == RECIPE:
+            document = await asyncio.wrap_future(owner.call(lambda session: session.document))
+            made = await asyncio.to_thread(recipe_zip, document, document.container.name)
+            return made, "application/zip"
         layout = await asyncio.wrap_future(owner.call(lambda session: session.layout))
+        if kind in FILM_FORMATS:
+            return await asyncio.to_thread(film_of, layout, kind, options), FILM_FORMATS[kind]
         data = await asyncio.to_thread(layout_bytes, layout, kind, options)
         return data, FORMATS[kind]
 

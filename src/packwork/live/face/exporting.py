@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+import zipfile
 from collections.abc import Mapping
-from pathlib import PurePath
+from io import BytesIO
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 from pydantic import ValidationError
 
 from packwork.errors import RecipeError, WriteError
+from packwork.live.document import Document
 from packwork.live.file.disk import ENDING
+from packwork.live.file.recipe import write_recipe
 from packwork.live.file.session_file import session_bytes
 from packwork.live.file.things import Things
 from packwork.live.kept import Kept
+from packwork.live.session import Session
+from packwork.recipe.film import film_options
 from packwork.scene.layout import Layout
-from packwork.writers import encoded, write_options
+from packwork.writers import Film, WriteOptions, encoded, film_bytes, write_options
 
 FORMATS: Mapping[str, str] = {
     "svg": "image/svg+xml",
@@ -27,6 +34,32 @@ FORMATS: Mapping[str, str] = {
     "geojson": "application/geo+json",
 }
 """Formats of layouts, and what browsers call them."""
+
+
+FILM = "film."
+"""What formats of films begin with here: some endings are drawings too."""
+
+FILM_FORMATS: Mapping[str, str] = {
+    "film.svg": "image/svg+xml",
+    "film.gif": "image/gif",
+    "film.apng": "image/apng",
+    "film.webp": "image/webp",
+    "film.mp4": "video/mp4",
+    "film.webm": "video/webm",
+    "film.json": "application/json",
+}
+"""Formats of films, and what browsers call them."""
+
+RECIPE = "recipe"
+"""What a recipe is asked for by."""
+
+LINES = (
+    "In this folder, on the command line:",
+    "    packwork run recipe.toml -o collage.svg",
+    "In Python:",
+    '    import packwork; packwork.run("recipe.toml").save("collage.svg")',
+)
+"""How a recipe is run."""
 
 
 def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
@@ -48,13 +81,70 @@ def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes
     """
     if kind not in FORMATS:
         raise WriteError(kind[:20], f"is no format; use one of {', '.join(FORMATS)}")
+    return encoded(layout, f"layout.{kind}", _drawing(options))
+
+
+def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
+    """A film of how the items of a layout came where they are.
+
+    Parameters
+    ----------
+    kind
+        One of :data:`FILM_FORMATS`.
+    options
+        Of films, as on the command line, and ``background`` and ``show_container``.
+
+    Raises
+    ------
+    WriteError
+        If it cannot be drawn so, or a package is missing.
+    RecipeError
+        If an option has no meaning.
+    """
+    if kind not in FILM_FORMATS:
+        raise WriteError(kind[:20], f"is no film; use one of {', '.join(FILM_FORMATS)}")
+    drawn = {"background": "white", "show_container": False}
+    drawn |= {name: options[name] for name in drawn if name in options}
+    _drawing(drawn)
+    said = film_options(**{name: value for name, value in options.items() if name not in drawn})
+    film = Film(layout, said, str(drawn["background"]), bool(drawn["show_container"]))
+    return film_bytes(film, f"layout.{kind.removeprefix(FILM)}")
+
+
+def recipe_zip(document: Document, name: str) -> bytes:
+    """A document as a recipe: a folder in a ZIP file, with a text that tells how to run it.
+
+    Parameters
+    ----------
+    name
+        Of the folder.
+
+    Raises
+    ------
+    RecipeError
+        If the numbers of the document make no recipe.
+    ReadError
+        If the file of a photograph is no longer there.
+    """
+    made, known = BytesIO(), "".join(c for c in name if c.isalnum() or c in " -_")[:60].strip()
+    with TemporaryDirectory() as place, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as packed:
+        folder = Path(place) / (known or "collage")
+        write_recipe(Session(document), folder)
+        for file in sorted(folder.rglob("*")):
+            if file.is_file():
+                packed.write(file, file.relative_to(place))
+        packed.writestr(f"{folder.name}/README.txt", "\n".join((*LINES, "")))
+    return made.getvalue()
+
+
+def _drawing(options: Mapping[str, Any]) -> WriteOptions:
+    """Options of drawings, or a refusal that names the first that is wrong."""
     try:
-        drawing = write_options(**options)
+        return write_options(**options)
     except ValidationError as error:
         first = error.errors(include_url=False)[0]
         key = ".".join(str(part) for part in first["loc"])
         raise RecipeError(key[:40], first["msg"]) from None
-    return encoded(layout, PurePath(f"layout.{kind}").name, drawing)
 
 
 def kept_bytes(kept: Kept) -> bytes:

@@ -7,9 +7,11 @@ import { tell } from "./toasts.js";
 /** @typedef {import("./connection.js").Connection} Connection */
 /** @typedef {import("./collage.js").Collage} Collage */
 
+const FILMED = /** @type {const} */ (["seconds", "film_pixels", "background", "show_container"]);
+
 /** Formats: ending, name, what it is for, which options it has. */
 const FORMATS = /** @type {const} */ ([
-  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "show_container", "flatten"]],
+  ["svg", "SVG", "for the web, Illustrator, Inkscape", ["background", "show_container", "text", "flatten"]],
   ["pdf", "PDF", "for printing", ["background", "show_container", "bleed"]],
   ["png", "PNG", "a picture", ["pixels", "background", "show_container"]],
   ["jpg", "JPEG", "a smaller picture", ["pixels", "background", "show_container"]],
@@ -18,6 +20,10 @@ const FORMATS = /** @type {const} */ ([
   ["dxf", "DXF", "for cutters and CAD, in mm", []],
   ["geojson", "GeoJSON", "outlines, to be measured or edited again", []],
   ["packwork", "Session", "all of it, with all that undo leads to", []],
+  ["recipe", "Recipe", "a folder to run again, from the command line or Python", ["lines"]],
+  ["film.gif", "Film, GIF", "how all came where it is", FILMED],
+  ["film.mp4", "Film, MP4", "the same, for players and posts", FILMED],
+  ["film.svg", "Film, SVG", "the same, sharp at any size", FILMED],
 ]);
 
 export class Exporting {
@@ -71,7 +77,7 @@ export class Exporting {
   /** @param {Event} event */
   async submitted(event) {
     event.preventDefault();
-    const options = Object.fromEntries([...this.fields.querySelectorAll("input")].map((field) => [field.name, valueOf(field)]).filter(([, value]) => value !== null));
+    const options = Object.fromEntries([.../** @type {NodeListOf<HTMLInputElement>} */ (this.fields.querySelectorAll("input, select"))].map((field) => [field.name, valueOf(field)]).filter(([, value]) => value !== null));
     this.go.disabled = true;
     const done = await this.download(this.kind, options);
     this.go.disabled = false;
@@ -87,7 +93,7 @@ export class Exporting {
     try {
       const body = JSON.stringify({ format: kind, options });
       const answer = await this.connection.ask("/export", { method: "POST", body, headers: { "content-type": "application/json" } });
-      save(await answer.blob(), `${this.collage.scene?.name || "collage"}.${kind}`);
+      save(await answer.blob(), `${this.collage.scene?.name || "collage"}.${endingOf(kind)}`);
       tell(`${FORMATS.find(([ending]) => ending === kind)?.[1] ?? kind} exported`);
       return true;
     } catch (error) {
@@ -99,7 +105,19 @@ export class Exporting {
   }
 }
 
+/**
+ * Ending of a file.
+ * @param {string} kind
+ */
+function endingOf(kind) {
+  return kind === "recipe" ? "zip" : kind.replace("film.", "");
+}
+
 const FIELDS = {
+  text: () => h("label", {}, "Words", h("select", { name: "text" }, h("option", { value: "outlines" }, "as outlines"), h("option", { value: "live" }, "as text that can be selected"))),
+  seconds: () => h("label", {}, "Seconds", h("input", { type: "number", name: "seconds", value: "5", min: "1", max: "60", step: "1" })),
+  film_pixels: () => h("label", {}, "Longer side, px", h("input", { type: "number", name: "film_pixels", value: "800", min: "16", max: "4096", step: "2" })),
+  lines: () => h("p", { class: "note" }, "In the folder: ", h("code", {}, "packwork run recipe.toml -o collage.svg"), ", or in Python: ", h("code", {}, 'packwork.run("recipe.toml").save("collage.svg")')),
   pixels: () => h("label", {}, "Longer side, px", h("input", { type: "number", name: "pixels", value: "2400", min: "16", max: "12000", step: "1" })),
   background: () => h("label", {}, "Background", h("input", { type: "text", name: "background", placeholder: "none, white, #faf7f0 …", spellcheck: "false" })),
   show_container: () => h("label", { class: "tick" }, h("input", { type: "checkbox", name: "show_container" }), "Draw the container's line"),
