@@ -3,6 +3,7 @@
 
 import { Backdrop } from "./backdrop.js";
 import { matrixOf } from "./collage.js";
+import { coloursOf } from "./colours.js";
 
 /** @typedef {import("./collage.js").Collage} Collage */
 /** @typedef {import("./view.js").View} View */
@@ -388,13 +389,4 @@ function unit(from, to) {
   const [x, y] = [to[0] - from[0], to[1] - from[1]];
   const length = Math.hypot(x, y) || 1;
   return [x / length, y / length];
-}
-
-/** @param {Element} element */
-function coloursOf(element) {
-  const style = getComputedStyle(element);
-  const names = ["desk", "paper", "edge", "mark", "hover", "wrong", "pin", "on-pin", "handle", "marquee", "free", "taken"];
-  const found = names.map((name) => style.getPropertyValue(`--${name}`).trim());
-  const [desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee, free, taken] = found;
-  return { desk, paper, edge, accent, hover, bad, pin, onPin, handle, marquee, free, taken };
 }
