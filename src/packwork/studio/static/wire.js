@@ -5,7 +5,7 @@
  * Written by ``tools/write_wire.py`` from the schema; nothing here is run.
  *
  * @typedef {{type: "ack", frame: number}} Ack
- * @typedef {{kind: "add", asset: string, x: number, y: number, area: number, angle?: number}} Add
+ * @typedef {{kind: "add", asset: string, x: number, y: number, area: number, angle?: number, weight?: (number | null)}} Add
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
  * @typedef {{type: "count", count: number}} Count
