@@ -83,6 +83,7 @@ PAGES = {
     "files": "drawings from anywhere, and what is written",
     "films": "recording and writing films",
     "live": "frames, settles and what becomes of a layout over random gestures",
+    "studio": "frames, answers, crashes and memory of the page in a browser",
     "robustness": "spoilt files, stops at any moment, full disks",
 }
 """By the end of the page's name."""

@@ -6,6 +6,7 @@ import asyncio
 import json
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager, suppress
+from functools import cache
 from importlib import resources
 from typing import Any
 from urllib.parse import unquote
@@ -63,8 +64,7 @@ class Studio:
         ]
 
     async def _page(self, request: Request) -> Response:
-        page = resources.files("packwork.studio").joinpath("static/index.html").read_bytes()
-        return Response(page, media_type="text/html")
+        return Response(page_text(), media_type="text/html")
 
     async def _choices(self, request: Request) -> Response:
         return JSONResponse(await asyncio.to_thread(choices))
@@ -108,6 +108,16 @@ class Studio:
             sending.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
                 await sending
+
+
+@cache
+def page_text() -> str:
+    """The page; all its modules are asked for at once, not one after the other that needs it."""
+    static = resources.files("packwork.studio").joinpath("static")
+    names = sorted(one.name for one in static.iterdir() if one.name.endswith(".js"))
+    links = (f'<link rel="modulepreload" href="/static/{name}">' for name in names)
+    page = static.joinpath("index.html").read_text(encoding="utf-8")
+    return page.replace('<link rel="modulepreload" href="/static/main.js">', "\n".join(links))
 
 
 async def _received(socket: WebSocket, tab: Tab) -> None:
