@@ -66,6 +66,8 @@ def draw(folder: Path) -> None:
                 keep(copy / name, folder / (kept or name))
             for name in pictures(arguments, "--show-saliency"):
                 keep(copy / name, folder / name)
+            for name in pictures(arguments, "--contact-sheet"):
+                keep(copy / name, folder / (kept or name))
             for name in films(arguments):
                 shutil.copy(copy / name, folder / name)
 

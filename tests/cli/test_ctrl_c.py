@@ -99,7 +99,7 @@ def test_ctrl_c_after_all_is_written_changes_nothing(
         for _ in range(2):
             signal.raise_signal(signal.SIGINT)
 
-    monkeypatch.setattr("packwork.cli.running._show", pressed)
+    monkeypatch.setattr("packwork.cli.running.show_results", pressed)
     result = packwork("fill circle star -n 2 --levels 16 --epochs 2 -o out.svg")
     assert (result.exit_code, result.stderr) == (0, "")
     assert (folder / "out.svg").exists()

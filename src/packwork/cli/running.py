@@ -14,32 +14,24 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import typer
-from rich.console import Console
 
 from packwork import pipeline, threads, uses, writers
+from packwork.cli.choosing import check_choosing, run_chosen, seeded, sheet_of
 from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.files import Choosing
 from packwork.cli.notices import NOTICES, joined
 from packwork.cli.show import (
     Paper,
-    beside_line,
-    certificate_line,
-    filling_line,
-    metrics_table,
-    pile_line,
     printing,
-    seconds_line,
-    words_line,
+    show_results,
 )
 from packwork.cli.start_up import START_UP
 from packwork.cli.terminal import printable, say
 from packwork.cli.watch import WATCH
 from packwork.display.bar import TerminalBar
-from packwork.errors import PackworkError, RecipeError, WriteError
+from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
-from packwork.phrasing import number_of
-from packwork.progress import NOBODY
 from packwork.recipe import Recipe
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import validated
@@ -226,7 +218,14 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     interrupt = Interrupt()
     with interrupt.listening():
         with bar.showing():
-            run, tried = _run(job, outputs, bar, interrupt, quiet)
+            run, tried = run_chosen(
+                job,
+                outputs.choosing,
+                bar,
+                interrupt,
+                record=bool(outputs.films),
+                quiet=quiet,
+            )
             was_cut_short = interrupt.pressed
             began = time.perf_counter()
             films = _filmed(run, outputs, bar, interrupt)
@@ -234,7 +233,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         drawn, undrawn = _drawn(run, outputs)
         if tried:
             saved = outputs.saved_recipe(seeded(recipe, run))
-        written = [*drawn, *saved, *films, *_sheet(tried, outputs.choosing)]
+        written = [*drawn, *saved, *films, *sheet_of(tried, outputs.choosing)]
         results = run.report(time.perf_counter() - began, START_UP.told())
         if not was_cut_short and (outputs.report is not None or not quiet):
             # Looks at pictures of all items, for which nobody waits who wants it to end.
@@ -255,7 +254,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
                     printable(f"{path} (replaced)" if path in replaced else f"{path}")
                     for path, _ in written
                 ]
-                _show(results, said, console, run.layout.container.unit)
+                show_results(results, said, console, run.layout.container.unit)
         except WriteError as error:
             # The files are there; that is what was asked for.
             say(f"{error}; all files are written")
@@ -263,57 +262,6 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             worth = "certified" if run.certified else "not certified"
             say(f"stopped by Ctrl-C; this is the best so far, {worth}")
     return INTERRUPTED if was_stopped else 0 if run.is_as_asked and not undrawn else SHORTFALL
-
-
-def _run(
-    job: pipeline.Job, outputs: Outputs, bar: TerminalBar, interrupt: Interrupt, quiet: bool
-) -> tuple[pipeline.Run, tuple[pipeline.Run, ...]]:
-    """A run, or the best of several, and all that were tried then."""
-    choosing, record = outputs.choosing, bool(outputs.films)
-    if choosing.best_of == 1:
-        return pipeline.run(job, NOBODY if quiet else bar, interrupt, record), ()
-    from packwork.batches.seeds import best_of
-
-    def tell(done: int) -> None:
-        bar.tell(done / choosing.best_of, f"{done} of {choosing.best_of} seeds")
-
-    found = best_of(
-        job.recipe, choosing.best_of, choosing.best_by, record, job.recipe.threads, tell, interrupt
-    )
-    return found.best, found.runs
-
-
-def _sheet(tried: Sequence[pipeline.Run], choosing: Choosing) -> list[tuple[Path, bytes]]:
-    """The picture of all that were tried, if it is asked for, and its bytes."""
-    if choosing.contact_sheet is None or not tried:
-        return []
-    from packwork.batches.sheet import THUMB_PX, sheet_bytes
-
-    pictures = [writers.png_bytes(run.layout, THUMB_PX) for run in tried]
-    return [(choosing.contact_sheet, sheet_bytes(pictures))]
-
-
-def check_choosing(choosing: Choosing) -> None:
-    """Refuse what has no meaning for a choice.
-
-    Raises
-    ------
-    RecipeError
-        Before anything has been run.
-    """
-    if choosing.best_of == 1:
-        for key, usual in Choosing().model_dump(exclude={"best_of"}).items():
-            if getattr(choosing, key) != usual:
-                raise RecipeError(key, "is of --best-of; say of how many, as --best-of 8")
-        return
-    from packwork.batches.seeds import check_metric
-
-    check_metric(choosing.best_by)
-
-
-def seeded(recipe: Recipe, run: pipeline.Run) -> Recipe:
-    """The recipe with the seed of a run."""
-    return recipe.model_copy(update={"seed": run.layout.manifest["seed"]})
 
 
 def compile_kernels(bar: TerminalBar) -> None:
@@ -417,27 +365,3 @@ def _warn(run: pipeline.Run, was_cut_short: bool) -> None:
             f"still rough: {100 * exact.overlap:.1f} % of the container is covered "
             f"twice, {100 * exact.exceeding:.1f} % as much lies outside; {remedy}"
         )
-
-
-def _show(results: Mapping[str, Any], written: Sequence[str], console: Console, unit: str) -> None:
-    console.print(metrics_table(results["metrics"], unit))
-    console.print(
-        f"{results['placed']} of {number_of(results['items'], 'item')} placed; "
-        f"{seconds_line(results['seconds'])}",
-        style="dim",
-        soft_wrap=True,
-    )
-    if results["words"] is not None and results["words"]["found"] > results["words"]["asked"]:
-        console.print(words_line(results["words"]), style="dim")
-    for remark in results["remarks"]:
-        console.print(remark, style="dim", soft_wrap=True)
-    if results["beside"] is not None:
-        console.print(beside_line(results["beside"]), style="dim")
-    if results["filling"] is not None:
-        console.print(filling_line(results["filling"]), style="dim")
-    if results["pile"] is not None:
-        console.print(pile_line(results["pile"]), style="dim")
-    console.print(certificate_line(results["promised"], results["certified"]))
-    for sentence in results["advice"]:
-        console.print(f"but {sentence}", soft_wrap=True)
-    console.print(f"wrote {', '.join(written)}", soft_wrap=True, markup=False)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from typing import Any
 
@@ -40,6 +40,43 @@ def printing() -> Iterator[None]:
         # What is still held back would fail once more when the program ends.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         raise WriteError("standard output", f"cannot be written to: {error.strerror}") from None
+
+
+def show_results(
+    results: Mapping[str, Any], written: Sequence[str], console: Console, unit: str
+) -> None:
+    """Print what came of a run: its measures, its seconds, its certificate, its files.
+
+    Parameters
+    ----------
+    results
+        A report.
+    written
+        Files' names, as they are to be read.
+    unit
+        What one canvas unit is.
+    """
+    console.print(metrics_table(results["metrics"], unit))
+    console.print(
+        f"{results['placed']} of {number_of(results['items'], 'item')} placed; "
+        f"{seconds_line(results['seconds'])}",
+        style="dim",
+        soft_wrap=True,
+    )
+    if results["words"] is not None and results["words"]["found"] > results["words"]["asked"]:
+        console.print(words_line(results["words"]), style="dim")
+    for remark in results["remarks"]:
+        console.print(remark, style="dim", soft_wrap=True)
+    if results["beside"] is not None:
+        console.print(beside_line(results["beside"]), style="dim")
+    if results["filling"] is not None:
+        console.print(filling_line(results["filling"]), style="dim")
+    if results["pile"] is not None:
+        console.print(pile_line(results["pile"]), style="dim")
+    console.print(certificate_line(results["promised"], results["certified"]))
+    for sentence in results["advice"]:
+        console.print(f"but {sentence}", soft_wrap=True)
+    console.print(f"wrote {', '.join(written)}", soft_wrap=True, markup=False)
 
 
 def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
