@@ -219,12 +219,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     with interrupt.listening():
         with bar.showing():
             run, tried = run_chosen(
-                job,
-                outputs.choosing,
-                bar,
-                interrupt,
-                record=bool(outputs.films),
-                quiet=quiet,
+                job, outputs.choosing, bar, interrupt, record=bool(outputs.films), quiet=quiet
             )
             was_cut_short = interrupt.pressed
             began = time.perf_counter()
@@ -248,20 +243,23 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         _warn(run, was_cut_short)
         for error in undrawn:
             say(f"not written: {' '.join(str(error).split())}")
-        try:
-            with printing():
-                said = [
-                    printable(f"{path} (replaced)" if path in replaced else f"{path}")
-                    for path, _ in written
-                ]
-                show_results(results, said, console, run.layout.container.unit)
-        except WriteError as error:
-            # The files are there; that is what was asked for.
-            say(f"{error}; all files are written")
+        names = [f"{path} (replaced)" if path in replaced else f"{path}" for path, _ in written]
+        _print_results(results, names, console, run.layout.container.unit)
         if was_cut_short:
             worth = "certified" if run.certified else "not certified"
             say(f"stopped by Ctrl-C; this is the best so far, {worth}")
     return INTERRUPTED if was_stopped else 0 if run.is_as_asked and not undrawn else SHORTFALL
+
+
+def _print_results(
+    results: Mapping[str, Any], names: Sequence[str], console: Console, unit: str
+) -> None:
+    try:
+        with printing():
+            show_results(results, [printable(name) for name in names], console, unit)
+    except WriteError as error:
+        # The files are there; that is what was asked for.
+        say(f"{error}; all files are written")
 
 
 def compile_kernels(bar: TerminalBar) -> None:
