@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 import typer
+from rich.console import Console
 
 from packwork import pipeline, threads, uses, writers
 from packwork.cli.choosing import check_choosing, run_chosen, seeded, sheet_of
