@@ -87,6 +87,17 @@ def union(shapes: Iterable[Region]) -> Region:
     return _answered(lambda *parts: shapely.union_all(list(parts)), *shapes)
 
 
+def union_of_layout(shapes: Iterable[Region]) -> Region:
+    """:func:`union` of regions of which few meet another, sooner.
+
+    Examples
+    --------
+    >>> union_of_layout([shapely.box(0, 0, 2, 2), shapely.box(3, 0, 4, 1)]).area
+    5.0
+    """
+    return _answered(lambda *parts: shapely.disjoint_subset_union_all(list(parts)), *shapes)
+
+
 def intersection(first: Region, second: Region) -> Region:
     """What both regions cover; of arrays, one by one.
 

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
-from packwork.live.change import Change, Stale
+import numpy as np
+
+from packwork.live.change import Change, Stale, differing
 from packwork.live.document import Document
 from packwork.metrics.certificate import Promise, off_shares
 from packwork.metrics.standing import Standing
@@ -69,12 +71,7 @@ class Certificate:
         if standing is None or before is None or _is_all_stale(before, now):
             gap = promise_of(now).least_gap(now.container.side)
             standing, before = Standing(now.container.outline, gap), None
-        was = {} if before is None else {k: n for n, k in enumerate(before.ids.tolist())}
-        gone = dict.fromkeys(was.keys() - set(now.ids.tolist()))
-        changed = [
-            (k, number) for k, number in enumerate(now.ids.tolist())
-            if before is None or number not in was or _is_elsewhere(before, was[number], now, k)
-        ]  # fmt: skip
+        gone, changed = _gone_and_changed(before, now)
         placed = {n: now.items[k].outline.mapped(now.poses.matrix(k)) for k, n in changed}
         standing.change({**gone, **placed})
         self._standing, self._seen = standing, now
@@ -93,9 +90,19 @@ def _is_all_stale(before: Document, now: Document) -> bool:
     return is_other or Change.between(before, now).stale == Stale.EVERYTHING
 
 
-def _is_elsewhere(before: Document, i: int, now: Document, k: int) -> bool:
-    one, other = before.poses, now.poses
-    return before.items[i].outline is not now.items[k].outline or any(
-        getattr(one, name)[i] != getattr(other, name)[k]
-        for name in ("x", "y", "angle", "scale", "stretch")
+def _gone_and_changed(
+    before: Document | None, now: Document
+) -> tuple[dict[int, None], list[tuple[int, int]]]:
+    """Numbers of items that are gone, and rows and numbers of those that are new or elsewhere."""
+    if before is None:
+        return {}, list(enumerate(now.ids.tolist()))
+    _, rows, was = np.intersect1d(now.ids, before.ids, assume_unique=True, return_indices=True)
+    is_same = np.zeros(len(now), dtype=bool)
+    is_same[rows] = ~differing(before.poses.some(was), now.poses.some(rows))
+    for row, k in zip(rows.tolist(), was.tolist(), strict=True):
+        is_same[row] &= before.items[k].outline is now.items[row].outline
+    changed = np.flatnonzero(~is_same)
+    gone = np.setdiff1d(before.ids, now.ids, assume_unique=True)
+    return dict.fromkeys(gone.tolist()), list(
+        zip(changed.tolist(), now.ids[changed].tolist(), strict=True)
     )

@@ -66,7 +66,7 @@ def violations(
 def meeting(i: int, j: int, first: Region, second: Region) -> Violation:
     """How far two regions are from keeping a distance."""
     shared = float(intersection(first, second).area)
-    return Violation(i, j, shared, distance(first, second))
+    return Violation(i, j, shared, 0.0 if shared > 0 else distance(first, second))
 
 
 def sticking_out(k: int, one: Region, whole: Region, gap: float) -> Violation:

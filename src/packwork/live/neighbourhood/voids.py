@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 import shapely
 
-from packwork.geometry.overlay import buffered, difference, union, valid
+from packwork.geometry.overlay import buffered, difference, union_of_layout, valid
 from packwork.live.document import Document
 from packwork.live.neighbourhood.shapes import Shapes
 
@@ -43,7 +43,7 @@ def widest_places(document: Document, shapes: Shapes) -> Iterator[tuple[float, f
         for k, item in enumerate(document.items)
     ]
     whole = valid(document.container.outline.region)
-    left = difference(whole, union(covers)) if covers else whole
+    left = difference(whole, union_of_layout(covers)) if covers else whole
     while True:
         if left.area <= EMPTY * whole.area:
             left = whole
