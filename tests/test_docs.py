@@ -12,7 +12,7 @@ import pytest
 import typer.main
 
 from packwork.cli import app
-from packwork.cli.files import Choosing, LayoutFiles, SideFiles, Terminal
+from packwork.cli.files import Choosing, LayoutFiles, Serial, SideFiles, Terminal
 from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
@@ -37,7 +37,9 @@ PARAMETERS = [
 VERB_OF = {str(verb.name).lower(): verb for verb in VERBS}
 OFFERED = [(name, option) for name, verb in VERB_OF.items() for option in options_of(verb)]
 FILES = [
-    option for model in (LayoutFiles, Choosing, SideFiles, Terminal) for option in offered(model)
+    option
+    for model in (LayoutFiles, Serial, Choosing, SideFiles, Terminal)
+    for option in offered(model)
 ]
 
 IN_ITS_OWN_WORDS = {

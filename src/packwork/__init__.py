@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from packwork.api.layout import Layout
     from packwork.api.placement import Placement
     from packwork.api.recipes import run
+    from packwork.api.series import Series, series
     from packwork.api.session import Session
     from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
@@ -57,6 +58,7 @@ __all__ = [
     "Poses",
     "ReadError",
     "RecipeError",
+    "Series",
     "Session",
     "ShapeError",
     "Step",
@@ -76,6 +78,7 @@ __all__ = [
     "render",
     "render_pullback",
     "run",
+    "series",
     "words",
 ]
 
@@ -97,6 +100,7 @@ _HOMES = {
     "Poses": "packwork.scene.pose:Poses",
     "ReadError": "packwork.errors:ReadError",
     "RecipeError": "packwork.errors:RecipeError",
+    "Series": "packwork.api.series:Series",
     "Session": "packwork.api.session:Session",
     "ShapeError": "packwork.errors:ShapeError",
     "Step": "packwork.progress:Step",
@@ -115,6 +119,7 @@ _HOMES = {
     "render": "packwork.raster.coverage:coverage",
     "render_pullback": "packwork.raster.coverage:coverage_pullback",
     "run": "packwork.api.recipes:run",
+    "series": "packwork.api.series:series",
     "words": "packwork.api.verbs:words",
 }
 

@@ -8,9 +8,10 @@ import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 
-from PIL import Image
+from PIL import Image, ImageDraw, ImageFont
 
 from packwork.errors import RecipeError
+from packwork.fonts import bundled_file
 from packwork.raster.drawing import drawn_png
 
 THUMB_PX = 240
@@ -18,6 +19,9 @@ THUMB_PX = 240
 
 GAP_PX = 16
 """Between pictures, and round all. Chosen."""
+
+CAPTION_PX, MOST_LETTERS, CAPTION = 18, 24, "#4a5568"
+"""Height of what stands under pictures, its letters at most, its colour. Chosen by eye."""
 
 ASPECT = 4 / 3
 """Width of a sheet over its height, about. Chosen."""
@@ -39,13 +43,15 @@ def shown_of(outputs: Iterable[Path]) -> Path | None:
     return next((by_ending[ending] for ending in SEEN if ending in by_ending), None)
 
 
-def sheet_bytes(pictures: Sequence[Path | bytes]) -> bytes:
+def sheet_bytes(pictures: Sequence[Path | bytes], captions: Sequence[str] = ()) -> bytes:
     """PNG of small pictures, in rows.
 
     Parameters
     ----------
     pictures
         Files that we have written, or such files' bytes, of pixels.
+    captions
+        What stands under each; nothing if there are none.
 
     Raises
     ------
@@ -58,17 +64,29 @@ def sheet_bytes(pictures: Sequence[Path | bytes]) -> bytes:
         )
     small = [_small(one) for one in pictures]
     wide = max(one.width for one in small) + GAP_PX
-    high = max(one.height for one in small) + GAP_PX
+    high = max(one.height for one in small) + GAP_PX + (CAPTION_PX + GAP_PX if captions else 0)
     across = min(len(small), math.ceil(math.sqrt(len(small) * ASPECT * high / wide)))
     down = math.ceil(len(small) / across)
     sheet = Image.new("RGB", (across * wide + GAP_PX, down * high + GAP_PX), "white")
     for k, one in enumerate(small):
         x = GAP_PX + k % across * wide + (wide - GAP_PX - one.width) // 2
-        y = GAP_PX + k // across * high + (high - GAP_PX - one.height) // 2
+        room = high - GAP_PX - (CAPTION_PX + GAP_PX if captions else 0)
+        y = GAP_PX + k // across * high + (room - one.height) // 2
         sheet.paste(one, (x, y), one)
+        if captions:
+            middle = GAP_PX + k % across * wide + (wide - GAP_PX) // 2
+            bottom = GAP_PX + k // across * high + room
+            _write(sheet, captions[k], (middle, bottom))
     stream = io.BytesIO()
     sheet.save(stream, "PNG")
     return stream.getvalue()
+
+
+def _write(sheet: Image.Image, text: str, place: tuple[int, int]) -> None:
+    """Write under a picture, in the bundled font."""
+    font = ImageFont.truetype(bundled_file(), CAPTION_PX)
+    short = text if len(text) <= MOST_LETTERS else text[: MOST_LETTERS - 1] + "…"
+    ImageDraw.Draw(sheet).text(place, short, CAPTION, font, anchor="mt")
 
 
 def _small(file: Path | bytes) -> Image.Image:

@@ -61,7 +61,18 @@ class Choosing(Options):
     with a minus where less is better."""
 
     contact_sheet: Annotated[Path | None, Offer(group=Group.WRITTEN)] = None
-    """Write a picture (PNG) of all that --best-of has tried, the best first."""
+    """Write a picture (PNG) of all that --best-of has tried, the best first, or of all steps of a
+    series."""
+
+
+class Serial(Options):
+    """A layout for each step of a table."""
+
+    offers = Offer(group=Group.PLACED, verbs=Verbs.WORDS)
+
+    series: Annotated[str | None, Offer(metavar="TABLE:COLUMN")] = None
+    """Table of words and its column of steps, as talks.csv:year, in place of SOURCE: a layout for
+    each step, all on one scale, words in their places for as long as goes."""
 
 
 class Terminal(Options):

@@ -9,6 +9,7 @@ import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
+from packwork.errors import RecipeError
 from packwork.offers import Verbs
 
 DEFAULT_OUTPUT = Path("words.svg")
@@ -25,12 +26,12 @@ def words(
         ),
     ],
     source: Annotated[
-        str,
+        str | None,
         typer.Argument(
             metavar="SOURCE",
             help="A text, a table of word,weight (.csv, .tsv, .json), or - for standard input.",
         ),
-    ],
+    ] = None,
     **asked: Any,
 ) -> None:
     """Fill a container with words.
@@ -42,12 +43,22 @@ def words(
     [bold]cat *.md | packwork words circle - -n 200 --rotate mixed[/]
 
     [bold]packwork words cat ar.txt --font "Noto Naskh Arabic"[/]  any script
+
+    [bold]packwork words cloud --series talks.csv:year -o 'out/{year}.svg' --film talks.gif[/]
     """
     with clear_errors():
+        said = shared.of_run(Verbs.WORDS, asked)
+        if asked["series"] is not None:
+            from packwork.cli.series import carry_out_series
+
+            carry_out_series(container, source, asked, said)
+        if source is None:
+            raise RecipeError(
+                "source", "is missing; give a text, a table, or --series TABLE:COLUMN"
+            )
         from packwork.cli.running import carry_out
         from packwork.uses.words.recipe import words_recipe
 
-        said = shared.of_run(Verbs.WORDS, asked)
         photos = said.pop("photos")
         recipe = words_recipe(
             container,

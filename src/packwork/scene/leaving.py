@@ -24,14 +24,16 @@ find their places, smaller lets them burst in among the others. Chosen by eye.""
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Leaving:
-    """Items that shrink away where they are, in the first third of a track.
+    """Items that a layout has no more: they shrink away where they are, in a film's first third.
 
     Parameters
     ----------
     items
         Those that leave.
     poses
-        Where they were: as many as items.
+        Where they were, as large as they ever are: as many as items.
+    track
+        Their way, in place of that: as of words that come and go within a series.
 
     Raises
     ------
@@ -53,6 +55,7 @@ class Leaving:
 
     items: tuple[Item, ...]
     poses: Poses
+    track: Track | None = None
 
     def __post_init__(self) -> None:
         if len(self.items) != len(self.poses):
@@ -72,6 +75,8 @@ class Leaving:
 
     def sampled(self, times: npt.ArrayLike) -> FloatArray:
         """``(k, m, 5)`` numbers, as a track's, at k times."""
+        if self.track is not None:
+            return self.track.sampled(times)
         left = np.clip(1 - np.asarray(times, dtype=np.float64) / GONE, 0.0, 1.0)
         numbers = np.repeat(numbers_of(self.poses)[None], len(left), axis=0)
         numbers[:, :, SCALE] *= left[:, None]

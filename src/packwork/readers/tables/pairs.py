@@ -102,6 +102,23 @@ def read_pairs(file: str, most_bytes: int, asked: TableFormat) -> Pairs:
     return Pairs(found.rows, (sheet.notice,) if sheet.notice else ())
 
 
+def pairs_of_rows(rows: Sequence[Mapping[str, Any]]) -> Pairs:
+    """Names and numbers of rows that a program holds.
+
+    Raises
+    ------
+    ReadError
+        If they are no such table.
+
+    Examples
+    --------
+    >>> (pair,) = pairs_of_rows([{"word": "bear", "n": 2, "year": 9}]).rows
+    >>> pair.name, pair.others
+    ('bear', {'year': '9'})
+    """
+    return _pairs(_entries(list(rows), "data"), "data", TableFormat(), usual=".")
+
+
 def _rows(sheet: TextTable) -> list[tuple[str, Mapping[str, Any]]]:
     """Place and cells of each line, by column."""
     lines = list(sheet.lines())

@@ -236,9 +236,7 @@ def area_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs)
     [4, 2]
     """
     own = np.array([item.outline.area for item in items])
-    heights = weights if weight_is == "height" else np.sqrt(weights)
-    if weight_is == "ink":
-        heights = heights / np.sqrt(own)
+    heights = height_shares(items, weights, weight_is)
     widest = float(heights.max() / heights.min())
     if widest > WIDEST_HEIGHTS:
         raise RecipeError(
@@ -248,6 +246,14 @@ def area_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs)
         )
     # Relative ones, so that no area runs over.
     return np.asarray(own * (heights / heights.max()) ** 2)
+
+
+def height_shares(items: Sequence[Item], weights: FloatArray, weight_is: WeightIs) -> FloatArray:
+    """``(n,)`` heights of words, in shares, whose heights or areas are as the weights say."""
+    heights = weights if weight_is == "height" else np.sqrt(weights)
+    if weight_is == "ink":
+        heights = heights / np.sqrt([item.outline.area for item in items])
+    return np.asarray(heights)
 
 
 def _placed(drawn: Lettering, holes: Holes) -> tuple[Outline, Outline, FloatArray]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.tables.pairs import MOST_NAMED, Pair, read_pairs
+from packwork.readers.tables.pairs import MOST_NAMED, Pair, Pairs, read_pairs
 from packwork.readers.tables.totals import total_row
 from packwork.readers.words.word import Word
 
@@ -56,7 +56,17 @@ def read_word_table(file: str, most_bytes: int, asked: TableFormat) -> TableRead
     >>> read.notices
     ('left out 1 row of 2 without a weight: fox (line 3)',)
     """
-    table = read_pairs(file, most_bytes, asked)
+    return words_of(read_pairs(file, most_bytes, asked), file)
+
+
+def words_of(table: Pairs, file: str) -> TableRead:
+    """The same of a table that is read already.
+
+    Raises
+    ------
+    ReadError
+        If no row has a word and a weight.
+    """
     sound = [pair for pair in table.rows if pair.is_sound]
     odd = [pair for pair in table.rows if not pair.is_sound]
     if odd and not sound:

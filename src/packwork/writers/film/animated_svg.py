@@ -27,7 +27,7 @@ TOLERANCE = 1 / 4_000
 fifth of a pixel of 800. Smaller: longer files that look the same. Chosen."""
 
 _PERCENT_DIGITS = 3
-_SCALE, _STRETCH = COLUMNS.index("scale"), COLUMNS.index("stretch")
+_STRETCH = COLUMNS.index("stretch")
 _LEAVING = "leaving"
 
 
@@ -45,13 +45,15 @@ def animated_svg_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
 
 def _leaving(film: Film) -> list[str]:
     """Drawings of the items that leave, which no program shows that does not move them."""
-    step, scales = TOLERANCE * film.layout.container.side / 4, film.frames[0, :, _SCALE]
+    leaving, step = film.layout.leaving, TOLERANCE * film.layout.container.side / 4
+    if leaving is None:
+        return []
     drawn = []
-    for k, item in enumerate(film.items[: film.leaving]):
+    for k, item in enumerate(leaving.items):
         if isinstance(item.art, VectorArt):
             markup = with_fresh_ids(item.art.markup, f"-{_LEAVING}-{k + 1}")
             item = replace(item, art=replace(item.art, markup=markup))
-        shape = element(item, paint(item), "", decimals(step / float(scales[k])))
+        shape = element(item, paint(item), "", decimals(step / float(leaving.poses.scale[k])))
         drawn.append(f'<g id="{_LEAVING}-{k + 1}" transform="scale(0)">{shape}</g>\n')
     return [f'<g id="{_LEAVING}">\n', *drawn, "</g>\n"] if drawn else []
 

@@ -1,0 +1,162 @@
+"""Poses of a step from those of the step beside it: what stays stays, what is new finds a hole.
+
+Sizes are given, so what may give way is places alone. First nothing moves but what is in conflict
+once words have their new sizes; then words are put anew one by one, the largest first, each as near
+to its place as there is room. Either is made exact by the finish: words in conflict shrink, and
+grow back while their neighbours give way (separation and compaction, see ``packwork.compaction``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.options import HAIR
+from packwork.finish.finish import finish
+from packwork.finish.finished import Finished
+from packwork.finish.options import FinishOptions
+from packwork.pipeline.exact import gap_with_bulge
+from packwork.progress import Stop, never
+from packwork.scene.pose import Poses
+from packwork.timeline.board import Board
+from packwork.timeline.step import SeriesStep
+from packwork.uses.words.graded import angles_of
+
+TRIES = 3
+"""Times that words which keep others from their sizes are put elsewhere. More find more and take
+longer. Tried."""
+
+Places = Mapping[str, tuple[float, float, float]]
+"""Last known x, y and angle of words, by name."""
+
+
+def followed(
+    step: SeriesStep,
+    size: float,
+    beside: Poses | None,
+    names: Sequence[str],
+    known: Places,
+    stop: Stop = never,
+) -> Poses | None:
+    """Exact poses of a step at its true sizes; None if none are found.
+
+    Parameters
+    ----------
+    size
+        Scale of all steps: items have so many times their true scales.
+    beside
+        Poses of the step beside it, None if there is none; ``names`` of its items.
+    known
+        Places of all words that any step has had so far.
+    stop
+        Asked before each round.
+    """
+    target = size * step.true
+    if beside is not None:
+        found = _settled(step, _kept(step, target, beside, names, known), target, stop)
+        if found is not None:
+            return found
+    return _settled(step, _anew(step, target, known), target, stop)
+
+
+def _settled(step: SeriesStep, poses: Poses, target: FloatArray, stop: Stop) -> Poses | None:
+    """Exact poses at true sizes near these; None if none are found."""
+    for _ in range(TRIES):
+        found = _finished(step, poses, target, stop)
+        if found.clean or stop():
+            return found.poses if found.clean else None
+        poses = _reinserted(step, found)
+    return None
+
+
+def _reinserted(step: SeriesStep, found: Finished) -> Poses:
+    """Poses in which the smaller one of each pair in conflict is put where there is room.
+
+    So that one which is too large now for its place keeps that, and few words move: an ejection,
+    as local search of nestings has it.
+    """
+    outlines, poses = step.job.solid_outlines, found.poses
+    areas = np.array([outline.area for outline in outlines]) * poses.scale**2
+    pairs = [(one.item, one.item if one.other is None else one.other) for one in found.conflicts]
+    ejected = np.unique([min(pair, key=lambda k: float(areas[k])) for pair in pairs]).astype(int)
+    board = _board(step)
+    for k in np.setdiff1d(np.arange(len(poses)), ejected):
+        board.lay(outlines[k].mapped(poses.matrix(int(k))))
+    return _put(step, board, poses, ejected, places_of(step, poses))
+
+
+def _kept(
+    step: SeriesStep, target: FloatArray, beside: Poses, names: Sequence[str], known: Places
+) -> Poses:
+    """Words where they are, no larger than before; new ones in holes, as large as these are."""
+    rows = {name: row for row, name in enumerate(names)}
+    found = np.array([rows.get(name, -1) for name in step.names])
+    stays = np.flatnonzero(found >= 0)
+    count = len(target)
+    poses = Poses(np.zeros(count), np.zeros(count), np.zeros(count), target.copy())
+    some = beside.some(found[stays])
+    smaller = replace(some, scale=np.minimum(some.scale, target[stays]))
+    poses = poses.with_some(stays, smaller)
+    board, outlines = _board(step), step.job.solid_outlines
+    for k in stays:
+        board.lay(outlines[k].mapped(poses.matrix(int(k))))
+    return _put(step, board, poses, np.flatnonzero(found < 0), known)
+
+
+def _anew(step: SeriesStep, target: FloatArray, known: Places) -> Poses:
+    """All words put again, the largest first, each near the place that it had."""
+    count = len(target)
+    poses = Poses(np.zeros(count), np.zeros(count), np.zeros(count), target.copy())
+    return _put(step, _board(step), poses, np.arange(count), known)
+
+
+def _board(step: SeriesStep) -> Board:
+    job = step.job
+    return Board(
+        job.container,
+        np.random.default_rng(job.plan.seed),
+        job.plan.gap + HAIR * job.container.side,
+    )
+
+
+def _put(step: SeriesStep, board: Board, poses: Poses, items: IntArray, known: Places) -> Poses:
+    """Poses with some items put on the board; what finds no place at all lies in the middle."""
+    job = step.job
+    rng = np.random.default_rng(job.plan.seed)
+    outlines = job.solid_outlines
+    areas = np.array([outline.area for outline in outlines]) * poses.scale**2
+    middle = np.reshape(job.container.outline.bounds, (2, 2)).mean(axis=0)
+    rows = np.column_stack([poses.x, poses.y, poses.angle, poses.scale])
+    for k in items[np.argsort(-areas[items], kind="stable")]:
+        home = known.get(step.names[k])
+        angles = angles_of(job.plan.rotation, rng) if home is None else (home[2],)
+        near = None if home is None else home[:2]
+        scale = float(poses.scale[k])
+        put = board.put(outlines[k], scale, angles, near)
+        rows[k] = put or (*(home or (*middle, angles[0])), scale / 2)
+    x, y, angle, scale_all = rows.T.copy()
+    return replace(poses, x=x, y=y, angle=angle, scale=scale_all)
+
+
+def places_of(step: SeriesStep, poses: Poses) -> dict[str, tuple[float, float, float]]:
+    """x, y and angle of each item, by name."""
+    rows = zip(step.names, poses.x.tolist(), poses.y.tolist(), poses.angle.tolist(), strict=True)
+    return {name: (x, y, angle) for name, x, y, angle in rows}
+
+
+def _finished(step: SeriesStep, poses: Poses, target: FloatArray, stop: Stop) -> Finished:
+    """Poses at their sizes, taken apart: what is in conflict shrinks, and grows back."""
+    job = step.job
+    options = FinishOptions(
+        gap_cu=gap_with_bulge(job, np.arange(len(target)), target),
+        sizes="fixed",
+        turning=False,
+        staying=True,
+        loosened=True,
+        seed=job.plan.seed,
+    )
+    whole = replace(poses, scale=target.copy())
+    return finish(job.container, job.solid_outlines, whole, options, stop=stop, is_enough=stop)

@@ -1,0 +1,152 @@
+"""Steps of a series: what each is to show, and how large, on one scale for all."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from packwork import uses
+from packwork.arrays import FloatArray
+from packwork.errors import RecipeError
+from packwork.pipeline.job import Job
+from packwork.readers.words.items import height_shares
+from packwork.readers.words.word import Word
+from packwork.uses.words.recipe import words_recipe
+from packwork.uses.words.use import Words
+
+IDLE: Mapping[str, tuple[Any, ...]] = {
+    "sizes": ("auto", "shared"),
+    "repeat": ("none",),
+    "finish": ("exact",),
+    **dict.fromkeys(
+        (
+            "smallest", "start", "stay", "photos", "time", "target_coverage", "max_items", "filler",
+            "add", "items", "forces", "losses", "rules", "share",
+        ),
+        (),
+    ),
+}  # fmt: skip
+"""Options that have no meaning for a series, and the values that ask for nothing."""
+
+
+@dataclass(frozen=True, eq=False)
+class SeriesStep:
+    """One step.
+
+    Parameters
+    ----------
+    label
+        What the table says of it.
+    job
+        What a layout of it alone would be made of.
+    true
+        ``(n,)`` scale of each item, on one scale for all steps.
+    """
+
+    label: str
+    job: Job
+    true: FloatArray
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """What items are called by; one name in two steps is one item."""
+        return tuple(item.name for item in self.job.items)
+
+    @cached_property
+    def area(self) -> float:
+        """Of all items, at a scale of 1."""
+        own = np.array([item.outline.area for item in self.job.items])
+        return float(own @ self.true**2)
+
+
+def word_steps(
+    container: str, weights: Mapping[str, Mapping[str, float]], **options: Any
+) -> list[SeriesStep]:
+    """Steps of a cloud, from the options of ``words``.
+
+    Parameters
+    ----------
+    weights
+        By step, then by word.
+
+    Raises
+    ------
+    RecipeError
+        If an option has no meaning, in a series or at all.
+    ReadError
+        If the container or a font cannot be read, or a step has no word that could be set.
+
+    Examples
+    --------
+    >>> years = {"1999": {"bear": 2, "fox": 1}, "2000": {"bear": 4}}
+    >>> [round(float(step.true[0]), 6) for step in word_steps("heart", years)]
+    [2.0, 4.0]
+    """
+    check_idle(options)
+    said = {key: value for key, value in options.items() if key not in IDLE} | {"sizes": "shared"}
+    if said.get("color_by") is None:
+        recipe = words_recipe(container, next(iter(weights.values())), **said)
+        said["color_by"] = in_turn(weights, recipe.palette or ())
+    jobs: list[Job] = []
+    for source in weights.values():
+        recipe = words_recipe(container, dict(source), **said)
+        jobs.append(uses.read(recipe, container=jobs[0].container if jobs else None))
+    return [SeriesStep(label, job, _heights(job)) for label, job in zip(weights, jobs, strict=True)]
+
+
+def check_idle(options: Mapping[str, Any]) -> None:
+    """Refuse options that a series cannot keep.
+
+    Raises
+    ------
+    RecipeError
+        Naming the first.
+    """
+    for key, idle in IDLE.items():
+        if options.get(key) and options[key] not in idle:
+            raise RecipeError(key, "has no meaning in a series: its words have one scale, no more")
+
+
+def in_turn(
+    weights: Mapping[str, Mapping[str, float]], palette: Sequence[str]
+) -> Callable[[Word], str | None]:
+    """Colour of a word in all steps: those of the palette in turn, from the word seen largest.
+
+    Examples
+    --------
+    >>> colour = in_turn({"1": {"bear": 2, "fox": 1}, "2": {"fox": 3}}, ["red", "blue"])
+    >>> colour(Word("bear", 1.0)), colour(Word("fox", 1.0))
+    ('blue', 'red')
+    """
+    largest: dict[str, float] = {}
+    for words in weights.values():
+        for word, weight in words.items():
+            key = word.casefold()
+            largest[key] = max(weight, largest.get(key, 0.0))
+    order = sorted(largest, key=lambda key: -largest[key])
+    return _Colours({key: palette[k % len(palette)] for k, key in enumerate(order) if palette})
+
+
+class _Colours:
+    """Colours by word; what a manifest says of it is its name."""
+
+    __qualname__ = "series"
+
+    def __init__(self, known: Mapping[str, str]) -> None:
+        self._known = known
+
+    def __call__(self, word: Word) -> str | None:
+        return self._known.get(word.text.casefold())
+
+
+def _heights(job: Job) -> FloatArray:
+    """``(n,)`` scales at which heights of letters are as the weights say."""
+    use = job.use
+    if not isinstance(use, Words) or use.read.items != job.items:
+        raise RecipeError("series", "is of words alone")
+    weights = np.array([word.weight for word in use.read.words])
+    return height_shares(use.read.items, weights, use.options.weight_is)
