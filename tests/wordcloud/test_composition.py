@@ -44,7 +44,7 @@ def test_words_keep_from_larger_ones_by_their_size(cloud: WordCloud) -> None:
 
 def test_words_keep_from_the_edge_of_a_canvas(cloud: WordCloud) -> None:
     points = np.concatenate([outline.points for outline in cloud.layout.outlines])
-    edge = max(2, EDGE * 150)
+    edge = max(2 / 2, EDGE * 150)
     assert points.min() >= edge
     assert (points <= np.array([300, 150]) - edge).all()
     tiny = WordCloud(width=8, height=8, min_font_size=1, random_state=0).fit_words({"o": 1})

@@ -180,7 +180,7 @@ def placed(
     """
     read = _Reading(asked, words, steps, random)
     container = _with_edge(asked)
-    largest = asked.largest or _largest_size(asked, read, container)
+    largest = asked.largest or float(asked.container.height)
     rng = np.random.default_rng(random.randrange(2**31))
     found = graded_fit(
         container,
@@ -193,6 +193,7 @@ def placed(
         margin_cu=asked.margin / 2,
         patience=PATIENCE,
         lengths=[len(word) for word in words] if len(words) <= MOST_HELD else (),
+        is_first_bounded=asked.largest is not None,
     )
     if len(found.placed) == 0:
         raise ValueError(NO_ROOM)
@@ -226,11 +227,10 @@ class _Reading:
             for _ in words
         ]
 
-    def candidates(self, largest: float, count: int | None = None) -> Iterator[Candidate]:
-        """The first words, the first of an em of ``largest`` pixels at most."""
-        self.numbers = []
+    def candidates(self, largest: float) -> Iterator[Candidate]:
+        """All words, the first of an em of ``largest`` pixels at most."""
         step = largest / EM_PX
-        for number in range(len(self._words[:count])):
+        for number in range(len(self._words)):
             step *= self._steps[number]
             word = self._word(number)
             if word is None:
@@ -269,24 +269,6 @@ def _with_edge(asked: CloudSettings) -> Container:
         return container
     inner = Outline.box(left + edge, top + edge, right - edge, bottom - edge)
     return replace(container, outline=inner)
-
-
-def _largest_size(asked: CloudSettings, read: _Reading, container: Container) -> float:
-    """Size of the largest word, pixels: the harmonic mean of those of the first two alone."""
-    found = graded_fit(
-        container,
-        read.candidates(float(asked.container.height), 2),
-        2,
-        np.random.default_rng(0),
-        smallest=asked.smallest / EM_PX,
-        grid=1 / EM_PX,
-        drop=asked.step / EM_PX,
-        margin_cu=asked.margin / 2,
-    )
-    sizes = found.poses.scale * EM_PX
-    if len(sizes) == 0:
-        raise ValueError(NO_ROOM)
-    return max(float(int(len(sizes) / np.sum(1 / sizes))), asked.smallest)
 
 
 def _is_white(mask: npt.NDArray[Any]) -> npt.NDArray[np.bool_]:

@@ -11,7 +11,8 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.scene.container import Container
-from packwork.start.first_fit.graded import Graded, graded_fit, sizes_down
+from packwork.start.first_fit import _kernels
+from packwork.start.first_fit.graded import JAMMED, Graded, graded_fit, sizes_down
 from packwork.start.first_fit.grading import Candidate
 from scenes import box
 
@@ -162,3 +163,34 @@ def test_where_all_cannot_be_placed_nothing_is_held_down() -> None:
         for lengths in ([], [1.0] * 400)
     )
     assert held.poses.scale.tolist() == plain.poses.scale.tolist()
+
+
+def _unbounded(items: list[Outline]) -> FloatArray:
+    container = Container("", "", box(0, 0, 200, 100), 200.0, 100.0)
+    asked = [Candidate(one, 1.0 if k else 100.0) for k, one in enumerate(items)]
+    rng = np.random.default_rng(0)
+    found = graded_fit(container, asked, len(items), rng, is_first_bounded=False)
+    assert len(found.placed) == len(items)
+    return found.poses.scale
+
+
+def test_a_first_item_of_any_size_leaves_the_next_ones_their_places() -> None:
+    square, bar = box(-1, -1, 1, 1), box(-3, -0.5, 3, 0.5)
+    for items in ([square] * 10, [square, bar] * 5, [bar, square, bar, *[square] * 7]):
+        found = _unbounded(items)
+        assert (found[1:] >= JAMMED * found[:-1] * (1 - 1e-9)).all()
+    assert _unbounded([square])[0] > 45
+
+
+def test_a_margin_is_between_squares_of_pixels() -> None:
+    mask = np.random.default_rng(2).random((7, 9)) < 0.2
+    for reach in (0.0, 1.0, 1.5, 2.0, 2.3):
+        wide = int(np.ceil(reach)) + 1
+        near = _kernels.grown(mask, wide, reach)
+        rows, columns = np.indices(near.shape)
+        expected = np.zeros_like(near)
+        for row, column in np.argwhere(mask) + wide:
+            down, across = (np.maximum(abs(d) - 1, 0) for d in (rows - row, columns - column))
+            apart = np.hypot(down, across)
+            expected |= (apart < reach) | (apart == 0)
+        assert (near == expected).all()

@@ -172,7 +172,10 @@ def spread(mask, down, across):
 
 @kernel
 def grown(mask, wide, reach):
-    """Return a mask, ``wide`` pixels larger all round, of the pixels at most ``reach`` from one."""
+    """Return a mask, ``wide`` pixels larger all round, of the pixels nearer than ``reach`` to one.
+
+    Between the squares themselves, not their centres; those that touch are near as well.
+    """
     height, width = mask.shape
     near = np.zeros((height + 2 * wide, width + 2 * wide), np.bool_)
     for y in range(height):
@@ -184,7 +187,9 @@ def grown(mask, wide, reach):
                 continue
             for j in range(-wide, wide + 1):
                 for i in range(-wide, wide + 1):
-                    if i * i + j * j <= reach * reach:
+                    across, down = max(abs(i) - 1, 0), max(abs(j) - 1, 0)
+                    apart = across * across + down * down
+                    if apart == 0 or apart < reach * reach:
                         near[y + j + wide, x + i + wide] = True
     return near
 

@@ -32,14 +32,14 @@ PIXELS_EACH = 45
 """Pixels of the image's side for each item of a row of them. More waste less room between items and
 take longer. Tried."""
 
-LEAST_PX, MOST_PX = 600, 1_000
+LEAST_PX, MOST_PX = 800, 1_000
 """Sides of that image at least and at most. As above."""
 
 REACH = 3
 """Width of the fringe, pixels, in which taken pixels are counted. As in ``first_fit``."""
 
-CORNERS = math.sqrt(2)
-"""Pixels between the centres of two pixels beyond which the pixels themselves are apart."""
+CORNER = math.sqrt(0.5)
+"""Pixels from the centre of one to its corner."""
 
 INWARD = 0.6
 """Score, beside the touched share of 0 to 1, for lying where the container is widest, of an item
@@ -130,12 +130,12 @@ class Grading:
     ) -> None:
         side = int(np.clip(round(PIXELS_EACH * math.sqrt(count)), LEAST_PX, MOST_PX))
         image, self._px_per_cu = container_image(container, side)
-        self._reach = margin_cu * self._px_per_cu + CORNERS
+        self._reach = margin_cu * self._px_per_cu
         clearance = distance_inside(image > 1 - TOUCHED)
         self._inward = _inwards(clearance)
         self._noise = NOISE * rng.random(image.shape)
         # From a pixel's centre to its corner; the edge lies beyond the pixels that are inside.
-        self._free = clearance > self._reach - CORNERS / 2
+        self._free = clearance >= self._reach + CORNER
         self._occupancy = Occupancy(self._free, REACH)
         self._room = self._left = int(self._free.sum())
         self._first = 0.0
@@ -244,7 +244,7 @@ class Grading:
 
     def _take(self, mask: BoolArray, row: int, column: int) -> None:
         """Take pixels and those round them that are nearer than the margin."""
-        wide = math.ceil(self._reach)
+        wide = math.ceil(self._reach) + 1
         near = _kernels.grown(mask, wide, self._reach)
         self._occupancy.take(near, row - wide, column - wide)
         self._bareness.cover(mask, row, column)

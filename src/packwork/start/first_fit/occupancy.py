@@ -97,6 +97,8 @@ class Occupancy:
         """
         height = stencil.mask.shape[0]
         _kernels.find_free(self._rows, stencil.boxes, height, self._free)
+        if not self._free.any():
+            return None
         fringe = stencil.fringe
         if len(fringe) > self._most_fringe:
             fringe = fringe[:: -(-len(fringe) // self._most_fringe)]

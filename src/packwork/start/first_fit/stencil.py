@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -38,14 +39,19 @@ class Stencil:
     boxes
         ``(r, 6)`` the same as boxes, which may overlap: row, first column, height, width, and log2
         of these; large ones first, as they are the first to meet something.
-    fringe
-        ``(m, 2)`` rows and columns of the pixels round it.
+    reach
+        Width of the fringe round it, pixels.
     """
 
     mask: BoolArray
     origin: tuple[int, int]
     boxes: IntArray
-    fringe: IntArray
+    reach: int
+
+    @cached_property
+    def fringe(self) -> IntArray:
+        """``(m, 2)`` rows and columns of the pixels round it; asked for where it has a place."""
+        return np.asarray(_kernels.fringe_of(self.mask, self.reach))
 
 
 def cut(outline_px: Outline, reach: int, margin_px: float = 0.0) -> Stencil:
@@ -102,4 +108,4 @@ def stencil_of(mask: BoolArray, origin: tuple[int, int], reach: int) -> Stencil:
     """Stencil of pixels; ``reach`` is the width of its fringe."""
     boxes = _kernels.boxes_of(mask, TALLEST)
     boxes = boxes[np.argsort(-boxes[:, 2] * boxes[:, 3], kind="stable")]
-    return Stencil(mask, origin, boxes, _kernels.fringe_of(mask, reach))
+    return Stencil(mask, origin, boxes, reach)
