@@ -79,6 +79,8 @@ def batch(
     output: str | Path | Sequence[str | Path] = (),
     *,
     workers: int | None = 1,
+    scheduler: str | None = None,
+    in_place: bool = False,
     anew: bool = False,
     allow_code: bool = False,
     stop: Stop = never,
@@ -102,6 +104,11 @@ def batch(
     workers
         Processes; None for one a core. With more than one a script has to call this under ``if
         __name__ == "__main__":``, as for all of Python's processes.
+    scheduler
+        Address of the scheduler of a running cluster of Dask, as ``"tcp://10.0.0.1:8786"``, whose
+        workers make the rows; needs ``packwork[cluster]``.
+    in_place
+        Whether those see the same files, and write the outputs themselves.
     anew
         Make what is made already, too.
     allow_code
@@ -151,4 +158,6 @@ def batch(
         )
     )
     now = standing(plan, anew=anew)
-    return Batch(tuple(carried_out(plan, now, workers, stop=stop)))
+    return Batch(
+        tuple(carried_out(plan, now, workers, stop=stop, scheduler=scheduler, in_place=in_place))
+    )

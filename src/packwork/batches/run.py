@@ -64,6 +64,8 @@ def carried_out(
     workers: int | None = None,
     told: Told = lambda _: None,
     stop: Stop = never,
+    scheduler: str | None = None,
+    in_place: bool = False,
 ) -> list[Outcome]:
     """Outcomes of all rows, in their order; of those that were stopped too.
 
@@ -73,9 +75,20 @@ def carried_out(
         Processes; None for one a core.
     told
         Hears of each outcome as it comes.
+    scheduler
+        Address of that of a cluster, whose workers make all; None for processes of this machine.
+    in_place
+        Whether those see the same files, and write the outputs themselves.
     """
     found: list[Outcome] = [*plan.bad, *now.kept]
-    for task, made in results(now.to_do, make, worker_count(workers, len(now.to_do)), stop):
+    made_by: Iterable[tuple[Task, Outcome | Exception]]
+    if scheduler is None or not now.to_do:
+        made_by = results(now.to_do, make, worker_count(workers, len(now.to_do)), stop)
+    else:
+        from packwork.batches.cluster import clustered
+
+        made_by = clustered(now.to_do, scheduler, in_place=in_place, stop=stop)
+    for task, made in made_by:
         outcome = failed(task.row, task.name, made) if isinstance(made, Exception) else made
         found.append(outcome)
         told(outcome)

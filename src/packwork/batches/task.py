@@ -14,7 +14,7 @@ from typing import Any, Literal, TypeAlias
 from packwork import pipeline, threads, uses, writers
 from packwork.batches.record import inputs_of, key_of, record_path, relative
 from packwork.errors import PackworkError
-from packwork.inputs import check_no_input, noting_inputs
+from packwork.inputs import check_no_input, note_input, noting_inputs
 from packwork.progress import NOBODY, Stop, never
 from packwork.recipe import make_recipe
 from packwork.writers.options import DrawingOptions
@@ -91,8 +91,36 @@ def failed(row: int, name: str, why: object) -> Outcome:
     return Outcome(row=row, name=name, status="failed", said=" ".join(str(why).split())[:500])
 
 
+@dataclass(frozen=True, kw_only=True)
+class Drawn:
+    """What a row came to, before it is written; plain values, so that it comes from any machine.
+
+    Parameters
+    ----------
+    files
+        Bytes of the outputs.
+    told
+        What the record says of the run.
+    read
+        Names of the files that were read.
+    notices
+        What was told on the way.
+    """
+
+    files: tuple[bytes, ...]
+    told: Mapping[str, Any]
+    read: tuple[str, ...]
+    notices: tuple[str, ...] = ()
+
+
 def make(task: Task, stop: Stop = never) -> Outcome:
     """Run a row and write its files, all or none."""
+    found = draw(task, stop)
+    return write(task, found) if isinstance(found, Drawn) else found
+
+
+def draw(task: Task, stop: Stop = never) -> Drawn | Outcome:
+    """Run a row and draw its files; what became of it where there is nothing to draw."""
     began = time.perf_counter()
     try:
         with noting_inputs() as noted, hearing() as heard, threads.using(1):
@@ -100,26 +128,38 @@ def make(task: Task, stop: Stop = never) -> Outcome:
             if stop():
                 return Outcome(row=task.row, name=task.name, status="stopped")
             options = writers.write_options(**task.drawing)
-            drawn = [(path, writers.encoded(run.layout, path, options)) for path in task.outputs]
-            for path in task.outputs:
-                check_no_input(path)
-            read = list(dict.fromkeys(noted.values()))
-        seconds = time.perf_counter() - began
-        told = _record(task, run, drawn, read, seconds)
-        writers.write_all([*drawn, (record_path(task.outputs), writers.json_bytes(told))])
+            files = tuple(writers.encoded(run.layout, path, options) for path in task.outputs)
+            read = tuple(dict.fromkeys(noted.values()))
+        told = _told(task, run, time.perf_counter() - began)
     except PackworkError as error:
         return failed(task.row, task.name, error)
     except MemoryError:
         return failed(task.row, task.name, "there is not enough memory for this row")
+    return Drawn(files=files, told=told, read=read, notices=tuple(dict.fromkeys(heard)))
+
+
+def write(task: Task, found: Drawn) -> Outcome:
+    """Write the files of a row and its record, all or none."""
+    try:
+        with noting_inputs():
+            for name in found.read:
+                note_input(name)
+            for path in task.outputs:
+                check_no_input(path)
+        drawn = list(zip(task.outputs, found.files, strict=True))
+        told = dict(found.told) | _digests(task, drawn, found.read)
+        writers.write_all([*drawn, (record_path(task.outputs), writers.json_bytes(told))])
+    except PackworkError as error:
+        return failed(task.row, task.name, error)
     return Outcome(
         row=task.row,
         name=task.name,
         status=told["status"],
         outputs=task.outputs,
         metrics=told["metrics"],
-        seconds=seconds,
+        seconds=told["seconds"],
         said=told["said"],
-        notices=tuple(dict.fromkeys(heard)),
+        notices=found.notices,
     )
 
 
@@ -155,14 +195,8 @@ class _Ear(logging.Handler):
         self._heard.append(record.getMessage())
 
 
-def _record(
-    task: Task,
-    run: pipeline.Run,
-    drawn: Sequence[tuple[Path, bytes]],
-    read: Sequence[str],
-    seconds: float,
-) -> dict[str, Any]:
-    """What is kept beside the files."""
+def _told(task: Task, run: pipeline.Run, seconds: float) -> dict[str, Any]:
+    """What is kept of a run."""
     report = run.report()
     lacks = [f"{one['item']} is not placed: {one['reason']}" for one in report["unplaced"]]
     lacks += [*report["broken"], *report["skipped"]]
@@ -178,6 +212,14 @@ def _record(
         "metrics": {**report["metrics"], "items": report["placed"], "seed": report["seed"]},
         "seconds": round(seconds, 3),
         "recipe": make_recipe(**task.options).plain(),
+    }
+
+
+def _digests(
+    task: Task, drawn: Sequence[tuple[Path, bytes]], read: Sequence[str]
+) -> dict[str, Any]:
+    """Digests of all that a row read and wrote."""
+    return {
         "inputs": inputs_of(task.options, read),
         "outputs": {
             name: hashlib.sha256(data).hexdigest()

@@ -64,6 +64,22 @@ def batch(
         int | None,
         typer.Option("--workers", help="Processes at once; one a core unless given.", min=1),
     ] = None,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Scheduler of a running cluster of Dask, as tcp://10.0.0.1:8786, whose workers "
+            "make the rows; needs packwork[cluster].",
+        ),
+    ] = None,
+    in_place: Annotated[
+        bool,
+        typer.Option(
+            "--in-place",
+            help="Workers of the cluster see the same files, and write the outputs themselves.",
+        ),
+    ] = False,
     dry_run: Annotated[
         bool, typer.Option("--dry-run", help="Say what would be made, and make nothing.")
     ] = False,
@@ -145,7 +161,10 @@ def batch(
         if dry_run:
             _say_what_would_be(plan, now, quiet)
             raise typer.Exit(SHORTFALL if plan.bad else 0)
-        raise typer.Exit(_carried_out(plan, now, workers, beside, quiet))
+        if in_place and scheduler is None:
+            raise RecipeError("in_place", "is of --scheduler; say which, as tcp://10.0.0.1:8786")
+        by = {"workers": workers, "scheduler": scheduler, "in_place": in_place}
+        raise typer.Exit(_carried_out(plan, now, by, beside, quiet))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -252,7 +271,7 @@ def _spoken(seconds: float) -> str:
 
 
 def _carried_out(
-    plan: Plan, now: Standing, workers: int | None, beside: Beside, quiet: bool
+    plan: Plan, now: Standing, by: Mapping[str, Any], beside: Beside, quiet: bool
 ) -> int:
     """Make what is to be made, and tell of it; the exit code."""
     from packwork import threads
@@ -260,18 +279,21 @@ def _carried_out(
     from packwork.cli.running import compile_kernels
     from packwork.display.bar import TerminalBar
 
-    if now.to_do:
+    if now.to_do and by["scheduler"] is None:
         with threads.using(1):
             compile_kernels(TerminalBar(None, quiet))
     bar, interrupt = TerminalBar(None, quiet), Interrupt()
     with interrupt.listening():
         with bar.showing():
             teller = _Teller(bar, max(len(now.to_do), 1))
-            found = carried_out(plan, now, workers, teller, interrupt)
+            found = carried_out(plan, now, told=teller, stop=interrupt, **by)
         interrupt.is_over = True
         written = beside.write(found)
     _say_what_came(found, written, quiet)
     if any(one.status == "stopped" for one in found):
+        if by["scheduler"] is not None and not interrupt.pressed:
+            say(f"{by['scheduler']} is lost; the same command goes on with the rest")
+            return SHORTFALL
         say("stopped by Ctrl-C; the same command goes on with the rest")
         return INTERRUPTED
     return 0 if all(one.is_well for one in found) else SHORTFALL

@@ -9,6 +9,7 @@ from pathlib import Path
 
 from packwork.errors import PackworkError, ReadError
 from packwork.inputs import note_input
+from packwork.mirror import here_of
 from packwork.shelf import MEMORY, shelved
 
 
@@ -44,9 +45,10 @@ def _read_file(path: str | Path, most: int) -> bytes:
             path, "was in the memory of the program that wrote this recipe; give a file"
         )
     with _telling(path):
+        here = here_of(path)
         _check_file(path, most)
-        note_input(path)
-        with Path(path).open("rb") as file:
+        note_input(here, str(path))
+        with here.open("rb") as file:
             return file.read(most + 1)
 
 
@@ -83,7 +85,7 @@ def read_lines(path: str | Path, most: int, longest: int) -> Iterator[str]:
 def _check_file(path: str | Path, most: int) -> None:
     """Refuse what is no file of at most ``most`` bytes."""
     # Opening a pipe waits for its writer, and a device never ends.
-    status = Path(path).stat()
+    status = here_of(path).stat()
     mode = status.st_mode
     if not (stat.S_ISREG(mode) or stat.S_ISDIR(mode)):
         raise ReadError(path, "is a pipe or a device; give a file on disk")
@@ -140,7 +142,7 @@ def exists(path: str | Path) -> bool:
     if shelved(str(path)) is not None:
         return True
     try:
-        return Path(path).exists()
+        return here_of(path).exists()
     except (OSError, ValueError):
         return False
 
@@ -154,7 +156,7 @@ def is_folder(path: str | Path) -> bool:
     (True, False)
     """
     try:
-        return Path(path).is_dir()
+        return here_of(path).is_dir()
     except (OSError, ValueError):
         return False
 

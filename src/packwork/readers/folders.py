@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import glob
 import logging
 from collections.abc import Collection, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.mirror import here_of, names_like
 from packwork.phrasing import enumerated
 
 LOOK_LIKE_PICTURES = frozenset(
@@ -116,14 +116,15 @@ def listed(folder: Path, endings: Collection[str]) -> Listing:
         If the folder cannot be opened.
     """
     try:
-        return _sorted_out(folder.iterdir(), endings)
+        here = here_of(folder)
+        return _sorted_out((folder / each.name for each in here.iterdir()), endings)
     except OSError as error:
         raise ReadError(folder, f"cannot be opened: {error.strerror}") from None
 
 
 def matched(pattern: str, endings: Collection[str]) -> Listing:
     """Files that a pattern names."""
-    return _sorted_out(map(Path, glob.glob(pattern)), endings)  # noqa: PTH207
+    return _sorted_out(map(Path, names_like(pattern)), endings)
 
 
 def _sorted_out(paths: Iterable[Path], endings: Collection[str]) -> Listing:
@@ -133,7 +134,7 @@ def _sorted_out(paths: Iterable[Path], endings: Collection[str]) -> Listing:
         ending = path.suffix.lower()
         if path.name.startswith("."):
             continue
-        if ending in endings and path.is_file():
+        if ending in endings and here_of(path).is_file():
             files.append(str(path))
         elif path.is_symlink() and not path.exists():
             unread.append(ReadError(path, "a link to nothing"))

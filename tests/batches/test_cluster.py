@@ -1,0 +1,250 @@
+"""A cluster makes the same bytes as one process, whatever becomes of its workers."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import packwork as pw
+from packwork.batches.cluster import parcel_of
+from packwork.batches.plan import Plan, Template, Wanted, planned
+from packwork.batches.run import carried_out, standing
+from packwork.batches.task import Outcome
+from packwork.errors import PackworkError
+from packwork.mirror import mirrored, names_like, place_in
+from packwork.readers.files import exists, is_folder, read_bytes
+
+SVG = '<svg viewBox="0 0 9 9"><path d="M0 0h9v{}z"/></svg>'
+POSTER = {
+    "container": "{shape}", "items": ["star", "{art}", "drawn/"], "count": "{n}", "epochs": 20,
+    "levels": "50", "effort": "draft",
+}  # fmt: skip
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    (tmp_path / "drawn").mkdir()
+    for k in range(2):
+        (tmp_path / "drawn" / f"{k}.svg").write_text(SVG.format(5 + k))
+    (tmp_path / "own.svg").write_text(SVG.format(9))
+    return tmp_path
+
+
+def plan_of(home: Path, out: str, count: int = 6) -> Plan:
+    shapes = ["heart", "circle", "text:Z"]
+    rows: list[dict[str, Any]] = [
+        {"name": f"row{k}", "shape": shapes[k % 3], "art": "own.svg", "n": 4 + k}
+        for k in range(count)
+    ]
+    wanted = Wanted(
+        templates=[Template("poster", POSTER, home)],
+        rows=rows,
+        columns=tuple(rows[0]),
+        outputs=[f"{home / out}/{{name}}.svg", f"{home / out}/{{name}}.geojson"],
+        drawing={},
+    )
+    return planned(wanted)
+
+
+def contents(folder: Path) -> dict[str, bytes]:
+    """Files of rows; of records what does not tell the time."""
+    found = {}
+    for path in sorted(folder.iterdir()):
+        data = path.read_bytes()
+        if path.suffix in {".json", ".geojson"}:
+            told = json.loads(data)
+            told.pop("seconds", None)
+            told.get("manifest", {}).pop("seconds", None)
+            if path.suffix == ".json":
+                told["outputs"], told["key"] = sorted(told["outputs"]), ""
+            for level in told.get("manifest", {}).get("levels", []):
+                level.pop("seconds", None)
+            data = json.dumps(told, sort_keys=True).encode()
+        found[path.name] = data
+    return found
+
+
+def statuses(outcomes: Any) -> list[str]:
+    return [one.status for one in outcomes]
+
+
+class Cluster:
+    """A scheduler and workers, each a process started by hand."""
+
+    def __init__(self, folder: Path, workers: int = 2) -> None:
+        self.folder, self._file = folder, folder / "scheduler.json"
+        where = ("--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(self._file))
+        self.scheduler = self._start("dask_scheduler", *where, "--no-dashboard")
+        self._wait_for(self._file)
+        self.address = json.loads(self._file.read_text())["address"]
+        self.workers = [self.add_worker() for _ in range(workers)]
+
+    def add_worker(self) -> subprocess.Popen[bytes]:
+        own = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1")
+        place = ("--local-directory", str(self.folder / "spill"))
+        return self._start("dask_worker", self.address, *own, *place)
+
+    def _start(self, module: str, *arguments: str) -> subprocess.Popen[bytes]:
+        line = [sys.executable, "-m", f"distributed.cli.{module}", *arguments]
+        quiet = subprocess.DEVNULL
+        # The folder of the recipes is none of theirs.
+        once = {**os.environ, "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1"}
+        return subprocess.Popen(line, stdout=quiet, stderr=quiet, cwd=self.folder, env=once)
+
+    def _wait_for(self, file: Path) -> None:
+        for _ in range(600):
+            if file.exists() and file.stat().st_size:
+                return
+            time.sleep(0.1)
+        raise AssertionError("the scheduler did not start")
+
+    def close(self) -> None:
+        for process in (*self.workers, self.scheduler):
+            if process.poll() is None:
+                process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+    pytest.importorskip("distributed", reason="the extra packwork[cluster] is not installed")
+    one = Cluster(tmp_path_factory.mktemp("cluster"))
+    try:
+        yield one
+    finally:
+        one.close()
+
+
+def test_workers_far_away_make_the_same_bytes_from_what_they_are_sent(
+    home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(home)
+    plan = plan_of(Path(), "alone")
+    assert statuses(carried_out(plan, standing(plan), 1)) == ["made"] * 6
+    plan = plan_of(Path(), "far")
+    found = carried_out(plan, standing(plan), scheduler=cluster.address)
+    assert statuses(found) == ["made"] * 6
+    assert contents(Path("far")) == contents(Path("alone"))
+    again = plan_of(Path(), "far")
+    assert len(standing(again).kept) == 6
+
+
+def test_a_worker_that_is_killed_costs_no_row(home: Path, cluster: Cluster) -> None:
+    plan, heard = plan_of(home, "far"), list[Outcome]()
+
+    def kill_one(outcome: Outcome) -> None:
+        if not heard:
+            cluster.workers[0].kill()
+            cluster.workers.append(cluster.add_worker())
+        heard.append(outcome)
+
+    found = carried_out(plan, standing(plan), told=kill_one, scheduler=cluster.address)
+    assert statuses(found) == ["made"] * 6
+
+
+def test_a_row_that_ends_its_workers_fails_alone(
+    home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    code = "import os\n\n\ndef die(*_):\n    os._exit(9)\n"
+    for folder in (home, cluster.folder):
+        (folder / "deadly.py").write_text(code)
+    monkeypatch.syspath_prepend(str(home))
+    poster = {"container": "heart", "items": ["star"], "count": 3, "losses": {"{loss}": 1}}
+    rows = [
+        {"name": "a", "loss": "overlap"},
+        {"name": "b", "loss": "deadly:die"},
+        {"name": "c", "loss": "overlap"},
+    ]
+    cluster.workers.append(cluster.add_worker())
+    made = pw.batch(poster, rows, home / "{name}.svg", scheduler=cluster.address, allow_code=True)
+    assert made.outcomes[1].status == "failed"
+    assert "its workers were ended" in made.outcomes[1].said
+    assert {made.outcomes[k].status for k in (0, 2)} <= {"made", "short"}
+
+
+def test_a_scheduler_that_is_lost_ends_with_what_was_made(
+    home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("packwork.batches.cluster.LOST_SECONDS", 1.0)
+    plan, heard = plan_of(home, "far"), list[Outcome]()
+
+    def kill(outcome: Outcome) -> None:
+        if not heard:
+            cluster.scheduler.kill()
+        heard.append(outcome)
+
+    found = carried_out(plan, standing(plan), told=kill, scheduler=cluster.address)
+    assert "made" in statuses(found)
+    assert "stopped" in statuses(found)
+    assert set(statuses(found)) == {"made", "stopped"}
+    assert not list((home / "far").glob(".packwork-*"))
+    rest = carried_out(plan, standing(plan), 1)
+    assert set(statuses(rest)) == {"made", "kept"}
+
+
+def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(home: Path, cluster: Cluster) -> None:
+    rows = [
+        {"name": "a", "shape": "heart", "art": str(home / "own.svg"), "n": 4},
+        {"name": "b", "shape": "none.svg", "art": "leaf", "n": 4},
+    ]
+    poster = {**POSTER, "items": ["star", "{art}"]}
+    for in_place in (False, True):
+        made = pw.batch(
+            poster, rows, home / f"{in_place}-{{name}}.svg", scheduler=cluster.address,
+            in_place=in_place,
+        )  # fmt: skip
+        assert statuses(made) == ["made", "failed"]
+        assert "none.svg: there is no such file" in made.failed[0].said
+    files = [(home / f"{in_place}-a.svg").read_bytes() for in_place in (False, True)]
+    assert files[0] == files[1]
+
+
+def test_a_local_cluster_serves_too(home: Path) -> None:
+    distributed = pytest.importorskip("distributed", reason="packwork[cluster] is not installed")
+    local = distributed.LocalCluster(
+        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50
+    )
+    with local:
+        plan = plan_of(home, "local", 3)
+        found = carried_out(plan, standing(plan), scheduler=local.scheduler_address)
+    assert statuses(found) == ["made"] * 3
+
+
+def test_without_a_scheduler_or_dask_it_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+    row = [{"a": 1}]
+    poster = {"container": "heart", "items": ["star"], "count": 2}
+    monkeypatch.setitem(sys.modules, "distributed", None)
+    with pytest.raises(PackworkError, match=r"needs distributed.*packwork\[cluster\]"):
+        pw.batch(poster, row, "{a}.svg", scheduler="tcp://127.0.0.1:1")
+    monkeypatch.undo()
+    pytest.importorskip("distributed")
+    monkeypatch.setattr("packwork.batches.cluster.CONNECT_SECONDS", 0.5)
+    with pytest.raises(PackworkError, match=r"no scheduler at tcp://127\.0\.0\.1:1") as caught:
+        pw.batch(poster, row, "{a}.svg", scheduler="tcp://127.0.0.1:1")
+    assert "\n" not in str(caught.value)
+
+
+def test_a_parcel_holds_what_is_read_and_a_mirror_calls_it_so(home: Path, tmp_path: Path) -> None:
+    parcel = parcel_of(plan_of(home, "x", 1).tasks[0])
+    assert sorted(Path(name).name for name in parcel.files) == ["0.svg", "1.svg", "own.svg"]
+    mirror = tmp_path / "mirror"
+    for name, content in parcel.files.items():
+        place_in(mirror, name).parent.mkdir(parents=True, exist_ok=True)
+        place_in(mirror, name).write_bytes(content)
+    (home / "own.svg").unlink()
+    name = str(home / "own.svg")
+    assert not exists(name)
+    with mirrored(mirror):
+        assert exists(name)
+        assert is_folder(home / "drawn")
+        assert read_bytes(name, 1_000) == SVG.format(9).encode()
+        names = [str(home / "drawn" / f"{k}.svg") for k in (0, 1)]
+        assert sorted(names_like(str(home / "drawn" / "*.svg"))) == names
