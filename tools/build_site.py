@@ -24,6 +24,7 @@ PAGES = {
         "words",
         "words-pairs",
         "photos",
+        "mosaics",
         "charts",
         "films",
         "forces",

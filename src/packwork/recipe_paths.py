@@ -37,6 +37,7 @@ _WORD = re.compile(r'"[^"]*"|\S+')
 _IN_TABLES: Mapping[str, tuple[str, ...]] = {
     "": (
         "container", "weights", "start", "font", "items", "keep_clear", "filler", "force",
+        "picture",
     ),
     "words": ("source", "stopwords", "color_by", "fonts"),
     "chart": ("data", "mark"),

@@ -187,6 +187,18 @@ class _FillWordsPhotos(TypedDict, total=False):
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
+    picture: str | None
+    """A picture that the layout shows from afar: items take on its colours (--tint), photos come to
+    lie where theirs fit best. It covers the container's box."""
+
+    tint: float | str | None
+    """How far items take on the colours of --picture, as 0.3 or 30%; 0 leaves theirs, and puts each
+    where they fit best. Default: 0 of photos, 100% of all else."""
+
+    ground: str | None
+    """Colour of the gaps, which the colours of --picture make up for. Default: that of
+    --background, else the one that shows the picture best, which then is the background."""
+
     target_coverage: float | str | None
     """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round
     by round, until it is reached or nothing more fits."""

@@ -200,7 +200,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     """
     START_UP.end()
     outputs.check()
-    recipe = with_room(recipe, outputs.kiss)
+    recipe = on_background(with_room(recipe, outputs.kiss), outputs.options)
     console = Paper(quiet=quiet, highlight=False)
     with NOTICES.joining():
         job = uses.read(recipe)
@@ -263,6 +263,14 @@ def _print_results(
         say(f"{error}; all files are written")
 
 
+def on_background(recipe: Recipe, options: writers.WriteOptions) -> Recipe:
+    """The recipe, the colours of whose picture make up for the background that is asked for."""
+    background = options.png.background
+    if recipe.picture is None or recipe.ground is not None or options.takes_ground:
+        return recipe
+    return recipe.model_copy(update={"ground": background or "#ffffff"})
+
+
 def compile_kernels(bar: TerminalBar) -> None:
     """Compile what no earlier run has, with a bar that counts."""
 
@@ -281,9 +289,8 @@ def _filmed(
     if not outputs.films:
         return []
     options, was_pressed = outputs.options, interrupt.pressed
-    film = writers.Film(
-        run.layout, outputs.filming, options.png.background or "none", options.svg.show_container
-    )
+    background = options.on_ground(run.layout).png.background or "none"
+    film = writers.Film(run.layout, outputs.filming, background, options.svg.show_container)
 
     def encoded(path: Path) -> bytes:
         def tell(share: float) -> None:

@@ -243,6 +243,7 @@ def _options(
         relieving=not is_settled,
         refining=needs_no_levels(job) or start.is_refined or start.is_clean,
         staying=plan.stays or start.is_refined,
+        exchanging=len(job.seated) == 0,
         seed=plan.seed,
     )
 

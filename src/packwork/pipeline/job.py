@@ -21,8 +21,9 @@ from packwork.pipeline.plan.regions import Region
 from packwork.pipeline.use import Use
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
-from packwork.scene.item import Item
+from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout
+from packwork.scene.target import TargetPicture
 from packwork.solve.stand_ins import stand_ins
 
 
@@ -73,6 +74,8 @@ class Job:
         What may be put into the voids that are left, one of each sort.
     earlier
         The layout to start from, if any.
+    target
+        The picture that the layout shows from afar, if any.
     is_counted
         Whether the number of items was found by the run.
     skipped
@@ -91,6 +94,7 @@ class Job:
     regions: tuple[Region, ...] = ()
     fillers: tuple[Item, ...] = ()
     earlier: Layout | None = None
+    target: TargetPicture | None = None
     is_counted: bool = False
     skipped: tuple[PackworkError, ...] = ()
     clock: Clock = field(default_factory=Clock)
@@ -115,6 +119,23 @@ class Job:
             If a force names no item, or a length has no meaning.
         """
         return forces_of(self.plan.forces, self.items, self.weights, self.container)
+
+    @property
+    def tints(self) -> FloatArray:
+        """``(n,)`` how far each item takes on the colours of the picture, 0..1."""
+        asked = self.plan.tint
+        usual = [0.0 if isinstance(item.art, PhotoArt) else 1.0 for item in self.items]
+        tints = np.array(usual) if asked is None else np.full(len(self.items), asked)
+        tints[[("color" in one.values) for one in self.asked]] = 0.0
+        return tints
+
+    @property
+    def seated(self) -> IntArray:
+        """Items that change places until their colours show the picture; none without one."""
+        if self.target is None:
+            return np.arange(0)
+        is_free = np.array([not one.voices for one in self.asked], dtype=bool)
+        return np.flatnonzero(is_free & (self.tints < 1))
 
     @property
     def solid_outlines(self) -> list[Outline]:

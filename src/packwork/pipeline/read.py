@@ -28,6 +28,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.scene.target import TargetPicture
 from packwork.shelf import shelved
 
 AUTO = "auto"
@@ -140,12 +141,28 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         regions=read_regions(chosen.asked, container),
         fillers=fillers.items,
         earlier=_earlier(recipe, container, chosen.items),
+        target=_target(recipe, container),
         is_counted=recipe.count == AUTO,
         skipped=(*material.skipped, *fillers.skipped),
         clock=clock,
     )
     job.check_forces()
     return job
+
+
+def _target(recipe: Recipe, container: Container) -> TargetPicture | None:
+    """The picture that the layout is to show."""
+    if recipe.picture is None:
+        for key in ("tint", "ground"):
+            if getattr(recipe, key) is not None:
+                raise RecipeError(key, "is of --picture; say which picture is shown")
+        return None
+    if recipe.chart is not None:
+        raise RecipeError("picture", "has no meaning in a chart, whose colours say something")
+    # Only what is asked for loads the picture library.
+    from packwork.readers.pictures.target import read_target
+
+    return read_target(recipe.picture, container)
 
 
 def _earlier(recipe: Recipe, container: Container, items: tuple[Item, ...]) -> Layout | None:

@@ -14,6 +14,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.levels import run_levels
 from packwork.pipeline.placed import Placed
 from packwork.pipeline.result import Run
+from packwork.pipeline.seating import seated
 from packwork.pipeline.watch import BEFORE_VOIDS, Onward, Watch
 from packwork.progress import NOBODY, Observer, Stop, never
 
@@ -60,7 +61,7 @@ def along(job: Job, watch: Watch) -> Placed:
         for turn, one in attempt.starts():
             begun = begin(one, turn.stop)
             solved.append(run_levels(begun, turn))
-        best = most_promising(solved, watch.stop)
+        best = seated(most_promising(solved, watch.stop))
         attempts.take(finish_exactly(best, attempt.finishing, may_fail=attempt.is_spare))
     tell_of_small(attempts.placed.exact)
     return fill_gaps(attempts.placed, watch.part(BEFORE_VOIDS, 1.0, "gaps"))

@@ -22,6 +22,7 @@ from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
 from packwork.recipe.levels import checked_levels
+from packwork.recipe.mosaic import Shown
 from packwork.recipe.pictures import Pictured, known_palette
 from packwork.recipe.piles import Moving
 from packwork.recipe.reading import Interpreted
@@ -88,7 +89,7 @@ _ADDED = Offer(
 )  # fmt: skip
 
 
-class Recipe(Pictured, Moving, TableFormat, Interpreted):
+class Recipe(Shown, Pictured, Moving, TableFormat, Interpreted):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.EVERY)

@@ -8,6 +8,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.scene.colour import css_colour
+from packwork.scene.light import channels_of, light_of
 
 # Ottosson 2020, "A perceptual color space for image processing" (Oklab).
 _TO_CONES = np.array(
@@ -24,7 +25,8 @@ _TO_LAB = np.array(
         [0.0259040371, 0.7827717662, -0.8086757660],
     ]
 )
-_LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+"""Of red, green and blue light (ITU-R BT.709)."""
 _STEPS = 40
 _LIGHTS = 101
 
@@ -89,8 +91,8 @@ def luminances(rgb: FloatArray) -> FloatArray:
     >>> luminances(np.array([[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]])).round(6).tolist()
     [1.0, 0.0]
     """
-    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    return np.asarray(linear @ _LUMINANCE)
+    linear = light_of(rgb)
+    return np.asarray(linear @ LUMINANCE)
 
 
 def readable(colour: str, background: str, least: float) -> str:
@@ -154,8 +156,12 @@ def oklabs(rgb: FloatArray) -> FloatArray:
     >>> oklabs(np.array([[1.0, 0.0, 0.0]])).round(3).tolist() == [oklab("red").round(3).tolist()]
     True
     """
-    linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
-    return np.asarray(np.cbrt(linear @ _TO_CONES.T) @ _TO_LAB.T)
+    return oklabs_of_light(light_of(rgb))
+
+
+def oklabs_of_light(light: FloatArray) -> FloatArray:
+    """The same of light, ``(n, 3)``, 0..1."""
+    return np.asarray(np.cbrt(light @ _TO_CONES.T) @ _TO_LAB.T)
 
 
 def shade(colour: str, light: float) -> FloatArray:
@@ -171,17 +177,16 @@ def shade(colour: str, light: float) -> FloatArray:
     """
     lab = oklab(colour)
     paler = (1.0 - light) / (1.0 - lab[0]) if light > lab[0] else np.sqrt(light / max(lab[0], 1e-9))
-    return _shown(_at(np.array([lab[0], *(paler * lab[1:])]), light))
+    return channels_of(_at(np.array([lab[0], *(paler * lab[1:])]), light))
 
 
 def _linear(colour: str) -> FloatArray:
     """Red, green and blue as light."""
-    channels = np.array(css_colour(colour)[:3]) / 255
-    return np.where(channels <= 0.04045, channels / 12.92, ((channels + 0.055) / 1.055) ** 2.4)
+    return light_of(np.array(css_colour(colour)[:3]) / 255)
 
 
 def _luminance(linear: FloatArray) -> float:
-    return float(_LUMINANCE @ linear)
+    return float(LUMINANCE @ linear)
 
 
 def _rgb(lab: FloatArray) -> FloatArray:
@@ -198,10 +203,4 @@ def _at(lab: FloatArray, light: float) -> FloatArray:
 
 
 def _hex(linear: FloatArray) -> str:
-    return "#{:02x}{:02x}{:02x}".format(*(round(float(255 * c)) for c in _shown(linear)))
-
-
-def _shown(linear: FloatArray) -> FloatArray:
-    """Channels as screens have them, of light."""
-    held = np.clip(linear, 0.0, 1.0)
-    return np.where(held <= 0.0031308, 12.92 * held, 1.055 * held ** (1 / 2.4) - 0.055)
+    return "#{:02x}{:02x}{:02x}".format(*(round(float(255 * c)) for c in channels_of(linear)))

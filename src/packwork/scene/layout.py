@@ -42,6 +42,9 @@ class Layout:
         How the items came here; None if that was not recorded.
     leaving
         Items of the layout before that this one has no more, for the same film; None if none.
+    ground
+        Colour on which it is to be seen: its background where no other is asked for; empty if
+        any will do.
     """
 
     container: Container
@@ -52,6 +55,7 @@ class Layout:
     notes: tuple[Note, ...] = ()
     track: Track | None = None
     leaving: Leaving | None = None
+    ground: str = ""
 
     def __post_init__(self) -> None:
         if not len(self.items) == len(self.poses) == len(self.weights):

@@ -5,14 +5,18 @@ from __future__ import annotations
 import io
 import re
 from collections import Counter
+from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from PIL import Image, UnidentifiedImageError
 
+from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
 from packwork.scene.colour import ABSENT, css_colour, hex_colour
 from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
+from packwork.scene.light import light_of
 from packwork.scene.notation import attributes, matrix_text
 
 NEUTRAL = "#808080"
@@ -56,6 +60,44 @@ def representative_colour(item: Item) -> str:
     return _mean_shown(art.png) or NEUTRAL
 
 
+def mean_light(item: Item) -> FloatArray:
+    """Mean of what shows, as light ``(3,)``: the colour of an item that is seen from afar.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> ink = Outline.from_rings([[[-1, -1], [2, -1], [-1, 2]]])
+    >>> mean_light(Item("tri", "", ink, ink, FlatArt("white"))).tolist()
+    [1.0, 1.0, 1.0]
+    """
+    shown = shown_light(item)
+    if shown is None:
+        return light_of(np.array(css_colour(representative_colour(item))[:3]) / 255)
+    return np.asarray(np.average(shown[0], axis=0, weights=shown[1]))
+
+
+def mean_lights(items: Sequence[Item]) -> FloatArray:
+    """``(n, 3)`` :func:`mean_light` of items, once of each drawing."""
+    known: dict[int, FloatArray] = {}
+    for item in items:
+        if id(item.art) not in known:
+            known[id(item.art)] = mean_light(item)
+    return np.array([known[id(item.art)] for item in items])
+
+
+def shown_light(item: Item) -> tuple[FloatArray, FloatArray] | None:
+    """Light ``(n, 3)`` of the pixels of a small copy, and how solid each is ``(n,)``.
+
+    None where nothing shows, or it is dear to render.
+    """
+    art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
+    png = small_png(replace(item, art=art))
+    pixels = None if png is None else _small_pixels(png)
+    if pixels is None or pixels[:, 3].sum() == 0:
+        return None
+    return light_of(pixels[:, :3] / 255), pixels[:, 3]
+
+
 def small_png(item: Item) -> bytes | None:
     """Small picture of a drawing, or its own of a picture; None of what is dear to render."""
     if isinstance(item.art, VectorArt):
@@ -96,14 +138,21 @@ def _most_named(markup: str) -> str:
     return NEUTRAL
 
 
-def _mean_shown(png: bytes) -> str | None:
+def _small_pixels(png: bytes) -> FloatArray | None:
+    """``(n, 4)`` channels, 0..255, of a small copy of a picture; None of what is broken."""
     try:
         with Image.open(io.BytesIO(png)) as picture:
             picture.thumbnail((_SAMPLE_PX, _SAMPLE_PX), reducing_gap=1.0)
             small = picture.convert("RGBA")
     except (OSError, ValueError, UnidentifiedImageError, Image.DecompressionBombError):
         return None
-    pixels = np.asarray(small, dtype=np.float64).reshape(-1, 4)
+    return np.asarray(small, dtype=np.float64).reshape(-1, 4)
+
+
+def _mean_shown(png: bytes) -> str | None:
+    pixels = _small_pixels(png)
+    if pixels is None:
+        return None
     colours, weights = pixels[:, :3], pixels[:, 3]
     if weights.sum() == 0:
         return None

@@ -46,6 +46,8 @@ class WriteOptions:
         What a PDF's background reaches beyond the canvas on each side, a length.
     halo
         Which items of SVG, PNG, JPEG and PDF have a rim that makes them stand out.
+    takes_ground
+        Whether the ground of a layout is its background; False where another was asked for.
 
     Raises
     ------
@@ -64,11 +66,19 @@ class WriteOptions:
     dpi: float | None = None
     bleed: str | None = None
     halo: HaloChoice = "none"
+    takes_ground: bool = True
 
     def __post_init__(self) -> None:
         check_side(self.png_side_px)
         if self.dpi is not None and not 1 <= self.dpi <= MOST_DPI:
             raise RecipeError("dpi", f"use 1 to {MOST_DPI}, not {self.dpi:g}")
+
+    def on_ground(self, layout: Layout) -> WriteOptions:
+        """The same on the ground that a layout is to be seen on, if no background was asked for."""
+        if not layout.ground or not self.takes_ground:
+            return self
+        svg = replace(self.svg, background=layout.ground)
+        return replace(self, svg=svg, png=replace(self.png, background=layout.ground))
 
     def side_px(self, layout: Layout) -> int:
         """Longer side of a PNG or JPEG of a layout."""
@@ -238,7 +248,7 @@ def encoded(layout: Layout, path: str | Path, options: WriteOptions | None = Non
     b'PNG'
     """
     encoder = _encoder(path)
-    return encoder(layout, options or WriteOptions())
+    return encoder(layout, (options or WriteOptions()).on_ground(layout))
 
 
 def _encoder(path: str | Path) -> Encoder:
@@ -292,4 +302,5 @@ def write_options(**options: Any) -> WriteOptions:
         dpi=asked.dpi,
         bleed=None if bleed is None else str(bleed),
         halo=asked.halo,
+        takes_ground=background is None,
     )

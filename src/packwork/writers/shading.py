@@ -15,11 +15,12 @@ from PIL import Image, UnidentifiedImageError
 
 from packwork.arrays import FloatArray
 from packwork.scene.colour import ABSENT, css_colour, hex_colour
-from packwork.scene.contrast import oklab, oklabs, shade
+from packwork.scene.contrast import LUMINANCE, oklab, oklabs, shade
 from packwork.scene.item import Art, Item, PictureArt, VectorArt
+from packwork.scene.light import channels_of, light_of
 from packwork.scene.notation import with_fresh_ids
 from packwork.scene.recolour import has_one_colour, recoloured, tree_of
-from packwork.scene.swatch import representative_colour
+from packwork.scene.swatch import representative_colour, shown_light
 
 PAINTS = ("fill", "stroke", "color", "stop-color", "flood-color", "lighting-color")
 """Attributes that hold colours."""
@@ -34,6 +35,10 @@ MOST_APART = 8
 NEUTRAL, DARK, LIGHT = 0.045, 0.35, 0.9
 """Chroma below which a colour is grey, and the lightnesses (Oklab) below and above which grey is
 left as it is: outlines, eyes and highlights, not a grey elephant. Chosen by eye."""
+
+CONTRASTS, DIM, OFF = (0.55, 0.4, 0.25, 0.12, 0.0), 0.03, 0.012
+"""Powers of luminance that are tried for the light and shade of a drawing of one mean colour, light
+that is added to all, and how far the mean may be off, as channels on screens. Chosen by eye."""
 
 _HREFS = ("{http://www.w3.org/1999/xlink}href", "href")
 _PNG = "data:image/png;base64,"
@@ -97,6 +102,39 @@ def in_palette(item: Item, palette: Sequence[str]) -> Item:
         return np.where(stays[:, None], rgb, targets[away.argmin(axis=1)])
 
     return _repainted(item, repaint, palette[0])
+
+
+def averaging(item: Item, colour: str) -> Item:
+    """Item in lighter and darker colours of one, which is their mean as it is seen from afar.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.swatch import mean_light
+    >>> ink = Outline.from_rings([[[0, 0], [9, 0], [9, 9], [0, 9]]])
+    >>> markup = '<path fill="#c00" d="M0 0h9v9H0z"/><path fill="#fff" d="M0 0h3v9H0z"/>'
+    >>> item = averaging(Item("tile", "", ink, ink, VectorArt(markup, np.eye(2, 3))), "#406080")
+    >>> 'fill="#557da6"' in item.art.markup, mean_light(item).round(2).tolist()
+    (True, [0.05, 0.12, 0.22])
+    """
+    shown = None if has_one_colour(item.art) else shown_light(item)
+    if shown is None:
+        return recoloured(item, colour)
+    bright, weights = shown[0] @ LUMINANCE, shown[1]
+    aim = light_of(np.array(css_colour(colour)[:3]) / 255)
+    # As much light and shade as leaves the mean where it is to be.
+    for contrast in CONTRASTS:
+        gain = (bright + DIM) ** contrast
+        factor = 1 / np.average(gain, weights=weights)
+        mean = np.average(np.minimum(aim * (factor * gain)[:, None], 1.0), axis=0, weights=weights)
+        if np.abs(channels_of(mean) - channels_of(aim)).max() <= OFF:
+            break
+
+    def repaint(rgb: FloatArray) -> FloatArray:
+        gain = factor * (light_of(rgb) @ LUMINANCE + DIM) ** contrast
+        return channels_of(aim * gain[:, None])
+
+    return _repainted(item, repaint, colour)
 
 
 def _repainted(item: Item, repaint: Repaint, colour: str) -> Item:

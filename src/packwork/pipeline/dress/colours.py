@@ -9,6 +9,7 @@ import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.pipeline.dress.legible import legible
+from packwork.pipeline.dress.likeness import in_picture
 from packwork.pipeline.dress.neighbours import beside
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.asked import Asked
@@ -26,7 +27,7 @@ _Arts: TypeAlias = dict[tuple[int, int, str, bool], Art]
 
 def dressed(job: Job, layout: Layout) -> Layout:
     """Layout whose items look and are called as was asked, and can be told from what is behind."""
-    return legible(job, _as_asked(job, layout))
+    return legible(job, in_picture(job, _as_asked(job, layout)))
 
 
 def _as_asked(job: Job, layout: Layout) -> Layout:

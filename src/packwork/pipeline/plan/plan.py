@@ -35,6 +35,10 @@ THIN = 0.19
 thin. Larger lets sizes of words give way in fat shapes. Chosen: logos of lines and maps have 0.04
 to 0.19; there 100 words in proportion draw on 5 to 24 %, words that give way on 26 to 49 %."""
 
+SHOWING_RATIO = 1.5
+"""Largest usual ``size_ratio`` of a layout that shows a picture. Larger shows less of it where
+items are large, smaller fills less. Chosen by eye."""
+
 Losses = Mapping[str | ImageLossFunction, float]
 
 
@@ -127,6 +131,8 @@ class Plan:
         How voids are filled, if they are.
     palette, shades
         Colours that items take on, none to keep their own; what drawings of several do.
+    tint
+        How far items take on the colours of a picture; None for as usual.
     has_even_lines, holes
         Whether lines of line drawings come out alike, and what becomes of holes in items.
     seed
@@ -170,6 +176,7 @@ class Plan:
     voids: VoidPlan
     palette: tuple[str, ...]
     shades: Shades
+    tint: float | None
     has_even_lines: bool
     holes: Holes
     seed: int
@@ -186,7 +193,7 @@ class Plan:
         plan = cls(
             gap=recipe.padding_cu(container),
             sizes=found_sizes(recipe, container),
-            size_ratio=recipe.size_ratio,
+            size_ratio=_size_ratio(recipe),
             stretch=recipe.stretch,
             rotation=recipe.rotation,
             has_own_turns=any(rule.rotate for rule in recipe.rules),
@@ -210,6 +217,7 @@ class Plan:
             voids=void_plan(recipe, container),
             palette=() if recipe.palette is None else tuple(palette_colours(recipe.palette)),
             shades=recipe.shades,
+            tint=recipe.tint,
             has_even_lines=recipe.stroke_width == "even",
             holes=recipe.holes,
             seed=recipe.seed,
@@ -327,3 +335,9 @@ def void_plan(recipe: Recipe, container: Container) -> VoidPlan:
     return VoidPlan(
         recipe.target_coverage, recipe.max_items, recipe.smallest_cu(container), bool(recipe.filler)
     )
+
+
+def _size_ratio(recipe: Recipe) -> float:
+    """How far free sizes go: less where a picture is to be shown, unless it was asked."""
+    is_asked = "size_ratio" in recipe.model_fields_set or recipe.picture is None
+    return recipe.size_ratio if is_asked else min(recipe.size_ratio, SHOWING_RATIO)

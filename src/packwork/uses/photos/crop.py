@@ -96,6 +96,7 @@ def crops(recipe: Recipe) -> bool:
         "words are read whole; use --edge inside": recipe.words is not None,
         "needs --finish exact: the cut is certified": recipe.finish != "exact",
         "enlarges photos at the edge; use --sizes free": recipe.sizes != "free",
+        "has no --picture; use --edge inside": recipe.picture is not None,
         "cannot go on from an earlier layout; leave out --start FILE": (
             recipe.layout_file is not None
         ),

@@ -1,0 +1,179 @@
+"""Colours with which items show a picture from afar, and the ground that suits it.
+
+Seen from afar, items and the gaps between them blend as light. So what is solved for is the
+light of each item, within what can be printed, at which the layout, averaged over squares about as
+large as an item, is nearest to the picture, averaged likewise: projected gradient steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray
+from packwork.pipeline.job import Job
+from packwork.raster.coverage import coverage
+from packwork.scene.colour import css_colour, hex_colour
+from packwork.scene.contrast import between, oklabs_of_light, readable
+from packwork.scene.item import Item, PhotoArt
+from packwork.scene.layout import Layout
+from packwork.scene.light import channels_of, light_of
+from packwork.scene.swatch import mean_lights
+from packwork.scene.target import TargetPicture, blurred
+from packwork.scene.tinted import tinted_photo
+from packwork.writers.shading import averaging
+
+STEPS, STEP = 24, 1.2
+"""Steps towards the colours, and how far each goes over what is missing at an item. More change
+nothing that is seen; longer ones swing. Tried."""
+
+SQUARE = 0.6
+"""Side of the squares over that of an item's share of the canvas. Larger lets neighbours make up
+for each other further, smaller shows less of what lies between items. Tried."""
+
+GREYS = 6
+"""Greys that are tried as ground, beside colours of the picture. Chosen."""
+
+SHADES = 5
+"""Colours of the picture along each channel that are tried. Chosen."""
+
+READ = 1.6
+"""Least contrast of a word with the ground, as WCAG counts it. Larger lets dark parts of a picture
+fade, smaller hides words. Chosen by eye."""
+
+FINENESS = 4
+"""Steps of 255 between colours that are given: finer ones are not told apart. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Window:
+    """Share of each pixel that an item covers, in the rows and columns that it reaches."""
+
+    rows: slice
+    columns: slice
+    shares: FloatArray
+
+    def mean(self, image: FloatArray) -> FloatArray:
+        """``(3,)`` mean of an image under the item."""
+        seen = image[self.rows, self.columns]
+        return np.asarray(np.tensordot(self.shares, seen, 2) / max(self.shares.sum(), 1e-9))
+
+
+def in_picture(job: Job, layout: Layout) -> Layout:
+    """Layout whose items have the colours that show the job's picture, on the ground that suits it.
+
+    The layout itself where no picture is asked for.
+    """
+    target = job.target
+    if target is None or not layout.items:
+        return layout
+    tints = job.tints
+    windows = _windows(layout, target)
+    ground = job.recipe.ground or best_ground(target, _covered(windows, target))
+    own = mean_lights(layout.items)
+    wanted = _wanted(target, windows, own, tints, light_of(_channels(ground)))
+    items = [
+        _tinted(item, _hex(colour), share, light, ground)
+        for item, colour, share, light in zip(layout.items, wanted, tints, own, strict=True)
+    ]
+    return replace(layout, items=tuple(items), ground=ground)
+
+
+def best_ground(target: TargetPicture, covered: float) -> str:
+    """Colour of the gaps with which items of any colours show a picture best.
+
+    Parameters
+    ----------
+    covered
+        Share that the items cover.
+
+    Examples
+    --------
+    >>> dark = np.zeros((20, 20, 3)); dark[:10, :10] = 0.05
+    >>> best_ground(TargetPicture(dark, 1.0), 0.8)
+    '#000000'
+    """
+    seen = blurred(target.light, 1.0, 1_000).reshape(-1, 3)
+    greys = np.repeat(np.linspace(0, 1, GREYS)[:, None], 3, axis=1)
+    own = np.quantile(channels_of(seen), np.linspace(0, 1, SHADES), axis=0)
+    grounds = np.vstack([greys, own, channels_of(seen.mean(axis=0))[None]])
+    labs = oklabs_of_light(seen)
+
+    def missed(ground: FloatArray) -> float:
+        floor = (1 - covered) * light_of(ground)
+        shown = np.clip(seen, floor, floor + covered)
+        return float(np.linalg.norm(oklabs_of_light(shown) - labs, axis=1).mean())
+
+    return _hex(light_of(min(grounds, key=missed)))
+
+
+def _windows(layout: Layout, target: TargetPicture) -> list[_Window]:
+    found = []
+    shape = np.array(target.light.shape[1::-1])
+    for ink in layout.inks:
+        points = ink.points * target.px_per_cu
+        first = np.clip(np.floor(points.min(axis=0)), 0, shape - 1).astype(int)
+        last = np.clip(np.ceil(points.max(axis=0)), first + 1, shape).astype(int)
+        (left, top), (right, bottom) = first, last
+        size = (int(bottom - top), int(right - left))
+        shares = coverage(points - first, ink.starts, size, np.float64)
+        found.append(_Window(slice(top, bottom), slice(left, right), np.clip(shares, 0, 1)))
+    return found
+
+
+def _covered(windows: Sequence[_Window], target: TargetPicture) -> float:
+    """Share of what lies about the items that they cover."""
+    image = np.zeros((*target.light.shape[:2], 1))
+    for one in windows:
+        image[one.rows, one.columns, 0] += one.shares
+    near = blurred(image, SQUARE, len(windows))[..., 0] > 0.3
+    return float(np.clip(image[near].mean(), 0.05, 1.0)) if near.any() else 0.5
+
+
+def _wanted(
+    target: TargetPicture,
+    windows: Sequence[_Window],
+    own: FloatArray,
+    tints: FloatArray,
+    ground: FloatArray,
+) -> FloatArray:
+    """``(n, 3)`` light of each item that shows the picture, if it takes on ``tints`` of it."""
+    share = np.zeros(target.light.shape[:2])
+    for one in windows:
+        share[one.rows, one.columns] += one.shares
+    gaps = (1 - np.clip(share, 0, 1))[..., None] * ground
+    # Beyond the items nothing can be shown, and nothing is missed.
+    counts = (blurred(share[..., None], SQUARE, len(windows)) > 0.05).astype(np.float64)
+    weight = np.maximum(blurred(counts, SQUARE, len(windows)), 1e-6)
+    colours = np.array([one.mean(target.light) for one in windows])
+    for _ in range(STEPS):
+        shown = gaps.copy()
+        for one, colour in zip(windows, own + tints[:, None] * (colours - own), strict=True):
+            shown[one.rows, one.columns] += one.shares[..., None] * colour
+        missed = blurred((target.light - shown) * counts, SQUARE, len(windows)) / weight
+        colours += STEP * np.array([one.mean(missed) for one in windows])
+        colours = np.clip(colours, 0.0, 1.0)
+    return colours
+
+
+def _tinted(item: Item, colour: str, share: float, own: FloatArray, ground: str) -> Item:
+    """Item that has taken on a share of a colour; a word as much of it as can still be read."""
+    if share == 0:
+        return item
+    if isinstance(item.art, PhotoArt):
+        return tinted_photo(item, colour, share)
+    mixed = between((_hex(own), colour), share) if share < 1 else colour
+    if item.text is not None:
+        mixed = readable(mixed, ground, READ)
+    return averaging(item, mixed)
+
+
+def _channels(colour: str) -> FloatArray:
+    return np.array(css_colour(colour)[:3]) / 255
+
+
+def _hex(light: FloatArray) -> str:
+    steps = np.rint(channels_of(light) * 255 / FINENESS) * FINENESS
+    return hex_colour(tuple(np.minimum(steps, 255).astype(int).tolist()))

@@ -1,0 +1,158 @@
+"""Layouts that show a picture: colours, ground, places, refusals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import packwork as pw
+from packwork.errors import ReadError, RecipeError
+from packwork.pipeline.dress.likeness import best_ground
+from packwork.readers.builtin import builtin_container
+from packwork.readers.pictures.target import read_target
+from packwork.scene.light import channels_of
+from packwork.scene.swatch import mean_lights
+from packwork.scene.target import TargetPicture
+
+QUICK = {"levels": "50", "epochs": 20, "effort": "draft", "seed": 0}
+
+
+@pytest.fixture
+def halves(tmp_path: Path) -> str:
+    """A picture, red on its left and blue on its right."""
+    pixels = np.zeros((40, 60, 3), dtype=np.uint8)
+    pixels[:, :30], pixels[:, 30:] = (200, 30, 30), (30, 30, 200)
+    Image.fromarray(pixels).save(tmp_path / "halves.png")
+    return str(tmp_path / "halves.png")
+
+
+@pytest.fixture
+def tiles(tmp_path: Path) -> str:
+    """A folder of photographs, half of them red and half of them blue."""
+    (tmp_path / "tiles").mkdir()
+    for k in range(12):
+        colour = (190, 40, 40) if k % 2 else (40, 40, 190)
+        Image.new("RGB", (30, 30), colour).save(tmp_path / "tiles" / f"tile-{k}.png")
+    return str(tmp_path / "tiles")
+
+
+def _sides(layout: pw.Layout) -> tuple[np.ndarray, np.ndarray]:
+    """Red less blue, as channels, of items on the left and on the right."""
+    colours = channels_of(mean_lights(layout.items))
+    leaning = colours[:, 0] - colours[:, 2]
+    middle = layout.container.width / 2
+    off = np.abs(layout.poses.x - middle) > 0.1 * layout.container.width
+    return leaning[off & (layout.poses.x < middle)], leaning[off & (layout.poses.x > middle)]
+
+
+def test_items_take_on_the_colours_of_the_picture(halves: str) -> None:
+    layout = pw.fill("square", ["star", "owl"], count=24, picture=halves, **QUICK)
+    left, right = _sides(layout)
+    assert left.min() > 0.3
+    assert right.max() < -0.3
+    assert layout.ground
+
+
+def test_icons_lie_as_they_do_without_a_picture(halves: str) -> None:
+    plain = pw.fill("circle", "star", count=9, size_ratio=1.5, **QUICK)
+    shown = pw.fill("circle", "star", count=9, picture=halves, **QUICK)
+    assert np.array_equal(plain.poses.x, shown.poses.x)
+    assert np.array_equal(plain.poses.scale, shown.poses.scale)
+
+
+def test_gaps_are_made_up_for(halves: str) -> None:
+    """On white items are darker than on black, so that both blend to the same."""
+    white, black = (
+        pw.fill("square", "star", count=16, picture=halves, ground=ground, **QUICK)
+        for ground in ("white", "black")
+    )
+    assert mean_lights(white.items).sum() < mean_lights(black.items).sum() - 1
+
+
+def test_photos_keep_their_colours_and_find_their_places(halves: str, tiles: str) -> None:
+    layout = pw.photos("square", tiles, picture=halves, **QUICK)
+    left, right = _sides(layout)
+    assert left.min() > 0
+    assert right.max() < 0
+    assert layout.manifest["certified"]
+
+
+def test_a_tint_moves_the_colours_of_photos(halves: str, tiles: str) -> None:
+    plain, tinted = (
+        pw.photos("square", tiles, picture=halves, tint=tint, **QUICK) for tint in (0, "50%")
+    )
+    assert np.ptp(mean_lights(plain.items)[:, 1]) < 1e-6
+    assert not np.array_equal(mean_lights(plain.items), mean_lights(tinted.items))
+
+
+def test_an_item_with_a_colour_of_its_own_keeps_it(halves: str) -> None:
+    rules = [{"items": "star", "color": "#00ff00"}]
+    layout = pw.fill("square", ["star", "moon"], count=8, picture=halves, rules=rules, **QUICK)
+    colours = {item.name: light for item, light in zip(
+        layout.items, mean_lights(layout.items), strict=True)}  # fmt: skip
+    assert colours["star"] == pytest.approx([0, 1, 0], abs=0.02)
+
+
+def test_words_can_be_read_on_the_ground(tmp_path: Path) -> None:
+    Image.fromarray(np.tile(np.arange(0, 64, dtype=np.uint8), (64, 1))).save(tmp_path / "dark.png")
+    picture = str(tmp_path / "dark.png")
+    layout = pw.words("square", "one two three four", picture=picture, effort="draft")
+    from packwork.scene.contrast import contrast
+    from packwork.scene.swatch import representative_colour
+
+    for item in layout.items:
+        assert contrast(representative_colour(item), layout.ground) > 1.5
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"tint": 0.5}, "tint: is of --picture"),
+        ({"ground": "white"}, "ground: is of --picture"),
+        ({"picture": "", "tint": 0.5}, "picture: is an empty name"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(options: dict[str, object], said: str) -> None:
+    with pytest.raises(RecipeError, match=said):
+        pw.fill("circle", "star", count=2, **options, **QUICK)
+
+
+def test_a_picture_of_one_colour_is_refused(tmp_path: Path) -> None:
+    Image.new("RGB", (9, 9), "teal").save(tmp_path / "plain.png")
+    with pytest.raises(ReadError, match="has one colour only"):
+        pw.fill("circle", "star", count=2, picture=str(tmp_path / "plain.png"), **QUICK)
+
+
+def test_a_missing_picture_is_one_line() -> None:
+    with pytest.raises(ReadError, match=r"missing\.png"):
+        pw.fill("circle", "star", count=2, picture="missing.png", **QUICK)
+
+
+def test_the_picture_covers_the_container(halves: str) -> None:
+    target = read_target(halves, builtin_container("square"))
+    rows, columns = target.light.shape[:2]
+    left = target.light[rows // 2, columns // 4]
+    right = target.light[rows // 2, 3 * columns // 4]
+    assert left[0] > 0.5 > left[2]
+    assert right[2] > 0.5 > right[0]
+
+
+def test_a_pale_picture_asks_for_a_pale_ground() -> None:
+    light = np.full((20, 20, 3), 0.9)
+    light[:10] = 0.8
+    assert best_ground(TargetPicture(light, 1.0), 0.8) > "#aaaaaa"
+
+
+def test_a_background_that_is_asked_for_is_the_ground(tmp_path: Path, halves: str) -> None:
+    from packwork.cli import app
+
+    out = tmp_path / "out.svg"
+    line = ["fill", "square", "star", "-n", "4", "--picture", halves, "--background", "ivory",
+            "--levels", "50", "--epochs", "9", "-q", "-o", str(out)]  # fmt: skip
+    with pytest.raises(SystemExit) as ended:
+        app(line)
+    assert ended.value.code == 0
+    assert 'id="background"' in out.read_text()
