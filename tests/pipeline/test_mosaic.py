@@ -13,9 +13,11 @@ from packwork.errors import ReadError, RecipeError
 from packwork.pipeline.dress.likeness import best_ground
 from packwork.readers.builtin import builtin_container
 from packwork.readers.pictures.target import read_target
+from packwork.recipe import make_recipe
 from packwork.scene.light import channels_of
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture
+from packwork.uses import read
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft", "seed": 0}
 
@@ -156,3 +158,12 @@ def test_a_background_that_is_asked_for_is_the_ground(tmp_path: Path, halves: st
         app(line)
     assert ended.value.code == 0
     assert 'id="background"' in out.read_text()
+
+
+def test_a_chart_and_a_picture_behind_are_refused(halves: str, tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("name,value\na,1\nb,2\n", encoding="utf-8")
+    chart = {"container": "square", "chart": {"data": str(tmp_path / "a.csv")}}
+    with pytest.raises(RecipeError, match="no meaning in a chart"):
+        read(make_recipe(**chart, picture=halves))
+    with pytest.raises(RecipeError, match="no meaning round a picture"):
+        read(make_recipe(container=f"around:{halves}", items=["star"], picture=halves))

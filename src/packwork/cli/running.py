@@ -341,7 +341,7 @@ def _hard_to_see(run: pipeline.Run, outputs: Outputs) -> list[str]:
     """What is said of items that are like the background, if any are drawn on one."""
     options = outputs.options
     is_drawn = any(path.suffix.lower() in DRAWN for path in outputs.files)
-    if options.halo != "none" or not is_drawn:
+    if options.halo != "none" or not is_drawn or run.layout.ground:
         return []
     told = writers.faint_told(run.layout, options.svg.background)
     return [told] if told else []

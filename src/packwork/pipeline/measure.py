@@ -175,7 +175,8 @@ def measured(found: Unmeasured) -> Run:
     said |= {"filling": plain(found.filling), "words": plain(words)}
     if found.pile:
         said["pile"] = dict(found.pile)
-    worn = dressed(job, layout)
+    with clock.time("measure"):
+        worn = dressed(job, layout)
     whole = replace(worn, manifest=said, notes=job.use.notes(job, layout, worn))
     return Run(
         layout=with_track(whole, found.recorder, found.numbers[seen.kept], found.asked_for),

@@ -159,6 +159,8 @@ def _target(recipe: Recipe, container: Container) -> TargetPicture | None:
         return None
     if recipe.chart is not None:
         raise RecipeError("picture", "has no meaning in a chart, whose colours say something")
+    if container.backdrop is not None:
+        raise RecipeError("picture", "has no meaning round a picture, which is seen behind all")
     # Only what is asked for loads the picture library.
     from packwork.readers.pictures.target import read_target
 

@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import TypeAlias
 
 import numpy as np
 from PIL import Image, UnidentifiedImageError
@@ -21,6 +22,9 @@ from packwork.scene.notation import attributes, matrix_text
 
 NEUTRAL = "#808080"
 """Stands for arts whose colour cannot be told cheaply."""
+
+ShownLight: TypeAlias = tuple[FloatArray, FloatArray]
+"""Light ``(n, 3)`` of pixels of a small copy, and how solid each is ``(n,)``."""
 
 _PAINT = re.compile(r"""(?:\bfill|\bstop-color)\s*[=:]\s*["']?\s*([^"';}<>]{1,40})""")
 _SAMPLE_PX = 64
@@ -85,7 +89,7 @@ def mean_lights(items: Sequence[Item]) -> FloatArray:
     return np.array([known[id(item.art)] for item in items])
 
 
-def shown_light(item: Item) -> tuple[FloatArray, FloatArray] | None:
+def shown_light(item: Item) -> ShownLight | None:
     """Light ``(n, 3)`` of the pixels of a small copy, and how solid each is ``(n,)``.
 
     None where nothing shows, or it is dear to render.

@@ -20,7 +20,7 @@ from packwork.scene.item import Art, Item, PictureArt, VectorArt
 from packwork.scene.light import channels_of, light_of
 from packwork.scene.notation import with_fresh_ids
 from packwork.scene.recolour import has_one_colour, recoloured, tree_of
-from packwork.scene.swatch import representative_colour, shown_light
+from packwork.scene.swatch import ShownLight, representative_colour
 
 PAINTS = ("fill", "stroke", "color", "stop-color", "flood-color", "lighting-color")
 """Attributes that hold colours."""
@@ -104,21 +104,26 @@ def in_palette(item: Item, palette: Sequence[str]) -> Item:
     return _repainted(item, repaint, palette[0])
 
 
-def averaging(item: Item, colour: str) -> Item:
+def averaging(item: Item, colour: str, shown: ShownLight | None) -> Item:
     """Item in lighter and darker colours of one, which is their mean as it is seen from afar.
+
+    Parameters
+    ----------
+    shown
+        What :func:`packwork.scene.swatch.shown_light` says of it.
 
     Examples
     --------
     >>> from packwork.geometry.outline import Outline
-    >>> from packwork.scene.swatch import mean_light
+    >>> from packwork.scene.swatch import mean_light, shown_light
     >>> ink = Outline.from_rings([[[0, 0], [9, 0], [9, 9], [0, 9]]])
     >>> markup = '<path fill="#c00" d="M0 0h9v9H0z"/><path fill="#fff" d="M0 0h3v9H0z"/>'
-    >>> item = averaging(Item("tile", "", ink, ink, VectorArt(markup, np.eye(2, 3))), "#406080")
+    >>> tile = Item("tile", "", ink, ink, VectorArt(markup, np.eye(2, 3)))
+    >>> item = averaging(tile, "#406080", shown_light(tile))
     >>> 'fill="#557da6"' in item.art.markup, mean_light(item).round(2).tolist()
     (True, [0.05, 0.12, 0.22])
     """
-    shown = None if has_one_colour(item.art) else shown_light(item)
-    if shown is None:
+    if shown is None or has_one_colour(item.art):
         return recoloured(item, colour)
     bright, weights = shown[0] @ LUMINANCE, shown[1]
     aim = light_of(np.array(css_colour(colour)[:3]) / 255)

@@ -20,7 +20,7 @@ from packwork.scene.contrast import between, oklabs_of_light, readable
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout
 from packwork.scene.light import channels_of, light_of
-from packwork.scene.swatch import mean_lights
+from packwork.scene.swatch import ShownLight, mean_lights, shown_light
 from packwork.scene.target import TargetPicture, blurred
 from packwork.scene.tinted import tinted_photo
 from packwork.writers.shading import averaging
@@ -35,6 +35,10 @@ for each other further, smaller shows less of what lies between items. Tried."""
 
 GREYS = 6
 """Greys that are tried as ground, beside colours of the picture. Chosen."""
+
+SPARSE = 4
+"""Rows and columns of pixels of which one is looked at for the ground. Larger is quicker and sees
+less. Chosen."""
 
 SHADES = 5
 """Colours of the picture along each channel that are tried. Chosen."""
@@ -58,7 +62,8 @@ class _Window:
     def mean(self, image: FloatArray) -> FloatArray:
         """``(3,)`` mean of an image under the item."""
         seen = image[self.rows, self.columns]
-        return np.asarray(np.tensordot(self.shares, seen, 2) / max(self.shares.sum(), 1e-9))
+        whole = max(float(self.shares.sum()), 1e-9)
+        return np.asarray(self.shares.ravel() @ seen.reshape(-1, seen.shape[2]) / whole)
 
 
 def in_picture(job: Job, layout: Layout) -> Layout:
@@ -74,8 +79,9 @@ def in_picture(job: Job, layout: Layout) -> Layout:
     ground = job.recipe.ground or best_ground(target, _covered(windows, target))
     own = mean_lights(layout.items)
     wanted = _wanted(target, windows, own, tints, light_of(_channels(ground)))
+    shown = _Shown()
     items = [
-        _tinted(item, _hex(colour), share, light, ground)
+        _tinted(item, _hex(colour), share, light, ground, shown)
         for item, colour, share, light in zip(layout.items, wanted, tints, own, strict=True)
     ]
     return replace(layout, items=tuple(items), ground=ground)
@@ -95,7 +101,7 @@ def best_ground(target: TargetPicture, covered: float) -> str:
     >>> best_ground(TargetPicture(dark, 1.0), 0.8)
     '#000000'
     """
-    seen = blurred(target.light, 1.0, 1_000).reshape(-1, 3)
+    seen = blurred(target.light, 1.0, 1_000)[::SPARSE, ::SPARSE].reshape(-1, 3)
     greys = np.repeat(np.linspace(0, 1, GREYS)[:, None], 3, axis=1)
     own = np.quantile(channels_of(seen), np.linspace(0, 1, SHADES), axis=0)
     grounds = np.vstack([greys, own, channels_of(seen.mean(axis=0))[None]])
@@ -158,7 +164,22 @@ def _wanted(
     return colours
 
 
-def _tinted(item: Item, colour: str, share: float, own: FloatArray, ground: str) -> Item:
+class _Shown:
+    """Light of what drawings show, found once of each."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, ShownLight | None] = {}
+
+    def of(self, item: Item) -> ShownLight | None:
+        """Of an item, which goes on being there."""
+        if id(item.art) not in self._known:
+            self._known[id(item.art)] = shown_light(item)
+        return self._known[id(item.art)]
+
+
+def _tinted(
+    item: Item, colour: str, share: float, own: FloatArray, ground: str, shown: _Shown
+) -> Item:
     """Item that has taken on a share of a colour; a word as much of it as can still be read."""
     if share == 0:
         return item
@@ -167,7 +188,7 @@ def _tinted(item: Item, colour: str, share: float, own: FloatArray, ground: str)
     mixed = between((_hex(own), colour), share) if share < 1 else colour
     if item.text is not None:
         mixed = readable(mixed, ground, READ)
-    return averaging(item, mixed)
+    return averaging(item, mixed, shown.of(item))
 
 
 def _channels(colour: str) -> FloatArray:
