@@ -14,7 +14,6 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 import numpy.typing as npt
 from PIL import Image
-from scipy.spatial import KDTree
 
 from packwork.raster.overlay import Picture
 from packwork.writers.film.changes import Rectangle, changed_part
@@ -93,6 +92,9 @@ def _lookup(palette: npt.NDArray[np.uint8]) -> _Indices:
     """Nearest palette entry of each colour, told apart by ``BITS`` bits of a channel."""
     levels = (np.arange(2**BITS) + 0.5) * 2 ** (8 - BITS) - 0.5
     cells = np.stack(np.meshgrid(levels, levels, levels, indexing="ij"), axis=-1).reshape(-1, 3)
+    # Takes a quarter of a second to load, and most runs write no film.
+    from scipy.spatial import KDTree
+
     nearest: _Indices = KDTree(palette.astype(np.float64)).query(cells)[1].astype(np.uint8)
     # What is in the palette is met exactly, whatever else lies in its cell.
     for k in range(len(palette) - 1, -1, -1):
