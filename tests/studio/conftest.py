@@ -138,11 +138,12 @@ def server() -> Iterator[Server]:
 
 @pytest.fixture
 def open_desk(browser: Any, server: Server) -> Iterator[Callable[..., PageDesk]]:
-    """Opens a page, by default a wide one; at the end none has met a fault."""
+    """Opens a page, by default a wide one, all one person's; at the end none has met a fault."""
     desks: list[PageDesk] = []
 
     def opened(size: dict[str, int] = WIDE, address: str = "", **more: Any) -> PageDesk:
         context = browser.new_context(viewport=size, accept_downloads=True, **more)
+        context.add_init_script("localStorage.setItem('person', 'ann')")
         desk = PageDesk(context.new_page(), address or server.address)
         desks.append(desk)
         desk.settled()

@@ -23,11 +23,15 @@ from packwork.studio.bringing import Bringer, choices
 from packwork.studio.desk import Desk
 from packwork.studio.exporting import Exporter
 from packwork.studio.guard import PROTOCOL, Guard
+from packwork.studio.seats import Seats, person_of
 from packwork.studio.tab import Tab
 from packwork.studio.uploads import MOST_BYTES, Uploads
 
 MOST_TABS = 8
 """Pages that look at one desk at most. Chosen."""
+
+TAKEN = 4409
+"""Code with which a socket is closed while another person is at the desk."""
 
 MOST_ASKED = 10_000
 """Bytes of what an export asks for. Chosen."""
@@ -48,6 +52,7 @@ class Studio:
         self._desk, self._uploads = desk, uploads
         self._bringer, self._exporter = Bringer(desk, uploads), Exporter(desk)
         self._tabs: set[Tab] = set()
+        self._seats = Seats()
 
     @property
     def routes(self) -> list[BaseRoute]:
@@ -96,6 +101,10 @@ class Studio:
             await socket.close(4429, f"{MOST_TABS} pages are open already; close one")
             return
         await socket.accept(PROTOCOL)
+        person, joins = person_of(socket.scope.get("subprotocols", ()))
+        if not self._seats.take(person, joins=joins):
+            await socket.close(TAKEN, "somebody else is at this desk")
+            return
         tab = Tab(self._desk, socket, self._bringer.acts)
         self._tabs.add(tab)
         sending = asyncio.create_task(tab.send())
@@ -105,6 +114,7 @@ class Studio:
                     await _received(socket, tab)
         finally:
             self._tabs.discard(tab)
+            self._seats.leave(person)
             sending.cancel()
             with suppress(asyncio.CancelledError, WebSocketDisconnect, RuntimeError):
                 await sending

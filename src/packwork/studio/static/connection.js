@@ -8,6 +8,8 @@
 const HEAD = 16;
 const SHORTEST_WAIT = 250;
 const LONGEST_WAIT = 4000;
+/** Code with which the studio closes a socket while another person is at the desk. */
+const TAKEN = 4409;
 
 /**
  * What is inside the bytes of a frame.
@@ -22,7 +24,7 @@ export function frameOf(data) {
 export class Connection {
   /**
    * @param {{said: (message: Said) => void, frame: (frame: Frame) => void,
-   *          changed: (isOpen: boolean) => void}} hears
+   *          changed: (isOpen: boolean) => void, taken: (isTaken: boolean) => void}} hears
    */
   constructor(hears) {
     this.hears = hears;
@@ -32,34 +34,50 @@ export class Connection {
     this.wait = SHORTEST_WAIT;
     this.timer = 0;
     this.count = 0;
+    /** Whose pages these are: all tabs of a browser's profile are one person's. */
+    this.person = localStorage.getItem("person") ?? newPerson();
+    this.isTaken = false;
     for (const event of ["online", "focus", "pageshow"]) addEventListener(event, () => this.hurry());
   }
 
   open() {
-    const socket = new WebSocket(`ws://${location.host}/socket`, ["packwork", `token.${this.token}`]);
+    const joins = sessionStorage.getItem("joins") !== null;
+    const socket = new WebSocket(`ws://${location.host}/socket`, ["packwork", `token.${this.token}`, `${joins ? "join" : "person"}.${this.person}`]);
     socket.binaryType = "arraybuffer";
-    socket.onopen = () => {
-      this.wait = SHORTEST_WAIT;
-      this.hears.changed(true);
-    };
+    socket.onopen = () => this.hears.changed(true);
     socket.onmessage = (event) => this.heard(event.data);
-    socket.onclose = () => this.lost(socket);
+    socket.onclose = (event) => this.lost(socket, event.code);
     this.socket = socket;
   }
 
   /** @param {string | ArrayBuffer} data */
   heard(data) {
+    this.wait = SHORTEST_WAIT;
+    this.take(false);
     if (typeof data === "string") this.hears.said(JSON.parse(data));
     else this.hears.frame(frameOf(data));
   }
 
-  /** @param {WebSocket} socket */
-  lost(socket) {
+  /** @param {WebSocket} socket @param {number} code */
+  lost(socket, code) {
     if (this.socket !== socket) return;
     this.socket = null;
+    if (code === TAKEN) this.take(true);
     this.hears.changed(false);
     this.timer = setTimeout(() => this.open(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
+  }
+
+  /** @param {boolean} isTaken whether another person is at the desk */
+  take(isTaken) {
+    if (isTaken !== this.isTaken) this.hears.taken(isTaken);
+    this.isTaken = isTaken;
+  }
+
+  /** Work beside whoever is at the desk, for as long as this tab lives. */
+  join() {
+    sessionStorage.setItem("joins", "yes");
+    this.hurry();
   }
 
   /** Do not wait for the next try: the machine has woken up. */
@@ -103,4 +121,11 @@ export class Connection {
     if (!answer.ok) throw new Error((await answer.text()).trim() || "the studio does not answer");
     return answer;
   }
+}
+
+/** A name for whoever has this browser; no secret. */
+function newPerson() {
+  const person = [...crypto.getRandomValues(new Uint8Array(8))].map((one) => one.toString(16).padStart(2, "0")).join("");
+  localStorage.setItem("person", person);
+  return person;
 }

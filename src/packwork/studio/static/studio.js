@@ -43,7 +43,9 @@ export class Studio {
       said: (message) => this.said(message),
       frame: (frame) => this.framed(frame),
       changed: (isOpen) => this.connected(isOpen),
+      taken: (isTaken) => (byId("taken").hidden = !isTaken),
     });
+    byId("join").addEventListener("click", () => this.connection.join());
     this.view = new View(() => this.redraw());
     this.choice = new Choice(() => this.chosen());
     this.sprites = new Sprites(() => this.redraw());

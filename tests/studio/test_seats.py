@@ -1,0 +1,53 @@
+"""Two people at one desk: the second is asked first."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from packwork.studio.seats import GRACE_SECONDS, Seats
+from studio.browsing import PHONE, Desk, Server, in_browser
+
+
+def test_a_desk_is_free_again_some_time_after_the_last_page_is_gone() -> None:
+    now = [0.0]
+    seats = Seats(lambda: now[0])
+    assert seats.take("ann")
+    assert seats.take("ann")
+    seats.leave("ann")
+    now[0] = 10 * GRACE_SECONDS
+    assert not seats.take("bob")
+    seats.leave("ann")
+    assert not seats.take("bob")
+    now[0] += GRACE_SECONDS
+    assert seats.take("bob")
+
+
+def test_pages_that_do_not_say_whose_they_are_keep_nobody_out() -> None:
+    seats = Seats()
+    assert seats.take("")
+    assert seats.take("ann")
+    assert seats.take("")
+
+
+@in_browser[0]
+@in_browser[1]
+def test_another_person_is_told_and_may_join(
+    open_desk: Callable[..., Desk], browser: Any, server: Server
+) -> None:
+    desk = open_desk()
+    context = browser.new_context(viewport=PHONE)
+    other = Desk(context.new_page(), server.address)
+    other.until("!document.getElementById('taken').hidden")
+    other.picture("taken")
+    assert other.look("studio.collage.scene === null")
+    other.page.locator("#join").click()
+    other.settled()
+    assert other.look("document.getElementById('taken').hidden")
+    other.page.reload()
+    other.settled()
+    # Whoever was there before is not kept out either.
+    desk.page.reload()
+    desk.settled()
+    assert other.faults == []
+    context.close()
