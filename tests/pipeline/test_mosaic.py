@@ -167,3 +167,10 @@ def test_a_chart_and_a_picture_behind_are_refused(halves: str, tmp_path: Path) -
         read(make_recipe(**chart, picture=halves))
     with pytest.raises(RecipeError, match="no meaning round a picture"):
         read(make_recipe(container=f"around:{halves}", items=["star"], picture=halves))
+
+
+def test_a_session_keeps_the_ground(halves: str) -> None:
+    layout = pw.fill("square", "star", count=4, picture=halves, ground="Ivory", **QUICK)
+    assert layout.ground == "#fffff0"
+    with layout.edit() as session:
+        assert session.layout.ground == layout.ground

@@ -14,7 +14,7 @@ from packwork.live.options import LiveOptions
 from packwork.pipeline.plan.forces import forces_of
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.scene.layout import Layout
+from packwork.scene.layout import Layout, ground_in
 from packwork.scene.pose import Poses
 
 Property: TypeAlias = Literal["place", "angle", "size"]
@@ -106,7 +106,10 @@ class Document:
     @property
     def layout(self) -> Layout:
         """The layout as it is now; of its manifest what does not depend on places."""
-        return Layout(self.container, self.items, self.poses, self.weights, self.manifest)
+        ground = ground_in(self.manifest)
+        return Layout(
+            self.container, self.items, self.poses, self.weights, self.manifest, ground=ground
+        )
 
     @property
     def own_areas(self) -> FloatArray:

@@ -177,6 +177,8 @@ def measured(found: Unmeasured) -> Run:
         said["pile"] = dict(found.pile)
     with clock.time("measure"):
         worn = dressed(job, layout)
+    if worn.ground:
+        said["ground"] = worn.ground
     whole = replace(worn, manifest=said, notes=job.use.notes(job, layout, worn))
     return Run(
         layout=with_track(whole, found.recorder, found.numbers[seen.kept], found.asked_for),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -18,6 +19,8 @@ from packwork.scene.leaving import Leaving
 from packwork.scene.note import Note
 from packwork.scene.pose import Poses
 from packwork.scene.track import Track
+
+_HEX = re.compile(r"#[0-9a-f]{6}")
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -82,3 +85,15 @@ class Layout:
         """Area of each item in place, squared canvas units."""
         own = np.array([item.outline.area for item in self.items])
         return np.asarray(own * self.poses.scale**2)
+
+
+def ground_in(manifest: Mapping[str, Any]) -> str:
+    """Ground that a manifest, perhaps a stranger's, names; empty if it names none.
+
+    Examples
+    --------
+    >>> ground_in({"ground": "#102030"}), ground_in({"ground": "url(x)"}), ground_in({})
+    ('#102030', '', '')
+    """
+    named = manifest.get("ground")
+    return named if isinstance(named, str) and _HEX.fullmatch(named) else ""

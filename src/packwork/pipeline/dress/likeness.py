@@ -84,7 +84,7 @@ def in_picture(job: Job, layout: Layout) -> Layout:
         _tinted(item, _hex(colour), share, light, ground, shown)
         for item, colour, share, light in zip(layout.items, wanted, tints, own, strict=True)
     ]
-    return replace(layout, items=tuple(items), ground=ground)
+    return replace(layout, items=tuple(items), ground=hex_colour(css_colour(ground)))
 
 
 def best_ground(target: TargetPicture, covered: float) -> str:

@@ -27,7 +27,7 @@ from packwork.scene.container import Container
 from packwork.scene.datum import Datum
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.label import Label
-from packwork.scene.layout import Layout
+from packwork.scene.layout import Layout, ground_in
 from packwork.scene.pose import Poses
 from packwork.units import UNITS, as_unit
 
@@ -99,7 +99,8 @@ def read_layout(path: str | Path) -> Layout:
         manifest = collection.get("manifest") or {}
         if not isinstance(manifest, dict):
             raise UnfitError("manifest: must be an object")
-        return Layout(container, items, Poses(*columns), weights, manifest)
+        poses, ground = Poses(*columns), ground_in(manifest)
+        return Layout(container, items, poses, weights, manifest, ground=ground)
 
 
 def _parsed(text: str) -> Mapping[str, Any]:
