@@ -33,8 +33,8 @@ PIXELS_EACH = 45
 take longer. Tried."""
 
 LEAST_PX, MOST_PX = 700, 1_000
-"""Sides of that image at least and at most. As above; with 800 clouds of the drop-in have 1 to 2 % more
-ink and take a tenth to a third longer."""
+"""Sides of that image at least and at most. As above; with 800 clouds of the drop-in have 1 to 2 %
+more ink and take a tenth to a third longer."""
 
 REACH = 3
 """Width of the fringe, pixels, in which taken pixels are counted. As in ``first_fit``."""
