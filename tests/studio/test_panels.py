@@ -105,3 +105,44 @@ def test_a_word_in_a_font_file_is_the_container(open_desk: Callable[..., Desk]) 
     desk.page.locator("#bar [data-do=undo]").click()
     desk.until("studio.collage.scene.name === 'circle'")
     desk.settled()
+
+
+def test_words_that_no_font_has_are_listed_on_the_badge(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    desk.page.locator("#tab-words").click()
+    desk.page.locator("textarea").fill("hello, 3\n\U00012000, 2\nworld, 2")
+    desk.page.get_by_text("Fill with words").click()
+    desk.until("studio.collage.state.unplaced.length === 1")
+    desk.settled()
+    desk.page.locator("#badge").click()
+    assert "no font installed" in desk.page.locator("#why").inner_text()
+    desk.picture("left-out")
+    desk.page.locator("#bar [data-do=undo]").click()
+    desk.until("!studio.collage.state.unplaced.length")
+    desk.settled()
+
+
+def test_a_folder_with_folders_is_dropped(open_desk: Callable[..., Desk], tmp_path: Path) -> None:
+    desk = open_desk()
+    count = desk.look("studio.collage.items.length")
+    folder = tmp_path / "drawings"
+    (folder / "more of them").mkdir(parents=True)
+    icons = (ROOT / "src/packwork/bundled/icons").glob("*.svg")
+    for name in ("one", "more of them/two"):
+        (folder / f"{name}.svg").write_bytes(next(icons).read_bytes())
+    data = {"items": [], "files": [str(folder)], "dragOperationsMask": 1}
+    session = desk.page.context.new_cdp_session(desk.page)
+    x, y = desk.place(desk.look("studio.collage.items[0].id"))
+    for kind in ("dragEnter", "dragOver"):
+        session.send("Input.dispatchDragEvent", {"type": kind, "x": x, "y": y, "data": data})
+    desk.until("!document.getElementById('drop').hidden")
+    box = desk.page.locator("#drop [data-drops=items]").bounding_box()
+    at = {"x": box["x"] + box["width"] / 2, "y": box["y"] + box["height"] / 2}
+    for kind in ("dragOver", "drop"):
+        session.send("Input.dispatchDragEvent", {"type": kind, **at, "data": data})
+    desk.until(f"studio.collage.items.length === {count + 2}")
+    names = desk.look("studio.collage.items.map(item => item.name)")
+    assert {"one", "two"} <= set(names)
+    desk.settled()
+    desk.page.locator("#bar [data-do=undo]").click()
+    desk.until(f"studio.collage.items.length === {count}")

@@ -16,6 +16,9 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from packwork.arrays import IntArray
 from packwork.errors import PackworkError
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.together import Together
@@ -27,7 +30,7 @@ from packwork.live.named import NamedSession
 from packwork.live.owner import Owner
 from packwork.scene.pose import Poses
 from packwork.studio.view import Scenes, View
-from packwork.studio.wire import Line, Scene, State, Variant
+from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
 
 Session = NamedSession
 
@@ -39,6 +42,12 @@ VARIANTS = 6
 
 MOST_UNHEARD = 8
 """Lines that wait for the first page. Chosen."""
+
+MOST_LEFT_OUT = 100
+"""Unplaced items that pages are told of at most. Chosen."""
+
+MOST_TOLD = 200
+"""Characters of their names and reasons at most. Chosen."""
 
 QUIET_SECONDS = 2.0
 """How long nothing has to move until the session's file may be written anew. Chosen."""
@@ -65,6 +74,7 @@ class Desk:
         self._moment: View | None = None
         self._busy, self._progress = "", 0.0
         self._keeper: Keeper | None = None
+        self._unplaced: tuple[IntArray, tuple[LeftOut, ...]] | None = None
         self._unheard: deque[News] = deque(maxlen=MOST_UNHEARD)
         self._tidying: asyncio.Task[None] | None = None
         self._listeners: dict[object, Callable[[News | None], object]] = {}
@@ -140,12 +150,19 @@ class Desk:
             certified=not is_moving and not in_the_way and len(view.items) > 0,
             in_the_way=in_the_way[:20],
             entangled=() if frame is None or is_moving else frame.entangled,
+            unplaced=self._left_out(view),
             can_undo=frame is not None and frame.can_undo,
             can_redo=frame is not None and frame.can_redo,
             busy=self._busy,
             progress=self._progress,
             saved=self._keeper is not None,
         )
+
+    def _left_out(self, view: View) -> tuple[LeftOut, ...]:
+        """What found no place beside items of which some are there."""
+        if self._unplaced is None or not np.isin(view.ids, self._unplaced[0]).any():
+            return ()
+        return self._unplaced[1]
 
     def work(self, what: str, job: Callable[[], object]) -> None:
         """Have something done that takes long, after all that was begun before."""
@@ -184,6 +201,7 @@ class Desk:
         def act(session: Session) -> None:
             commands = in_place(session.document, session.library, layout)
             session.apply(Together(commands=tuple(commands)))  # type: ignore[arg-type]
+            self._unplaced = (session.document.ids, _left_out(layout.manifest))
 
         self.owner.call(act).result()
 
@@ -219,6 +237,9 @@ class Desk:
             session = NamedSession(opening.document)
         else:
             return
+        if opening.file is None:
+            document = session.document
+            self._unplaced = (document.ids, _left_out(document.manifest))
         if keeper is None and opening.kept_in is not None:
             keeper = self._kept(opening.kept_in, session)
         self._keeper = keeper
@@ -333,3 +354,20 @@ def _covered(view: View) -> float:
         for item, scale in zip(view.items, view.poses.scale.tolist(), strict=True)
     )
     return min(float(areas / view.container.outline.area), 1.0)
+
+
+def _left_out(manifest: Mapping[str, Any]) -> tuple[LeftOut, ...]:
+    """What the run of a manifest could not place.
+
+    Examples
+    --------
+    >>> _left_out({"unplaced": [{"item": "bee", "index": 3, "reason": "no void is large enough"}]})
+    (LeftOut(name='bee', reason='no void is large enough'),)
+    """
+    found = manifest.get("unplaced")
+    # A layout's file may come from anywhere.
+    rows = [one for one in found if isinstance(one, Mapping)] if isinstance(found, list) else []
+    return tuple(
+        LeftOut(name=str(one.get("item"))[:MOST_TOLD], reason=str(one.get("reason"))[:MOST_TOLD])
+        for one in rows[:MOST_LEFT_OUT]
+    )

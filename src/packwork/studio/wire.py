@@ -203,6 +203,13 @@ class Scene(Message):
     options: dict[str, Any]
 
 
+class LeftOut(Message):
+    """What found no place in the last run."""
+
+    name: str
+    reason: str
+
+
 class State(Message):
     """How things stand."""
 
@@ -212,6 +219,8 @@ class State(Message):
     certified: bool
     in_the_way: tuple[str, ...]
     entangled: tuple[int, ...]
+    unplaced: tuple[LeftOut, ...]
+    """What the run that brought the items could not place."""
     can_undo: bool
     can_redo: bool
     busy: str

@@ -18,6 +18,7 @@
  * @typedef {{kind: "grab", items: number[]}} Grab
  * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
  * @typedef {{type: "leap", to: ("undo" | "redo")}} Leap
+ * @typedef {{name: string, reason: string}} LeftOut
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
  * @typedef {{type: "more", seed: number}} More
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
@@ -38,7 +39,7 @@
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, box: [number, number, number, number], fill: string, ink: string, svg: string}} Shape
  * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
- * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, saved: boolean}} State
+ * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, saved: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
