@@ -60,7 +60,7 @@ def test_items_take_on_the_colours_of_the_picture(halves: str) -> None:
 
 def test_icons_lie_as_they_do_without_a_picture(halves: str) -> None:
     plain = pw.fill("circle", "star", count=9, size_ratio=1.5, **QUICK)
-    shown = pw.fill("circle", "star", count=9, picture=halves, **QUICK)
+    shown = pw.fill("circle", "star", count=9, picture=halves, detail=0, **QUICK)
     assert np.array_equal(plain.poses.x, shown.poses.x)
     assert np.array_equal(plain.poses.scale, shown.poses.scale)
 
@@ -114,12 +114,87 @@ def test_words_can_be_read_on_the_ground(tmp_path: Path) -> None:
     [
         ({"tint": 0.5}, "tint: is of --picture"),
         ({"ground": "white"}, "ground: is of --picture"),
+        ({"detail": 0.5}, "detail: is of --picture"),
         ({"picture": "", "tint": 0.5}, "picture: is an empty name"),
     ],
 )
 def test_what_has_no_meaning_is_refused(options: dict[str, object], said: str) -> None:
     with pytest.raises(RecipeError, match=said):
         pw.fill("circle", "star", count=2, **options, **QUICK)
+
+
+@pytest.fixture
+def corner(tmp_path: Path) -> str:
+    """A picture, grey but for a chequered corner at the top left."""
+    pixels = np.full((60, 60), 128, dtype=np.uint8)
+    y, x = np.mgrid[0:24, 0:24]
+    pixels[:24, :24] = np.where((x // 4 + y // 4) % 2, 255, 0)
+    Image.fromarray(pixels).save(tmp_path / "corner.png")
+    return str(tmp_path / "corner.png")
+
+
+def test_items_are_small_where_the_picture_has_much_to_show(corner: str) -> None:
+    def smaller(detail: float) -> float:
+        """Median size in the corner over that elsewhere."""
+        layout = pw.fill("square", "star", count=60, picture=corner, detail=detail, **QUICK)
+        assert layout.manifest["certified"]
+        near = np.maximum(layout.poses.x, layout.poses.y) < 0.4 * layout.container.width
+        return float(np.median(layout.poses.scale[near]) / np.median(layout.poses.scale[~near]))
+
+    assert smaller(1.0) < 0.7 < 0.8 < smaller(0.0)
+
+
+def test_the_heaviest_come_where_there_is_least_to_show(corner: str) -> None:
+    weights = {"star": 4, "moon": 1}
+    layout = pw.fill(
+        "square", ["star", "moon"], count=30, weights=weights, picture=corner, detail=1, **QUICK
+    )
+    scales = {name: np.median([layout.poses.scale[k] for k, item in enumerate(layout.items)
+                               if item.name == name]) for name in weights}  # fmt: skip
+    assert scales["star"] > 1.3 * scales["moon"]
+
+
+def test_pinned_items_keep_their_places_among_detail(corner: str) -> None:
+    rules = [{"items": "moon", "count": 1, "pin": {"x": "50%", "y": "50%", "size": "20%"}}]
+    layout = pw.fill("square", ["star", "moon"], count=20, rules=rules, picture=corner, **QUICK)
+    moon = next(k for k, item in enumerate(layout.items) if item.name == "moon")
+    assert layout.poses.x[moon] == layout.container.width / 2
+    assert layout.manifest["certified"]
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"sizes": "shared"}, "detail: makes sizes follow the picture, and they are shared"),
+        ({"start": "scatter"}, "detail: chooses places by the picture; leave --start out"),
+        (
+            {"rules": [{"items": "star", "region": [0, 0, "50%", "100%"]}]},
+            "detail: chooses places by the picture, and a rule keeps items to a region",
+        ),
+    ],
+)
+def test_detail_is_refused_where_places_or_sizes_are_given(
+    halves: str, options: dict[str, object], said: str
+) -> None:
+    with pytest.raises(RecipeError, match=said):
+        pw.fill("square", "star", count=4, picture=halves, detail=0.5, **options, **QUICK)
+    # Where it was not asked for, the picture is shown without it.
+    assert pw.fill("square", "star", count=4, picture=halves, **options, **QUICK).ground
+
+
+def test_a_clear_picture_is_refused(tmp_path: Path) -> None:
+    Image.new("RGBA", (9, 9)).save(tmp_path / "clear.png")
+    with pytest.raises(ReadError, match="shows nothing, for it is clear"):
+        pw.fill("circle", "star", count=2, picture=str(tmp_path / "clear.png"), **QUICK)
+
+
+def test_the_ground_does_not_hide_the_items() -> None:
+    """A picture of one shade and a few dark lines is not shown on that shade."""
+    light = np.full((40, 40, 3), [0.8, 0.25, 0.01])
+    light[10:13] = 0.01
+    ground = np.array([int(best_ground(TargetPicture(light, 1.0), 0.8)[k : k + 2], 16)
+                       for k in (1, 3, 5)]) / 255  # fmt: skip
+    assert np.abs(ground - channels_of(light[0, 0])).max() > 0.15
 
 
 def test_a_picture_of_one_colour_is_refused(tmp_path: Path) -> None:
@@ -143,9 +218,10 @@ def test_the_picture_covers_the_container(halves: str) -> None:
 
 
 def test_a_pale_picture_asks_for_a_pale_ground() -> None:
+    """No dark one, on which whites could not make up for the gaps; none as pale as the items."""
     light = np.full((20, 20, 3), 0.9)
     light[:10] = 0.8
-    assert best_ground(TargetPicture(light, 1.0), 0.8) > "#aaaaaa"
+    assert "#888888" < best_ground(TargetPicture(light, 1.0), 0.8) < "#e0e0e0"
 
 
 def test_a_background_that_is_asked_for_is_the_ground(tmp_path: Path, halves: str) -> None:

@@ -48,6 +48,7 @@ BAD: dict[str, list[Any]] = {
     "quiet_share": [0, 1, "much"],
     "picture": [3, ["a.png"]],
     "tint": [-0.1, 1.1, NAN, "much"],
+    "detail": [-0.1, 1.1, NAN, "fine"],
     "ground": [3, "mauvish", "#ff000080"],
     "keep_clear": [3],
     "count": [0, -1, 2.5, "many", MAX_COUNT + 1],

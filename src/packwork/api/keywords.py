@@ -195,6 +195,10 @@ class _FillWordsPhotos(TypedDict, total=False):
     """How far items take on the colours of --picture, as 0.3 or 30%; 0 leaves theirs, and puts each
     where they fit best. Default: 0 of photos, 100% of all else."""
 
+    detail: float | str | None
+    """How far sizes follow --picture, as 0.5 or 50%: small items where it has much to show, large
+    ones where it has little. Only with --sizes free. Default: 50%, of photos 0."""
+
     ground: str | None
     """Colour of the gaps, which the colours of --picture make up for. Default: that of
     --background, else the one that shows the picture best, which then is the background."""

@@ -13,6 +13,7 @@ from packwork.forces.exchanges import exchanged
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.by_detail import DetailedPlaces, places_by_detail
 from packwork.pipeline.earlier import new_items, who_is_who
 from packwork.pipeline.first_places import (
     first_places,
@@ -139,7 +140,7 @@ class _Start:
         self._job, self._region, self._outlines = job, region, outlines
         self._forces = job.forces.buoyant(job.weights)
         self._rng = np.random.default_rng(job.plan.seed)
-        self._nominal, self._scales = _scales(job, region, outlines)
+        self._nominal, self._scales = _scales(job, region, outlines, job.weights)
 
     def anew(self, stop: Stop) -> Beginning:
         """First poses by the method asked for, or else by the one that suits."""
@@ -153,6 +154,8 @@ class _Start:
         if thread is not None:
             poses, self._nominal = thread
             return self._beginning(poses, "erosion", Limits.free(len(poses)), is_tight=True)
+        if (detailed := places_by_detail(job, self._region, self._rng)) is not None:
+            return self._by_detail(detailed, angles)
         limits, scales = self._limits(angles)
         first = first_places(
             job, self._region, outlines, scales, angles, limits, self._rng, forces, stop
@@ -163,6 +166,15 @@ class _Start:
             poses = _by_forces(outlines, poses, limits, forces)
         begun = self._beginning(poses, str(first.method), limits, is_tight=is_tight)
         return replace(begun, is_clean=is_tight and is_only_refined(job, forces))
+
+    def _by_detail(self, places: DetailedPlaces, angles: FloatArray) -> Beginning:
+        """Places and sizes that follow a picture, but for what rules ask."""
+        self._nominal, self._scales = _scales(
+            self._job, self._region, self._outlines, places.shares
+        )
+        limits, scales = self._limits(angles)
+        poses = held_to(limits, Poses(places.x, places.y, angles, scales))
+        return self._beginning(poses, "stippling", limits)
 
     def from_layout(self, earlier: Layout) -> Beginning:
         """The poses of an earlier layout, as near as what is asked now allows."""
@@ -201,9 +213,12 @@ class _Start:
 
 
 def _scales(
-    job: Job, container: Container, outlines: Sequence[Outline]
+    job: Job, container: Container, outlines: Sequence[Outline], weights: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """Nominal and first scales; the items that are free share what pinned ones leave."""
+    """Nominal and first scales by ``(n,)`` weights.
+
+    The items that are free share what pinned ones leave.
+    """
     plan = job.plan
     pinned = pinned_scales(job)
     scales, nominal = pinned.copy(), pinned.copy()
@@ -223,13 +238,13 @@ def _scales(
     seen = [outlines[k] for k in free]
     areas = np.array([outline.area for outline in seen])
     if plan.sizes == "fixed":
-        given = given_scales(job.items, job.weights, container.unit, container.side)
+        given = given_scales(job.items, weights, container.unit, container.side)
         nominal[free] = scales[free] = given[free]
     elif plan.sizes == "shared":
-        nominal[free] = scales[free] = shared_scales(true[free], areas, job.weights[free], total)
+        nominal[free] = scales[free] = shared_scales(true[free], areas, weights[free], total)
     else:
         hulls = hull_areas(seen)
-        nominal[free] = nominal_scales(hulls, job.weights[free], NOMINAL_COVERAGE * room)
+        nominal[free] = nominal_scales(hulls, weights[free], NOMINAL_COVERAGE * room)
         scales[free] = yielding_scales(areas, hulls, nominal[free], plan.size_ratio, total)
     return nominal, scales
 

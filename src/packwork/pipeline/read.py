@@ -153,7 +153,7 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
 def _target(recipe: Recipe, container: Container) -> TargetPicture | None:
     """The picture that the layout is to show."""
     if recipe.picture is None:
-        for key in ("tint", "ground"):
+        for key in ("tint", "detail", "ground"):
             if getattr(recipe, key) is not None:
                 raise RecipeError(key, "is of --picture; say which picture is shown")
         return None

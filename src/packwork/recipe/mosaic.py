@@ -28,7 +28,14 @@ class Shown(Options):
     """How far items take on the colours of --picture, as 0.3 or 30%; 0 leaves theirs, and puts each
     where they fit best. Default: 0 of photos, 100% of all else."""
 
-    ground: Annotated[str | None, Offer(metavar="COLOR", after="tint")] = None
+    detail: Annotated[
+        Annotated[float, Field(ge=0, le=1), BeforeValidator(parse_share)] | None,
+        Offer(metavar="SHARE", after="tint", takes=float | str | None),
+    ] = None
+    """How far sizes follow --picture, as 0.5 or 50%: small items where it has much to show, large
+    ones where it has little. Only with --sizes free. Default: 50%, of photos 0."""
+
+    ground: Annotated[str | None, Offer(metavar="COLOR", after="detail")] = None
     """Colour of the gaps, which the colours of --picture make up for. Default: that of
     --background, else the one that shows the picture best, which then is the background."""
 

@@ -43,6 +43,11 @@ less. Chosen."""
 SHADES = 5
 """Colours of the picture along each channel that are tried. Chosen."""
 
+NEAR, HIDDEN = 0.1, 0.12
+"""Distance in Oklab from the ground at which an item is half hidden by it, and the distance from
+the picture that is taken so that no item be hidden. Larger ones show items and the container
+better, the picture worse. Chosen by eye."""
+
 READ = 1.6
 """Least contrast of a word with the ground, as WCAG counts it. Larger lets dark parts of a picture
 fade, smaller hides words. Chosen by eye."""
@@ -88,7 +93,7 @@ def in_picture(job: Job, layout: Layout) -> Layout:
 
 
 def best_ground(target: TargetPicture, covered: float) -> str:
-    """Colour of the gaps with which items of any colours show a picture best.
+    """Colour of the gaps with which items of any colours show a picture best and are seen.
 
     Parameters
     ----------
@@ -110,7 +115,9 @@ def best_ground(target: TargetPicture, covered: float) -> str:
     def missed(ground: FloatArray) -> float:
         floor = (1 - covered) * light_of(ground)
         shown = np.clip(seen, floor, floor + covered)
-        return float(np.linalg.norm(oklabs_of_light(shown) - labs, axis=1).mean())
+        away = np.linalg.norm(oklabs_of_light(shown) - labs, axis=1)
+        near = np.linalg.norm(labs - oklabs_of_light(light_of(ground)[None]), axis=1) / NEAR
+        return float((away + HIDDEN * np.exp2(-(near**2))).mean())
 
     return _hex(light_of(min(grounds, key=missed)))
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, fields
 from enum import IntEnum
 from typing import Any, Literal, TypeAlias
 
+from packwork.errors import RecipeError
 from packwork.options import SizeMode
 from packwork.pipeline.widest import widest_cu
 from packwork.readers.regions import Holes
@@ -34,6 +35,10 @@ THIN = 0.19
 """Area of the largest disc in a container, as a share of the container's, below which it counts as
 thin. Larger lets sizes of words give way in fat shapes. Chosen: logos of lines and maps have 0.04
 to 0.19; there 100 words in proportion draw on 5 to 24 %, words that give way on 26 to 49 %."""
+
+USUAL_DETAIL = 0.5
+"""How far sizes follow a picture unless it is asked. Smaller lets eyes and lines vanish, larger
+shows soft shades by few large items. Chosen by eye; colour distances of 0 and 0.5 are equal."""
 
 SHOWING_RATIO = 1.5
 """Largest usual ``size_ratio`` of a layout that shows a picture. Larger shows less of it where
@@ -133,6 +138,8 @@ class Plan:
         Colours that items take on, none to keep their own; what drawings of several do.
     tint
         How far items take on the colours of a picture; None for as usual.
+    detail
+        How far sizes follow how much a picture has to show in their places, 0..1.
     has_even_lines, holes
         Whether lines of line drawings come out alike, and what becomes of holes in items.
     seed
@@ -177,6 +184,7 @@ class Plan:
     palette: tuple[str, ...]
     shades: Shades
     tint: float | None
+    detail: float
     has_even_lines: bool
     holes: Holes
     seed: int
@@ -190,9 +198,10 @@ class Plan:
         RecipeError
             If a length has no meaning, or the start is unknown.
         """
+        sizes = found_sizes(recipe, container)
         plan = cls(
             gap=recipe.padding_cu(container),
-            sizes=found_sizes(recipe, container),
+            sizes=sizes,
             size_ratio=_size_ratio(recipe),
             stretch=recipe.stretch,
             rotation=recipe.rotation,
@@ -218,6 +227,7 @@ class Plan:
             palette=() if recipe.palette is None else tuple(palette_colours(recipe.palette)),
             shades=recipe.shades,
             tint=recipe.tint,
+            detail=_detail(recipe, sizes),
             has_even_lines=recipe.stroke_width == "even",
             holes=recipe.holes,
             seed=recipe.seed,
@@ -341,3 +351,25 @@ def _size_ratio(recipe: Recipe) -> float:
     """How far free sizes go: less where a picture is to be shown, unless it was asked."""
     is_asked = "size_ratio" in recipe.model_fields_set or recipe.picture is None
     return recipe.size_ratio if is_asked else min(recipe.size_ratio, SHOWING_RATIO)
+
+
+def _detail(recipe: Recipe, sizes: str) -> float:
+    """How far sizes follow the picture that is shown, if they can.
+
+    Unless it is asked, those of photos do not: fewer of them find a place where their colours fit.
+    """
+    if recipe.picture is None:
+        return 0.0
+    clash = None
+    if sizes != "free":
+        clash = f"makes sizes follow the picture, and they are {sizes}; use --sizes free"
+    elif recipe.start is not None:
+        clash = "chooses places by the picture; leave --start out"
+    elif any(rule.region is not None for rule in recipe.rules):
+        clash = "chooses places by the picture, and a rule keeps items to a region; leave one out"
+    if clash is None:
+        usual = 0.0 if recipe.photos is not None else USUAL_DETAIL
+        return usual if recipe.detail is None else recipe.detail
+    if recipe.detail:
+        raise RecipeError("detail", clash)
+    return 0.0

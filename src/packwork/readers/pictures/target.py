@@ -38,11 +38,13 @@ def read_target(source: str | Path, container: Container) -> TargetPicture:
     Raises
     ------
     ReadError
-        If it cannot be read, or has one colour only.
+        If it cannot be read, is clear, or has one colour only.
     """
     data = read_bytes(source, MAX_PICTURE_BYTES)
     with naming(str(source)):
         pixels = decode_picture(data, DECODED_PX).pixels
+    if not (pixels[..., 3] >= SOLID).any():
+        raise ReadError(source, "shows nothing, for it is clear; use a picture that is seen")
     scale = LONGEST_PX / container.side
     shape = (max(round(container.height * scale), 1), max(round(container.width * scale), 1))
     box = np.array(container.outline.bounds) * scale
@@ -55,8 +57,6 @@ def read_target(source: str | Path, container: Container) -> TargetPicture:
 def _seen(pixels: Pixels) -> Pixels:
     """The part of a cut-out that is solid; any other picture whole."""
     rows, columns = np.nonzero(pixels[..., 3] >= SOLID)
-    if len(rows) == 0:
-        return pixels
     return pixels[rows.min() : rows.max() + 1, columns.min() : columns.max() + 1]
 
 

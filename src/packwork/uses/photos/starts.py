@@ -17,10 +17,11 @@ these with six, in 4.5 s. Measured."""
 def jobs_tried(job: Job) -> Sequence[Job]:
     """The job, or one for each start that is to be tried.
 
-    Several only where sizes are free and no start, time or draft was asked for.
+    Several only where sizes are free and no start, time or draft was asked for, and no picture
+    chooses places.
     """
     plan = job.plan
-    is_open = plan.method is None and not plan.is_from_layout
+    is_open = plan.method is None and not plan.is_from_layout and not plan.detail
     is_patient = plan.seconds is None and plan.effort != "draft"
     if not (is_open and is_patient and plan.sizes == "free" and plan.is_exact):
         return [job]
