@@ -1,8 +1,7 @@
 """Pictures that layouts show from afar: ``packwork bench meaning [items=N]``.
 
-Four pictures, shown by icons that take on their colours and by photographs that keep theirs, or
-take on a part of them. How
-far the blurred layout is from the blurred picture, in CIEDE2000, beside the same with colours or
+Four pictures, shown by icons that take on their colours and by photographs that keep theirs, of as
+many as there are places or of four times as many, or take on a part of them. How far the blurred layout is from the blurred picture, in CIEDE2000, beside the same with colours or
 photographs in any order; what is covered and how long it takes, beside the same run without.
 """
 
@@ -38,6 +37,9 @@ from packwork.scene.target import blurred
 
 ITEMS = 400
 SIZE_RATIO = 1.5
+POOL = 4
+"""Photographs for each place, where those are taken that suit."""
+
 TINT = 0.3
 """Of photographs that are tinted."""
 
@@ -201,7 +203,12 @@ def main() -> None:
         icons = make_recipe(container="square", count=count, size_ratio=SIZE_RATIO)
         pieces = uses.photos_recipe("square", str(photos), size_ratio=SIZE_RATIO)
         tinted = pieces.model_copy(update={"tint": TINT})
-        shown = {"icons": icons, "photos": pieces, f"photos, tint {TINT:.0%}": tinted}
+        many = album(folder / "many", POOL * count)
+        best = uses.photos_recipe("square", str(many), size_ratio=SIZE_RATIO, count=count)
+        shown = {
+            "icons": icons, "photos": pieces, f"photos, the best of {POOL} times as many": best,
+            f"photos, tint {TINT:.0%}": tinted,
+        }  # fmt: skip
         for how, recipe in shown.items():
             if how not in asked.get("by", how):
                 continue

@@ -82,6 +82,21 @@ def test_photos_keep_their_colours_and_find_their_places(halves: str, tiles: str
     assert layout.manifest["certified"]
 
 
+@pytest.mark.parametrize(("tint", "red"), [(None, 6), ("100%", 4)])
+def test_of_more_photos_than_places_those_that_suit_are_taken(
+    tmp_path: Path, tiles: str, tint: str | None, red: int
+) -> None:
+    """Of six red and six blue ones all red ones, for a picture that is red but for its edge."""
+    pixels = np.zeros((40, 80, 3), dtype=np.uint8)
+    pixels[:, :55], pixels[:, 55:] = (200, 30, 30), (30, 30, 200)
+    Image.fromarray(pixels).save(tmp_path / "red.png")
+    picture = str(tmp_path / "red.png")
+    layout = pw.photos("square", tiles, count=8, picture=picture, tint=tint, **QUICK)
+    taken = [Path(item.source).stem for item in layout.items]
+    assert sum(int(name.split("-")[1]) % 2 for name in taken) == red
+    assert len(set(taken)) == 8
+
+
 def test_a_tint_moves_the_colours_of_photos(halves: str, tiles: str) -> None:
     plain, tinted = (
         pw.photos("square", tiles, picture=halves, tint=tint, **QUICK) for tint in (0, "50%")

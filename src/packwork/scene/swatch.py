@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 import io
 import re
 from collections import Counter
@@ -27,6 +28,12 @@ ShownLight: TypeAlias = tuple[FloatArray, FloatArray]
 """Light ``(n, 3)`` of pixels of a small copy, and how solid each is ``(n,)``."""
 
 _PAINT = re.compile(r"""(?:\bfill|\bstop-color)\s*[=:]\s*["']?\s*([^"';}<>]{1,40})""")
+_ALONE = re.compile(
+    r"""<image [^<>]*href="data:image/(?:png|jpeg);base64,([A-Za-z0-9+/=]+)"[^<>]*/>"""
+)
+"""Preview of a photograph without a border that is cut to no shape: one picture, five times as quick
+to decode as to render."""
+
 _SAMPLE_PX = 64
 """Longer side a picture is reduced to before its mean is taken. Larger: slower, same mean;
 smaller: the soft edges of white parts pale it. Chosen."""
@@ -94,8 +101,10 @@ def shown_light(item: Item) -> ShownLight | None:
 
     None where nothing shows, or it is dear to render.
     """
-    art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
-    png = small_png(replace(item, art=art))
+    png = _photo(item.art) if isinstance(item.art, PhotoArt) else None
+    if png is None:
+        art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
+        png = small_png(replace(item, art=art))
     pixels = None if png is None else _small_pixels(png)
     if pixels is None or pixels[:, 3].sum() == 0:
         return None
@@ -107,6 +116,12 @@ def small_png(item: Item) -> bytes | None:
     if isinstance(item.art, VectorArt):
         return _drawn(item.art, item.ink)
     return item.art.png if isinstance(item.art, PictureArt) else None
+
+
+def _photo(art: PhotoArt) -> bytes | None:
+    """Small copy of a photograph as it is, if that is all that its preview shows."""
+    alone = _ALONE.fullmatch(art.preview.markup.strip())
+    return base64.b64decode(alone[1]) if alone else None
 
 
 def _drawn(art: VectorArt, ink: Outline) -> bytes | None:

@@ -35,7 +35,13 @@ def read_icons(recipe: Recipe, room: Room, given: Sequence[Item] | None) -> Mate
 def material_of(use: Use, recipe: Recipe, room: Room, given: Sequence[Item] | None) -> Material:
     """Items and photographs that a recipe names, for a use that reads nothing else."""
     named = read_named(recipe, given)
-    chosen = cast(recipe, named.items, room.counted(recipe, named.items))
+    items = named.items
+    if recipe.picture is not None:
+        # Only what is asked for loads the picture library.
+        from packwork.uses.suited import suited_first
+
+        items = suited_first(recipe, room.known, items)
+    chosen = cast(recipe, items, room.counted(recipe, items))
     return Material(
         use=use,
         container=room.of(chosen),

@@ -1,0 +1,118 @@
+"""Graph of nearest neighbours among vectors, weighted by how near they are.
+
+The fuzzy neighbour graph of L. McInnes, J. Healy and J. Melville, "UMAP: Uniform manifold
+approximation and projection for dimension reduction" (2018), arXiv:1802.03426: weights fall from 1 at
+an item's nearest neighbour, so fast that they sum to the logarithm of how many there are. Ours
+then scales each item's weights to a sum of 1, so that none pulls harder than others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+
+NEIGHBOURS = 12
+"""Neighbours of each item in the graph. Fewer follow chance, more blur what is alike. Chosen."""
+
+HALVINGS = 40
+"""Bisections for the rate at which weights fall. Chosen: they end below any difference."""
+
+AT_ONCE = 512
+"""Rows of distances held at a time. More take more memory. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class NeighbourGraph:
+    """Who pulls whom, as rows of a sparse symmetric matrix.
+
+    Parameters
+    ----------
+    starts
+        ``(n + 1,)``: partners of item k lie from ``starts[k]`` to before ``starts[k + 1]``.
+    partners, weights
+        ``(m,)``.
+    """
+
+    starts: IntArray
+    partners: IntArray
+    weights: FloatArray
+
+    @classmethod
+    def of(cls, vectors: FloatArray, neighbours: int = NEIGHBOURS) -> NeighbourGraph:
+        """Graph of ``(n, d)`` vectors by their angles: the cosine distance.
+
+        Examples
+        --------
+        >>> graph = NeighbourGraph.of(np.array([[1.0, 0], [1, 0.1], [0, 1], [0.1, 1]]), 1)
+        >>> graph.partners.tolist()
+        [1, 0, 3, 2]
+        """
+        count = len(vectors)
+        neighbours = min(neighbours, count - 1)
+        if neighbours < 1:
+            return cls(np.zeros(count + 1, np.int64), np.zeros(0, np.int64), np.zeros(0))
+        nearest, away = _nearest(unit_rows(vectors), neighbours)
+        falling = _falling(away)
+        rows = np.repeat(np.arange(count), neighbours)
+        return cls._symmetric(count, rows, nearest.ravel(), falling.ravel())
+
+    @classmethod
+    def _symmetric(
+        cls, count: int, rows: IntArray, columns: IntArray, weights: FloatArray
+    ) -> NeighbourGraph:
+        """Fuzzy union of a graph and its mirror image; each row then sums to 1, halved both ways."""
+        # The library of sparse matrices is needed here alone.
+        from scipy.sparse import coo_array
+
+        one = coo_array((weights, (rows, columns)), shape=(count, count)).tocsr()
+        union = (one + one.T - one * one.T).tocsr()
+        sums = np.maximum(np.asarray(union.sum(axis=1)).ravel(), 1e-12)
+        scaled = union.multiply(1 / sums[:, None]).tocsr()
+        both = (0.5 * (scaled + scaled.T)).tocsr()
+        both.sort_indices()
+        return cls(
+            both.indptr.astype(np.int64), both.indices.astype(np.int64), both.data.astype(float)
+        )
+
+
+def unit_rows(vectors: FloatArray) -> FloatArray:
+    """Vectors of length 1 each, about their common mean where that leaves none empty.
+
+    Examples
+    --------
+    >>> unit_rows(np.array([[3.0, 4.0], [0.0, 0.0]])).tolist()
+    [[0.6, 0.8], [0.0, 0.0]]
+    """
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.where(lengths > 0, lengths, 1.0))
+
+
+def _nearest(units: FloatArray, neighbours: int) -> tuple[IntArray, FloatArray]:
+    """``(n, k)`` nearest others, nearest first, and their cosine distances."""
+    count = len(units)
+    found = np.empty((count, neighbours), dtype=np.int64)
+    away = np.empty((count, neighbours))
+    for begin in range(0, count, AT_ONCE):
+        rows = slice(begin, min(begin + AT_ONCE, count))
+        distances = np.maximum(1.0 - units[rows] @ units.T, 0.0)
+        distances[np.arange(distances.shape[0]), np.arange(rows.start, rows.stop)] = np.inf
+        order = np.argsort(distances, axis=1, kind="stable")[:, :neighbours]
+        found[rows] = order
+        away[rows] = np.take_along_axis(distances, order, axis=1)
+    return found, away
+
+
+def _falling(away: FloatArray) -> FloatArray:
+    """Weights that fall from 1 at the nearest, each row to the sum of log2(k), or 1 if larger."""
+    beyond = away - away[:, :1]
+    wanted = max(np.log2(away.shape[1]), 1.0)
+    low, high = np.zeros(len(away)), np.full(len(away), max(float(beyond.max()), 1e-12) * 64)
+    for _ in range(HALVINGS):
+        middle = (low + high) / 2
+        weights = np.exp(-beyond / np.maximum(middle, 1e-300)[:, None])
+        is_much = weights.sum(axis=1) > wanted
+        high, low = np.where(is_much, middle, high), np.where(is_much, low, middle)
+    return np.asarray(np.exp(-beyond / np.maximum(high, 1e-300)[:, None]))
