@@ -25,6 +25,7 @@ PAGES = {
         "words-pairs",
         "photos",
         "mosaics",
+        "arranging",
         "charts",
         "films",
         "forces",

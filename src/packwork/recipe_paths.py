@@ -32,12 +32,13 @@ _ENDING = re.compile(r"\.[A-Za-z]\w*")
 _LONGEST = 4_096
 """Characters of a path, on most systems."""
 
-_WORD = re.compile(r'"[^"]*"|\S+')
+_BY_FILE = re.compile(r'by=(?P<quote>"?)(?P<file>[^"]*?\.(?:csv|tsv|json))(?P=quote)(?!\S)')
+_WORD = re.compile(r'(?:by=)?"[^"]*"|\S+')
 
 _IN_TABLES: Mapping[str, tuple[str, ...]] = {
     "": (
         "container", "weights", "start", "font", "items", "keep_clear", "filler", "force",
-        "picture",
+        "picture", "arrange",
     ),
     "words": ("source", "stopwords", "color_by", "fonts"),
     "chart": ("data", "mark"),
@@ -46,7 +47,7 @@ _IN_TABLES: Mapping[str, tuple[str, ...]] = {
 }  # fmt: skip
 """Options that name files, by the table that they stand in; those of rules are ``region``."""
 
-_TEXTS = frozenset({"source", "force", "emit"})
+_TEXTS = frozenset({"source", "force", "emit", "arrange"})
 """Those that may be texts, and are told of as such where they are empty."""
 
 _SHAPES = frozenset({"container", "items", "filler", "mark", "shape", "region", "emit"})
@@ -208,6 +209,8 @@ def _renamed(key: str, value: Any, rename: Rename) -> Any:
         return [_renamed(key, one, rename) for one in value]
     if not isinstance(value, str):
         return value
+    if key == "arrange":
+        return _measured_by(value, rename)
     if key in {"force", "emit"}:
         return _within(value, rename)
     if value.startswith(AROUND):
@@ -222,6 +225,11 @@ def _rule(rule: Any, rename: Rename) -> Any:
     if isinstance(rule, Mapping) and isinstance(rule.get("region"), str):
         return {**rule, "region": rename(rule["region"])}
     return rule
+
+
+def _measured_by(text: str, rename: Rename) -> str:
+    """An arrangement, the file of its numbers renamed."""
+    return _BY_FILE.sub(lambda met: f'by="{rename(met["file"])}"', text)
 
 
 def _within(text: str, rename: Rename) -> str:

@@ -50,6 +50,9 @@ class FinishOptions(MoveOptions):
     exchanging: bool = True
     """Whether such trials exchange items; else each is only turned where it is."""
 
+    keeps_order: bool = False
+    """What is in conflict is moved to a void only where nothing else helps."""
+
     relieving: bool = True
     """Where sizes are shared: try whether all can grow once those that hold them back lie in
     voids."""
@@ -57,4 +60,4 @@ class FinishOptions(MoveOptions):
     @property
     def hopeless(self) -> float:
         """Logarithm of size that an item in conflict may lose before one is moved to a void."""
-        return HOPELESS_AT_HOME if self.staying else HOPELESS
+        return HOPELESS_AT_HOME if self.staying or self.keeps_order else HOPELESS

@@ -13,6 +13,7 @@ from packwork.forces.exchanges import exchanged
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.arranging import arranged
 from packwork.pipeline.by_detail import DetailedPlaces, places_by_detail
 from packwork.pipeline.earlier import new_items, who_is_who
 from packwork.pipeline.first_places import (
@@ -164,6 +165,8 @@ class _Start:
         poses = first.poses
         if forces.acts and not is_tight:
             poses = _by_forces(outlines, poses, limits, forces)
+        if job.keeps_order:
+            poses = arranged(job, poses, self._nominal)
         begun = self._beginning(poses, str(first.method), limits, is_tight=is_tight)
         return replace(begun, is_clean=is_tight and is_only_refined(job, forces))
 

@@ -243,7 +243,8 @@ def _options(
         relieving=not is_settled,
         refining=needs_no_levels(job) or start.is_refined or start.is_clean,
         staying=plan.stays or start.is_refined,
-        exchanging=len(job.seated) == 0,
+        exchanging=len(job.seated) == 0 and not job.keeps_order,
+        keeps_order=job.keeps_order,
         seed=plan.seed,
     )
 

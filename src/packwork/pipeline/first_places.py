@@ -137,6 +137,7 @@ def needs_levels(job: Job, forces: Forces) -> bool:
         or plan.stretch > 1.0
         or plan.keeps_apart
         or bool(forces.bonds)
+        or job.keeps_order
     )
 
 

@@ -56,6 +56,8 @@ def _solve_options(job: Job) -> SolveOptions:
     """Options of the solve, with levels fine enough for the items unless they were given."""
     plan, container = job.plan, job.container
     options = plan.solve_options(job.seconds_left(LEVELS_SHARE))
+    if job.keeps_order:
+        options = options.model_copy(update={"relocating": False, "exchanging": False})
     leans = job_leanings(job)
     if leans.any():
         options = options.model_copy(update={"leans": tuple(leans.tolist())})

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.errors import PackworkError, ReadError, RecipeError
+from packwork.pipeline.arranging import check_arranged
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.plan.cast import Cast
 from packwork.pipeline.plan.own_losses import losses_with_a_say
@@ -147,6 +148,7 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         clock=clock,
     )
     job.check_forces()
+    check_arranged(job)
     return job
 
 

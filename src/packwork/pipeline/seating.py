@@ -18,6 +18,7 @@ from packwork.finish.finished import Finished
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
 from packwork.pipeline.placed import Placed
+from packwork.pipeline.places import exchanged, shapes
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights
@@ -45,7 +46,7 @@ def seated(solved: Placed) -> Placed:
     if job.target is None or len(movable) < FEWEST or job.plan.stays:
         return solved
     order = _order(job, poses.some(movable), movable, job.target)
-    changed = _exchanged(job, poses, movable, movable[order])
+    changed = exchanged(job, poses, movable, movable[order])
     return replace(solved, exact=Finished.as_is(changed))
 
 
@@ -58,8 +59,8 @@ def _order(job: Job, places: Poses, movable: IntArray, target: TargetPicture) ->
     own = oklabs_of_light(mean_lights(items))
     wanted = oklabs_of_light(_light_at(target, places, len(job.items)))
     away = ((own[None] - wanted[:, None]) ** 2).sum(axis=2)
-    shapes = _shapes(job, movable)
-    unlike = ((shapes[None] - shapes[:, None]) ** 2).sum(axis=2)
+    own_shapes = shapes(job, movable)
+    unlike = ((own_shapes[None] - own_shapes[:, None]) ** 2).sum(axis=2)
     weights = (hull_areas([one.outline for one in items]) * places.scale**2)[:, None]
     return np.asarray(linear_sum_assignment((away + UNLIKE * unlike) * weights)[1])
 
@@ -71,23 +72,3 @@ def _light_at(target: TargetPicture, places: Poses, count: int) -> FloatArray:
     at = np.column_stack([places.x, places.y]) * target.px_per_cu
     x, y = np.clip(at.astype(np.int64), 0, most).T
     return np.asarray(light[y, x])
-
-
-def _shapes(job: Job, movable: IntArray) -> FloatArray:
-    """``(n, 2)`` logarithms of width over height, and of the share that fills the box."""
-    found = []
-    for k in movable:
-        outline = job.items[k].outline
-        left, top, right, bottom = outline.bounds
-        wide, high = right - left, bottom - top
-        found.append((np.log(wide / high), np.log(outline.area / (wide * high))))
-    return np.array(found)
-
-
-def _exchanged(job: Job, poses: Poses, places: IntArray, comers: IntArray) -> Poses:
-    """Poses in which ``comers`` have the places, angles and sizes of hull of ``places``."""
-    hulls = hull_areas([item.outline for item in job.items])
-    x, y, angle, scale = (getattr(poses, name).copy() for name in ("x", "y", "angle", "scale"))
-    x[comers], y[comers], angle[comers] = poses.x[places], poses.y[places], poses.angle[places]
-    scale[comers] = poses.scale[places] * np.sqrt(hulls[places] / hulls[comers])
-    return replace(poses, x=x, y=y, angle=angle, scale=scale)

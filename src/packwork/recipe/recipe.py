@@ -21,6 +21,7 @@ from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
+from packwork.recipe.arrangement import Ordered
 from packwork.recipe.levels import checked_levels
 from packwork.recipe.mosaic import Shown
 from packwork.recipe.pictures import Pictured, known_palette
@@ -89,7 +90,7 @@ _ADDED = Offer(
 )  # fmt: skip
 
 
-class Recipe(Shown, Pictured, Moving, TableFormat, Interpreted):
+class Recipe(Ordered, Shown, Pictured, Moving, TableFormat, Interpreted):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.EVERY)

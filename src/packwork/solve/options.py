@@ -113,3 +113,6 @@ class SolveOptions(Options):
     relocating: bool = True
     """Between levels and half-way through the last one, relocate items that are badly
     overlapped to the largest voids."""
+
+    exchanging: bool = True
+    """Let items change places among parts, for forces and away from their kind."""

@@ -150,6 +150,8 @@ class _Solve:
         self._limits = limits.widened(options.margin)
         self._done = 0
         self._exchanges = list(FORCED_EXCHANGES if forces.acts else EXCHANGES)
+        if not options.exchanging:
+            self._exchanges.clear()
 
     def level(self, index: int) -> LevelReport:
         """Run one level, and relocations when they are due."""

@@ -131,8 +131,8 @@ def _check(job: Job) -> None:
     if not can_give_way(job):
         raise RecipeError(
             "sizes",
-            "graded sets words one after another; leave out --start, --force, --share, losses, "
-            "levels, --stretch and what is asked of single items, or use sizes shared",
+            "graded sets words one after another; leave out --start, --force, --arrange, --share, "
+            "losses, levels, --stretch and what is asked of single items, or use sizes shared",
         )
 
 

@@ -1,0 +1,200 @@
+"""Items in an order along a way: by weight, hue, lightness, name or the numbers of a file.
+
+First places are given out anew by an optimal assignment (Crouse 2016, as in
+``pipeline.seating``): each item has a share along the way, that of the area of all that come before
+it, and so has each place; their squared difference is least in sum. Levels and finish then keep
+every item about there.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import ReadError, RecipeError
+from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.job import Job
+from packwork.pipeline.places import exchanged, shapes
+from packwork.readers.tables.pairs import read_pairs
+from packwork.recipe.arrangement import MEASURES, Arrangement, parse_arrangement
+from packwork.scene.contrast import oklabs_of_light
+from packwork.scene.pose import Poses
+from packwork.scene.swatch import mean_lights
+
+MOST_BYTES = 5_000_000
+"""Size of a file of numbers. Chosen."""
+
+UNLIKE, UNLIKE_SIZE = 0.01, 0.03
+"""What squared logarithms of a factor in shape, and where sizes are given in size, weigh beside
+squared shares of the way. Larger keeps the first places better, smaller the order. Tried."""
+
+GREY = 0.02
+"""Chroma in Oklab below which a colour has no hue that is seen. Chosen."""
+
+
+def check_arranged(job: Job) -> None:
+    """Refuse an arrangement that has no meaning for these items, before anything is run.
+
+    Raises
+    ------
+    ReadError
+        If the file of numbers cannot be read.
+    RecipeError
+        If items have no number, or all have one.
+    """
+    recipe = job.recipe
+    if recipe.arrange is None:
+        return
+    if recipe.chart is not None or recipe.pile is not None:
+        raise RecipeError("arrange", "is for items that fill a container; leave it out here")
+    if job.target is not None:
+        raise RecipeError("arrange", "and --picture both say where items lie; use one of them")
+    by = parse_arrangement(recipe.arrange).by
+    if by in {"hue", "lightness"} and recipe.palette is not None:
+        raise RecipeError(
+            "arrange", f"goes by the {by} of items' own colours, and --palette gives them others"
+        )
+    measured(job, by)
+
+
+def measured(job: Job, by: str) -> FloatArray:
+    """``(n,)`` what items are put in order by; NaN for grey where that is hue.
+
+    Raises
+    ------
+    ReadError, RecipeError
+        As for :func:`check_arranged`.
+    """
+    if by not in MEASURES:
+        values = _of_file(job, by)
+    elif by == "weight":
+        values = job.weights
+    elif by == "name":
+        names = [item.name.casefold() for item in job.items]
+        values = np.unique(names, return_inverse=True)[1].astype(np.float64)
+    else:
+        lightness, *ab = oklabs_of_light(mean_lights(job.items)).T
+        hue = np.where(np.hypot(*ab) < GREY, np.nan, np.arctan2(ab[1], ab[0]))
+        values = lightness if by == "lightness" else hue
+    known = values[np.isfinite(values)]
+    if len(known) == 0 or (len(values) > 1 and np.ptp(known) < 1e-9):
+        what = "are all grey" if len(known) == 0 else f"all have the same {by}"
+        raise RecipeError("arrange", f"the items {what}, which gives no order; use another measure")
+    return np.asarray(values, dtype=np.float64)
+
+
+def arranged(job: Job, poses: Poses, nominal: FloatArray) -> Poses:
+    """First poses given out anew, so that items lie in the order asked for.
+
+    Items that rules put somewhere stay; the others take each other's places and angles and, where
+    sizes are free, sizes of hull as far as they may.
+    """
+    asked = parse_arrangement(job.recipe.arrange or "")
+    is_put = [bool(one.pin) or "region" in one.values for one in job.asked]
+    movable = np.flatnonzero(np.logical_not(is_put))
+    if len(movable) < 2:
+        return poses
+    changed = exchanged(job, poses, movable, movable[_order(job, asked, poses, movable)])
+    if job.plan.sizes != "free":
+        return replace(changed, angle=poses.angle, scale=poses.scale)
+    ratio = job.plan.size_ratio
+    scale = np.clip(changed.scale, nominal / ratio, nominal * ratio)
+    is_limited = bool(job.is_limited)
+    return replace(changed, angle=poses.angle, scale=poses.scale if is_limited else scale)
+
+
+def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> IntArray:
+    """Which of the movable items comes to each of their places."""
+    # An assignment is needed for arrangements alone.
+    from scipy.optimize import linear_sum_assignment
+
+    hulls = hull_areas([job.items[k].outline for k in movable])
+    areas = hulls * poses.scale[movable] ** 2
+    values = measured(job, asked.by)[movable]
+    middle = np.array([*job.container.outline.centroid])
+    off = np.column_stack([poses.x, poses.y])[movable] - middle
+    if asked.way == "around":
+        away = _away_around(job, asked, values, off, areas, movable)
+    else:
+        values = np.where(np.isfinite(values), values, np.nanmin(values) - 1.0)
+        along = _along(asked, off)
+        away = (_shares(values, areas)[None] - _shares(along, areas)[:, None]) ** 2
+    own = shapes(job, movable)
+    unlike = UNLIKE * ((own[None] - own[:, None]) ** 2).sum(axis=2)
+    if job.plan.sizes != "free":
+        sizes = np.log(areas) / 2
+        unlike = unlike + UNLIKE_SIZE * (sizes[None] - sizes[:, None]) ** 2
+    return np.asarray(linear_sum_assignment(away + unlike)[1])
+
+
+def _along(asked: Arrangement, off: FloatArray) -> FloatArray:
+    """``(n,)`` how far along the way places lie, by their way from the middle ``(n, 2)``."""
+    if asked.way == "right":
+        turn = math.radians(asked.angle)
+        return np.asarray(off @ np.array([math.cos(turn), math.sin(turn)]))
+    away = np.hypot(off[:, 0], off[:, 1])
+    return np.asarray(away if asked.way == "outwards" else -away)
+
+
+def _away_around(
+    job: Job,
+    asked: Arrangement,
+    values: FloatArray,
+    off: FloatArray,
+    areas: FloatArray,
+    movable: IntArray,
+) -> FloatArray:
+    """``(places, items)`` squared distances on a disc that all places and all items fill evenly.
+
+    By hue the dull lie within the vivid, as on a colour wheel; what has no hue lies in the middle.
+    """
+    place = np.sqrt(_shares(np.hypot(off[:, 0], off[:, 1]), areas))
+    at = place * np.exp(1j * np.arctan2(off[:, 1], off[:, 0]))
+    is_known = np.isfinite(values)
+    turns = np.zeros(len(values))
+    turns[is_known] = _shares(values[is_known], areas[is_known])
+    # From the top, clockwise.
+    wanted = np.exp(2j * np.pi * turns - 0.5j * np.pi)
+    if asked.by != "hue":
+        return np.asarray(np.abs(wanted[None] * place[:, None] - at[:, None]) ** 2)
+    _, *ab = oklabs_of_light(mean_lights([job.items[k] for k in movable])).T
+    vivid = np.where(is_known, np.sqrt(_shares(np.hypot(*ab), areas)), 0.0)
+    return np.asarray(np.abs((vivid * wanted)[None] - at[:, None]) ** 2)
+
+
+def _shares(values: FloatArray, areas: FloatArray) -> FloatArray:
+    """``(n,)`` share of all area that comes before each, and half of its own.
+
+    Examples
+    --------
+    >>> _shares(np.array([3.0, 1.0, 2.0]), np.array([2.0, 1.0, 1.0])).tolist()
+    [0.75, 0.125, 0.375]
+    """
+    order = np.argsort(values, kind="stable")
+    own = areas[order] / areas.sum()
+    found = np.empty(len(values))
+    found[order] = np.cumsum(own) - own / 2
+    # What is alike in value is alike in share.
+    _, group = np.unique(values, return_inverse=True)
+    means = np.bincount(group, found * areas) / np.bincount(group, areas)
+    return np.asarray(means[group])
+
+
+def _of_file(job: Job, file: str) -> FloatArray:
+    rows = read_pairs(file, MOST_BYTES, job.recipe).rows
+    table: dict[str, float] = {}
+    for row in rows:
+        if not row.name or not math.isfinite(row.number):
+            raise ReadError(file, f"{row.where}: needs a name and a number, as in bear,2")
+        if table.setdefault(row.name, row.number) != row.number:
+            raise ReadError(file, f"{row.where}: gives {row.name[:40]!r} another number")
+    missing = [item.name for item in job.items if item.name not in table]
+    if missing:
+        there = ", ".join(list(table)[:6]) or "none"
+        raise RecipeError(
+            "arrange", f"{file} has no number for {missing[0][:40]!r}; there are {there}"
+        )
+    return np.array([table[item.name] for item in job.items])

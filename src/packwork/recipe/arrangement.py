@@ -1,0 +1,115 @@
+"""What a run is asked about the order in which items lie: a part of the recipe."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from dataclasses import dataclass
+from typing import Annotated
+
+from pydantic import AfterValidator
+
+from packwork.errors import RecipeError
+from packwork.forces.spec import DIRECTIONS
+from packwork.offers import Group, Offer, Verbs
+from packwork.options import Options
+from packwork.recipe_paths import split_words
+from packwork.units import NUMBER
+
+WAYS = (*DIRECTIONS, "outwards", "inwards", "around")
+"""Ways along which items may be put in order, beside angles such as 45deg."""
+
+MEASURES = ("weight", "hue", "lightness", "name")
+"""What items may be put in order by, beside the numbers of a file."""
+
+FILES = (".csv", ".tsv", ".json")
+"""Endings of files of numbers."""
+
+_DEGREES = re.compile(rf"({NUMBER})(?:deg|°)")
+_EXAMPLE = "use a way and a measure, as in right by=weight, outwards by=ages.csv or around by=hue"
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """An order of items, as it was written.
+
+    Parameters
+    ----------
+    way
+        right, outwards, inwards or around; right is the direction of ``angle``.
+    by
+        weight, hue, lightness, name or a file.
+    angle
+        Of a direction, degrees clockwise from the right.
+    """
+
+    way: str
+    by: str
+    angle: float = 0.0
+
+
+def parse_arrangement(text: str) -> Arrangement:
+    """Arrangement of its text.
+
+    Raises
+    ------
+    RecipeError
+        About ``arrange``: what is wrong, what was met, what would do.
+
+    Examples
+    --------
+    >>> parse_arrangement("down by=weight")
+    Arrangement(way='right', by='weight', angle=90.0)
+    >>> parse_arrangement("hue").way, parse_arrangement("outwards").by
+    ('around', 'weight')
+    """
+    words = split_words(text)
+    measures = [word.partition("=")[2].strip('"') for word in words if word.startswith("by=")]
+    said = [word.lower() for word in words if not word.startswith("by=")]
+    if said and said[-1] in MEASURES:
+        measures.append(said.pop())
+    if len(said) > 1 or len(measures) > 1 or not words:
+        raise RecipeError("arrange", f"{_EXAMPLE}, not {text[:60]!r}")
+    by = _measure(measures[0]) if measures else "weight"
+    way = said[0] if said else ("around" if by == "hue" else "right")
+    degrees = _DEGREES.fullmatch(way)
+    if degrees or way in DIRECTIONS:
+        angle = float(degrees.group(1)) if degrees else DIRECTIONS[way]
+        return Arrangement("right", by, angle % 360.0)
+    if way not in WAYS:
+        raise RecipeError("arrange", f"there is no way {way[:40]!r}; {_meant(way, WAYS)}")
+    return Arrangement(way, by)
+
+
+def _measure(by: str) -> str:
+    if by in MEASURES or by.lower().endswith(FILES):
+        return by
+    hint = _meant(by, MEASURES)
+    raise RecipeError(
+        "arrange", f"nothing is measured by {by[:40]!r}; {hint}, or a file of name,number (.csv)"
+    )
+
+
+def _meant(word: str, known: tuple[str, ...]) -> str:
+    close = difflib.get_close_matches(word, known, n=1)
+    return f"did you mean {close[0]}?" if close else f"use {', '.join(known)}"
+
+
+def known_arrangement(text: str | None) -> str | None:
+    """The same text, if it is an arrangement as :func:`parse_arrangement` has it, or None."""
+    if text is not None:
+        parse_arrangement(text)
+    return text
+
+
+class Ordered(Options):
+    """In which order items lie."""
+
+    offers = Offer(group=Group.PLACED, verbs=Verbs.COLLAGES)
+
+    arrange: Annotated[
+        str | None, AfterValidator(known_arrangement), Offer(metavar="WAY", after="ground")
+    ] = None
+    """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
+    middle, around it) and what rises along it, as in right by=weight, outwards by=ages.csv (lines
+    of name,number), around by=hue; also lightness and name."""

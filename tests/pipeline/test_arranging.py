@@ -1,0 +1,134 @@
+"""Items in an order: along directions, from the middle, round it; refusals."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.stats import spearmanr
+
+import packwork as pw
+from packwork.errors import PackworkError, RecipeError
+from packwork.recipe_paths import with_paths
+from packwork.scene.contrast import oklabs_of_light
+from packwork.scene.swatch import mean_lights
+
+QUICK = {"levels": "50", "epochs": 40, "effort": "draft", "seed": 0}
+NAMES = ["star", "heart", "moon", "owl", "leaf", "cat", "fish", "cloud"]
+
+
+@pytest.fixture
+def ages(tmp_path: Path) -> str:
+    """A number for each name, in no order of the names."""
+    lines = [f"{name},{(5 * k) % len(NAMES) - 3}" for k, name in enumerate(NAMES)]
+    (tmp_path / "ages.csv").write_text("name,value\n" + "\n".join(lines), encoding="utf-8")
+    return str(tmp_path / "ages.csv")
+
+
+def _numbers(layout: pw.Layout) -> np.ndarray:
+    return np.array([(5 * NAMES.index(item.name)) % len(NAMES) for item in layout.items])
+
+
+def _away(layout: pw.Layout) -> np.ndarray:
+    x, y = layout.container.outline.centroid
+    return np.hypot(layout.poses.x - x, layout.poses.y - y)
+
+
+def _order(first: np.ndarray, second: np.ndarray) -> float:
+    return float(spearmanr(first, second).statistic)
+
+
+@pytest.mark.parametrize(
+    ("way", "axis", "sign"), [("right", "x", 1), ("left", "x", -1), ("90deg", "y", 1)]
+)
+def test_numbers_rise_along_a_direction(ages: str, way: str, axis: str, sign: int) -> None:
+    layout = pw.fill("square", NAMES, count=40, arrange=f'{way} by="{ages}"', **QUICK)
+    assert sign * _order(_numbers(layout), getattr(layout.poses, axis)) > 0.9
+    assert layout.manifest["certified"]
+
+
+@pytest.mark.parametrize(("way", "sign"), [("outwards", 1), ("inwards", -1)])
+def test_numbers_rise_from_the_middle(ages: str, way: str, sign: int) -> None:
+    layout = pw.fill("circle", NAMES, count=40, arrange=f'{way} by="{ages}"', **QUICK)
+    assert sign * _order(_numbers(layout), _away(layout)) > 0.8
+
+
+def test_without_there_is_no_such_order(ages: str) -> None:
+    layout = pw.fill("square", NAMES, count=40, **QUICK)
+    assert abs(_order(_numbers(layout), layout.poses.x)) < 0.5
+
+
+def test_hues_go_round_the_middle() -> None:
+    colours = ["#d22", "#d92", "#8b2", "#2a8", "#28d", "#63c", "#c3a"]
+    layout = pw.fill("circle", _discs(colours), count=42, arrange="hue", **QUICK)
+    x, y = layout.container.outline.centroid
+    angles = np.arctan2(layout.poses.y - y, layout.poses.x - x)
+    _, a, b = oklabs_of_light(mean_lights(layout.items)).T
+    hues = np.arctan2(b, a)
+    # Neighbours round the middle have hues that are near each other.
+    turn = np.argsort(angles)
+    steps = np.abs(np.angle(np.exp(1j * np.diff(hues[turn]))))
+    assert np.median(steps) < 0.5
+    assert layout.manifest["certified"]
+
+
+def _discs(colours: list[str]) -> list[pw.Item]:
+    from io import BytesIO
+
+    from PIL import Image, ImageDraw
+
+    found = []
+    for colour in colours:
+        image = Image.new("RGBA", (40, 40))
+        ImageDraw.Draw(image).ellipse((0, 0, 39, 39), fill=colour)
+        data = BytesIO()
+        image.save(data, "PNG")
+        found += pw.read_items([image])
+    return found
+
+
+def test_heavy_words_come_first() -> None:
+    table = {f"word{k}": float(20 - k) for k in range(16)}
+    layout = pw.words("square", table, arrange="left by=weight", effort="draft")
+    weights = [table[item.name] for item in layout.items]
+    assert _order(np.array(weights), layout.poses.x) < -0.6
+    assert layout.manifest["certified"]
+
+
+@pytest.mark.parametrize(
+    ("arrange", "said"),
+    [
+        ("sideways", "there is no way 'sideways'"),
+        ("outward", "did you mean outwards"),
+        ("right by=mood", "nothing is measured by 'mood'"),
+        ("right left", "use a way and a measure"),
+        ("right by=weight", "all have the same weight"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(arrange: str, said: str) -> None:
+    with pytest.raises(RecipeError, match=said):
+        pw.fill("circle", ["star", "moon"], count=4, arrange=arrange, **QUICK)
+
+
+def test_colours_that_a_palette_replaces_give_no_order() -> None:
+    with pytest.raises(RecipeError, match="--palette gives them others"):
+        pw.fill("circle", ["star", "moon"], arrange="hue", palette="okabe-ito", **QUICK)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [("star,1\n", "no number for 'moon'"), ("star,1\nmoon,x\n", "ages.csv"), ("", "ages.csv")],
+)
+def test_a_bad_file_is_one_line(tmp_path: Path, text: str, said: str) -> None:
+    (tmp_path / "ages.csv").write_text(text, encoding="utf-8")
+    arrange = f'right by="{tmp_path / "ages.csv"}"'
+    with pytest.raises(PackworkError, match=said) as refused:
+        pw.fill("circle", ["star", "moon"], count=4, arrange=arrange, **QUICK)
+    assert "\n" not in str(refused.value)
+
+
+def test_files_of_recipes_are_found_beside_them() -> None:
+    changed = with_paths({"arrange": "outwards by=ages.csv"}, "sets/{}".format)
+    assert changed["arrange"] == 'outwards by="sets/ages.csv"'
+    assert with_paths({"arrange": "right by=hue"}, "x/{}".format)["arrange"] == "right by=hue"
