@@ -54,6 +54,20 @@ def test_numbers_rise_from_the_middle(ages: str, way: str, sign: int) -> None:
     assert sign * _order(_numbers(layout), _away(layout)) > 0.8
 
 
+def test_numbers_rise_along_a_letter(ages: str) -> None:
+    """From one end of a C to the other, though both ends lie on the right."""
+    layout = pw.fill("text:C", NAMES, count=40, arrange=f'along by="{ages}"', **QUICK)
+    x, y = layout.container.outline.centroid
+    angles = np.arctan2(layout.poses.y - y, layout.poses.x - x) % (2 * np.pi)
+    assert abs(_order(_numbers(layout), angles)) > 0.9
+
+
+def test_a_container_of_parts_has_a_way_too(ages: str) -> None:
+    layout = pw.fill("text:II", NAMES, count=24, arrange=f'along by="{ages}"', **QUICK)
+    first = layout.poses.x < layout.container.width / 2
+    assert _numbers(layout)[first].mean() < _numbers(layout)[~first].mean() - 2
+
+
 def test_without_there_is_no_such_order(ages: str) -> None:
     layout = pw.fill("square", NAMES, count=40, **QUICK)
     assert abs(_order(_numbers(layout), layout.poses.x)) < 0.5

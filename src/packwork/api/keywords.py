@@ -205,8 +205,9 @@ class _FillWordsPhotos(TypedDict, total=False):
 
     arrange: str | None
     """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
-    middle, around it) and what rises along it, as in right by=weight, outwards by=ages.csv (lines
-    of name,number), around by=hue; also lightness and name."""
+    middle, around it, or along the container from end to end) and what rises along it, as in right
+    by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness and
+    name."""
 
     target_coverage: float | str | None
     """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round

@@ -15,6 +15,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ReadError, RecipeError
+from packwork.fields.geodesic import lengthwise
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
 from packwork.pipeline.places import exchanged, shapes
@@ -23,6 +24,7 @@ from packwork.recipe.arrangement import MEASURES, Arrangement, parse_arrangement
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights
+from packwork.start.first_poses import container_image
 
 MOST_BYTES = 5_000_000
 """Size of a file of numbers. Chosen."""
@@ -30,6 +32,13 @@ MOST_BYTES = 5_000_000
 UNLIKE, UNLIKE_SIZE = 0.01, 0.03
 """What squared logarithms of a factor in shape, and where sizes are given in size, weigh beside
 squared shares of the way. Larger keeps the first places better, smaller the order. Tried."""
+
+WAY_PX = 160
+"""Pixels on the longer side of the image in which ways along the container are found. Larger
+takes longer and parts lines that lie closer. Chosen."""
+
+LEAST_INSIDE = 0.5
+"""Coverage from which a pixel is a part of the way. Larger parts thin lines. Chosen."""
 
 GREY = 0.02
 """Chroma in Oklab below which a colour has no hue that is seen. Chosen."""
@@ -120,7 +129,7 @@ def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> Int
         away = _away_around(job, asked, values, off, areas, movable)
     else:
         values = np.where(np.isfinite(values), values, np.nanmin(values) - 1.0)
-        along = _along(asked, off)
+        along = _lengthwise(job, off + middle) if asked.way == "along" else _along(asked, off)
         away = (_shares(values, areas)[None] - _shares(along, areas)[:, None]) ** 2
     own = shapes(job, movable)
     unlike = UNLIKE * ((own[None] - own[:, None]) ** 2).sum(axis=2)
@@ -137,6 +146,20 @@ def _along(asked: Arrangement, off: FloatArray) -> FloatArray:
         return np.asarray(off @ np.array([math.cos(turn), math.sin(turn)]))
     away = np.hypot(off[:, 0], off[:, 1])
     return np.asarray(away if asked.way == "outwards" else -away)
+
+
+def _lengthwise(job: Job, places: FloatArray) -> FloatArray:
+    """``(n,)`` how far inside the container places ``(n, 2)`` lie from one of its ends, pixels."""
+    # Needed for such arrangements alone.
+    from scipy.spatial import cKDTree
+
+    image, px_per_cu = container_image(job.container, WAY_PX)
+    inside = image > LEAST_INSIDE
+    away = lengthwise(inside)
+    rows, columns = np.nonzero(inside)
+    pixels = cKDTree(np.column_stack([columns, rows]) + 0.5)
+    _, nearest = pixels.query(places * px_per_cu)
+    return np.asarray(away[rows, columns][nearest])
 
 
 def _away_around(

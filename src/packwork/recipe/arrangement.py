@@ -16,7 +16,7 @@ from packwork.options import Options
 from packwork.recipe_paths import split_words
 from packwork.units import NUMBER
 
-WAYS = (*DIRECTIONS, "outwards", "inwards", "around")
+WAYS = (*DIRECTIONS, "outwards", "inwards", "around", "along")
 """Ways along which items may be put in order, beside angles such as 45deg."""
 
 MEASURES = ("weight", "hue", "lightness", "name")
@@ -36,7 +36,7 @@ class Arrangement:
     Parameters
     ----------
     way
-        right, outwards, inwards or around; right is the direction of ``angle``.
+        right, outwards, inwards, around or along; right is the direction of ``angle``.
     by
         weight, hue, lightness, name or a file.
     angle
@@ -111,5 +111,6 @@ class Ordered(Options):
         str | None, AfterValidator(known_arrangement), Offer(metavar="WAY", after="ground")
     ] = None
     """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
-    middle, around it) and what rises along it, as in right by=weight, outwards by=ages.csv (lines
-    of name,number), around by=hue; also lightness and name."""
+    middle, around it, or along the container from end to end) and what rises along it, as in
+    right by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness
+    and name."""
