@@ -13,7 +13,16 @@ from benchmarks.kit.manifests import Manifest, known, of_parts, write_text
 from benchmarks.pages import overview
 from benchmarks.paper import paper, resolution
 from benchmarks.peers import peer_pages
-from benchmarks.quality import charts, evenness, forces, meaning, parts, photos, quality
+from benchmarks.quality import (
+    arranging,
+    charts,
+    evenness,
+    forces,
+    meaning,
+    parts,
+    photos,
+    quality,
+)
 from benchmarks.robustness import files_page, robustness
 from benchmarks.studio import studio
 from benchmarks.words import pairs_page, words_page
@@ -30,7 +39,7 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
     **{
         name: partial(of_parts, module.PAGE)
         for name, module in {
-            "charts": charts, "engine": engine, "files": files_page, "films": film,
+            "arranging": arranging, "charts": charts, "engine": engine, "files": files_page, "films": film,
             "forces": forces, "live": live, "meaning": meaning, "outlines": outlines,
             "parts": parts, "photos": photos, "quality": quality, "robustness": robustness,
             "studio": studio,
