@@ -39,7 +39,8 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
     **{
         name: partial(of_parts, module.PAGE)
         for name, module in {
-            "arranging": arranging, "charts": charts, "engine": engine, "files": files_page, "films": film,
+            "arranging": arranging,
+            "charts": charts, "engine": engine, "files": files_page, "films": film,
             "forces": forces, "live": live, "meaning": meaning, "outlines": outlines,
             "parts": parts, "photos": photos, "quality": quality, "robustness": robustness,
             "studio": studio,

@@ -35,10 +35,10 @@ PAGE = """# Items in an order
 Made by `packwork bench arranging` on {date}.
 {machine}.
 
-{items} icons of free sizes. "in order": Spearman's rank correlation of what is measured with the place
-along the way; of hues the mean cosine of the turn between an icon's hue and that of the next one
-round the middle, grey ones and the innermost quarter left out. Covered is exact; seconds are of the whole
-run but writing, on a machine that others use too.
+{items} icons of free sizes. "in order": Spearman's rank correlation of what is measured with the
+place along the way; of hues the mean cosine of the turn between an icon's hue and that of the next
+one round the middle, grey ones and the innermost quarter left out. Covered is exact; seconds are of
+the whole run but writing, on a machine that others use too.
 
 {table}
 """
@@ -71,8 +71,9 @@ def main() -> None:
             seconds = [sum(one.seconds.values()) for one in (run, plain)]
             orders = [f"{in_order(one.layout, way):.2f}" for one in (run, plain)]
             covered = [f"{one.metrics.exact.coverage:.3f}" for one in (run, plain)]
-            rows.append([container, f"`{way}`", *orders, *covered,
-                         f"{seconds[0] / seconds[1]:.2f}", "yes" if run.certified else "no"])  # fmt: skip
+            ratio = f"{seconds[0] / seconds[1]:.2f}"
+            certified = "yes" if run.certified else "no"
+            rows.append([container, f"`{way}`", *orders, *covered, ratio, certified])
             print("  ".join(rows[-1]), flush=True)
     table = markdown_table(HEADER, rows)
     write_page("benchmarks-arranging.md", PAGE, items=str(count), table=table)
