@@ -26,6 +26,7 @@ PAGES = {
         "photos",
         "mosaics",
         "arranging",
+        "meaning",
         "charts",
         "films",
         "forces",

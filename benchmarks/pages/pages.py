@@ -16,6 +16,7 @@ from benchmarks.peers import peer_pages
 from benchmarks.quality import (
     arranging,
     charts,
+    embeddings,
     evenness,
     forces,
     meaning,
@@ -39,7 +40,7 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
     **{
         name: partial(of_parts, module.PAGE)
         for name, module in {
-            "arranging": arranging,
+            "arranging": arranging, "embeddings": embeddings,
             "charts": charts, "engine": engine, "files": files_page, "films": film,
             "forces": forces, "live": live, "meaning": meaning, "outlines": outlines,
             "parts": parts, "photos": photos, "quality": quality, "robustness": robustness,

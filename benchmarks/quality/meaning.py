@@ -1,8 +1,9 @@
 """Pictures that layouts show from afar: ``packwork bench meaning [items=N]``.
 
 Four pictures, shown by icons that take on their colours and by photographs that keep theirs, of as
-many as there are places or of four times as many, or take on a part of them. How far the blurred layout is from the blurred picture, in CIEDE2000, beside the same with colours or
-photographs in any order; what is covered and how long it takes, beside the same run without.
+many as there are places or of four times as many, or take on a part of them. How far the blurred
+layout is from the blurred picture, in CIEDE2000, beside the same with colours or photographs in any
+order; what is covered and how long it takes, beside the same run without.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ _WORD = re.compile(r'(?:by=)?"[^"]*"|\S+')
 _IN_TABLES: Mapping[str, tuple[str, ...]] = {
     "": (
         "container", "weights", "start", "font", "items", "keep_clear", "filler", "force",
-        "picture", "arrange",
+        "picture", "arrange", "embeddings",
     ),
     "words": ("source", "stopwords", "color_by", "fonts"),
     "chart": ("data", "mark"),

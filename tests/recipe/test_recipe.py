@@ -46,6 +46,7 @@ BAD: dict[str, list[Any]] = {
     "photos": {"sources": []},
     "share": [3, "words", "trees=3", {"words": -1}],
     "quiet_share": [0, 1, "much"],
+    "embeddings": [3, ["a.npy"]],
     "arrange": [3, "sideways", "right by=mood", "right up", ""],
     "picture": [3, ["a.png"]],
     "tint": [-0.1, 1.1, NAN, "much"],

@@ -209,6 +209,11 @@ class _FillWordsPhotos(TypedDict, total=False):
     by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness and
     name."""
 
+    embeddings: str | None
+    """Vectors of the items (.npy, .csv, .tsv, .json, .parquet; a row an item, or a first column of
+    names): those with like ones come to lie together. auto: of words, by which of them stand near
+    each other in the text."""
+
     target_coverage: float | str | None
     """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round
     by round, until it is reached or nothing more fits."""

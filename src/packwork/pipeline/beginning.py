@@ -13,6 +13,7 @@ from packwork.forces.exchanges import exchanged
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.alike import placed_alike
 from packwork.pipeline.arranging import arranged
 from packwork.pipeline.by_detail import DetailedPlaces, places_by_detail
 from packwork.pipeline.earlier import new_items, who_is_who
@@ -165,7 +166,9 @@ class _Start:
         poses = first.poses
         if forces.acts and not is_tight:
             poses = _by_forces(outlines, poses, limits, forces)
-        if job.keeps_order:
+        if job.vectors is not None:
+            poses = poses if is_tight else placed_alike(job, outlines, poses, self._rng)
+        elif job.keeps_order:
             poses = arranged(job, poses, self._nominal)
         begun = self._beginning(poses, str(first.method), limits, is_tight=is_tight)
         return replace(begun, is_clean=is_tight and is_only_refined(job, forces))
@@ -177,6 +180,7 @@ class _Start:
         )
         limits, scales = self._limits(angles)
         poses = held_to(limits, Poses(places.x, places.y, angles, scales))
+        poses = placed_alike(self._job, self._outlines, poses, self._rng)
         return self._beginning(poses, "stippling", limits)
 
     def from_layout(self, earlier: Layout) -> Beginning:

@@ -13,6 +13,7 @@ from packwork.errors import RecipeError
 from packwork.finish.finish import COMMON_COARSE
 from packwork.forces.forces import PRESSURE, FieldForce, Forces
 from packwork.geometry.outline import Outline
+from packwork.pipeline.alike import homes_alike
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.shares import kinds_of
@@ -87,6 +88,7 @@ def first_places(
             limits=limits,
             fields=_fields(job),
             kinds=_kinds(job),
+            homes=homes_alike(job, container, np.random.default_rng(plan.seed)),
             stop=is_over,
         )
         if poses is not None:
@@ -137,7 +139,7 @@ def needs_levels(job: Job, forces: Forces) -> bool:
         or plan.stretch > 1.0
         or plan.keeps_apart
         or bool(forces.bonds)
-        or job.keeps_order
+        or (job.keeps_order and job.vectors is None)
     )
 
 

@@ -18,6 +18,7 @@ from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.regions import Region
+from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.pipeline.use import Use
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -76,6 +77,8 @@ class Job:
         The layout to start from, if any.
     target
         The picture that the layout shows from afar, if any.
+    vectors
+        Which items are alike, if that was said.
     is_counted
         Whether the number of items was found by the run.
     skipped
@@ -95,6 +98,7 @@ class Job:
     fillers: tuple[Item, ...] = ()
     earlier: Layout | None = None
     target: TargetPicture | None = None
+    vectors: ItemVectors | None = None
     is_counted: bool = False
     skipped: tuple[PackworkError, ...] = ()
     clock: Clock = field(default_factory=Clock)
@@ -132,7 +136,8 @@ class Job:
     @property
     def keeps_order(self) -> bool:
         """Whether items are put in an order that later stages have to keep."""
-        return self.recipe.arrange is not None and not self.plan.stays
+        is_asked = self.recipe.arrange is not None or self.vectors is not None
+        return is_asked and not self.plan.stays
 
     @property
     def seated(self) -> IntArray:

@@ -15,6 +15,7 @@ from packwork.pipeline.plan.own_losses import losses_with_a_say
 from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
+from packwork.pipeline.plan.vectors import ItemVectors, read_item_vectors
 from packwork.pipeline.registration import registered
 from packwork.pipeline.use import Use
 from packwork.readers.container import read_container
@@ -24,6 +25,7 @@ from packwork.readers.photos.read import read_photos
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency.container import QuietOptions
 from packwork.recipe import Recipe
+from packwork.recipe.meaning import FROM_TEXT
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -131,6 +133,8 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
     plan = Plan.of(recipe, container)
     fillers = _fillers(recipe, material.fillers)
     plan = replace(plan, losses=losses_with_a_say(plan.losses, container, chosen.items))
+    vectors = _vectors(recipe, material)
+    told = () if vectors is None else vectors.told
     job = Job(
         recipe=recipe,
         plan=plan,
@@ -143,13 +147,33 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         fillers=fillers.items,
         earlier=_earlier(recipe, container, chosen.items),
         target=_target(recipe, container),
+        vectors=vectors,
         is_counted=recipe.count == AUTO,
-        skipped=(*material.skipped, *fillers.skipped),
+        skipped=(*material.skipped, *fillers.skipped, *told),
         clock=clock,
     )
     job.check_forces()
     check_arranged(job)
+    if job.vectors is not None and recipe.arrange is not None:
+        raise RecipeError("embeddings", "and --arrange both say where items lie; leave one out")
+    if job.vectors is not None and len(job.seated):
+        raise RecipeError(
+            "embeddings",
+            "puts like items together, and --picture puts them where their colours "
+            "fit; leave one out, or recolour them by --tint 100%",
+        )
     return job
+
+
+def _vectors(recipe: Recipe, material: Material) -> ItemVectors | None:
+    """Vectors of the items, from a file or made by the use."""
+    if recipe.embeddings is None:
+        return None
+    if recipe.chart is not None or recipe.pile is not None:
+        raise RecipeError("embeddings", "puts like items together in a collage; this is none")
+    if recipe.embeddings == FROM_TEXT:
+        return material.use.vectors(recipe)
+    return read_item_vectors(recipe, recipe.embeddings, material.cast.items)
 
 
 def _target(recipe: Recipe, container: Container) -> TargetPicture | None:

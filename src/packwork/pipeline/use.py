@@ -8,8 +8,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
 from packwork.phrasing import number_of
 from packwork.pipeline.plan.counts import items_needed
+from packwork.pipeline.plan.vectors import ItemVectors
+from packwork.recipe import Recipe
 
 if TYPE_CHECKING:
     from packwork.finish.finished import Finished
@@ -128,6 +131,11 @@ class Use(ABC):
     def has_nearest(self) -> bool:
         """Whether drawings of several colours may take on the palette's nearest colours."""
         return True
+
+    def vectors(self, recipe: Recipe) -> ItemVectors:
+        """Vectors that say which items are alike, made by the use itself."""
+        del recipe
+        raise RecipeError("embeddings", "auto is of words of a text; give a file of vectors")
 
     def notes(self, job: Job, layout: Layout, worn: Layout) -> tuple[Note, ...]:
         """What is drawn beside items and on them: titles, keys, labels; ``worn`` has colours."""

@@ -31,8 +31,8 @@ _PAINT = re.compile(r"""(?:\bfill|\bstop-color)\s*[=:]\s*["']?\s*([^"';}<>]{1,40
 _ALONE = re.compile(
     r"""<image [^<>]*href="data:image/(?:png|jpeg);base64,([A-Za-z0-9+/=]+)"[^<>]*/>"""
 )
-"""Preview of a photograph without a border that is cut to no shape: one picture, five times as quick
-to decode as to render."""
+"""Preview of a photograph without a border that is cut to no shape: one picture, five times as
+quick to decode as to render."""
 
 _SAMPLE_PX = 64
 """Longer side a picture is reduced to before its mean is taken. Larger: slower, same mean;

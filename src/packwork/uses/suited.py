@@ -6,8 +6,6 @@ An optimal assignment of items to places spread over the picture, as for seats o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
@@ -38,7 +36,7 @@ def suited_first(recipe: Recipe, container: Container, items: tuple[Item, ...]) 
 
 
 def best_suited(lights: FloatArray, wanted: FloatArray) -> IntArray:
-    """``(m,)`` ascending indices of the items by which wanted colours are met best, one by one each.
+    """``(m,)`` ascending indices of the items by which wanted colours are met best, one by each.
 
     Parameters
     ----------

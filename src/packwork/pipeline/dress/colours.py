@@ -20,6 +20,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.mixing import mixed
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
+from packwork.start.neighbour_embedding.clusters import clusters
 from packwork.writers.shading import in_palette, shaded
 
 _Arts: TypeAlias = dict[tuple[int, int, str, bool], Art]
@@ -34,13 +35,14 @@ def _as_asked(job: Job, layout: Layout) -> Layout:
     """Layout whose items look and are called as rules and palette ask.
 
     Colours of a palette are given out in the order of the items, as many of each; then
-    neighbours of one colour exchange theirs with others. What has several colours gets their
-    tints and shades.
+    neighbours of one colour exchange theirs with others. Where it is known which items are
+    alike, those of one cluster get one colour. What has several colours gets their tints and
+    shades.
     """
     if job.plan.shades == "nearest":
         layout = _in_nearest(job, layout)
     coloured = job.use.colours(job, layout)
-    palettes: list[tuple[str, ...]] = [] if coloured else _palettes(job)
+    palettes: list[tuple[str, ...]] = [] if coloured else _by_cluster(job, _palettes(job))
     if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
         return layout
     colours = _colours(palettes, layout) if coloured is None else coloured
@@ -104,6 +106,16 @@ def _palettes(job: Job) -> list[tuple[str, ...]]:
             plain[id(item)] = has_one_colour(item.art) or _is_tinted(job, item)
         found.append(common if plain.get(id(item)) else ())
     return found
+
+
+def _by_cluster(job: Job, palettes: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
+    """One colour of each palette for items of one cluster, where it is known which are alike."""
+    most = max(map(len, palettes), default=0)
+    if job.vectors is None or most < 2:
+        return palettes
+    numbers = clusters(job.vectors.of(job.items), most, np.random.default_rng(job.plan.seed))
+    pairs = zip(palettes, numbers.tolist(), strict=True)
+    return [(palette[k % len(palette)],) if palette else () for palette, k in pairs]
 
 
 def _is_tinted(job: Job, item: Item) -> bool:

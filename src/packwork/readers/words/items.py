@@ -25,6 +25,7 @@ from packwork.readers.tables.format import TableFormat
 from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.options import WeightIs, WordOptions
 from packwork.readers.words.source import ranked_words
+from packwork.readers.words.together import related
 from packwork.readers.words.word import Word
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.label import Label
@@ -72,6 +73,8 @@ class WordsRead:
         What has to be told of how the source was read, and of rows that are left out.
     stopped
         Words of a text that are left out since they say little, the most frequent first.
+    vectors
+        ``(n, d)`` of the items, by which of them stand together; None unless asked for.
     """
 
     items: tuple[Item, ...]
@@ -81,10 +84,15 @@ class WordsRead:
     found: int
     told: tuple[ReadError, ...] = ()
     stopped: tuple[str, ...] = ()
+    vectors: FloatArray | None = None
 
 
 def read_word_items(
-    options: WordOptions, holes: Holes = "fill", asked: TableFormat | None = None
+    options: WordOptions,
+    holes: Holes = "fill",
+    asked: TableFormat | None = None,
+    *,
+    is_related: bool = False,
 ) -> WordsRead:
     """Items of the words that a source holds.
 
@@ -94,13 +102,15 @@ def read_word_items(
         Of all items; those of words are kept with the option ``nest`` too.
     asked
         How a table is written, where that was said.
+    is_related
+        Whether vectors are made of which words stand together.
 
     Raises
     ------
     ReadError
         If the source or a font cannot be read, or no word can be set.
     RecipeError
-        If weights are too far apart.
+        If weights are too far apart, or words that are to be related come from no text.
 
     Examples
     --------
@@ -134,6 +144,7 @@ def read_word_items(
         len(ranked.words),
         ranked.told,
         ranked.stopped,
+        related(ranked.sentences, words, options.phrases) if is_related else None,
     )
 
 

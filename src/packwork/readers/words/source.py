@@ -5,7 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections import Counter
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -56,11 +56,14 @@ class Ranked:
     stopped
         Words of a text that are left out as those of its language that say little, the most
         frequent first; none where the language was asked for.
+    sentences
+        Words of a text in their order; none of a table.
     """
 
     words: tuple[Word, ...]
     told: tuple[ReadError, ...] = ()
     stopped: tuple[str, ...] = ()
+    sentences: Sequence[Sequence[str]] = ()
 
 
 def read_words(options: WordOptions, asked: TableFormat | None = None) -> list[Word]:
@@ -160,7 +163,8 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
     words = [Word(written[word], float(n)) for word, n in kept.items() if n >= options.min_count]
     if not words:
         raise ReadError(_name(options), _why_none(counts, kept, options))
-    return Ranked(tuple(words), stopped=tuple(written[word] for word in stopped))
+    said = tuple(written[word] for word in stopped)
+    return Ranked(tuple(words), stopped=said, sentences=found)
 
 
 def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) -> str:

@@ -101,6 +101,10 @@ PULL = 2.0
 """Score that an item gives for coming the canvas' side lower, at a strength of 1. 4 and 8 draw
 nothing nearer. Tried."""
 
+HOMEWARD = 8.0
+"""Score that an item gives for lying the canvas' side nearer to its own point. Larger brings more
+together and fills less. Tried."""
+
 NOISE = 0.01
 """Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
 
@@ -118,6 +122,7 @@ def first_fit(
     limits: Limits = NO_LIMITS,
     fields: Sequence[FieldForce] = (),
     kinds: IntArray | None = None,
+    homes: FloatArray | None = None,
     stop: Stop = never,
 ) -> Poses | None:
     """Poses at which nothing overlaps, all items in proportion; None if none were found.
@@ -149,6 +154,8 @@ def first_fit(
     kinds
         ``(n,)`` numbers of what is to be mixed: what lies there at any time has as much of each
         kind's area, as what is put later comes to lie elsewhere. None for the largest first.
+    homes
+        ``(n, 2)`` points near which items had better lie, canvas units.
     stop
         Asked before each attempt; True ends the search with the best found so far.
 
@@ -167,8 +174,9 @@ def first_fit(
 
     def fitting(grain: Grain) -> _Fitting:
         return _Fitting(
-            grain, container, outlines, scales, angles, rng, margin_cu, slack, limits, fields, kinds
-        )
+            grain, container, outlines, scales, angles, rng, margin_cu, slack, limits, fields,
+            kinds, homes,
+        )  # fmt: skip
 
     def first(grain: Grain) -> float:
         return math.sqrt(grain.first_share / share)
@@ -198,6 +206,7 @@ class _Fitting:
         limits: Limits,
         fields: Sequence[FieldForce],
         kinds: IntArray | None,
+        homes: FloatArray | None,
     ) -> None:
         count = len(outlines)
         self._grain = grain
@@ -215,6 +224,7 @@ class _Fitting:
         self._noise = NOISE * rng.random(image.shape)
         self._fields = fields
         self._heights = _heights(fields, image.shape, self._px_per_cu)
+        self._near = None if homes is None else homes * self._px_per_cu
         self._homes = allowed_pixels(limits, image, self._px_per_cu)
 
     def largest(self, factor: float, attempts: int, stop: Stop) -> tuple[float, Poses] | None:
@@ -323,7 +333,8 @@ class _Fitting:
         self, occupancy: Occupancy, item: int, stencils: Sequence[Stencil], is_loose: bool
     ) -> tuple[int, int, int] | None:
         """Which stencil of an item is to be put, and at what row and column."""
-        is_everywhere = is_loose or self._homes[item] is not None or len(self._fields) > 0
+        is_drawn = self._near is not None or len(self._fields) > 0
+        is_everywhere = is_loose or self._homes[item] is not None or is_drawn
         worth = self._worth(item)
         field = occupancy.clearance if is_loose else None
         tried = [occupancy.best_place(s, worth, is_everywhere, field) for s in stencils]
@@ -342,12 +353,19 @@ class _Fitting:
         for force, height in zip(self._fields, self._heights, strict=True):
             if force.strengths[item]:
                 worth = worth - PULL * force.strengths[item] * height
+        if self._near is not None:
+            worth = worth - HOMEWARD * self._away(self._near[item], worth.shape)
         home = self._homes[item]
         if home is None:
             return worth
         held = np.full(worth.shape, -np.inf)
         held.ravel()[home] = worth.ravel()[home]
         return held
+
+    def _away(self, point: FloatArray, shape: tuple[int, ...]) -> FloatArray:
+        """Distance of all pixels from a point, over the image's longer side."""
+        rows, columns = np.ogrid[: shape[0], : shape[1]]
+        return np.asarray(np.hypot(rows - point[1], columns - point[0]) / max(shape))
 
     def _stencils(self, scales: FloatArray, stop: Stop) -> dict[Key, Stencil] | None:
         """Stencils of all items at all their angles, equal ones cut once; None if stopped."""

@@ -1,11 +1,11 @@
 """Items assigned to places so that those pulled towards each other come to lie side by side.
 
-A quadratic assignment problem (T. C. Koopmans and M. Beckmann, "Assignment problems and the location
-of economic activities", Econometrica 25 (1957), 53-76), begun with a split of items and places into
-halves along their longest axes, then solved by simulated annealing over exchanges (R. E. Burkard
-and F. Rendl, "A thermodynamically motivated simulation procedure for combinatorial optimization
-problems", European Journal of Operational Research 17 (1984), 169-174). Places repel nothing:
-that two items cannot have one takes the part of the repulsion in t-SNE and UMAP.
+A quadratic assignment problem (T. C. Koopmans and M. Beckmann, "Assignment problems and the
+location of economic activities", Econometrica 25 (1957), 53-76), begun with a split of items and
+places into halves along their longest axes, then solved by simulated annealing over exchanges (R.
+E. Burkard and F. Rendl, "A thermodynamically motivated simulation procedure for combinatorial
+optimization problems", European Journal of Operational Research 17 (1984), 169-174). Places
+repel nothing: that two items cannot have one takes the part of the repulsion in t-SNE and UMAP.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from packwork.start.neighbour_embedding.graph import NeighbourGraph, unit_rows
 STEPS, EXCHANGES = 80, 60
 """Temperatures, and exchanges tried at each for every item. More find a little more. Tried."""
 
-HOT, COLD = 0.5, 0.01
+HOT, COLD = 1.0, 0.02
 """First and last temperature, in spacings of the places. A hotter start forgets the first
 order, a colder one keeps its mistakes. Tried."""
 
@@ -75,7 +75,7 @@ def assigned(
     own = np.zeros((count, 0)) if own is None else own
     there = np.zeros((count, 0)) if there is None else there
     at[movable] = movable[_halved(_axes(vectors[movable], rng), scaled[movable])]
-    graph = NeighbourGraph.of(vectors)
+    graph = NeighbourGraph.of(vectors, rng)
     for heat in np.geomspace(HOT, COLD, STEPS):
         tries = EXCHANGES * len(movable)
         pairs = movable[rng.integers(0, len(movable), (tries, 2))]
@@ -97,13 +97,13 @@ def _axes(vectors: FloatArray, rng: np.random.Generator) -> FloatArray:
     units = unit_rows(vectors)
     units = units - units.mean(axis=0)
     if units.shape[1] <= MOST_AXES:
-        return units
+        return np.asarray(units)
     chance = rng.standard_normal((units.shape[1], MOST_AXES)) / np.sqrt(MOST_AXES)
     return np.asarray(units @ chance)
 
 
 def _halved(vectors: FloatArray, points: FloatArray) -> IntArray:
-    """Point of each vector: both are split into halves along their longest axes, again and again."""
+    """Point of each vector: both are halved along their longest axes, again and again."""
     found = np.empty(len(points), dtype=np.int64)
     parts = [(np.arange(len(points)), np.arange(len(points)))]
     while parts:

@@ -1,9 +1,10 @@
 """Graph of nearest neighbours among vectors, weighted by how near they are.
 
 The fuzzy neighbour graph of L. McInnes, J. Healy and J. Melville, "UMAP: Uniform manifold
-approximation and projection for dimension reduction" (2018), arXiv:1802.03426: weights fall from 1 at
-an item's nearest neighbour, so fast that they sum to the logarithm of how many there are. Ours
-then scales each item's weights to a sum of 1, so that none pulls harder than others.
+approximation and projection for dimension reduction" (2018), arXiv:1802.03426: weights fall from 1
+at an item's nearest neighbour, so fast that they sum to the logarithm of how many there are. Ours
+are multiplied by the cosine, so that what is unlike pulls nothing, and scaled to a sum of 1 for
+each item, so that none pulls harder than others.
 """
 
 from __future__ import annotations
@@ -16,6 +17,9 @@ from packwork.arrays import FloatArray, IntArray
 
 NEIGHBOURS = 12
 """Neighbours of each item in the graph. Fewer follow chance, more blur what is alike. Chosen."""
+
+MOST_PARTNERS = 48
+"""Partners of each item among copies. More take longer. Chosen."""
 
 HALVINGS = 40
 """Bisections for the rate at which weights fall. Chosen: they end below any difference."""
@@ -41,32 +45,57 @@ class NeighbourGraph:
     weights: FloatArray
 
     @classmethod
-    def of(cls, vectors: FloatArray, neighbours: int = NEIGHBOURS) -> NeighbourGraph:
+    def of(
+        cls, vectors: FloatArray, rng: np.random.Generator, most: int = NEIGHBOURS
+    ) -> NeighbourGraph:
         """Graph of ``(n, d)`` vectors by their angles: the cosine distance.
+
+        Items of one vector, as copies of a thing, are neighbours of each other and of all copies
+        of its neighbours, or of some of them by chance where there are many.
 
         Examples
         --------
-        >>> graph = NeighbourGraph.of(np.array([[1.0, 0], [1, 0.1], [0, 1], [0.1, 1]]), 1)
-        >>> graph.partners.tolist()
+        >>> vectors = np.array([[1.0, 0], [1, 0.1], [0, 1], [0.1, 1]])
+        >>> NeighbourGraph.of(vectors, np.random.default_rng(0), 1).partners.tolist()
         [1, 0, 3, 2]
         """
-        count = len(vectors)
-        neighbours = min(neighbours, count - 1)
-        if neighbours < 1:
-            return cls(np.zeros(count + 1, np.int64), np.zeros(0, np.int64), np.zeros(0))
-        nearest, away = _nearest(unit_rows(vectors), neighbours)
-        falling = _falling(away)
-        rows = np.repeat(np.arange(count), neighbours)
-        return cls._symmetric(count, rows, nearest.ravel(), falling.ravel())
+        things, which = np.unique(unit_rows(vectors), axis=0, return_inverse=True)
+        which = which.ravel()
+        count, neighbours = len(vectors), min(most, len(things) - 1)
+        nearest, weights = np.zeros((len(things), 0), np.int64), np.zeros((len(things), 0))
+        if neighbours > 0:
+            nearest, away = _nearest(things, neighbours)
+            # What is unlike pulls nothing, be it the nearest; nor does what has no vector.
+            weights = _falling(away) * np.maximum(1.0 - away, 0.0)
+        copies = [np.flatnonzero(which == k) for k in range(len(things))]
+        rows, columns, values = [np.zeros(0, np.int64)], [np.zeros(0, np.int64)], [np.zeros(0)]
+        for k, own in enumerate(copies):
+            others = zip(weights[k], nearest[k], strict=True)
+            near = [(1.0, own), *((weight, copies[other]) for weight, other in others)]
+            candidates = np.concatenate([ones for _, ones in near])
+            # What has many copies pulls no harder than what has one.
+            pulls = np.concatenate([np.full(len(ones), w / len(ones)) for w, ones in near])
+            for item in own:
+                taken = np.flatnonzero((candidates != item) & (pulls > 0))
+                if len(taken) > MOST_PARTNERS:
+                    shares = pulls[taken] / pulls[taken].sum()
+                    taken = np.sort(rng.choice(taken, MOST_PARTNERS, replace=False, p=shares))
+                rows.append(np.full(len(taken), item))
+                columns.append(candidates[taken])
+                values.append(pulls[taken])
+        joined = np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
+        return cls._symmetric(count, *joined)
 
     @classmethod
     def _symmetric(
         cls, count: int, rows: IntArray, columns: IntArray, weights: FloatArray
     ) -> NeighbourGraph:
-        """Fuzzy union of a graph and its mirror image; each row then sums to 1, halved both ways."""
+        """Fuzzy union of a graph and its mirror image, each row then scaled to 1 and halved."""
         # The library of sparse matrices is needed here alone.
         from scipy.sparse import coo_array
 
+        if len(rows) == 0:
+            return cls(np.zeros(count + 1, np.int64), np.zeros(0, np.int64), np.zeros(0))
         one = coo_array((weights, (rows, columns)), shape=(count, count)).tocsr()
         union = (one + one.T - one * one.T).tocsr()
         sums = np.maximum(np.asarray(union.sum(axis=1)).ravel(), 1e-12)

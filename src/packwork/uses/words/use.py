@@ -19,6 +19,7 @@ from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.plan import found_sizes
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
+from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.pipeline.read import AUTO, Material, read_named
 from packwork.pipeline.result import Run, Unplaced, WordsFound
 from packwork.pipeline.run import along
@@ -28,6 +29,7 @@ from packwork.progress import Stop
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
+from packwork.recipe.meaning import FROM_TEXT
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
@@ -150,6 +152,13 @@ class Words(Use):
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours by weight, column, picture or function, if asked for."""
         return word_colours(job.recipe, self.read, layout)
+
+    def vectors(self, recipe: Recipe) -> ItemVectors:
+        """Vectors of the words by the text that they come from."""
+        rows = self.read.vectors
+        if rows is None:
+            return super().vectors(recipe)
+        return ItemVectors.of_rows(self.read.items, rows, np.any(rows, axis=1))
 
     @property
     def palette_tints(self) -> bool:
@@ -281,7 +290,9 @@ def read_cloud(
     # Refuses cut photographs among words.
     crops(recipe)
     asked = nesting(asked, recipe, room)
-    words = read_word_items(words_counted(asked, room), recipe.holes, recipe)
+    is_related = recipe.embeddings == FROM_TEXT
+    counted = words_counted(asked, room)
+    words = read_word_items(counted, recipe.holes, recipe, is_related=is_related)
     check_colours(recipe, words.words)
     named = read_named(recipe, given)
     chosen = cast_words(recipe, words, named.items)

@@ -1,0 +1,57 @@
+"""Similar items side by side: which item gets which place, by the vectors of ``--embeddings``.
+
+A neighbour embedding whose repulsion is that two items cannot lie in one place
+(:mod:`packwork.start.neighbour_embedding`). Items take each other's places before the levels, which
+then make room for their forms but lift none into a void elsewhere, as the finish exchanges none.
+What is put one by one gets a point near which it had better lie.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray
+from packwork.geometry.outline import Outline
+from packwork.pipeline.job import Job
+from packwork.scene.container import Container
+from packwork.scene.pose import Poses
+from packwork.start.first_poses import container_image, disc_radii, start_resolution
+from packwork.start.neighbour_embedding.assignment import assigned
+from packwork.start.stippling import stippled
+
+FACTOR, KEPT_FACTOR = 1.6, 1.3
+"""Factor between the radii of an item and of its new place that costs as much as lying a spacing
+farther from all its neighbours: where sizes are free, and where they are not. Larger brings more
+together and covers less. Tried."""
+
+
+def placed_alike(
+    job: Job, outlines: Sequence[Outline], poses: Poses, rng: np.random.Generator
+) -> Poses:
+    """First poses in which items have changed places; sizes and angles stay with the items."""
+    if job.vectors is None:
+        return poses
+    radii = disc_radii(outlines, poses.scale)
+    factor = FACTOR if job.plan.sizes == "free" else KEPT_FACTOR
+    sizes = (np.log(radii) / np.log(factor))[:, None]
+    points = np.column_stack([poses.x, poses.y])
+    free: BoolArray = np.array([not one.voices for one in job.asked], dtype=bool)
+    vectors = job.vectors.of(job.items)
+    at = assigned(vectors, points, rng, own=sizes, there=sizes, free=free)
+    return replace(poses, x=poses.x[at], y=poses.y[at])
+
+
+def homes_alike(job: Job, region: Container, rng: np.random.Generator) -> FloatArray | None:
+    """``(n, 2)`` points near which items had better lie, canvas units; None if anywhere.
+
+    Points spread evenly over the container.
+    """
+    if job.vectors is None:
+        return None
+    inside, px_per_cu = container_image(region, start_resolution(len(job.items)))
+    found = stippled(inside, np.ones_like(inside), len(job.items), rng)
+    points = np.column_stack([found.x, found.y]) / px_per_cu
+    return np.asarray(points[assigned(job.vectors.of(job.items), points, rng)])

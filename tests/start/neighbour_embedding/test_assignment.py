@@ -1,0 +1,109 @@
+"""Items assigned to places by what they are like: the kernel's twin, clusters, what is held."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.start.neighbour_embedding import _kernels
+from packwork.start.neighbour_embedding.assignment import assigned
+from packwork.start.neighbour_embedding.clusters import clusters
+from packwork.start.neighbour_embedding.graph import NeighbourGraph
+
+
+def _cost(
+    at: IntArray, graph: NeighbourGraph, points: FloatArray, own: FloatArray, there: FloatArray
+) -> float:
+    """Slow twin: each edge's weighted length once, and what places are unlike."""
+    pulled = sum(
+        graph.weights[k] * np.linalg.norm(points[at[item]] - points[at[graph.partners[k]]])
+        for item in range(len(at))
+        for k in range(graph.starts[item], graph.starts[item + 1])
+    )
+    return float(pulled / 2 + ((own - there[at]) ** 2).sum())
+
+
+@pytest.mark.parametrize("heat", [1e-9, 0.7])
+def test_an_exchange_costs_what_the_twin_says(heat: float) -> None:
+    rng = np.random.default_rng(3)
+    count = 14
+    graph = NeighbourGraph.of(rng.standard_normal((count, 4)), rng, 3)
+    points, own, there = (rng.random((count, k)) for k in (2, 2, 2))
+    at = rng.permutation(count)
+    before = _cost(at, graph, points, own, there)
+    pairs = rng.integers(0, count, (60, 2))
+    gained = _kernels.anneal_exchanges(
+        at, graph.starts, graph.partners, graph.weights, points, own, there,
+        pairs, rng.random(60), heat,
+    )  # fmt: skip
+    assert sorted(at.tolist()) == list(range(count))
+    assert before - _cost(at, graph, points, own, there) == pytest.approx(gained, abs=1e-9)
+    assert heat > 0.1 or gained > 0
+
+
+def _planted(count: int) -> tuple[IntArray, FloatArray]:
+    """Kinds, and vectors about the middle of each."""
+    rng = np.random.default_rng(0)
+    kinds = np.arange(count) % 4
+    return kinds, rng.standard_normal((4, 12))[kinds] + 0.2 * rng.standard_normal((count, 12))
+
+
+def test_clusters_come_to_lie_together() -> None:
+    kinds, vectors = _planted(64)
+    points = np.stack(np.meshgrid(np.arange(8.0), np.arange(8.0)), axis=-1).reshape(-1, 2)
+    at = assigned(vectors, points, np.random.default_rng(1))
+    placed = np.empty(64, dtype=int)
+    placed[at] = kinds
+    grid = placed.reshape(8, 8)
+    alike = np.concatenate([(grid[1:] == grid[:-1]).ravel(), (grid[:, 1:] == grid[:, :-1]).ravel()])
+    # Four squares of sixteen are parted by sixteen of the 112 edges.
+    assert alike.mean() > 0.8
+
+
+def test_what_is_held_stays_and_sizes_are_heeded() -> None:
+    kinds, vectors = _planted(40)
+    rng = np.random.default_rng(2)
+    points = rng.random((40, 2))
+    free = np.arange(40) >= 10
+    sizes = 50.0 * (np.arange(40) % 2)[:, None]
+    at = assigned(vectors, points, rng, own=sizes, there=sizes, free=free)
+    assert at[:10].tolist() == list(range(10))
+    assert (at % 2 == np.arange(40) % 2).all()
+    del kinds
+
+
+def test_the_graph_is_symmetric_and_leaves_out_none() -> None:
+    rng = np.random.default_rng(0)
+    graph = NeighbourGraph.of(rng.standard_normal((30, 5)), rng, 4)
+    dense = np.zeros((30, 30))
+    for item in range(30):
+        own = slice(graph.starts[item], graph.starts[item + 1])
+        dense[item, graph.partners[own]] = graph.weights[own]
+    assert np.allclose(dense, dense.T)
+    assert (dense.sum(axis=1) > 0.4).all()
+    assert (np.diag(dense) == 0).all()
+
+
+def test_copies_are_tied_to_what_their_thing_is_like() -> None:
+    """Two things alike, one unlike them, thirty copies of each."""
+    vectors = np.repeat([[1.0, 0.0], [1.0, 0.1], [0.0, 1.0]], 30, axis=0)
+    graph = NeighbourGraph.of(vectors, np.random.default_rng(0))
+    things = np.arange(90) // 30
+    rows = np.repeat(np.arange(90), np.diff(graph.starts))
+    pulls = np.zeros((3, 3))
+    np.add.at(pulls, (things[rows], things[graph.partners]), graph.weights)
+    assert pulls[0, 1] > 0.5 * pulls[0, 0]
+    assert pulls[0, 2] < 0.3 * pulls[0, 1]
+
+
+def test_one_item_and_no_neighbours() -> None:
+    assert assigned(np.ones((1, 2)), np.zeros((1, 2)), np.random.default_rng(0)).tolist() == [0]
+    assert len(NeighbourGraph.of(np.ones((1, 2)), np.random.default_rng(0)).partners) == 0
+
+
+def test_planted_clusters_are_found() -> None:
+    kinds, vectors = _planted(80)
+    found = clusters(vectors, 4, np.random.default_rng(5))
+    assert len({(int(a), int(b)) for a, b in zip(kinds, found, strict=True)}) == 4
+    assert clusters(np.ones((3, 2)), 2, np.random.default_rng(0)).tolist() == [0, 0, 0]
