@@ -71,7 +71,7 @@ def test_a_drag_moves_neighbours_settles_and_is_one_step_back(play) -> None:
         after = poses_of(page.frames[-1])
         assert (np.abs(after - before)[1:] > 1e-3).any()
         assert page.last("state")["can_undo"]
-        page.tell(type="leap", to="undo")
+        page.tell(type="leap", n=99, to="undo")
         await page.until(lambda: page.last("state")["can_redo"] and page.is_certified)
         await page.until(lambda: np.array_equal(poses_of(page.frames[-1]), before))
         assert not page.last("state")["can_undo"]
@@ -139,9 +139,40 @@ def test_another_container_is_filled_anew_in_one_step(play) -> None:
         await page.until(lambda: page.is_certified)
         page.tell(type="room", source="builtin:bear")
         await page.until(lambda: page.last("scene")["name"] == "bear" and page.is_certified)
-        page.tell(type="leap", to="undo")
+        page.tell(type="leap", n=99, to="undo")
         await page.until(lambda: page.last("scene")["name"] == "circle" and page.is_certified)
         assert not page.last("state")["can_undo"]
+
+    play(scenario)
+
+
+def test_no_scene_is_said_to_be_certified_by_what_was_said_of_another(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        for name in ("bear", "cat"):
+            page.tell(type="room", source=f"builtin:{name}")
+            await page.until(
+                lambda name=name: page.last("scene")["name"] == name and page.is_certified
+            )
+        said = [one for one in page.messages if one["type"] in {"scene", "state"}]
+        followed = [k for k, one in enumerate(said) if k and one["type"] == "scene"]
+        assert len(followed) >= 2
+        assert all(
+            said[k - 1]["type"] == "state" and not said[k - 1]["certified"] for k in followed
+        )
+
+    play(scenario)
+
+
+def test_undo_is_counted_as_commands_are(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified)
+        page.tell(type="do", n=1, command={"kind": "hold", "items": [3]})
+        page.tell(type="leap", n=2, to="undo")
+        await page.until(lambda: page.done == 2)
+        assert not any(any(thing["held"]) for thing in page.last("scene")["items"])
 
     play(scenario)
 

@@ -18,7 +18,7 @@ STATIC = Path(studio.__file__).parent / "static"
 
 GOOD = [
     {"type": "ack", "frame": 3},
-    {"type": "leap", "to": "undo"},
+    {"type": "leap", "n": 1, "to": "undo"},
     {"type": "do", "n": 1, "command": {"kind": "move", "item": 0, "x": 1.0, "y": 2.0}},
     {"type": "do", "n": 2, "command": {"kind": "grab", "items": [0, 1]}},
     {"type": "count", "count": 12},
@@ -27,7 +27,8 @@ GOOD = [
 ]
 BAD = [
     "", "null", "[]", "{}", "7", '{"type": "ack"}', '{"type": "ack", "frame": -1}',
-    '{"type": "ack", "frame": 1, "more": 2}', '{"type": "leap", "to": "over"}', "\0", "[" * 90_000,
+    '{"type": "ack", "frame": 1, "more": 2}', '{"type": "leap", "n": 1, "to": "over"}',
+    "\0", "[" * 90_000,
     '{"type": "do", "n": 1, "command": {"kind": "move", "item": 0, "x": NaN, "y": 1}}',
     '{"type": "do", "n": 1, "command": {"kind": "format_disk"}}',
     '{"type": "do", "n": 1, "command": {"kind": "together", "commands": []}}',

@@ -103,9 +103,9 @@ class Bringer:
         self._read(read)
 
     def _room_of(self, message: wire.Room) -> Container:
-        view = self._desk.view
-        if message.source == SAME and message.canvas is not None and view is not None:
-            return on_canvas(view.container, canvas_size(message.canvas))
+        shown = self._desk.shown
+        if message.source == SAME and message.canvas is not None and shown is not None:
+            return on_canvas(shown.view.container, canvas_size(message.canvas))
         canvas = message.canvas or self._desk.canvas
         return container_of(self._container(message.source), canvas, self._font(message.font))
 

@@ -11,7 +11,7 @@ import threading
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -27,7 +27,7 @@ from packwork.live.face.keeping import Keeper
 from packwork.live.face.opening import Opening, kept_in, opened
 from packwork.live.face.pouring import Moment, in_place, poured, poured_again, poured_into
 from packwork.live.named import NamedSession
-from packwork.live.owner import Owner
+from packwork.live.owner import Frame, Owner
 from packwork.scene.pose import Poses
 from packwork.studio.view import Scenes, View
 from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
@@ -53,6 +53,25 @@ QUIET_SECONDS = 2.0
 """How long nothing has to move until the session's file may be written anew. Chosen."""
 
 NOT_YET = "the desk is still being laid; try it again in a moment"
+
+
+@dataclass(frozen=True, eq=False)
+class Shown:
+    """What there is to be seen at a moment.
+
+    Parameters
+    ----------
+    view
+        All that is drawn.
+    state
+        How things stand with it.
+    done
+        How many commands it knows, in the count of the session's owner.
+    """
+
+    view: View
+    state: State
+    done: int
 
 
 class Desk:
@@ -112,12 +131,18 @@ class Desk:
         self._listeners.pop(who, None)
 
     @property
-    def view(self) -> View | None:
-        """What there is to be seen now; None before anything is."""
-        moment = self._moment
+    def shown(self) -> Shown | None:
+        """What there is to be seen now, all of one moment; None before anything is."""
+        # Both are replaced by other threads: each is looked at once.
+        moment, frame = self._moment, None if self.owner is None else self.owner.frame
         if moment is not None:
-            return moment
-        return None if self.owner is None else View.of_document(self.owner.frame.document)
+            view = moment
+        elif frame is not None:
+            view = View.of_document(frame.document)
+        else:
+            return None
+        state = self._state(view, frame, is_run=moment is not None)
+        return Shown(view, state, 0 if frame is None else frame.done)
 
     @property
     def canvas(self) -> str | None:
@@ -139,10 +164,9 @@ class Desk:
         """How items look."""
         return self._scenes
 
-    def state(self, view: View) -> State:
+    def _state(self, view: View, frame: Frame | None, *, is_run: bool) -> State:
         """How things stand."""
-        frame = None if self.owner is None else self.owner.frame
-        is_moving = self._moment is not None or frame is None or frame.in_the_way is None
+        is_moving = is_run or frame is None or frame.in_the_way is None
         in_the_way = () if frame is None or frame.in_the_way is None else frame.in_the_way
         return State(
             covered=_covered(view),

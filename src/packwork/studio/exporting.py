@@ -79,7 +79,7 @@ class Exporter:
         self._desk.listen(news, lambda _: news.set())
         try:
             async with asyncio.timeout(PATIENCE_SECONDS):
-                while (view := self._desk.view) is None or self._desk.state(view).moving:
+                while (shown := self._desk.shown) is None or shown.state.moving:
                     news.clear()
                     await news.wait()
         except TimeoutError:

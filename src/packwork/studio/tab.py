@@ -8,6 +8,7 @@ from collections import deque
 from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
+from packwork.live.commands.command import Command
 from packwork.live.owner import Leap
 from packwork.scene.pose import Poses
 from packwork.studio import wire
@@ -81,21 +82,20 @@ class Tab:
     async def _send_news(self) -> None:
         while self._lines:
             await self._say(self._lines.popleft())
-        view = self._desk.view
-        if view is None:
+        shown = self._desk.shown
+        if shown is None:
             return
-        owner = self._desk.owner
-        done = 0 if owner is None else owner.frame.done
-        state = self._desk.state(view)
+        view, state = shown.view, shown.state
         scene = await self._desk.scene(view)
         if self._scene is None or scene.version != self._scene.version:
+            if self._scene is not None:
+                # What was said of the scene before does not hold of this one.
+                await self._send_state(_unsettled(state))
             await self._send_scene(scene)
             self._seen = None
-        is_late = await self._send_frame(view, done, scene.version, state.moving)
-        if is_late and not state.moving:
-            # What is said of a layout waits until that layout is what the page shows.
-            state = state.model_copy(update={"moving": True, "certified": False, "entangled": ()})
-        await self._send_state(state)
+        is_late = await self._send_frame(view, shown.done, scene.version, state.moving)
+        # What is said of a layout waits until that layout is what the page shows.
+        await self._send_state(_unsettled(state) if is_late else state)
 
     async def _send_frame(self, view: View, done: int, version: int, moving: bool) -> bool:
         """Send where items are, if the page does not know; whether that has to wait."""
@@ -156,10 +156,9 @@ class Tab:
                 self._acked = message.frame
                 self._woken.set()
         elif isinstance(message, wire.Do):
-            self._post(message)
+            self._post(message.command, message.n)
         elif isinstance(message, wire.Leap):
-            if desk.owner is not None:
-                desk.owner.post(Leap(message.to))
+            self._post(Leap(message.to), message.n)
         elif isinstance(message, wire.Stop):
             desk.stop()
         elif isinstance(message, wire.Pour):
@@ -175,14 +174,19 @@ class Tab:
         else:
             self._bring[message.type](message)
 
-    def _post(self, message: wire.Do) -> None:
+    def _post(self, posted: Command | Leap, number: int) -> None:
         owner = self._desk.owner
         if owner is None:
             self.wake(Line(text=NOT_YET))
-        elif owner.post(message.command):
-            self._posted.append((owner.posted, message.n))
+        elif owner.post(posted):
+            self._posted.append((owner.posted, number))
         else:
             self.wake(Line(text="too much is waiting to be done; that was left out"))
+
+
+def _unsettled(state: State) -> State:
+    """A state of a layout that is not there yet."""
+    return state.model_copy(update={"moving": True, "certified": False, "entangled": ()})
 
 
 def _apart(state: State) -> State:

@@ -51,6 +51,8 @@ class Leap(Message):
     """Go through the history."""
 
     type: Literal["leap"] = "leap"
+    n: Annotated[int, Field(ge=0, lt=2**32)]
+    """Its number, in one count with the page's commands."""
     to: Literal["undo", "redo"]
 
 

@@ -30,9 +30,9 @@ function edits(studio) {
   const { connection, collage } = studio;
   return [
     { id: "undo", group: "Edit", label: "Undo", keys: ["Mod+Z"], icon: "undo", repeats: true,
-      when: () => Boolean(collage.state?.can_undo), run: () => connection.send({ type: "leap", to: "undo" }) },
+      when: () => Boolean(collage.state?.can_undo), run: () => connection.leap("undo") },
     { id: "redo", group: "Edit", label: "Redo", keys: ["Mod+Shift+Z", "Mod+Y"], icon: "redo", repeats: true,
-      when: () => Boolean(collage.state?.can_redo), run: () => connection.send({ type: "leap", to: "redo" }) },
+      when: () => Boolean(collage.state?.can_redo), run: () => connection.leap("redo") },
     { id: "pour", group: "Edit", label: "Pour anew", keys: ["R"], icon: "pour",
       when: () => collage.hasPoses, run: () => studio.pour() },
     { id: "stop", group: "Edit", label: "Stop what takes long", keys: ["Shift+Escape"],

@@ -111,6 +111,14 @@ export class Connection {
   }
 
   /**
+   * Go through the history; counted as commands are.
+   * @param {"undo" | "redo"} to
+   */
+  leap(to) {
+    this.send({ type: "leap", n: ++this.count, to });
+  }
+
+  /**
    * An answer of the studio; what it refuses is thrown as its one line.
    * @param {string} path
    * @param {RequestInit} [asked]

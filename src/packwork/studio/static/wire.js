@@ -17,7 +17,7 @@
  * @typedef {{type: "fill", use: ("items" | "words" | "photos"), source: string, count?: (number | null), font?: (string | null), palette?: (string | null)}} Fill
  * @typedef {{kind: "grab", items: number[]}} Grab
  * @typedef {{kind: "hold", items: number[], properties?: ("place" | "angle" | "size")[]}} Hold
- * @typedef {{type: "leap", to: ("undo" | "redo")}} Leap
+ * @typedef {{type: "leap", n: number, to: ("undo" | "redo")}} Leap
  * @typedef {{name: string, reason: string}} LeftOut
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
  * @typedef {{type: "more", seed: number}} More
