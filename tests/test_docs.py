@@ -12,7 +12,7 @@ import pytest
 import typer.main
 
 from packwork.cli import app
-from packwork.cli.files import Choosing, LayoutFiles, Serial, SideFiles, Terminal
+from packwork.cli.files import Choosing, LayoutFiles, Serial, SerialMarks, SideFiles, Terminal
 from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
@@ -38,17 +38,17 @@ VERB_OF = {str(verb.name).lower(): verb for verb in VERBS}
 OFFERED = [(name, option) for name, verb in VERB_OF.items() for option in options_of(verb)]
 FILES = [
     option
-    for model in (LayoutFiles, Serial, Choosing, SideFiles, Terminal)
+    for model in (LayoutFiles, Serial, SerialMarks, Choosing, SideFiles, Terminal)
     for option in offered(model)
 ]
 
 IN_ITS_OWN_WORDS = {
     "--count", "--font", "--color-by", "--add", "--hold", "--output", "--report", "--contact-sheet",
-    "--sizes",
+    "--sizes", "--series",
 }  # fmt: skip
 """Options of words that say the same thing as elsewhere, of words; what an edit adds, and holds,
 which a film does with its last picture; files of each row of a table, and a table of all;
-sizes of a layout that is there."""
+sizes of a layout that is there; a table and its column, and a column of the chart's."""
 
 
 def defines(page: str, name: str) -> bool:

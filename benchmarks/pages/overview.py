@@ -71,6 +71,7 @@ PAGES = {
     "evenness": "what the loss against large gaps is worth",
     "peers": "nesting, word clouds, circles, constraints, autodiff: the same work",
     "scaling": "10 to 10,000 items, 50 to 4,000 px, stages, floor, cores",
+    "batch": "rates by workers and a cluster, crashes, tables with bad rows, series",
     "speed": "whole runs beside an earlier version, by stage, a first run, memory",
     "engine": "milliseconds per stage, the frozen set",
     "quality": "before the exact finish and after, voids filled, many items",

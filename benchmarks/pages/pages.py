@@ -8,6 +8,7 @@ from functools import partial
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
+from benchmarks.batch import batch
 from benchmarks.engine import engine, film, live, outlines, scaling_page, speed_page
 from benchmarks.kit.manifests import Manifest, known, of_parts, write_text
 from benchmarks.pages import overview
@@ -40,7 +41,7 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
     **{
         name: partial(of_parts, module.PAGE)
         for name, module in {
-            "arranging": arranging, "embeddings": embeddings,
+            "arranging": arranging, "batch": batch, "embeddings": embeddings,
             "charts": charts, "engine": engine, "files": files_page, "films": film,
             "forces": forces, "live": live, "meaning": meaning, "outlines": outlines,
             "parts": parts, "photos": photos, "quality": quality, "robustness": robustness,

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from packwork.api.layout import Layout
     from packwork.api.placement import Placement
     from packwork.api.recipes import run
-    from packwork.api.series import Series, series
+    from packwork.api.series import Series, chart_series, series
     from packwork.api.session import Session
     from packwork.api.verbs import chart, fill, pile, read_container, read_items, words
     from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError, WriteError
@@ -67,6 +67,7 @@ __all__ = [
     "__version__",
     "batch",
     "chart",
+    "chart_series",
     "fill",
     "finish",
     "fit_outline",
@@ -108,6 +109,7 @@ _HOMES = {
     "WriteError": "packwork.errors:WriteError",
     "batch": "packwork.api.batches:batch",
     "chart": "packwork.api.verbs:chart",
+    "chart_series": "packwork.api.series:chart_series",
     "fill": "packwork.api.verbs:fill",
     "finish": "packwork.api.judging:finish",
     "fit_outline": "packwork.fit.fitted:fit_outline",

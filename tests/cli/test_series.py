@@ -1,4 +1,4 @@
-"""``words --series``: files of steps, a film, a sheet, a report; what is refused, in one line."""
+"""``--series`` of words and charts: files, film, sheet, report; refusals, in one line."""
 
 from __future__ import annotations
 
@@ -76,3 +76,35 @@ def test_a_table_without_that_column_and_a_source_besides_are_refused(
     assert "names no column" in packwork("words circle --series t.csv").output
     assert "in place of SOURCE" in packwork("words circle t.csv --series t.csv:year").output
     assert "--source: is missing" in packwork("words circle").output
+
+
+HARVESTS = """year,land,t
+2000,Peru,4
+2000,Togo,2
+2000,Fiji,1
+2001,Peru,5
+2001,Laos,2
+"""
+
+
+def test_a_chart_of_steps_is_written_as_files_a_sheet_and_a_report(
+    packwork: Callable[..., Result], folder: Path
+) -> None:
+    (folder / "t.csv").write_text(HARVESTS)
+    done = packwork(
+        "chart circle t.csv --series year --size-by t --label-by land"
+        " -o {year}.png --pixels 80 --contact-sheet s.png --report r.json"
+    )
+    assert done.exit_code == 0, done.output
+    assert "2 steps, all certified" in done.output
+    assert "a mark moves by" in done.output
+    with Image.open(folder / "2001.png") as image:
+        assert max(image.size) == 80
+    assert (folder / "s.png").exists()
+    assert [one["step"] for one in json.loads((folder / "r.json").read_text())["steps"]] == [
+        "2000", "2001",
+    ]  # fmt: skip
+    line = "chart circle t.csv --series year"
+    assert "names not each step's file" in packwork(f"{line} -o a.svg").output
+    assert "--best-of: is of one layout" in packwork(f"{line} --best-of 2").output
+    assert "--by: has no meaning in a series" in packwork(f"{line} --by land").output

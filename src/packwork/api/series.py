@@ -10,7 +10,7 @@ from typing import Any, Unpack
 
 from packwork import threads, writers
 from packwork.api.handing import handed_over, with_names
-from packwork.api.keywords import WordsKeywords
+from packwork.api.keywords import ChartKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
 from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.errors import RecipeError
@@ -24,7 +24,7 @@ from packwork.timeline.film import filmed
 from packwork.timeline.naming import step_files
 from packwork.timeline.report import report
 from packwork.timeline.solve import Solved, solved
-from packwork.timeline.step import word_steps
+from packwork.timeline.step import chart_steps, word_steps
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -143,6 +143,55 @@ def series(
         found = solved(steps, stop=stop)
     layouts = tuple(public(run.layout) for run in found.runs)
     return Series(by, tuple(weights), layouts, found)
+
+
+def chart_series(
+    container: Value,
+    data: Value | Any,
+    column: str,
+    *,
+    stop: Stop = never,
+    **options: Unpack[ChartKeywords],
+) -> Series:
+    """Chart a table step by step: areas true at one scale, marks of one name in their places.
+
+    Parameters
+    ----------
+    container, data
+        As for :func:`chart`.
+    column
+        Of steps; with ``by_step`` so many of its numbers go together.
+    stop
+        Asked on the way; True ends with an error, for no step is final before the last.
+    options
+        As for :func:`chart`, without ``by``. ``label_by`` says which marks of two steps are one;
+        a ``title`` may name the step, as ``"Harvest of {year}"``.
+
+    Raises
+    ------
+    ReadError
+        If a file or a mark cannot be used.
+    RecipeError
+        If an option has no meaning in a series, or there is no such column.
+    PackworkError
+        If there is no scale at which all steps fit.
+
+    Examples
+    --------
+    >>> rows = [{"year": y, "land": land, "t": t} for y, land, t in
+    ...         [(1, "Peru", 4), (1, "Fiji", 1), (2, "Peru", 3), (2, "Togo", 2)]]
+    >>> made = chart_series("circle", rows, "year", size_by="t", label_by="land")
+    >>> made, made.labels
+    (<Series: 2 steps, 2 certified>, ('1', '2'))
+    """
+    with handed_over(None) as handed:
+        said = with_names(dict(options), handed)
+        steps = chart_steps(handed.name_of(container, "container"), data, column, **said)
+        with threads.using(steps[0].job.recipe.threads):
+            warm_up_once()
+        found = solved(steps, stop=stop)
+    layouts = tuple(public(run.layout) for run in found.runs)
+    return Series(column, tuple(step.label for step in steps), layouts, found)
 
 
 def _weights(table: Any, by: str) -> Mapping[str, Mapping[str, float]]:

@@ -146,10 +146,11 @@ class _Dealer:
             done = [future for future in self._under_way if future.done()]
             for future in done:
                 task = self._under_way.pop(future)
-                if future.status in {"cancelled", "lost"}:
+                found = self._taken(future, task)
+                if found is None:
                     self._waiting.append(task)
-                    continue
-                yield task, self._taken(future, task)
+                else:
+                    yield task, found
             if not done:
                 time.sleep(LOOK_SECONDS)
 
@@ -179,10 +180,16 @@ class _Dealer:
         workers = self._client.scheduler_info(n_workers=-1)["workers"]
         return sum(worker["nthreads"] for worker in workers.values())
 
-    def _taken(self, future: Any, task: Task) -> Outcome | Exception:
+    def _taken(self, future: Any, task: Task) -> Outcome | Exception | None:
+        """Outcome of a task that is done; None if that is lost on its way here."""
+        if future.status in {"cancelled", "lost"}:
+            return None
         try:
             made = future.result(timeout=LOST_SECONDS)
         except Exception as error:  # noqa: BLE001
+            if future.status != "error":
+                # No fault of the task's: the connection broke while its outcome was fetched.
+                return None
             if type(error).__name__ == "KilledWorker":
                 return failed(
                     task.row, task.name, "its workers were ended, as where memory runs out"

@@ -40,6 +40,8 @@ def chart(
 
     [bold]packwork chart square people.csv --size-by people --unit 1000[/]
 
+    [bold]packwork chart circle coffee.csv --series year --size-by kg --label-by country[/]
+
     [bold]packwork chart none prizes.csv --by year --by-step 10 --color-by category[/]
     """
     with clear_errors():
@@ -47,5 +49,9 @@ def chart(
         from packwork.uses import chart_recipe
 
         said = shared.of_run(Verbs.CHART, asked)
+        if asked["series"] is not None:
+            from packwork.cli.series import carry_out_chart
+
+            carry_out_chart(container, data, asked, said)
         recipe = chart_recipe(container, data, background=asked["background"], **said)
         carry_out(recipe, asked, DEFAULT_OUTPUT)

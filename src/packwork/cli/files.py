@@ -75,6 +75,16 @@ class Serial(Options):
     each step, all on one scale, words in their places for as long as goes."""
 
 
+class SerialMarks(Options):
+    """A chart for each step of a table."""
+
+    offers = Offer(group=Group.SHOWN, verbs=Verbs.CHART)
+
+    series: Annotated[str | None, Offer(metavar="COLUMN")] = None
+    """Column of steps, as year: a chart for each, all at one scale, marks of one name in their
+    places for as long as goes. --by-step takes so many numbers together."""
+
+
 class Terminal(Options):
     """What is printed."""
 

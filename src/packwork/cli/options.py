@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from packwork.cli.files import Choosing, LayoutFiles, Serial, SideFiles, Terminal
+from packwork.cli.files import Choosing, LayoutFiles, Serial, SerialMarks, SideFiles, Terminal
 from packwork.cli.flags import flag
 from packwork.offers import Offered, Verbs
 from packwork.options import Options, offered
@@ -18,14 +18,21 @@ from packwork.writers.film.options import FilmOptions
 
 Command = Callable[..., None]
 
-FILES: tuple[type[Options], ...] = (LayoutFiles, Serial, Choosing, SideFiles, Terminal)
+FILES: tuple[type[Options], ...] = (
+    LayoutFiles,
+    Serial,
+    SerialMarks,
+    Choosing,
+    SideFiles,
+    Terminal,
+)
 """Models of options that only command lines have."""
 
 
 def of_verb(verb: Verbs) -> Callable[[Command], Command]:
     """Replace a command's ``**asked`` by all options of a verb, with the verb's defaults."""
     chosen = VERBS[verb].defaults
-    before = (*offered(LayoutFiles), *offered(Serial))
+    before = (*offered(LayoutFiles), *offered(Serial), *offered(SerialMarks))
     after = (*offered(Choosing), *offered(SideFiles), *offered(Terminal))
     listed = (*before, *options_of(verb), *after)
     return _with(

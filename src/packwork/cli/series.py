@@ -20,14 +20,14 @@ from packwork.errors import RecipeError
 from packwork.inputs import check_no_input
 from packwork.phrasing import number_of
 from packwork.readers.words.items import EM_PX
-from packwork.readers.words.steps import WordSteps, named_column, read_word_steps
+from packwork.readers.words.steps import named_column, read_word_steps
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import validated
 from packwork.timeline.film import filmed
 from packwork.timeline.naming import step_files
 from packwork.timeline.report import report
 from packwork.timeline.solve import Solved, solved
-from packwork.timeline.step import word_steps
+from packwork.timeline.step import chart_steps, word_steps
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 
@@ -41,28 +41,53 @@ IDLE = ("diagnose", "save_recipe", "show_saliency")
 """What is written of one layout only."""
 
 
-def carry_out_series(
+def carry_out_words(
     container: str, source: str | None, asked: Mapping[str, Any], said: Mapping[str, Any]
 ) -> NoReturn:
-    """Make and write all steps that a command line asks for, and leave with its exit code.
+    """Make and write all steps of a cloud that a command line asks for, and leave.
 
     Parameters
     ----------
     asked, said
         All options of the command by name; those of the recipe.
     """
-    _check(source, asked)
+    if source is not None:
+        raise RecipeError("series", f"is in place of SOURCE; leave {source[:40]!r} out")
+    _check(asked)
     file, column = named_column(asked["series"])
     read = read_word_steps(file, column)
     for notice in read.notices:
         say(f"{file}: {notice}")
-    outputs = _Files(asked, read)
+    outputs = _Files(asked, "words", column, list(read.weights))
     steps = word_steps(container, read.weights, background=asked["background"], **said)
+    _carry_out(steps, outputs, asked, "word")
+
+
+def carry_out_chart(
+    container: str, data: str, asked: Mapping[str, Any], said: Mapping[str, Any]
+) -> NoReturn:
+    """Make and write all steps of a chart that a command line asks for, and leave.
+
+    Parameters
+    ----------
+    asked, said
+        All options of the command by name; those of the recipe.
+    """
+    _check(asked)
+    steps = chart_steps(container, data, asked["series"], background=asked["background"], **said)
+    outputs = _Files(asked, "chart", asked["series"], [step.label for step in steps])
+    _carry_out(steps, outputs, asked, "mark")
+
+
+def _carry_out(
+    steps: Sequence[SeriesStep], outputs: _Files, asked: Mapping[str, Any], kind: str
+) -> NoReturn:
+    """Make and write steps, and leave with the exit code."""
     outputs.check_read()
     series = _made(steps, asked["quiet"])
     written = outputs.written(series)
     if not asked["quiet"]:
-        typer.echo(printable(told(series)))
+        typer.echo(printable(told(series, kind)))
         typer.echo(printable(f"wrote {number_of(len(written), 'file')}: {_named(written)}"))
     for step, run in zip(series.steps, series.runs, strict=True):
         for lack in (*run.broken, *(f"{one.item}: {one.reason}" for one in run.unplaced)):
@@ -70,9 +95,7 @@ def carry_out_series(
     raise typer.Exit(0 if series.is_as_asked else SHORTFALL)
 
 
-def _check(source: str | None, asked: Mapping[str, Any]) -> None:
-    if source is not None:
-        raise RecipeError("series", f"is in place of SOURCE; leave {source[:40]!r} out")
+def _check(asked: Mapping[str, Any]) -> None:
     for key in IDLE:
         if asked.get(key) is not None:
             raise RecipeError(key, "is of one layout; leave it out of a series")
@@ -82,13 +105,24 @@ def _check(source: str | None, asked: Mapping[str, Any]) -> None:
 
 
 class _Files:
-    """What a series is to write, checked before it is made."""
+    """What a series is to write, checked before it is made.
 
-    def __init__(self, asked: Mapping[str, Any], read: WordSteps) -> None:
-        given = asked["output"] or [Path(f"words-{{{read.column}}}.svg")]
+    Parameters
+    ----------
+    asked
+        All options of the command by name.
+    verb
+        What files are called by where no name is asked for.
+    column, labels
+        Of the steps.
+    """
+
+    def __init__(
+        self, asked: Mapping[str, Any], verb: str, column: str, labels: Sequence[str]
+    ) -> None:
+        given = asked["output"] or [Path(f"{verb}-{{{column}}}.svg")]
         templates = [str(path) for path in given]
-        labels = list(read.weights)
-        self.steps = step_files(templates, read.column, labels)
+        self.steps = step_files(templates, column, labels)
         self.films: list[Path] = list(asked["film"] or ())
         self.sheet: Path | None = asked["contact_sheet"]
         self.report: Path | None = asked["report"]
@@ -167,18 +201,18 @@ def _made(steps: Sequence[SeriesStep], quiet: bool) -> Solved:
     return series
 
 
-def told(series: Solved) -> str:
-    """What a series came to, in one line."""
+def told(series: Solved, kind: str) -> str:
+    """What a series came to, in one line; ``kind`` is what its items are called."""
     certified = sum(run.certified for run in series.runs)
     many = len(series.runs)
     of = "all certified" if certified == many else f"{certified} certified"
-    unit = series.steps[0].job.container.unit
-    largest = max(float(run.layout.poses.scale.max()) for run in series.runs) * EM_PX
+    parts = [f"{many} steps", of]
+    if kind == "word":
+        largest = max(float(run.layout.poses.scale.max()) for run in series.runs) * EM_PX
+        parts.append(f"the largest letters {largest:.3g} {series.steps[0].job.container.unit}")
     moves = np.concatenate(series.moves)
-    still = f"; a word moves by {100 * np.median(moves):.1f} % of the diagonal (median)"
-    return f"{many} steps, {of}, the largest letters {largest:.3g} {unit}" + (
-        still if len(moves) else ""
-    )
+    still = f"; a {kind} moves by {100 * np.median(moves):.1f} % of the diagonal (median)"
+    return ", ".join(parts) + (still if len(moves) else "")
 
 
 def _named(written: Sequence[Path]) -> str:

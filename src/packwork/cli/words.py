@@ -49,9 +49,9 @@ def words(
     with clear_errors():
         said = shared.of_run(Verbs.WORDS, asked)
         if asked["series"] is not None:
-            from packwork.cli.series import carry_out_series
+            from packwork.cli.series import carry_out_words
 
-            carry_out_series(container, source, asked, said)
+            carry_out_words(container, source, asked, said)
         if source is None:
             raise RecipeError(
                 "source", "is missing; give a text, a table, or --series TABLE:COLUMN"

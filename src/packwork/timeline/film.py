@@ -11,8 +11,13 @@ from packwork.arrays import FloatArray
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.leaving import GONE, GROWN, Leaving
+from packwork.scene.note import Note
 from packwork.scene.track import SCALE, TURN, Track, numbers_of, poses_of
 from packwork.timeline.solve import Solved
+from packwork.timeline.step import SeriesStep
+
+NEARLY = 1e-6
+"""Part of a length by which a key of one step may differ from that of another by rounding."""
 
 STILL = 0.5
 """Share of each step's time in which nothing moves. Larger leaves more time to read and less to
@@ -27,8 +32,9 @@ def filmed(series: Solved) -> Layout:
     """
     layout = series.runs[-1].layout
     seen = _seen(series)
-    names = list(dict.fromkeys([*(item.name for item in layout.items), *seen]))
-    numbers = np.stack([_numbers(run.layout, names) for run in series.runs])
+    names = list(dict.fromkeys([*series.steps[-1].names, *seen]))
+    pairs = zip(series.steps, series.runs, strict=True)
+    numbers = np.stack([_numbers(step, run.layout, names) for step, run in pairs])
     times, keyframes = _keyframes(_waiting(numbers))
     count = len(layout.items)
     gone = tuple(seen[name] for name in names[count:])
@@ -37,17 +43,37 @@ def filmed(series: Solved) -> Layout:
         track = Track(times, keyframes[:, count:])
         largest = poses_of(keyframes[:, count:].max(axis=0))
         leaving = Leaving(gone, largest, track)
-    return replace(layout, track=Track(times, keyframes[:, :count]), leaving=leaving)
+    track = Track(times, keyframes[:, :count])
+    return replace(layout, track=track, leaving=leaving, notes=_lasting(series))
+
+
+def _lasting(series: Solved) -> tuple[Note, ...]:
+    """What stands beside the items at all steps alike: keys do, a title with the step does not."""
+    last = series.runs[-1].layout.notes
+    others = [run.layout.notes for run in series.runs[:-1]]
+    return tuple(
+        note for note in last if all(any(_alike(note, one) for one in notes) for notes in others)
+    )
+
+
+def _alike(one: Note, other: Note) -> bool:
+    same = (one.path, one.fill, one.says) == (other.path, other.fill, other.says)
+    return same and np.allclose(one.matrix, other.matrix, rtol=NEARLY, atol=NEARLY)
 
 
 def _seen(series: Solved) -> dict[str, Item]:
     """Each word as the first step that has it draws it."""
-    return {item.name: item for run in reversed(series.runs) for item in run.layout.items}
+    pairs = reversed([*zip(series.steps, series.runs, strict=True)])
+    return {
+        name: item
+        for step, run in pairs
+        for name, item in zip(step.names, run.layout.items, strict=True)
+    }
 
 
-def _numbers(layout: Layout, names: list[str]) -> FloatArray:
+def _numbers(step: SeriesStep, layout: Layout, names: list[str]) -> FloatArray:
     """``(n, 5)`` numbers of all words at a step, not a number of those that it has not."""
-    rows = {item.name: row for row, item in enumerate(layout.items)}
+    rows = {name: row for row, name in enumerate(step.names)}
     own = numbers_of(layout.poses)
     found = np.full((len(names), own.shape[1]), np.nan)
     for k, name in enumerate(names):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Literal, TypeAlias
 
 import numpy as np
@@ -64,10 +65,8 @@ class Solved:
         """
         box = np.reshape(self.steps[0].job.container.outline.bounds, (2, 2))
         diagonal = float(np.hypot(*(box[1] - box[0])))
-        return [
-            _between(before, after) / diagonal
-            for before, after in zip(self.runs, self.runs[1:], strict=False)
-        ]
+        pairs = list(zip(self.steps, self.runs, strict=True))
+        return [_between(before, after) / diagonal for before, after in pairwise(pairs)]
 
     @property
     def is_as_asked(self) -> bool:
@@ -155,13 +154,13 @@ def _measured(step: SeriesStep, poses: Poses) -> Run:
     return measured(Unmeasured.of(replace(placed, exact=exact)))
 
 
-def _between(before: Run, after: Run) -> FloatArray:
-    rows = {item.name: k for k, item in enumerate(before.layout.items)}
+def _between(before: tuple[SeriesStep, Run], after: tuple[SeriesStep, Run]) -> FloatArray:
+    rows = {name: k for k, name in enumerate(before[0].names)}
     pairs = np.array(
-        [(rows[one.name], k) for k, one in enumerate(after.layout.items) if one.name in rows],
+        [(rows[name], k) for k, name in enumerate(after[0].names) if name in rows],
         dtype=np.int64,
     ).reshape(-1, 2)
-    then, now = before.layout.poses.some(pairs[:, 0]), after.layout.poses.some(pairs[:, 1])
+    then, now = before[1].layout.poses.some(pairs[:, 0]), after[1].layout.poses.some(pairs[:, 1])
     return np.hypot(now.x - then.x, now.y - then.y)
 
 

@@ -15,6 +15,9 @@ from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
 from packwork.readers.words.items import height_shares
 from packwork.readers.words.word import Word
+from packwork.uses.charts.grouped import unit_scales
+from packwork.uses.charts.recipe import chart_recipe
+from packwork.uses.charts.steps import read_steps
 from packwork.uses.words.recipe import words_recipe
 from packwork.uses.words.use import Words
 
@@ -45,16 +48,14 @@ class SeriesStep:
         What a layout of it alone would be made of.
     true
         ``(n,)`` scale of each item, on one scale for all steps.
+    names
+        ``(n,)`` what items are known by: one name in two steps is one item.
     """
 
     label: str
     job: Job
     true: FloatArray
-
-    @cached_property
-    def names(self) -> tuple[str, ...]:
-        """What items are called by; one name in two steps is one item."""
-        return tuple(item.name for item in self.job.items)
+    names: tuple[str, ...]
 
     @cached_property
     def area(self) -> float:
@@ -95,7 +96,42 @@ def word_steps(
     for source in weights.values():
         recipe = words_recipe(container, dict(source), **said)
         jobs.append(uses.read(recipe, container=jobs[0].container if jobs else None))
-    return [SeriesStep(label, job, _heights(job)) for label, job in zip(weights, jobs, strict=True)]
+    return [
+        SeriesStep(label, job, _heights(job), tuple(item.name for item in job.items))
+        for label, job in zip(weights, jobs, strict=True)
+    ]
+
+
+def chart_steps(container: str, data: object, column: str, **options: Any) -> list[SeriesStep]:
+    """Steps of a unit chart, from the options of ``chart``.
+
+    Parameters
+    ----------
+    column
+        Of steps; with the option ``by_step`` so many of its numbers go together.
+
+    Raises
+    ------
+    RecipeError
+        If an option has no meaning, in a series or at all.
+    ReadError
+        If the container, the table or a mark cannot be read.
+
+    Examples
+    --------
+    >>> rows = [{"year": 1, "kg": 4}, {"year": 1, "kg": 1}, {"year": 2, "kg": 1}]
+    >>> first, second = chart_steps("circle", rows, "year", size_by="kg")
+    >>> float(first.true[0] / first.true[1]), bool(first.true[1] == second.true[0])
+    (2.0, True)
+    """
+    check_idle(options)
+    if options.get("by") is not None:
+        raise RecipeError("by", "has no meaning in a series: its steps are the groups")
+    recipe = chart_recipe(container, data, **{**options, "by": column})
+    return [
+        SeriesStep(one.label, one.job, unit_scales(one.job), one.names)
+        for one in read_steps(recipe)
+    ]
 
 
 def check_idle(options: Mapping[str, Any]) -> None:
@@ -108,7 +144,7 @@ def check_idle(options: Mapping[str, Any]) -> None:
     """
     for key, idle in IDLE.items():
         if options.get(key) and options[key] not in idle:
-            raise RecipeError(key, "has no meaning in a series: its words have one scale, no more")
+            raise RecipeError(key, "has no meaning in a series: all of it has one scale, no more")
 
 
 def in_turn(

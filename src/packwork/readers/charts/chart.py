@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import logging
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -12,7 +13,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import number_of
 from packwork.readers.charts.amounts import marks_of, read_amounts
-from packwork.readers.charts.columns import categories, is_numeric, shown
+from packwork.readers.charts.columns import as_number, categories, is_numeric, shown
 from packwork.readers.charts.groups import Groups, read_groups
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.charts.part import part_of
@@ -34,6 +35,25 @@ WIDEST = 1e6
 
 SHAPES = ("circle", "square", "triangle", "diamond", "star", "cross", "hexagon", "drop")
 """Marks of categories that were given none."""
+
+
+@dataclass(frozen=True)
+class ChartKeys:
+    """What a chart's colours and keys go by: that of all its marks, whichever are shown.
+
+    Parameters
+    ----------
+    order
+        Categories of colours, the most frequent first.
+    ends
+        Smallest and largest number of a ramp of colours; 0 where there is none.
+    largest
+        Largest number that a mark stands for.
+    """
+
+    order: tuple[str, ...]
+    ends: tuple[float, float]
+    largest: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,6 +90,8 @@ class ChartRead:
         What was left out, put together or is odd, a sentence each.
     lost
         Those of them about rows with data that are left out.
+    keys
+        What colours and keys go by.
     decimal
         What parts fractions of its numbers, as in the table.
     """
@@ -88,6 +110,7 @@ class ChartRead:
     is_ordered: bool
     notices: tuple[str, ...]
     lost: tuple[str, ...]
+    keys: ChartKeys
     decimal: str = "."
 
     @property
@@ -191,8 +214,19 @@ def read_chart(
         is_ordered=groups is not None and groups.is_ordered,
         notices=everything,
         lost=lost,
+        keys=ChartKeys(
+            order=tuple(name for name, _ in Counter(colour_of or ()).most_common()),
+            ends=_ends(rows, options.color_by) if is_ramp else (0.0, 0.0),
+            largest=float(values.max()),
+        ),
         decimal=(asked and asked.decimal) or shown_decimal(_number_cells(table, options)),
     )
+
+
+def _ends(rows: Sequence[Row], column: str | None) -> tuple[float, float]:
+    """Smallest and largest number of a column."""
+    numbers = [as_number(row.get(column or "")) for row in rows]
+    return float(np.nanmin(numbers)), float(np.nanmax(numbers))
 
 
 def _number_cells(table: Table, options: ChartOptions) -> Iterator[object]:

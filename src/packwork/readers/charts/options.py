@@ -71,7 +71,9 @@ class ChartOptions(Options):
     @model_validator(mode="after")
     def _steps_of_something(self) -> ChartOptions:
         if self.by_step is not None and self.by is None:
-            raise RecipeError("by_step", "parts the numbers of a column; say which: --by COL")
+            raise RecipeError(
+                "by_step", "parts the numbers of a column; say which: --by COL, or --series COL"
+            )
         return self
 
     @field_validator("paper")

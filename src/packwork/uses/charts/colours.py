@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
-
-import numpy as np
 
 from packwork.errors import RecipeError
 from packwork.phrasing import number_of
@@ -66,11 +63,13 @@ def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
     if chart.colour_of is None:
         first = None if recipe.palette is None else palette_colours(recipe.palette)[0]
         return ChartColours((first,) * len(chart.items))
-    return _by_category(recipe, chart.colour_of, paper)
+    return _by_category(recipe, chart.colour_of, chart.keys.order, paper)
 
 
-def _by_category(recipe: Recipe, names: Sequence[str], paper: str) -> ChartColours:
-    order = [name for name, _ in Counter(names).most_common() if name != MISSING]
+def _by_category(
+    recipe: Recipe, names: Sequence[str], all_of_them: Sequence[str], paper: str
+) -> ChartColours:
+    order = [name for name in all_of_them if name != MISSING]
     palette = _palette(recipe, CATEGORIES)
     if recipe.palette is None:
         palette = tuple(readable(colour, paper, LEAST_CONTRAST) for colour in palette)
@@ -81,15 +80,15 @@ def _by_category(recipe: Recipe, names: Sequence[str], paper: str) -> ChartColou
             "colour by a column of fewer, or give a --palette of as many",
         )
     keys = dict(zip(order, palette, strict=False))
-    if MISSING in names:
+    if MISSING in all_of_them:
         keys[MISSING] = UNKNOWN
     return ChartColours(tuple(keys[name] for name in names), tuple(keys.items()))
 
 
 def _ramp(recipe: Recipe, chart: ChartRead, column: str, paper: str) -> ChartColours:
     cells = [row.get(column) for row in chart.rows]
-    numbers = np.array([as_number(cell) for cell in cells])
-    low, high = float(np.nanmin(numbers)), float(np.nanmax(numbers))
+    numbers = [as_number(cell) for cell in cells]
+    low, high = chart.keys.ends
     ramp = _palette(recipe, RAMP)
     if recipe.palette is None and contrast(ramp[0], paper) > contrast(ramp[-1], paper):
         # The end that is more like the paper stands for little.
@@ -97,7 +96,7 @@ def _ramp(recipe: Recipe, chart: ChartRead, column: str, paper: str) -> ChartCol
     span = high - low or 1.0
     marks = tuple(
         UNKNOWN if is_missing(cell) else between(ramp, (number - low) / span)
-        for cell, number in zip(cells, numbers.tolist(), strict=True)
+        for cell, number in zip(cells, numbers, strict=True)
     )
     return ChartColours(marks, ramp=ramp, ends=(low, high))
 

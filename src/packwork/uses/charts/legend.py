@@ -92,7 +92,7 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
     """Marks of round numbers, at the chart's own scale; the height of all."""
     read, options, frame, em = chart.read, chart.options, chart.frame, chart.frame.em
     mark = next(iter(read.marks.values())).outline
-    numbers = _round_numbers(float(read.values.max()))
+    numbers = _round_numbers(read.keys.largest)
     height = mark.bounds[3] - mark.bounds[1]
     scales = {number: _scale(options, layout, mark, number) for number in numbers}
     fitting = [

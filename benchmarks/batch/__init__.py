@@ -1,0 +1,1 @@
+"""Many at once: rates, crashes, tables with bad rows, the best of several, series."""

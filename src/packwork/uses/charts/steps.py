@@ -1,0 +1,116 @@
+"""A chart's steps: the same container and keys for each, and of all marks those of its rows."""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from packwork.arrays import IntArray
+from packwork.errors import RecipeError
+from packwork.pipeline.job import Clock, Job
+from packwork.pipeline.read import Material, job_of, read_room
+from packwork.readers.charts.chart import ChartRead, read_chart
+from packwork.recipe import Recipe
+from packwork.uses.charts.cast import cast_chart
+from packwork.uses.charts.chart import Chart
+from packwork.uses.charts.colours import chart_colours
+from packwork.uses.charts.layout import spread_out
+from packwork.uses.charts.use import Marks
+from packwork.uses.room import NO_CONTAINER
+
+
+@dataclass(frozen=True, eq=False)
+class ChartStep:
+    """Marks of one step.
+
+    Parameters
+    ----------
+    label
+        Of the step.
+    job
+        Of its marks alone.
+    names
+        ``(n,)`` what tells marks apart: one that two steps have is one mark.
+    """
+
+    label: str
+    job: Job
+    names: tuple[str, ...]
+
+
+def read_steps(recipe: Recipe) -> list[ChartStep]:
+    """Steps of a chart, one for each group of its rows that has marks.
+
+    Parameters
+    ----------
+    recipe
+        Of a chart in groups: those of ``by`` are the steps. A title may name the step, as
+        ``Harvest of {year}``.
+
+    Raises
+    ------
+    ReadError
+        If the table or a mark cannot be read.
+    RecipeError
+        If an option has no meaning, or there are fewer than two steps.
+    """
+    asked = recipe.chart
+    if asked is None or asked.by is None:
+        raise RecipeError("series", "is of a chart whose rows have a column of steps")
+    if recipe.container == NO_CONTAINER:
+        raise RecipeError("container", "none shows groups as bars; a series needs a container")
+    grouped = read_chart(asked, recipe.holes, recipe, recipe.read_options)
+    there = [k for k in range(len(grouped.groups)) if (grouped.group_of == k).any()]
+    if len(there) < 2:
+        raise RecipeError("series", f"column {asked.by!r} says one step; 2 or more go")
+    # Groups are no groups of one chart here: no copies of the container, no names beside them.
+    read = replace(grouped, groups=(), options=asked.model_copy(update={"by": None}))
+    chart_colours(recipe, read)
+    spread = spread_out(recipe, read, read_room(recipe, None))
+    chart = Chart(read, spread.frame, (), None)
+    material = Material(
+        use=Marks(chart),
+        container=spread.container,
+        cast=cast_chart(recipe, read),
+        fillers=(),
+        skipped=read.told,
+    )
+    whole = job_of(recipe, material, Clock())
+    return [
+        _step(whole, chart, grouped.groups[k], asked.by, np.flatnonzero(grouped.group_of == k))
+        for k in there
+    ]
+
+
+def _step(whole: Job, chart: Chart, label: str, column: str, marks: IntArray) -> ChartStep:
+    """One step of a job of all marks, whose recipe gives its layout alone."""
+    job, own = whole.some(marks), chart.read.some(marks)
+    title = own.options.title
+    if title is not None:
+        title = title.replace(f"{{{column}}}", label)
+    rows = tuple({id(row): dict(row) for row in own.rows}.values())
+    options = own.options.model_copy(update={"title": title})
+    recipe = job.recipe.model_copy(
+        update={"chart": options.model_copy(update={"data": rows, "by_step": None})}
+    )
+    use = Marks(replace(chart, read=replace(own, options=options)))
+    return ChartStep(label, replace(job, recipe=recipe, use=use), mark_names(own))
+
+
+def mark_names(chart: ChartRead) -> tuple[str, ...]:
+    """``(n,)`` names of marks that hold from step to step.
+
+    Marks that a column names go by that and their number among those of that name; all others by
+    what they look like.
+    """
+    is_named = chart.options.label_by is not None
+    colours = chart.colour_of or ("",) * len(chart.items)
+    seen: Counter[tuple[str, str]] = Counter()
+    names = []
+    for item, colour in zip(chart.items, colours, strict=True):
+        look = (item.name, "" if is_named else colour)
+        seen[look] += 1
+        names.append("\t".join((*look, str(seen[look]))))
+    return tuple(names)
