@@ -70,3 +70,23 @@ def composite(coverages: Sequence[Image], opacity: float) -> Image:
     for image in coverages:
         clear = clear * (1 - opacity * image)
     return np.asarray(1 - clear)
+
+
+def colour_image(
+    rings: Sequence[FloatArray],
+    colours: FloatArray,
+    background: FloatArray,
+    shape: tuple[int, int],
+) -> Image:
+    """Colours mixed by coverage, ring by ring, pixel by pixel.
+
+    Examples
+    --------
+    >>> ring = np.array([[0, 0], [1.5, 0], [1.5, 1], [0, 1.0]])
+    >>> colour_image([ring], np.array([[3.0]]), np.array([1.0]), (1, 2))[0, :, 0].tolist()
+    [3.0, 2.0]
+    """
+    image = np.tile(background, (*shape, 1))
+    for ring, colour in zip(rings, colours, strict=True):
+        image += coverage_image(ring, shape)[..., None] * (colour - background)
+    return image

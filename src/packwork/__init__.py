@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from packwork.losses.term import ImageLoss, PosedItems, PoseTerm, Term
     from packwork.metrics.measure import Metrics
     from packwork.progress import Step
+    from packwork.raster.colour import render_colour, render_colour_pullback
     from packwork.raster.coverage import coverage as render
     from packwork.raster.coverage import coverage_pullback as render_pullback
     from packwork.scene.container import Container
@@ -77,6 +78,8 @@ __all__ = [
     "read_container",
     "read_items",
     "render",
+    "render_colour",
+    "render_colour_pullback",
     "render_pullback",
     "run",
     "series",
@@ -119,6 +122,8 @@ _HOMES = {
     "read_container": "packwork.api.verbs:read_container",
     "read_items": "packwork.api.verbs:read_items",
     "render": "packwork.raster.coverage:coverage",
+    "render_colour": "packwork.raster.colour:render_colour",
+    "render_colour_pullback": "packwork.raster.colour:render_colour_pullback",
     "render_pullback": "packwork.raster.coverage:coverage_pullback",
     "run": "packwork.api.recipes:run",
     "series": "packwork.api.series:series",

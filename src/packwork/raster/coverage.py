@@ -8,7 +8,7 @@ knows polygons and images only.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -68,6 +68,27 @@ class Record:
             self.leaves = np.zeros(room, dtype=self.leaves.dtype)
 
 
+class Swept(NamedTuple):
+    """What a rasteriser walked last, for whatever reads its record.
+
+    Parameters
+    ----------
+    points, starts
+        The rings, ``(n, 2)`` in pixels and ``(rings + 1,)``.
+    records
+        Of rings that lie in one band each, then of the rest: only the last one's deposits may be
+        anywhere.
+    x_magic, area_magic
+        What rounds x and deposits to the lattice when it is added and taken away again.
+    """
+
+    points: FloatArray
+    starts: IntArray
+    records: list[Record]
+    x_magic: float
+    area_magic: float
+
+
 class Rasteriser:
     """Renders rings into images of one size again and again, without allocating.
 
@@ -103,12 +124,18 @@ class Rasteriser:
         self._is_large = self.accumulation.nbytes > CACHE_BYTES
         self._records = [Record(self.dtype)]
         self._used = self._records
-        self._magic = tuple(1.5 * 2.0 ** (52 - bits[self.dtype]) for bits in (_X_BITS, _AREA_BITS))
+        bits = _X_BITS[self.dtype], _AREA_BITS[self.dtype]
+        self._magic = (1.5 * 2.0 ** (52 - bits[0]), 1.5 * 2.0 ** (52 - bits[1]))
         self._points = np.zeros((0, 2))
         self._starts = np.zeros(1, dtype=np.int64)
         self._rows = np.zeros((0, 2), dtype=np.int64)
         self._bounds = np.zeros(0, dtype=np.int64)
         self._gradient = np.zeros((0, 2))
+
+    @property
+    def swept(self) -> Swept:
+        """The rings of the last sweep and the record of their walk."""
+        return Swept(self._points, self._starts, self._used, *self._magic)
 
     def sweep(self, points_px: FloatArray, starts: IntArray) -> None:
         """Walk every edge once: deposit its swept areas and record the cells it crosses.
