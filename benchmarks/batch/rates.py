@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import heapq
+import subprocess
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -20,13 +22,19 @@ MANY = 64
 LONG = 1_000
 """Tasks that are simulated."""
 
+WARM = 4
+"""Rows of a run before, in which kernels are loaded; what it takes beside work is no row's."""
+
+ALONE = 12
+"""Fills one after another, and two at a time, by which the machine itself is judged."""
+
 
 def rates(home: Path, rows: int) -> list[Row]:
     """Rows of the table: one worker, two, a cluster of two, sixty-four by simulation."""
     from batches.by_hand import Cluster
 
     folder = wall(home / "rates", rows)
-    made(line(wall(home / "warm", 4), "warm", "--workers", "1", "-q"))
+    made(line(wall(home / "warm", WARM), "warm", "--workers", "1", "-q"))
     one = made(line(folder, "one", "--workers", "1", "-q"))
     two = made(line(folder, "two", "--workers", "2", "-q", "--report", str(folder / "two.csv")))
     _check(one, two)
@@ -34,13 +42,17 @@ def rates(home: Path, rows: int) -> list[Row]:
     cluster = Cluster(folder / "cluster")
     others = [one.pid for one in (cluster.scheduler, *cluster.workers)]
     try:
-        made(line(home / "warm", "again", "--scheduler", cluster.address, "-q"))
-        before = processor(cluster.scheduler.pid)
+        marks = [processor(cluster.scheduler.pid)]
+        few = made(line(home / "warm", "again", "--scheduler", cluster.address, "-q"))
+        marks.append(processor(cluster.scheduler.pid))
         by_hand = made(line(folder, "far", "--scheduler", cluster.address, "-q"), others)
-        dealt = by_hand.processor + processor(cluster.scheduler.pid) - before
-        _check(by_hand)
+        marks.append(processor(cluster.scheduler.pid))
+        _check(few, by_hand)
     finally:
         cluster.close()
+    more = rows - WARM
+    sender = (by_hand.processor - few.processor) / more
+    scheduler = (marks[2] - marks[1] - (marks[1] - marks[0])) / more
     alike = {
         (folder / "one" / path.name).read_bytes()
         == path.read_bytes()
@@ -55,13 +67,14 @@ def rates(home: Path, rows: int) -> list[Row]:
             f"{ratio:.2f} x: {_rate(rows, one)} and {_rate(rows, two)}; the same bytes",
             "1.9 x",
         ],
+        _side_by_side(home / "alone"),
         ["memory of a worker, by quarters of its time", _memory(two), "flat, under 400 MB"],
         [
             "the same by a scheduler and two workers started by hand",
             f"{far:.2f} of that rate: {_rate(rows, by_hand)}; the same bytes",
             ".9",
         ],
-        _simulated(folder / "two.csv", dealt / rows),
+        _simulated(folder / "two.csv", sender, scheduler),
     ]
 
 
@@ -86,16 +99,38 @@ def _memory(run: Made) -> str:
     return "; ".join(told)
 
 
-def _simulated(report: Path, dealt: float) -> Row:
+def _simulated(report: Path, sender: float, scheduler: float) -> Row:
     """Sixty-four workers, by what rows take and what is done for each in one place."""
     with report.open(newline="") as stream:
         seconds = [float(row["seconds"]) for row in csv.DictReader(stream)]
+    dealt = max(sender, scheduler, 0.0)
     share = efficiency(np.resize(np.array(seconds), LONG), MANY, dealt)
     return [
         f"{MANY} workers, {LONG:,} recipes, by simulation",
         f"efficiency {share:.2f}; a row takes {np.mean(seconds):.2f} s of a worker,"
-        f" {1e3 * dealt:.0f} ms of sender and scheduler",
+        f" {1e3 * sender:.0f} ms of the sender and {1e3 * scheduler:.0f} ms of the scheduler",
         ".9",
+    ]
+
+
+def _side_by_side(home: Path) -> Row:
+    """What two processes that know nothing of each other gain on this machine."""
+    home.mkdir(parents=True, exist_ok=True)
+    fill = [sys.executable, "-m", "packwork", "fill", "builtin:bear", "-n", "60", "-q"]
+    lines = [[*fill, "--threads", "1", "-o", str(home / f"{k}.svg")] for k in range(2)]
+    seconds = []
+    for many in (1, 2):
+        began = time.perf_counter()
+        for _ in range(ALONE // many):
+            processes = [subprocess.Popen(one) for one in lines[:many]]
+            for process in processes:
+                process.wait()
+        seconds.append(time.perf_counter() - began)
+    return [
+        f"for comparison: {ALONE} fills by processes that know nothing of each other, two at a time"
+        " over one at a time",
+        f"{seconds[0] / seconds[1]:.2f} x",
+        "",
     ]
 
 

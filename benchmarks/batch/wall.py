@@ -27,7 +27,6 @@ count = "{n}"
 epochs = 4
 levels = "50"
 effort = "draft"
-finish = "none"
 """
 
 LOOK_SECONDS = 0.25

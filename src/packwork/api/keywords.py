@@ -214,6 +214,10 @@ class _FillWordsPhotos(TypedDict, total=False):
     names): those with like ones come to lie together. auto: of words, by which of them stand near
     each other in the text."""
 
+    anchors: str | Sequence[str]
+    """With --embeddings: where things lie that are like a row, a column or a word, as left=warm;
+    also right, up, down, 45deg, middle. May be given several times."""
+
     target_coverage: float | str | None
     """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round
     by round, until it is reached or nothing more fits."""

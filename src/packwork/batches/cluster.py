@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import glob
 import logging
+import math
 import tempfile
 import threading
 import time
@@ -17,7 +18,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from functools import lru_cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +25,7 @@ from packwork import pipeline, threads
 from packwork.batches.task import Drawn, Outcome, Task, draw, failed, make, write
 from packwork.display.extras import found
 from packwork.errors import PackworkError
+from packwork.installed import installed_version
 from packwork.mirror import mirrored, place_in
 from packwork.progress import Stop, never
 from packwork.recipe_paths import named_files
@@ -134,6 +135,7 @@ class _Dealer:
         self._waiting = list(reversed(tasks))
         self._under_way: dict[Any, Task] = {}
         self._heard = time.monotonic()
+        self._counted, self._counted_at = 0, -math.inf
 
     def outcomes(self) -> Iterator[tuple[Task, Outcome | Exception]]:
         """Outcomes as they come, until all are there, or it is stopped, or the scheduler lost."""
@@ -177,8 +179,13 @@ class _Dealer:
             self._under_way[self._client.submit(call, sent, pure=False)] = task
 
     def _threads(self) -> int:
-        workers = self._client.scheduler_info(n_workers=-1)["workers"]
-        return sum(worker["nthreads"] for worker in workers.values())
+        """Threads of all workers; asked for now and then, since each answer names all of them."""
+        now = time.monotonic()
+        if now - self._counted_at >= LOOK_SECONDS:
+            workers = self._client.scheduler_info(n_workers=-1).get("workers", {})
+            self._counted = sum(worker["nthreads"] for worker in workers.values())
+            self._counted_at = now
+        return self._counted
 
     def _taken(self, future: Any, task: Task) -> Outcome | Exception | None:
         """Outcome of a task that is done; None if that is lost on its way here."""
@@ -223,7 +230,7 @@ def parcel_of(task: Task) -> Parcel:
             f"its files are larger than {MOST_CARRIED / 1e6:g} MB in all; use --in-place with a "
             "folder that workers see too"
         )
-    return Parcel(task, files, tuple(folders), metadata.version("packwork"))
+    return Parcel(task, files, tuple(folders), installed_version())
 
 
 def _is_folder(name: str) -> bool:
@@ -283,7 +290,7 @@ def _warm_up() -> None:
 
 
 def _check_version(wanted: str) -> None:
-    here = metadata.version("packwork")
+    here = installed_version()
     if here != wanted:
         raise PackworkError(
             f"a worker has packwork {here}, this machine {wanted}; install one of them"

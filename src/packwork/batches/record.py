@@ -8,10 +8,10 @@ import json
 import os
 from collections.abc import Iterable, Mapping
 from functools import lru_cache
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
+from packwork.installed import installed_version
 from packwork.recipe_paths import named_files
 
 ENDING = ".batch.json"
@@ -49,7 +49,7 @@ def relative(outputs: Iterable[Path]) -> list[str]:
 def key_of(options: Mapping[str, Any], outputs: Iterable[Path], drawing: Mapping[str, Any]) -> str:
     """SHA-256 of all that is asked for, and of the version that makes it."""
     asked = {
-        "packwork": metadata.version("packwork"),
+        "packwork": installed_version(),
         "options": options,
         "outputs": relative(outputs),
         "drawing": drawing,

@@ -16,10 +16,12 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
+from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_poses import container_image, disc_radii, start_resolution
 from packwork.start.neighbour_embedding.assignment import assigned
+from packwork.start.neighbour_embedding.graph import unit_rows
 from packwork.start.stippling import stippled
 
 FACTOR, KEPT_FACTOR = 1.6, 1.3
@@ -40,7 +42,8 @@ def placed_alike(
     points = np.column_stack([poses.x, poses.y])
     free: BoolArray = np.array([not one.voices for one in job.asked], dtype=bool)
     vectors = job.vectors.of(job.items)
-    at = assigned(vectors, points, rng, own=sizes, there=sizes, free=free)
+    drawn, along = _anchored(job.vectors, vectors, points)
+    at = assigned(vectors, points, rng, own=sizes, there=sizes, drawn=drawn, along=along, free=free)
     return replace(poses, x=poses.x[at], y=poses.y[at])
 
 
@@ -54,4 +57,22 @@ def homes_alike(job: Job, region: Container, rng: np.random.Generator) -> FloatA
     inside, px_per_cu = container_image(region, start_resolution(len(job.items)))
     found = stippled(inside, np.ones_like(inside), len(job.items), rng)
     points = np.column_stack([found.x, found.y]) / px_per_cu
-    return np.asarray(points[assigned(job.vectors.of(job.items), points, rng)])
+    vectors = job.vectors.of(job.items)
+    drawn, along = _anchored(job.vectors, vectors, points)
+    return np.asarray(points[assigned(vectors, points, rng, drawn=drawn, along=along)])
+
+
+def _anchored(
+    known: ItemVectors, vectors: FloatArray, points: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """How much items are drawn along the way of each anchor, and how far along it points lie."""
+    drawn, along = np.zeros((len(vectors), 0)), np.zeros((len(points), 0))
+    units, about = unit_rows(vectors), points - points.mean(axis=0)
+    for angle, vector in known.anchors:
+        like = np.maximum(units @ unit_rows(vector[None])[0], 0.0)
+        most = float(like.max(initial=0.0))
+        turn = np.radians(angle or 0.0)
+        far = -np.hypot(*about.T) if angle is None else about @ [np.cos(turn), np.sin(turn)]
+        drawn = np.column_stack([drawn, like / most if most > 0 else like])
+        along = np.column_stack([along, far])
+    return drawn, along

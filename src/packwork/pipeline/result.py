@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
-from importlib import metadata
 from typing import Any
 
 import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError, RowsLostError
+from packwork.installed import installed_version
 from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.resolution import photo_pixels
@@ -232,7 +232,7 @@ def manifest(
 ) -> dict[str, Any]:
     """Manifest of a run: what repeats it, and what it measured."""
     return {
-        "packwork": metadata.version("packwork"),
+        "packwork": installed_version(),
         "recipe": job.recipe.plain(),
         "seed": job.recipe.seed,
         "start": method,

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.errors import ReadError
+from packwork.errors import ReadError, RecipeError
+from packwork.phrasing import enumerated
 from packwork.readers.files import read_bytes
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table, read_table
@@ -38,11 +39,39 @@ class Vectors:
         One per row; None where the file has none.
     rows
         ``(n, d)``, finite.
+    columns
+        What their numbers are called, where the file says so.
     """
 
     file: str
     names: tuple[str, ...] | None
     rows: FloatArray
+    columns: tuple[str, ...] = ()
+
+    def called(self, name: str) -> FloatArray:
+        """``(d,)`` vector of a row by its name, or else the axis of a column.
+
+        Raises
+        ------
+        RecipeError
+            About ``anchors``, if there is none of that name.
+
+        Examples
+        --------
+        >>> found = Vectors("a.csv", ("bear", "fox"), np.eye(2), ("warm", "cold"))
+        >>> found.called("Fox").tolist(), found.called("warm").tolist()
+        ([0.0, 1.0], [1.0, 0.0])
+        """
+        wanted = name.casefold()
+        for names, vectors in (
+            (self.names or (), self.rows),
+            (self.columns, np.eye(self.rows.shape[1])),
+        ):
+            folded = [one.casefold() for one in names]
+            if wanted in folded:
+                return np.asarray(vectors[folded.index(wanted)])
+        there = enumerated([*self.columns, *(self.names or ())], 6) or "rows without names alone"
+        raise RecipeError("anchors", f"{self.file} has no {name[:40]!r}; there are {there}")
 
 
 def read_vectors(file: str, asked: TableFormat | None = None) -> Vectors:
@@ -123,7 +152,8 @@ def _of_table(table: Table, asked: TableFormat | None) -> Vectors:
     if names is not None and len(set(names)) < len(names):
         twice = next(name for name in names if names.count(name) > 1)
         raise ReadError(table.name, f"has {twice[:40]!r} twice; give each name one row")
-    return Vectors(table.name, names, np.array(cells).T)
+    called = tuple(columns) if len(rows) == len(table.rows) else ()
+    return Vectors(table.name, names, np.array(cells).T, called)
 
 
 def _with_first_line(table: Table) -> Sequence[Row]:

@@ -14,10 +14,16 @@ from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.vectors import in_order, read_vectors
 from packwork.recipe import Recipe
+from packwork.recipe.meaning import parse_anchor
 from packwork.scene.item import Item
 
 Key: TypeAlias = tuple[str, str]
 """Name and source of an item."""
+
+
+AnchorVector: TypeAlias = tuple[float | None, FloatArray]
+"""Direction, degrees clockwise from the right, or None for the middle; and the vector of what is
+drawn there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,10 +36,13 @@ class ItemVectors:
         Vectors by name and source; nothing of what has none.
     told
         What has to be told of items that have none.
+    anchors
+        Of what is drawn in some direction or to the middle.
     """
 
     by_item: Mapping[Key, FloatArray]
     told: tuple[ReadError, ...] = ()
+    anchors: tuple[AnchorVector, ...] = ()
 
     @classmethod
     def of_rows(
@@ -42,10 +51,12 @@ class ItemVectors:
         rows: FloatArray,
         known: BoolArray,
         told: tuple[ReadError, ...] = (),
+        anchors: tuple[AnchorVector, ...] = (),
     ) -> ItemVectors:
         """Rows of items, in their order, some of which are known."""
         triples = zip(items, rows, known, strict=True)
-        return cls({_key(item): row for item, row, is_known in triples if is_known}, told)
+        by_item = {_key(item): row for item, row, is_known in triples if is_known}
+        return cls(by_item, told, anchors)
 
     def of(self, items: Sequence[Item]) -> FloatArray:
         """``(n, d)`` vectors of items, zeros of those that have none."""
@@ -64,13 +75,16 @@ def read_item_vectors(recipe: Recipe, file: str, items: Sequence[Item]) -> ItemV
     """
     things = list({_key(item): item for item in items}.values())
     names = [(item.name, Path(item.source).name) for item in things]
-    rows, known = in_order(read_vectors(file, recipe), names)
+    vectors = read_vectors(file, recipe)
+    rows, known = in_order(vectors, names)
     without = [item.name for item, is_known in zip(things, known, strict=True) if not is_known]
     told: tuple[ReadError, ...] = ()
     if without:
         many = number_of(len(without), "item has", "items have")
         told = (ReadError(file, f"{many} no row ({enumerated(without)}) and may lie anywhere"),)
-    return ItemVectors.of_rows(things, rows, known, told)
+    asked = map(parse_anchor, recipe.anchors)
+    anchors = tuple((one.angle, vectors.called(one.name)) for one in asked)
+    return ItemVectors.of_rows(things, rows, known, told, anchors)
 
 
 def _key(item: Item) -> Key:

@@ -23,6 +23,13 @@ HOT, COLD = 1.0, 0.02
 """First and last temperature, in spacings of the places. A hotter start forgets the first
 order, a colder one keeps its mistakes. Tried."""
 
+DRAWN = 0.5
+"""Pull of an anchor, over that of all neighbours together. Larger parts clusters, smaller is not
+heard. Tried."""
+
+IMAGES = np.array([[x, y] for x in (1, -1, 2, -2) for y in (1, -1, 2, -2) if abs(x * y) < 4])
+"""Of the places, along x and y: mirrored, and halved first along either."""
+
 MOST_AXES = 64
 """Numbers of a vector that are looked at for its longest axes; of more, so many sums of them by
 chance. Chosen."""
@@ -35,6 +42,8 @@ def assigned(
     *,
     own: FloatArray | None = None,
     there: FloatArray | None = None,
+    drawn: FloatArray | None = None,
+    along: FloatArray | None = None,
     free: BoolArray | None = None,
 ) -> IntArray:
     """Place of each item: those with like vectors lie near each other.
@@ -50,6 +59,10 @@ def assigned(
     own, there
         ``(n, s)`` what items and places are like: the squared difference is paid for, in
         spacings of the places.
+    drawn, along
+        ``(n, a)`` how much items are drawn along each of some ways, 0..1, and how far along it
+        places lie, in the unit of the points: an item that is drawn by 1 would rather lie a
+        spacing farther along than half a spacing nearer to all that pull it.
     free
         ``(n,)`` which items may leave their places; None for all.
 
@@ -71,10 +84,17 @@ def assigned(
     movable = at if free is None else np.flatnonzero(free)
     if len(movable) < 2:
         return at
-    scaled = points / _spacing(points)
+    spacing = _spacing(points)
+    scaled = points / spacing
     own = np.zeros((count, 0)) if own is None else own
     there = np.zeros((count, 0)) if there is None else there
-    at[movable] = movable[_halved(_axes(vectors[movable], rng), scaled[movable])]
+    drawn = np.zeros((count, 0)) if drawn is None else drawn
+    along = np.zeros((count, 0)) if along is None else along / spacing
+    axes = _axes(vectors[movable], rng)
+    at[movable] = movable[_begun(axes, scaled[movable], drawn[movable], along[movable])]
+    # Of a squared difference nothing but the product depends on who is where.
+    even = np.sqrt(DRAWN / 2)
+    own, there = np.hstack([own, even * drawn]), np.hstack([there, even * along])
     graph = NeighbourGraph.of(vectors, rng)
     for heat in np.geomspace(HOT, COLD, STEPS):
         tries = EXCHANGES * len(movable)
@@ -90,6 +110,14 @@ def _spacing(points: FloatArray) -> float:
     """Side of a square for each point of their box."""
     wide, high = np.ptp(points, axis=0)
     return max(float(np.sqrt(max(wide * high, 1e-12) / len(points))), float(max(wide, high)) * 1e-6)
+
+
+def _begun(axes: FloatArray, points: FloatArray, drawn: FloatArray, along: FloatArray) -> IntArray:
+    """Point of each vector to begin with: of several images that which is best along the ways."""
+    if drawn.shape[1] == 0:
+        return _halved(axes, points)
+    found = [_halved(axes, points * image) for image in IMAGES]
+    return max(found, key=lambda at: float((drawn * along[at]).sum()))
 
 
 def _axes(vectors: FloatArray, rng: np.random.Generator) -> FloatArray:

@@ -26,10 +26,11 @@ from packwork.pipeline.run import along
 from packwork.pipeline.use import MOST_FIRST_FIT, OwnPlaces, Use
 from packwork.pipeline.watch import Watch
 from packwork.progress import Stop
+from packwork.readers.vectors import Vectors
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
-from packwork.recipe.meaning import FROM_TEXT
+from packwork.recipe.meaning import FROM_TEXT, parse_anchor
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
@@ -158,7 +159,12 @@ class Words(Use):
         rows = self.read.vectors
         if rows is None:
             return super().vectors(recipe)
-        return ItemVectors.of_rows(self.read.items, rows, np.any(rows, axis=1))
+        known = np.any(rows, axis=1)
+        names = [word.text for word in self.read.words]
+        words = Vectors("the text", tuple(names), rows)
+        asked = map(parse_anchor, recipe.anchors)
+        anchors = tuple((one.angle, words.called(one.name)) for one in asked)
+        return ItemVectors.of_rows(self.read.items, rows, known, anchors=anchors)
 
     @property
     def palette_tints(self) -> bool:
