@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,11 @@ from numerics import assert_gradient
 from packwork.adapters.torch import torch_loss
 from packwork.arrays import FloatArray, Image
 from packwork.losses.overlap import overlap
+from packwork.losses.registry import takes_colour
+from packwork.pipeline.plan.own_losses import background_of
+from packwork.scene.item import FlatArt
+from packwork.scene.light import channels_of
+from packwork.scene.swatch import mean_lights
 from scenes import box
 
 torch: Any = pytest.importorskip("torch")
@@ -107,6 +113,100 @@ def test_a_loss_that_is_none_ends_the_run_on_one_line(function: Any, problem: st
     with pytest.raises(pw.RecipeError, match=problem) as met:
         pw.fill("circle", "star", epochs=1, levels="16", losses={torch_loss(function): 1.0})
     assert "\n" not in str(met.value)
+
+
+class Look(torch.nn.Module):  # type: ignore[misc]
+    """Small fixed random network: what it says of the picture, near to what was asked."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        torch.manual_seed(3)
+        self.layers = torch.nn.Sequential(
+            torch.nn.AdaptiveAvgPool2d(24),
+            torch.nn.Conv2d(3, 8, 5, stride=2),
+            torch.nn.Tanh(),
+            torch.nn.Conv2d(8, 8, 3, stride=2),
+            torch.nn.Tanh(),
+            torch.nn.Flatten(),
+        )
+        ramp = torch.linspace(0, 1, 24).expand(24, 24)
+        asked = torch.stack([1 - ramp, torch.full_like(ramp, 0.3), ramp])
+        self.asked = self.layers(asked[None]).detach()
+
+    def forward(self, density: Any, colour: Any, container: Any) -> Any:
+        said = self.layers(colour.permute(2, 0, 1)[None])
+        return 1 - torch.cosine_similarity(said, self.asked).mean()
+
+
+def test_adjoints_of_colours_are_the_derivatives(rng: np.random.Generator) -> None:
+    colour = rng.uniform(0, 1, (9, 7, 3))
+    density, container = rng.uniform(0, 2, (2, 9, 7))
+
+    def mixed(density: Any, colour: Any, container: Any) -> Any:
+        return ((colour**2).sum(dim=2) * density * container).mean()
+
+    loss = torch_loss(mixed)
+    term = loss(density, colour, container)
+    assert term.colour_adjoint is not None
+    assert_gradient(lambda at: loss(density, at, container).value, term.colour_adjoint, colour)
+    assert_gradient(lambda at: loss(at, colour, container).value, term.adjoint, density)
+
+
+def test_a_loss_of_colours_alone_has_no_adjoint_of_the_density(
+    rng: np.random.Generator,
+) -> None:
+    density, container = rng.uniform(0, 1, (2, 30, 30)).astype(np.float32)
+    colour = rng.uniform(0, 1, (30, 30, 3)).astype(np.float32)
+    term = torch_loss(Look())(density, colour, container)
+    assert not term.adjoint.any()
+    assert term.colour_adjoint is not None
+    assert term.colour_adjoint.dtype == np.float32
+    assert term.colour_adjoint.any()
+
+
+def test_modules_are_told_by_what_their_forward_takes() -> None:
+    assert takes_colour(torch_loss(Look()))
+    assert takes_colour(torch_loss(lambda density, colour, container: colour.mean()))
+    assert not takes_colour(torch_loss(crowding))
+
+
+def test_a_function_keeps_its_background() -> None:
+    def dark(density: Any, colour: Any, container: Any) -> Any:
+        return colour.mean()
+
+    dark.background = "#000080"  # type: ignore[attr-defined]
+    np.testing.assert_allclose(background_of(torch_loss(dark)), [0, 0, 128 / 255])
+
+
+def test_what_depends_on_neither_image_is_refused() -> None:
+    def none_of_them(density: Any, colour: Any, container: Any) -> Any:
+        return container.mean()
+
+    with pytest.raises(pw.RecipeError, match="must depend on the density or the colours"):
+        pw.fill("circle", "star", epochs=1, levels="16", losses={torch_loss(none_of_them): 1.0})
+
+
+def test_a_network_pulls_on_poses_and_sizes_through_colour() -> None:
+    look = torch_loss(Look())
+    (one,) = pw.read_items("circle")
+    items = [replace(one, art=FlatArt(colour)) for colour in ("#ff4d00", "#004dff", "#804d80")]
+    run: dict[str, Any] = {"count": 24, "epochs": 150, "levels": "40,80", "effort": "draft"}
+
+    def said(layout: pw.Layout) -> float:
+        """What the network says of the finished layout."""
+        side = 96 / layout.container.side
+        points = np.vstack([o.points for o in layout.outlines]) * side
+        rings = [len(ring) for o in layout.outlines for ring in o.rings]
+        own = channels_of(mean_lights(layout.items))
+        per_ring = np.repeat(own, [len(o.rings) for o in layout.outlines], axis=0)
+        image = pw.render_colour(points, np.cumsum([0, *rings]), per_ring, (96, 96), 1.0)
+        return float(look(image[..., 0], np.float32(image), image[..., 0]).value)
+
+    plain = pw.fill("square", items, seed=1, **run)
+    pulled = pw.fill("square", items, seed=1, losses={look: 60.0}, **run)
+    assert said(pulled) < 0.7 * said(plain)
+    assert pulled.certified
+    assert np.abs(pulled.poses.scale - plain.poses.scale).max() > 0
 
 
 MODULE = '''

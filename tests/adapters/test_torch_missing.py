@@ -10,17 +10,18 @@ from typing import Any
 import pytest
 
 import packwork as pw
-from packwork.adapters.torch import render, render_items, torch_loss
+from packwork.adapters.torch import render, render_colour, render_items, torch_loss
 
 
 @pytest.mark.parametrize(
     "use",
     [
         lambda: render(None, [0, 3], (4, 4)),  # type: ignore[arg-type]
+        lambda: render_colour(None, [0, 3], None, (4, 4)),  # type: ignore[arg-type]
         lambda: render_items([], *[None] * 4, (4, 4)),  # type: ignore[arg-type]
         lambda: torch_loss(len),  # type: ignore[arg-type]
     ],
-    ids=["render", "render_items", "torch_loss"],
+    ids=["render", "render_colour", "render_items", "torch_loss"],
 )
 def test_every_use_says_what_to_install(use: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "torch", None)

@@ -9,7 +9,7 @@ import pytest
 
 import packwork as pw
 from numerics import STEP, compare, white_image
-from packwork.adapters.torch import render, render_items
+from packwork.adapters.torch import render, render_colour, render_items
 from packwork.geometry.outline import Outline, joined
 from packwork.scene.pose import Poses
 from scenes import disc, placed, poses, star
@@ -108,6 +108,63 @@ def test_points_that_are_not_on_the_cpu_are_refused() -> None:
 OUTLINES = [star(1.3), disc(0.9, 7), star(1.1)]
 START = poses([2.3, 6.1, 8.4], [2.2, 3.1, 7.3], [0.3, -0.4, 1.2], [1.4, 1.7, 0.9], [1.3, 0.8, 1.0])
 PARTS = ("x", "y", "angle", "scale", "stretch")
+
+
+@each_kind
+def test_gradients_of_colours_pass_pytorchs_own_check(kind: str, rng: np.random.Generator) -> None:
+    points, starts = joined_rings(POLYGONS[kind](rng, 9.0))
+    colours, background = rng.random((len(starts) - 1, 3)), rng.random(3)
+    assert torch.autograd.gradcheck(
+        lambda *parts: render_colour(parts[0], starts, parts[1], SHAPE, parts[2]),
+        (leaf(points), leaf(colours), leaf(background)),
+        eps=STEP, atol=1e-6, rtol=1e-6,
+    )  # fmt: skip
+
+
+def test_colours_are_the_renderers_bit_for_bit(rng: np.random.Generator) -> None:
+    points, starts = joined_rings(POLYGONS["holed"](rng, 9.0))
+    colours, adjoint = rng.random((len(starts) - 1, 3)), rng.normal(size=(*SHAPE, 3))
+    parts = leaf(points), leaf(colours)
+    image = render_colour(parts[0], starts, parts[1], SHAPE, 0.25)
+    image.backward(torch.from_numpy(adjoint))
+    expected = pw.render_colour(points, starts, colours, SHAPE, 0.25)
+    np.testing.assert_array_equal(image.detach().numpy(), expected)
+    slopes = pw.render_colour_pullback(points, starts, colours, adjoint, 0.25)
+    for part, slope in zip(parts, slopes, strict=False):
+        np.testing.assert_array_equal(part.grad.numpy(), slope)
+
+
+def test_colours_of_items_pull_at_poses_sizes_and_colours(rng: np.random.Generator) -> None:
+    start = [leaf(getattr(START, part)) for part in PARTS[:4]]
+    colours = leaf(rng.random((3, 3)))
+
+    def seen(*parts: Any) -> Any:
+        return render_items(
+            OUTLINES, *parts[:4], shape=(18, 22), px_per_cu=2.0, colours=parts[4], background=1.0
+        )
+
+    assert torch.autograd.gradcheck(seen, (*start, colours), eps=STEP, atol=1e-6, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("changed", "problem"),
+    [
+        ({"colours": [0.0]}, r"must have shape \(rings, channels\), not \(1,\)"),
+        ({"colours": [[0.0] * 3] * 2}, r"must have shape \(1, channels\)"),
+        ({"background": [0.0, 1.0]}, r"one number or 3, not of shape \(2,\)"),
+    ],
+)
+def test_bad_colours_are_refused_on_one_line(changed: dict[str, Any], problem: str) -> None:
+    good = {"colours": [[0.0, 0.5, 1.0]], "background": 0.0}
+    asked = {key: torch.tensor(value) for key, value in {**good, **changed}.items()}
+    with pytest.raises(pw.ShapeError, match=problem):
+        render_colour(torch.zeros(3, 2), [0, 3], asked["colours"], SHAPE, asked["background"])
+
+
+def test_items_need_a_colour_each() -> None:
+    zero = torch.zeros(3)
+    with pytest.raises(pw.ShapeError, match=r"one per outline \(3\), not 2"):
+        render_items(OUTLINES, zero, zero, zero, zero + 1, SHAPE, colours=torch.zeros(2, 3))
 
 
 def test_items_lie_where_the_layouts_poses_put_them() -> None:

@@ -295,7 +295,14 @@ TILE = [[0.0, 0], [1, 0], [1, 1], [0, 1]]
         ({"colours": np.zeros((1, 0))}, "must have 1 to 16 channels, not 0"),
         ({"background": [1, 1]}, r"one number or 3, not of shape \(2,\)"),
         ({"background": np.inf}, "background must be finite"),
-        ({"points_px": [[0.0, 0], [1e10, 0], [1, 1], [0, 1]]}, "within 1e\\+09 px"),
+        (
+            {"points_px": [[0.0, 0], [1e10, 0], [1, 1], [0, 1]]},
+            r"float64 image must lie within 1e\+09 px",
+        ),
+        (
+            {"points_px": [[0.0, 0], [2e5, 0], [1, 1], [0, 1]], "dtype": np.float32},
+            "float32 image must lie within 100000 px",
+        ),
         ({"shape": (0, 3)}, "sides must be 1 to"),
         ({"starts": [0, 5]}, "from 0 to the number of points"),
     ],

@@ -69,7 +69,9 @@ def find_loss(name: str | ImageLoss) -> ImageLoss:
         raise RecipeError("loss", f"module {module!r} has no function {function!r}") from error
     if not callable(found):
         raise RecipeError(
-            "loss", f"{name!r} is not a function of (density, container), nor of (placed)"
+            "loss",
+            f"{name!r} is not a function of (density, container), (density, colour, container) "
+            "or (placed)",
         )
     loss: ImageLoss = found
     return loss
@@ -109,12 +111,29 @@ def find_pose_loss(name: str | ImageLoss | PoseLoss) -> PoseLoss | None:
     return partial(checked_pose_term, found) if _takes_poses(found) else None
 
 
+def takes_colour(function: Any) -> bool:
+    """Whether a function has to be given three things: density, colours and container.
+
+    Examples
+    --------
+    >>> takes_colour(overlap), takes_colour(lambda density, colour, container: None)
+    (False, True)
+    """
+    return _needed(function) == 3
+
+
 def _takes_poses(function: Any) -> bool:
     """Whether a function has to be given one thing only, and not the two images."""
+    return _needed(function) == 1
+
+
+def _needed(function: Any) -> int | None:
+    """How many things a function is to be given, if it takes as many and no more."""
     try:
         parameters = inspect.signature(function).parameters.values()
     except (TypeError, ValueError):
-        return False
-    needed = [p for p in parameters if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
+        return None
+    taken = [p for p in parameters if p.kind in (p.POSITIONAL_ONLY, p.POSITIONAL_OR_KEYWORD)]
     has_rest = any(p.kind is p.VAR_POSITIONAL for p in parameters)
-    return not has_rest and sum(p.default is p.empty for p in needed) == 1 == len(needed)
+    needed = sum(p.default is p.empty for p in taken)
+    return needed if needed == len(taken) and not has_rest else None

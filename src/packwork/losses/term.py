@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -22,10 +23,14 @@ class Term:
         The loss; a mean over the image's pixels, so that levels agree.
     adjoint
         d value / d density, of the image's size.
+    colour_adjoint
+        d value / d colour, ``(rows, columns, 3)``, of a loss that is given the colours; None if
+        zero.
     """
 
     value: float
     adjoint: Image
+    colour_adjoint: Image | None = None
 
 
 class ImageLoss(Protocol):
@@ -56,21 +61,43 @@ def checked_term(loss: ImageLoss, density: Image, container: Image) -> Term:
         ...
     packwork.errors.RecipeError: loss: <lambda> must return a Term, not NoneType
     """
+    return checked_call(loss, (density, container))
+
+
+def checked_call(loss: Callable[..., Any], images: tuple[Image, ...]) -> Term:
+    """Term of a loss of these images, checked; the density is the first, colours are the second.
+
+    Raises
+    ------
+    RecipeError
+        As for :func:`checked_term`.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> checked_call(lambda density: Term(0.0, density), (np.ones((1, 1)),)).adjoint
+    array([[1.]])
+    """
     name = getattr(loss, "__name__", repr(loss))
     try:
-        term = loss(density, container)
+        term = loss(*images)
     except Exception as error:  # a user's code may raise anything
         raise RecipeError("loss", f"{name} failed: {type(error).__name__}: {error}") from error
     if not isinstance(term, Term):
         raise RecipeError("loss", f"{name} must return a Term, not {type(term).__name__}")
-    if np.shape(term.adjoint) != density.shape:
-        raise RecipeError(
-            "loss",
-            f"{name}'s adjoint must have shape {density.shape}, not {np.shape(term.adjoint)}",
-        )
-    if not np.isfinite(term.adjoint).all():
-        raise RecipeError("loss", f"{name}'s adjoint must be finite; it has NaN or infinite values")
+    _check_adjoint(f"{name}'s adjoint", term.adjoint, images[0])
+    if term.colour_adjoint is not None:
+        if len(images) < 3:
+            raise RecipeError("loss", f"{name} is given no colours, so has no adjoint of them")
+        _check_adjoint(f"{name}'s adjoint of colours", term.colour_adjoint, images[1])
     return term
+
+
+def _check_adjoint(what: str, adjoint: Image, image: Image) -> None:
+    if np.shape(adjoint) != image.shape:
+        raise RecipeError("loss", f"{what} must have shape {image.shape}, not {np.shape(adjoint)}")
+    if not np.isfinite(adjoint).all():
+        raise RecipeError("loss", f"{what} must be finite; it has NaN or infinite values")
 
 
 @dataclass(frozen=True, eq=False)

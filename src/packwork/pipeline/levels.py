@@ -5,13 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.pipeline.beginning import Beginning
+from packwork.pipeline.dress.colours import colours_seen
 from packwork.pipeline.film.recorder import Recorder
 from packwork.pipeline.job import Job
 from packwork.pipeline.placed import Placed
 from packwork.pipeline.plan.leaning import job_leanings
+from packwork.pipeline.plan.own_losses import in_colours, sees_colours
 from packwork.pipeline.staying import as_it_was, calmed, needs_no_levels, with_homes
 from packwork.pipeline.watch import Watch
 from packwork.recipe.levels import refined_levels
+from packwork.scene.layout import Layout
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import Ending, Outcome, solve
 
@@ -31,6 +34,8 @@ def run_levels(begun: Beginning, watch: Watch) -> Placed:
         if needs_no_levels(job) or begun.is_tight:
             return Placed.of(begun, Outcome(begun.poses, Ending.DONE), recorder)
         options = _solve_options(job)
+        if sees_colours(job.plan.losses):
+            options = _with_colours(options, begun)
         if begun.goes_on:
             options = calmed(options)
         if job.plan.stays:
@@ -50,6 +55,14 @@ def _keep_start(recorder: Recorder, begun: Beginning) -> None:
         for put in range(len(order)):
             recorder.keep(poses.some(order[:put]), order[:put])
     recorder.keep(as_it_was(begun.job, poses))
+
+
+def _with_colours(options: SolveOptions, begun: Beginning) -> SolveOptions:
+    """Options whose losses see the items in colours."""
+    job = begun.job
+    layout = Layout(job.container, job.items, begun.poses, begun.nominal)
+    losses = in_colours(options.losses, colours_seen(job, layout))
+    return options.model_copy(update={"losses": losses})
 
 
 def _solve_options(job: Job) -> SolveOptions:

@@ -12,6 +12,7 @@ where (docs/decisions/0037-colour-image.md).
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -25,9 +26,9 @@ from packwork.threads import at_once
 MAX_CHANNELS = 16
 """Most channels of an image: all of a pixel's are read at once. Chosen."""
 
-MAX_REACH_PX = 1e9
-"""Furthest that a vertex may lie: from further off, edges cross the image where rounding has
-them cross. Chosen."""
+MAX_REACH_PX = {np.dtype(np.float32): 1e5, np.dtype(np.float64): 1e9}
+"""Furthest that a vertex may lie: edges from further off cross the image where rounding has them
+cross. Chosen."""
 
 SHORT_PX = 1e-10
 """How far off a line of the grid the record has a short edge's crossing, px: a multiple of what
@@ -114,6 +115,12 @@ class ColourImage:
         records = self._rasteriser.swept.records
         at_once(self._pull_back, [(record, flat, gradient) for record in records])
 
+    def by_points(self, adjoint: Image) -> FloatArray:
+        """Derivative of sum(adjoint * image) by the swept vertices alone, ``(n, 2)``."""
+        gradient = np.zeros_like(self._rasteriser.swept.points)
+        self.pullback(adjoint, gradient)
+        return gradient
+
     def by_colours(self, adjoint: Image) -> tuple[FloatArray, FloatArray]:
         """Derivatives of sum(adjoint * image) by colours and background.
 
@@ -134,7 +141,7 @@ class ColourImage:
     def _deposit(self, record: Record) -> None:
         swept = self._rasteriser.swept
         kernels.deposit(
-            swept.points, swept.starts, record.order, *self._rasteriser.shape, swept.x_magic,
+            swept.points, swept.starts, record.order, self._rasteriser.shape[1], swept.x_magic,
             self._area_magic, self._precision, record.cells, record.leaves, record.first,
             self._excess, self._deposits.reshape(-1, self.channels),
         )  # fmt: skip
@@ -149,7 +156,7 @@ class ColourImage:
     def _integrate(self, record: Record, below: Image, totals: FloatArray) -> None:
         swept = self._rasteriser.swept
         kernels.integrals(
-            swept.points, swept.starts, record.order, *self._rasteriser.shape, swept.x_magic,
+            swept.points, swept.starts, record.order, self._rasteriser.shape[1], swept.x_magic,
             self._precision, record.cells, record.leaves, record.first, below, totals,
         )  # fmt: skip
 
@@ -171,7 +178,7 @@ def render_colour(
     Parameters
     ----------
     points_px, starts
-        As for :func:`packwork.render`.
+        As for :func:`packwork.render`; at most 1e9 px off (float32: 1e5).
     colours
         ``(rings, channels)``, or ``(rings,)`` for one channel. A hole has its item's colour.
     shape
@@ -194,12 +201,32 @@ def render_colour(
     >>> render_colour(tile, [0, 4], [[1, 0, 0]], (1, 3), background=1.0)[0].tolist()
     [[1.0, 0.5, 0.5], [1.0, 0.0, 0.0], [1.0, 1.0, 1.0]]
     """
-    points, ring_starts = _rings(points_px, starts)
-    table = _colours(colours, len(ring_starts) - 1)
+    return prepared(points_px, starts, colours, shape, background, dtype)[1]
+
+
+def prepared(
+    points_px: npt.ArrayLike,
+    starts: npt.ArrayLike,
+    colours: npt.ArrayLike,
+    shape: tuple[int, int],
+    background: npt.ArrayLike,
+    dtype: npt.DTypeLike,
+) -> tuple[ColourImage, Image]:
+    """What :func:`render_colour` renders with, to be pulled back through, and what it renders.
+
+    Examples
+    --------
+    >>> tile = [[0.0, 0], [1, 0], [1, 1], [0, 1]]
+    >>> image, seen = prepared(tile, [0, 4], [[0.5]], (1, 1), 1.0, np.float64)
+    >>> seen.item(), image.by_colours(np.ones((1, 1, 1)))[0].item()
+    (0.5, 1.0)
+    """
     rasteriser = Rasteriser(shape, dtype)
+    points, ring_starts = _rings(points_px, starts, rasteriser.dtype)
+    table = _colours(colours, len(ring_starts) - 1)
     image = ColourImage(rasteriser, table.shape[1])
     rasteriser.sweep(points, ring_starts)
-    return image.render(table, _background(background, table.shape[1]))
+    return image, image.render(table, _background(background, table.shape[1]))
 
 
 def render_colour_pullback(
@@ -234,28 +261,28 @@ def render_colour_pullback(
     >>> points[:, 0].tolist(), colours.tolist(), background.tolist()
     ([0.5, -0.5, -0.5, 0.5], [[0.0, 1.0, 0.0]], [0.0, 3.0, 0.0])
     """
-    points, ring_starts = _rings(points_px, starts)
-    table = _colours(colours, len(ring_starts) - 1)
     pulls = np.asarray(adjoint)
+    dtype = np.dtype(np.float32 if pulls.dtype == np.float32 else np.float64)
+    points, ring_starts = _rings(points_px, starts, dtype)
+    table = _colours(colours, len(ring_starts) - 1)
     if pulls.ndim != 3 or pulls.size == 0 or pulls.shape[2] != table.shape[1]:
         raise ShapeError(
             f"the adjoint must have shape (rows, columns, {table.shape[1]}), not {pulls.shape}"
         )
-    dtype = np.float32 if pulls.dtype == np.float32 else np.float64
     pulls = np.ascontiguousarray(pulls, dtype=dtype)
     rasteriser = Rasteriser((pulls.shape[0], pulls.shape[1]), dtype)
     image = ColourImage(rasteriser, table.shape[1])
     rasteriser.sweep(points, ring_starts)
     image.take(table, _background(background, table.shape[1]))
-    by_points = np.zeros_like(points)
-    image.pullback(pulls, by_points)
-    return (by_points, *image.by_colours(pulls))
+    return (image.by_points(pulls), *image.by_colours(pulls))
 
 
-def _rings(points_px: npt.ArrayLike, starts: npt.ArrayLike) -> tuple[FloatArray, IntArray]:
+def _rings(
+    points_px: npt.ArrayLike, starts: npt.ArrayLike, dtype: np.dtype[Any]
+) -> tuple[FloatArray, IntArray]:
     points = as_points(points_px)
-    if len(points) and np.abs(points).max() > MAX_REACH_PX:
-        raise ShapeError(f"points must lie within {MAX_REACH_PX:g} px of the image")
+    if len(points) and np.abs(points).max() > MAX_REACH_PX[dtype]:
+        raise ShapeError(f"points of a {dtype} image must lie within {MAX_REACH_PX[dtype]:g} px")
     return points, as_starts(starts, len(points))
 
 

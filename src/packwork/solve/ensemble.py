@@ -64,3 +64,8 @@ class Ensemble:
     def per_item(self, per_ring: FloatArray) -> FloatArray:
         """Sums ``(items,)`` of numbers ``(rings,)`` over each item's rings, in their unit."""
         return np.asarray(np.add.reduceat(per_ring, self._rings_before))
+
+    def per_ring(self, per_item: FloatArray) -> FloatArray:
+        """Rows ``(rings, m)``, each ring's its item's, of ``(items, m)``."""
+        counts = np.diff(np.append(self._rings_before, len(self.ring_starts) - 1))
+        return np.repeat(per_item, counts, axis=0)

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import count
+from typing import Any
 
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
+from packwork.losses.colour import SeenInColour
 from packwork.losses.evenness import evenness
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
 from packwork.losses.registry import find_loss, find_pose_loss, loss_name
-from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, checked_term
+from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, Term, checked_term
 from packwork.progress import Objective
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
+from packwork.solve.coloured import ColouredLoss
 from packwork.solve.ensemble import Ensemble
 from packwork.solve.ground import Ground
 from packwork.solve.zones import ZonePull
@@ -52,7 +55,7 @@ class Level:
         container: Container,
         outlines: Sequence[Outline],
         resolution: int,
-        losses: Iterable[str | ImageLoss] = FUSED,
+        losses: Iterable[str | ImageLoss | SeenInColour] = FUSED,
         nominal: FloatArray | None = None,
         limits: Limits = NO_LIMITS,
         forces: Forces = NO_FORCES,
@@ -75,8 +78,11 @@ class Level:
         self.zones = [ZonePull(zone, outlines, shape, self.px_per_cu) for zone in limits.zones]
         self._further: dict[str | ImageLoss, ImageLoss] = {}
         self._of_poses: dict[str | ImageLoss, PoseLoss] = {}
+        self._coloured: dict[Any, ColouredLoss] = {}
         for loss in losses:
-            if (of_poses := find_pose_loss(loss)) is not None:
+            if isinstance(loss, SeenInColour):
+                self._coloured[loss] = ColouredLoss(loss, self.rasteriser, self.ensemble)
+            elif (of_poses := find_pose_loss(loss)) is not None:
                 self._of_poses[loss] = of_poses
             elif loss not in FUSED:
                 self._further[loss] = find_loss(loss)
@@ -109,6 +115,8 @@ class Level:
         self.rasteriser.sweep(points, self.ensemble.ring_starts)
         adjoint = self._adjoint(weights)
         by_points = self.rasteriser.pullback(adjoint, beyond=recall)
+        for key, coloured in self._coloured.items():
+            coloured.add_pull(weights.get(key, 0.0) * adjoint.size, by_points)
         by_pose = self.ensemble.gather(by_points, poses, self.px_per_cu)
         by_pose /= self.px_per_cu**2
         called = self._recall(poses.x, poses.y, self._areas_of(poses))
@@ -119,11 +127,13 @@ class Level:
             centres = np.column_stack([poses.x, poses.y])
             cost = self._forces.cost(centres, self._areas_of(poses))
             by_pose[:, :2] += force * cost.slopes
-        for name, loss in self._of_poses.items():
+        for name, of_poses in self._of_poses.items():
             # Their values have no unit: weighed by the container's area, as a mean over
             # its pixels would be.
             weight = weights.get(name, 0.0) * self._container_area
-            _add(by_pose, loss(PosedItems(poses, self.areas, self._nominal, self._kinds)), weight)
+            _add(
+                by_pose, of_poses(PosedItems(poses, self.areas, self._nominal, self._kinds)), weight
+            )
         return by_pose
 
     def objective(
@@ -156,8 +166,10 @@ class Level:
             total += force * terms["forces"]
         return Objective(total, terms)
 
-    def _value(self, loss: str | ImageLoss, poses: Poses, density: Image) -> float:
-        """Value of one loss."""
+    def _value(self, loss: str | ImageLoss | SeenInColour, poses: Poses, density: Image) -> float:
+        """Value of one loss; ``density``: that of the last sweep, which has these poses."""
+        if isinstance(loss, SeenInColour):
+            return float(self._coloured[loss].term(density, self.container_image).value)
         if loss in self._of_poses:
             placed = PosedItems(poses, self.areas, self._nominal, self._kinds)
             return float(self._of_poses[loss](placed).value)
@@ -197,13 +209,17 @@ class Level:
 
     def _adjoint(self, weights: Mapping[str | ImageLoss, float]) -> Image:
         fused = FusedWeights(*(weights.get(name, 0.0) for name in FUSED))
-        if not self._further:
+        if not self._further and not self._coloured:
             return self._fused(self.rasteriser.accumulation, fused)
         accumulation = self.rasteriser.accumulation.copy()
         density = self.rasteriser.density()
         adjoint = self._fused(accumulation, fused)
+        terms: dict[Any, Term] = {}
         for key, loss in self._further.items():
-            term = checked_term(loss, density, self.container_image)
+            terms[key] = checked_term(loss, density, self.container_image)
+        for key, coloured in self._coloured.items():
+            terms[key] = coloured.term(density, self.container_image)
+        for key, term in terms.items():
             adjoint += weights.get(key, 0.0) * density.size * term.adjoint
         return adjoint
 

@@ -4,6 +4,6 @@ Needs the extra ``packwork[torch]``. Importing this needs nothing yet; calling d
 """
 
 from packwork.adapters.torch.loss import torch_loss
-from packwork.adapters.torch.rendering import render, render_items
+from packwork.adapters.torch.rendering import render, render_colour, render_items
 
-__all__ = ["render", "render_items", "torch_loss"]
+__all__ = ["render", "render_colour", "render_items", "torch_loss"]

@@ -13,6 +13,7 @@ from packwork.adapters.torch.found import found_torch
 from packwork.arrays import as_points, as_starts
 from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline, joined
+from packwork.raster.colour import prepared
 from packwork.raster.coverage import Rasteriser
 
 if TYPE_CHECKING:
@@ -59,12 +60,67 @@ def render(points_px: Tensor, starts: npt.ArrayLike, shape: tuple[int, int]) -> 
     >>> square.grad[:, 0].tolist()
     [-0.5, 0.5, 0.5, -0.5]
     """
-    torch = found_torch()
-    if points_px.dtype not in {torch.float32, torch.float64}:
-        raise ShapeError(f"points must be float32 or float64, not {points_px.dtype}")
-    if points_px.device.type != "cpu":
-        raise ShapeError(f"points must be on the CPU, not on {points_px.device}; use points.cpu()")
+    _check_points(points_px)
     image: Tensor = _coverage_function().apply(points_px, starts, shape)
+    return image
+
+
+def render_colour(
+    points_px: Tensor,
+    starts: npt.ArrayLike,
+    colours: Tensor,
+    shape: tuple[int, int],
+    background: Tensor | float = 0.0,
+) -> Tensor:
+    """Colour image of all rings; gradients flow back to points, colours and background.
+
+    As :func:`packwork.render_colour`: ``background + sum of coverage x (colour - background)``.
+
+    Parameters
+    ----------
+    points_px, starts, shape
+        As for :func:`render`; all tensors on the CPU.
+    colours
+        ``(rings, channels)``; a hole has its item's.
+    background
+        ``(channels,)`` or one number.
+
+    Returns
+    -------
+    Tensor
+        ``(rows, columns, channels)``, of the dtype of the points.
+
+    Raises
+    ------
+    ShapeError
+        If points, starts, colours or background are not of that form.
+    PackworkError
+        If PyTorch is not installed.
+
+    Examples
+    --------
+    >>> import torch
+    >>> square = torch.tensor([[0.5, 0], [2, 0], [2, 1], [0.5, 1]], requires_grad=True)
+    >>> image = render_colour(square, [0, 4], torch.tensor([[1.0, 0, 0]]), (1, 3), 1.0)
+    >>> image[0, 0].tolist()
+    [1.0, 0.5, 0.5]
+    >>> image[..., 1].sum().backward()
+    >>> square.grad[:, 0].tolist()
+    [0.5, -0.5, -0.5, 0.5]
+    """
+    torch = found_torch()
+    _check_points(points_px)
+    table = torch.as_tensor(colours)
+    if table.ndim != 2:
+        raise ShapeError(f"colours must have shape (rings, channels), not {tuple(table.shape)}")
+    behind = torch.as_tensor(background, dtype=points_px.dtype)
+    if behind.ndim > 1 or behind.numel() not in {1, table.shape[1]}:
+        raise ShapeError(
+            f"the background must be one number or {table.shape[1]}, "
+            f"not of shape {tuple(behind.shape)}"
+        )
+    behind = behind.expand(table.shape[1])
+    image: Tensor = _colour_function().apply(points_px, starts, table, behind, shape)
     return image
 
 
@@ -78,8 +134,12 @@ def render_items(
     *,
     stretch: Tensor | None = None,
     px_per_cu: float = 1.0,
+    colours: Tensor | None = None,
+    background: Tensor | float = 0.0,
 ) -> Tensor:
-    """Density image of items at their poses; gradients flow back to the poses.
+    """Density image of items at their poses, or their image in colours.
+
+    Gradients flow back to the poses; of colours also to these and to the background.
 
     Parameters
     ----------
@@ -97,11 +157,15 @@ def render_items(
         ``(n,)`` as in :class:`~packwork.scene.pose.Poses`; all ones if None.
     px_per_cu
         Pixels per canvas unit.
+    colours
+        ``(n, channels)``, one of each item, for :func:`render_colour`; None for the density.
+    background
+        ``(channels,)`` or one number: what shows where nothing lies.
 
     Raises
     ------
     ShapeError
-        If there are not as many poses as outlines.
+        If there are not as many poses or colours as outlines.
     PackworkError
         If PyTorch is not installed.
 
@@ -130,7 +194,21 @@ def render_items(
     left, top, cosine, sine, wide, high = columns.repeat_interleave(counts, dim=1)
     u, v = own[:, 0] * wide, own[:, 1] * high
     placed = torch.stack([cosine * u - sine * v + left, sine * u + cosine * v + top], dim=1)
-    return render(placed * px_per_cu, starts, shape)
+    if colours is None:
+        return render(placed * px_per_cu, starts, shape)
+    if len(colours) != len(outlines):
+        raise ShapeError(f"colours must be one per outline ({len(outlines)}), not {len(colours)}")
+    rings = torch.tensor([len(o.rings) for o in outlines], dtype=torch.int64)
+    per_ring = colours.repeat_interleave(rings, dim=0)
+    return render_colour(placed * px_per_cu, starts, per_ring, shape, background)
+
+
+def _check_points(points_px: Tensor) -> None:
+    torch = found_torch()
+    if points_px.dtype not in {torch.float32, torch.float64}:
+        raise ShapeError(f"points must be float32 or float64, not {points_px.dtype}")
+    if points_px.device.type != "cpu":
+        raise ShapeError(f"points must be on the CPU, not on {points_px.device}; use points.cpu()")
 
 
 @cache
@@ -160,3 +238,37 @@ def _coverage_function() -> Any:
             return torch.from_numpy(gradient.copy()).to(adjoint.dtype), None, None
 
     return Coverage
+
+
+@cache
+def _colour_function() -> Any:
+    """Class of the autograd function of colours, made when PyTorch is first needed."""
+    torch = found_torch()
+    function: Any = torch.autograd.Function
+
+    class Colours(function):  # type: ignore[misc]
+        """Renders on the way out; on the way back reads the record of the sweep."""
+
+        @staticmethod
+        def forward(
+            ctx: Any, points: Tensor, starts: npt.ArrayLike, colours: Tensor,
+            background: Tensor, shape: tuple[int, int],
+        ) -> Tensor:  # fmt: skip
+            # Copied: the record must hold even if an optimiser moves the points in place.
+            kept = points.detach().numpy().copy()
+            table, behind = (one.detach().double().numpy() for one in (colours, background))
+            ctx.dtypes = points.dtype, colours.dtype, background.dtype
+            ctx.image, seen = prepared(kept, starts, table, shape, behind, kept.dtype)
+            image: Tensor = torch.from_numpy(seen)
+            return image
+
+        @staticmethod
+        @torch.autograd.function.once_differentiable  # type: ignore[untyped-decorator]
+        def backward(ctx: Any, adjoint: Tensor) -> tuple[Tensor | None, ...]:
+            pull = np.ascontiguousarray(adjoint.numpy())
+            found = (ctx.image.by_points(pull), *ctx.image.by_colours(pull))
+            pairs = zip(found, ctx.dtypes, strict=True)
+            points, table, behind = (torch.from_numpy(one).to(dtype) for one, dtype in pairs)
+            return points, None, table, behind, None
+
+    return Colours

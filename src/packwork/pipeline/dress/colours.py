@@ -7,19 +7,22 @@ from typing import TypeAlias
 
 import numpy as np
 
-from packwork.arrays import IntArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.pipeline.dress.legible import legible
 from packwork.pipeline.dress.likeness import in_picture
 from packwork.pipeline.dress.neighbours import beside
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.asked import Asked
+from packwork.pipeline.plan.own_losses import sees_colours
 from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.label import Label
 from packwork.scene.layout import Layout
+from packwork.scene.light import channels_of
 from packwork.scene.mixing import mixed
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
+from packwork.scene.swatch import mean_lights
 from packwork.start.neighbour_embedding.clusters import clusters
 from packwork.writers.shading import in_palette, shaded
 
@@ -31,13 +34,18 @@ def dressed(job: Job, layout: Layout) -> Layout:
     return legible(job, in_picture(job, _as_asked(job, layout)))
 
 
+def colours_seen(job: Job, layout: Layout) -> FloatArray:
+    """``(n, 3)`` mean colours, sRGB 0 to 1, in which losses see items that lie as in a layout."""
+    return channels_of(mean_lights(_as_asked(job, layout).items))
+
+
 def _as_asked(job: Job, layout: Layout) -> Layout:
     """Layout whose items look and are called as rules and palette ask.
 
     Colours of a palette are given out in the order of the items, as many of each; then
-    neighbours of one colour exchange theirs with others. Where it is known which items are
-    alike, those of one cluster get one colour. What has several colours gets their tints and
-    shades.
+    neighbours of one colour exchange theirs with others, unless a loss has placed them by it.
+    Where it is known which items are alike, those of one cluster get one colour. What has several
+    colours gets their tints and shades.
     """
     if job.plan.shades == "nearest":
         layout = _in_nearest(job, layout)
@@ -45,7 +53,8 @@ def _as_asked(job: Job, layout: Layout) -> Layout:
     palettes: list[tuple[str, ...]] = [] if coloured else _by_cluster(job, _palettes(job))
     if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
         return layout
-    colours = _colours(palettes, layout) if coloured is None else coloured
+    is_mixed = not sees_colours(job.plan.losses)
+    colours = _colours(palettes, layout, is_mixed) if coloured is None else coloured
     known: dict[tuple[int, str | None, Label | None, bool], Item] = {}
     arts: _Arts = {}
     items = []
@@ -127,8 +136,8 @@ def _is_tinted(job: Job, item: Item) -> bool:
     return is_asked and not isinstance(item.art, PhotoArt)
 
 
-def _colours(palettes: list[tuple[str, ...]], layout: Layout) -> list[str | None]:
-    """One colour of each copy's palette, unlike its neighbours' where there is a choice."""
+def _colours(palettes: list[tuple[str, ...]], layout: Layout, is_mixed: bool) -> list[str | None]:
+    """One colour of each copy's palette, unlike its neighbours' where it is mixed."""
     several = sorted({palette for palette in palettes if palette})
     known = sorted({colour for palette in several for colour in palette})
     numbers = {colour: k for k, colour in enumerate(known)}
@@ -139,7 +148,7 @@ def _colours(palettes: list[tuple[str, ...]], layout: Layout) -> list[str | None
         members = [k for k, own in enumerate(palettes) if own == palette]
         groups[members] = number
         labels[members] = np.resize([numbers[colour] for colour in palette], len(members))
-    if any(len(palette) > 1 for palette in several):
+    if is_mixed and any(len(palette) > 1 for palette in several):
         pairs = beside(layout)
         labels = labels[mixed(labels, pairs, groups)]
     return [known[label] if label < len(known) else None for label in labels]

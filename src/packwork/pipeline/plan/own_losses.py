@@ -4,15 +4,25 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 
-from packwork.arrays import Image
-from packwork.losses.registry import LOSSES, POSE_LOSSES, find_loss, find_pose_loss
-from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, checked_term
+from packwork.arrays import FloatArray, Image
+from packwork.errors import RecipeError
+from packwork.losses.colour import SeenInColour
+from packwork.losses.registry import (
+    LOSSES,
+    POSE_LOSSES,
+    find_loss,
+    find_pose_loss,
+    loss_name,
+    takes_colour,
+)
+from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, checked_call, checked_term
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
+from packwork.scene.colour import parse_colour
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
@@ -43,19 +53,72 @@ def _has_a_say(key: str | ImageLoss, container: Container, items: Sequence[Item]
     if isinstance(key, str) and key in {*LOSSES, *POSE_LOSSES}:
         return True
     of_poses = find_pose_loss(key)
-    says = _moves(of_poses, container, items) if of_poses else _colours(find_loss(key), container)
+    says = _moves(of_poses, container, items) if of_poses else _prices(find_loss(key), container)
     if not says:
         name = key if isinstance(key, str) else getattr(key, "__name__", repr(key))
         _LOG.warning("the loss %s is zero wherever items are: it changes nothing", name)
     return says
 
 
-def _colours(loss: ImageLoss, container: Container) -> bool:
-    """Whether the adjoint of an image loss is anything but zero for some density."""
+def sees_colours(losses: Losses) -> bool:
+    """Whether one of the losses is given the colours of items."""
+    return any(takes_colour(find_loss(key)) for key in losses if key not in POSE_LOSSES)
+
+
+def in_colours(losses: Losses, colours: FloatArray) -> dict[Any, float]:
+    """The losses, those that are given colours bound to those of the items, ``(n, 3)`` sRGB.
+
+    Raises
+    ------
+    RecipeError
+        If the background of one is no solid colour.
+    """
+    bound: dict[Any, float] = {}
+    for key, weight in losses.items():
+        found: Any = key if key in POSE_LOSSES else find_loss(key)
+        if takes_colour(found):
+            seen = SeenInColour(found, loss_name(key), colours, background_of(found))
+            bound[seen] = weight
+        else:
+            bound[key] = weight
+    return bound
+
+
+def background_of(loss: object) -> FloatArray:
+    """Colour ``(3,)``, 0 to 1, over which a loss sees items: its attribute, else white.
+
+    Raises
+    ------
+    RecipeError
+        If it is no solid colour.
+
+    Examples
+    --------
+    >>> background_of(len)
+    array([1., 1., 1.])
+    """
+    text = str(getattr(loss, "background", "white"))
+    channels = parse_colour("loss", text)
+    if channels is None or channels[3] < 255:
+        raise RecipeError("loss", f"the background {text[:40]!r} is clear; use a solid colour")
+    return np.array(channels[:3]) / 255
+
+
+def _prices(loss: ImageLoss, container: Container) -> bool:
+    """Whether an adjoint of an image loss is anything but zero for some image."""
     shape = image_shape(container.width, container.height, TRIED_PX)
     rasteriser = Rasteriser(shape, np.float32)
     inside = region_image(container.outline, rasteriser, TRIED_PX / container.side)
-    return any(checked_term(loss, d, inside).adjoint.any() for d in _densities(inside))
+    if not takes_colour(loss):
+        return any(checked_term(loss, d, inside).adjoint.any() for d in _densities(inside))
+    background_of(loss)
+    rng = np.random.default_rng(0)
+    for density in _densities(inside):
+        colour = rng.random((*shape, 3)).astype(np.float32)
+        term = checked_call(loss, (density, colour, inside))
+        if term.adjoint.any() or np.any(term.colour_adjoint):
+            return True
+    return False
 
 
 def _densities(inside: Image) -> Iterator[Image]:

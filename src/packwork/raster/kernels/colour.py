@@ -9,6 +9,9 @@ from __future__ import annotations
 from packwork.compiled import helper, kernel
 from packwork.raster.kernels.coverage import ABOVE
 
+TO_WHOLE = 1.5 * 2.0**52
+"""Rounds to whole numbers, without a call, what it is added to and taken from again. Derived."""
+
 
 @helper(forceinline=True)
 def _on_line(x, hair):
@@ -16,30 +19,29 @@ def _on_line(x, hair):
 
     Whatever crosses a line crosses it at the same x then, and a ring leaves nothing behind.
     """
-    line = float(round(x))
+    line = (x + TO_WHOLE) - TO_WHOLE
     return line if abs(x - line) <= hair else x
 
 
 @helper(forceinline=True)
-def _piece(x_a, x_b, y_a, y_b, is_above, height, width):
-    """Cell of a piece that lies in one pixel, its two x from the pixel's left side, its area.
+def _piece(cell, x_a, x_b, y_a, y_b, width):
+    """Pixel of a piece, its two x from the pixel's left side, its area; ``cell`` as recorded.
 
     The area is what the piece sweeps downward within the pixel: all of it from above.
     """
-    column = min(max(int(0.5 * (x_a + x_b)), 0), width - 1)
+    is_above = cell <= ABOVE
+    row = 0 if is_above else cell // width
+    column = ABOVE - cell if is_above else cell - row * width
+    # Edges longer than the record is precise stay in their pixels.
     left = min(max(x_a - column, 0.0), 1.0)
     right = min(max(x_b - column, 0.0), 1.0)
-    if is_above:
-        return column, left, right, right - left
-    y = 0.5 * (y_a + y_b)
-    row = min(max(int(y), 0), height - 1)
-    depth = min(max(row + 1 - y, 0.0), 1.0)
+    depth = 1.0 if is_above else row + 1 - 0.5 * (y_a + y_b)
     return row * width + column, left, right, (right - left) * depth
 
 
 @kernel
 def deposit(
-    points, starts, order, height, width, x_magic, area_magic, precision,
+    points, starts, order, width, x_magic, area_magic, precision,
     cells, leaves, first, excess, buffer,
 ):  # fmt: skip
     """Deposit each recorded piece in ``buffer``, once a channel, times its ring's ``excess``.
@@ -49,6 +51,7 @@ def deposit(
     ``precision``: of the record's parameters, and of x where edges are short.
     """
     channels = excess.shape[1]
+    as_pixel = buffer.dtype.type
     edge = 0
     for visit in range(order.shape[0]):
         ring = order[visit]
@@ -65,16 +68,14 @@ def deposit(
                 x_b = _on_line(x0 + dx * u, hair) if k < last else x0 + dx
                 y_b = y0 + dy * u
                 if cells[k] >= 0 or cells[k] <= ABOVE:
-                    cell, left, right, area = _piece(
-                        x_a, x_b, y_a, y_b, cells[k] <= ABOVE, height, width
-                    )
+                    cell, left, right, area = _piece(cells[k], x_a, x_b, y_a, y_b, width)
                     for c in range(channels):
                         colour = excess[ring, c]
                         swept = (colour * right + area_magic) - area_magic
                         swept -= (colour * left + area_magic) - area_magic
                         here = (colour * area + area_magic) - area_magic
-                        buffer[cell, c] += here
-                        buffer[cell + width, c] += swept - here
+                        buffer[cell, c] += as_pixel(here)
+                        buffer[cell + width, c] += as_pixel(swept - here)
                 x_a, y_a = x_b, y_b
             edge += 1
 
@@ -151,7 +152,7 @@ def sum_below(adjoint, running, below):
 
 @kernel
 def integrals(
-    points, starts, order, height, width, x_magic, precision, cells, leaves, first, below, totals
+    points, starts, order, width, x_magic, precision, cells, leaves, first, below, totals
 ):  # fmt: skip
     """Integral of the adjoint inside each ring, once a channel: the transpose of ``deposit``.
 
@@ -177,9 +178,7 @@ def integrals(
                 x_b = _on_line(x0 + dx * u, hair) if k < last else x0 + dx
                 y_b = y0 + dy * u
                 if cells[k] >= 0 or cells[k] <= ABOVE:
-                    cell, left, right, area = _piece(
-                        x_a, x_b, y_a, y_b, cells[k] <= ABOVE, height, width
-                    )
+                    cell, left, right, area = _piece(cells[k], x_a, x_b, y_a, y_b, width)
                     rest = right - left - area
                     for c in range(channels):
                         totals[ring, c] += area * below[cell, c] + rest * below[cell + width, c]
