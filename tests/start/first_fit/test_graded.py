@@ -12,7 +12,7 @@ from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.scene.container import Container
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.graded import JAMMED, Graded, graded_fit, sizes_down
+from packwork.start.first_fit.graded import Graded, graded_fit, sizes_down
 from packwork.start.first_fit.grading import Candidate
 from scenes import box
 
@@ -149,8 +149,8 @@ def test_known_lengths_leave_room_for_the_last() -> None:
     container = Container("", "", box(0, 0, 100, 100), 100, 100)
     tiles = [Candidate(box(-1, -1, 1, 1), step) for step in (10.0, *[1.0] * 79)]
     rng = np.random.default_rng
-    plain = graded_fit(container, tiles, 80, rng(0), smallest=2.0)
-    held = graded_fit(container, tiles, 80, rng(0), smallest=2.0, lengths=[1.0] * 80)
+    plain = graded_fit(container, tiles, 80, rng(0), smallest=1.5)
+    held = graded_fit(container, tiles, 80, rng(0), smallest=1.5, lengths=[1.0] * 80)
     assert 2 * len(plain.placed) < len(held.placed)
     assert (np.diff(held.poses.scale) <= 0).all()
 
@@ -178,8 +178,31 @@ def test_a_first_item_of_any_size_leaves_the_next_ones_their_places() -> None:
     square, bar = box(-1, -1, 1, 1), box(-3, -0.5, 3, 0.5)
     for items in ([square] * 10, [square, bar] * 5, [bar, square, bar, *[square] * 7]):
         found = _unbounded(items)
-        assert (found[1:] >= JAMMED * found[:-1] * (1 - 1e-9)).all()
+        assert (np.diff(found) <= 0).all()
+        two = _unbounded(items[:2])
+        assert found[0] == pytest.approx(two[0])
     assert _unbounded([square])[0] > 45
+
+
+def test_what_one_item_lacks_later_ones_have_again() -> None:
+    """As far as asked for, and never more than the one before."""
+    container = Container("", "", box(0, 0, 200, 100), 200.0, 100.0)
+    square, bar = box(-1, -1, 1, 1), box(-9, -0.5, 9, 0.5)
+    steps = [40.0, 0.9, *[0.7] * 6]
+    asked = [Candidate(bar if k == 1 else square, step) for k, step in enumerate(steps)]
+
+    def scales(regained: float) -> FloatArray:
+        rng = np.random.default_rng(0)
+        return graded_fit(container, asked, len(asked), rng, regained=regained).poses.scale
+
+    none, half, all_of_it = scales(0.0), scales(0.5), scales(1.0)
+    assert none[0] == half[0] == all_of_it[0]
+    lacks = 0.9 * none[0] / none[1]
+    assert lacks > 2
+    assert none[2:] == pytest.approx(none[1] * 0.7 ** np.arange(1, 7))
+    own = none[0] * 0.9 * 0.7 ** np.arange(1, 7)
+    assert all_of_it[2:] == pytest.approx(np.minimum(own, all_of_it[1]))
+    assert half[2:] == pytest.approx(np.minimum(own / lacks**0.5, half[1]))
 
 
 def test_a_margin_is_between_squares_of_pixels() -> None:

@@ -40,17 +40,16 @@ LEADING, JAMMED = 10, 0.6
 """Items that are put a second time, the first of them smaller, where one of them was left so small
 a share of the size that it might have had: what follows is never larger again. Chosen."""
 
-LARGER, LOWER = (1.4, 1.3, 1.2, 1.1), (0.9, 0.8, 0.7)
+LARGEST = (1.4, 1.3, 1.2, 1.1, 1.0)
 """Sizes of the first item, over a balanced one, that are tried in turn where it is bounded by
-nothing: the larger ones if the first ones do not jam with that one, the lower ones if they do.
-Larger ones yet leave no room for the second. Tried, on the default cloud and examples of the
-``wordcloud`` package."""
+nothing, until the next ones all find a place. Larger ones yet leave no room for the second. Tried,
+on the default cloud and examples of the ``wordcloud`` package."""
 
-FOR_ALL = 1.8
+FOR_ALL = 3.0
 """How many times the size at which all items that are left would find a place the first of those
 that are held down may have, falling to 1 with the last. Larger leaves out more of the last where
-there is little room, smaller leaves room bare where there is much. Tried, on the default cloud and
-on examples of the ``wordcloud`` package."""
+there is little room, smaller leaves room bare where there is much and makes sizes alike. Tried, on
+the default cloud and on examples of the ``wordcloud`` package."""
 
 AMPLE = 1.5
 """Such size, as a multiple of the least, from which on items are held down. Smaller places hundreds
@@ -92,6 +91,8 @@ def graded_fit(
     patience: int | None = None,
     lengths: Sequence[float] = (),
     is_first_bounded: bool = True,
+    regained: float = 0.0,
+    side_px: int | None = None,
     stop: Stop = never,
 ) -> Graded:
     """Poses at which nothing overlaps, each item at most so much larger than the one before.
@@ -120,8 +121,14 @@ def graded_fit(
         Of all candidates, in any unit, such as their letters: where all can be as large as the
         smallest, those after the first ones are held down so that the last find a place too.
     is_first_bounded
-        Whether the first one's scale is what it is to have; else it is one with which the next
-        ones find places at which they are not far smaller than they might be.
+        Whether the first one's scale is what it is to have; else it is the largest of some with
+        which the next ones find places.
+    regained
+        How much of what an item lacks at its size those after it have again, where they find
+        places: 0, no more than it; 1, all that their own steps leave them, but never more than
+        the one before. A share of the logarithm.
+    side_px
+        Pixels of the image's longer side; by the number of candidates where it is not given.
     stop
         Asked before each item but the first; True ends with those that are placed.
 
@@ -135,9 +142,9 @@ def graded_fit(
     >>> found.placed.tolist(), found.poses.scale.tolist()
     ([0, 1, 2, 3, 4], [24.0, 12.0, 12.0, 12.0, 12.0])
     """
-    grading = Grading(container, count, rng, margin_cu)
+    grading = Grading(container, count, rng, margin_cu, side_px)
     reserve = Reserve(lengths, 2 * margin_cu)
-    empty = _Descent(grading, count, smallest, grid, drop, reserve)
+    empty = _Descent(grading, count, smallest, grid, drop, reserve, regained)
     source = iter(candidates)
     leading = list(islice(source, LEADING))
     if leading and not is_first_bounded:
@@ -163,9 +170,11 @@ class _Descent:
         grid: float,
         drop: float,
         reserve: Reserve,
+        regained: float,
     ) -> None:
         self._grading, self._count, self._reserve = grading, count, reserve
         self._smallest, self.grid, self._drop = smallest, grid, drop
+        self._regained = regained
         self.placed, self.rows = list[int](), list[PoseRow]()
         self._number = self._missed = 0
         self._most = 0.0
@@ -175,9 +184,14 @@ class _Descent:
 
     def emptied(self) -> _Descent:
         """The same before anything was put."""
-        reserve = self._reserve.emptied()
         return _Descent(
-            self._grading.emptied(), self._count, self._smallest, self.grid, self._drop, reserve
+            self._grading.emptied(),
+            self._count,
+            self._smallest,
+            self.grid,
+            self._drop,
+            self._reserve.emptied(),
+            self._regained,
         )
 
     def put_all(
@@ -185,13 +199,10 @@ class _Descent:
         candidates: Iterable[Candidate],
         patience: int | None,
         stop: Stop,
-        least_share: float = 0.0,
     ) -> None:
-        """Put one after another, until too many in a row find no place, or one is too small."""
+        """Put one after another, until too many in a row find no place."""
         for candidate in candidates:
             if (self.rows and stop()) or (patience is not None and self._missed > patience):
-                return
-            if self.least_share < least_share:
                 return
             self._put(candidate)
             self._number += 1
@@ -203,7 +214,8 @@ class _Descent:
         least = self._smallest or LEAST_SHARE * (self.rows[0][3] if self.rows else self._most)
         self._grading.is_loose = self._number >= TOUCHING * self._count
         held = self._held(candidate.outline, least)
-        downwards = sizes_down(self._most, max(least, self.grid), self.grid, self._drop)
+        most = min(self._most, self.rows[-1][3]) if self.rows else self._most
+        downwards = sizes_down(most, max(least, self.grid), self.grid, self._drop)
         sizes = [size for size in downwards if size <= held]
         pose = self._grading.put(candidate, sizes)
         if pose is None:
@@ -213,9 +225,14 @@ class _Descent:
         if self.rows:
             self.least_share = min(self.least_share, pose[3] / sizes[0])
         if pose[3] < sizes[0]:
-            self._most = pose[3]
+            self._most = self._again(pose[3], sizes[0])
         self.placed.append(self._number)
         self.rows.append(pose)
+
+    def _again(self, size: float, wanted: float) -> float:
+        """Scale that items after one may have again that lacks some of what was wanted."""
+        more = size * ((wanted / size) ** self._regained - 1)
+        return size + (round(more / self._drop) * self._drop if self._drop else more)
 
     def _held(self, outline: Outline, least: float) -> float:
         """Scale that the next item may have at most so that all after it find a place."""
@@ -251,10 +268,10 @@ def _opened(
 
     One that finds a place only where it is small holds all later ones down.
     """
+    if leading and not is_first_bounded:
+        return _largest_opened(empty, leading, patience, stop)
     best = empty
     best.put_all(leading, patience, stop)
-    if not is_first_bounded:
-        return _loosened(best, leading, patience, stop)
     if best.least_share >= JAMMED or not best.rows or best.placed[0] != 0:
         return best
     for share in SMALLER:
@@ -277,17 +294,21 @@ def _balanced(empty: _Descent, two: Sequence[Candidate], least: float) -> float:
     return max(math.floor(mean / empty.grid + 1e-9) * empty.grid if empty.grid else mean, least)
 
 
-def _loosened(
-    found: _Descent, leading: Sequence[Candidate], patience: int | None, stop: Stop
+def _largest_opened(
+    empty: _Descent, leading: Sequence[Candidate], patience: int | None, stop: Stop
 ) -> _Descent:
-    """The first items in place, the first one as large as they do not jam; else as found."""
-    for times in LOWER if found.least_share < JAMMED else LARGER:
-        first = replace(leading[0], step=_on_grid(times * leading[0].step, found.grid))
-        other = found.emptied()
-        other.put_all([first, *leading[1:]], patience, stop, JAMMED)
-        if other.least_share >= JAMMED and len(other.placed) >= len(found.placed):
-            return other
-    return found
+    """The first items in place, the first one as large as most of them find one."""
+    best: _Descent | None = None
+    for times in LARGEST:
+        first = replace(leading[0], step=_on_grid(times * leading[0].step, empty.grid))
+        other = empty.emptied()
+        other.put_all([first, *leading[1:]], patience, stop)
+        if best is None or len(other.placed) > len(best.placed):
+            best = other
+        if len(best.placed) == len(leading):
+            break
+    assert best is not None  # noqa: S101 - the first try
+    return best
 
 
 def fit_between(

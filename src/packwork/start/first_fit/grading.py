@@ -33,8 +33,7 @@ PIXELS_EACH = 45
 take longer. Tried."""
 
 LEAST_PX, MOST_PX = 700, 1_000
-"""Sides of that image at least and at most. As above; with 800 clouds of the drop-in have 1 to 2 %
-more ink and take a tenth to a third longer."""
+"""Sides of that image at least and at most. As above."""
 
 REACH = 3
 """Width of the fringe, pixels, in which taken pixels are counted. As in ``first_fit``."""
@@ -93,6 +92,17 @@ class Candidate:
     apart: tuple[float, float] = (0.0, 0.0)
 
 
+def image_side(count: int, least: int = LEAST_PX, most: int = MOST_PX) -> int:
+    """Pixels of the image's longer side for so many items.
+
+    Examples
+    --------
+    >>> image_side(1), image_side(400), image_side(4_000)
+    (700, 900, 1000)
+    """
+    return min(max(round(PIXELS_EACH * math.sqrt(count)), least), most)
+
+
 def _inwards(clearance: FloatArray) -> FloatArray:
     """How far each pixel is inwards, 0 to 1: in the middle of where the container is widest.
 
@@ -121,15 +131,22 @@ class Grading:
         For the random part of the scores.
     margin_cu
         Room that every item keeps from others and from the edge, canvas units.
+    side_px
+        Pixels of the longer side of the image; by their number where it is not given.
     """
 
     is_loose = False
     """Whether items now go where there is most room."""
 
     def __init__(
-        self, container: Container, count: int, rng: np.random.Generator, margin_cu: float
+        self,
+        container: Container,
+        count: int,
+        rng: np.random.Generator,
+        margin_cu: float,
+        side_px: int | None = None,
     ) -> None:
-        side = int(np.clip(round(PIXELS_EACH * math.sqrt(count)), LEAST_PX, MOST_PX))
+        side = side_px or image_side(count)
         image, self._px_per_cu = container_image(container, side)
         self._reach = margin_cu * self._px_per_cu
         clearance = distance_inside(image > 1 - TOUCHED)
