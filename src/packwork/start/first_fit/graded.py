@@ -231,7 +231,7 @@ class _Descent:
 
     def _again(self, size: float, wanted: float) -> float:
         """Scale that items after one may have again that lacks some of what was wanted."""
-        more = size * ((wanted / size) ** self._regained - 1)
+        more: float = size * ((wanted / size) ** self._regained - 1)
         return size + (round(more / self._drop) * self._drop if self._drop else more)
 
     def _held(self, outline: Outline, least: float) -> float:
