@@ -201,7 +201,7 @@ def test_every_link_to_a_file_leads_somewhere(page: Path) -> None:
 
 PAGES_THAT_INSTALL = [
     page
-    for folder in ("", "docs", "examples/torch_loss")
+    for folder in ("", "docs", "examples/network", "examples/torch_loss")
     for page in sorted((ROOT / folder).glob("*.md"))
 ]
 

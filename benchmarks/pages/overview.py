@@ -74,6 +74,7 @@ PAGES = {
     "batch": "rates by workers and a cluster, crashes, tables with bad rows, series",
     "speed": "whole runs beside an earlier version, by stage, a first run, memory",
     "engine": "milliseconds per stage, the frozen set",
+    "colour": "the colour image beside the density, what a loss of colours does",
     "quality": "before the exact finish and after, voids filled, many items",
     "words": "word clouds in fat and thin shapes, in the peer's own examples",
     "photos": "photographs, and a poster's memory",

@@ -9,7 +9,7 @@ from functools import partial
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 from benchmarks.batch import batch
-from benchmarks.engine import engine, film, live, outlines, scaling_page, speed_page
+from benchmarks.engine import colour, engine, film, live, outlines, scaling_page, speed_page
 from benchmarks.kit.manifests import Manifest, known, of_parts, write_text
 from benchmarks.pages import overview
 from benchmarks.paper import paper, resolution
@@ -42,8 +42,8 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
         name: partial(of_parts, module.PAGE)
         for name, module in {
             "arranging": arranging, "batch": batch, "embeddings": embeddings,
-            "charts": charts, "engine": engine, "files": files_page, "films": film,
-            "forces": forces, "live": live, "meaning": meaning, "outlines": outlines,
+            "charts": charts, "colour": colour, "engine": engine, "files": files_page,
+            "films": film, "forces": forces, "live": live, "meaning": meaning, "outlines": outlines,
             "parts": parts, "photos": photos, "quality": quality, "robustness": robustness,
             "studio": studio,
         }.items()

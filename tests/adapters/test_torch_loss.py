@@ -267,11 +267,25 @@ def test_stars_of_the_example_gather_where_the_galaxy_is_bright(
     sys.modules.pop("galaxy")
 
 
-def test_the_example_runs(tmp_path: Path) -> None:
-    example = (EXAMPLE / "galaxy.py").read_text(encoding="utf-8")
-    quick = example.replace("count=600", "count=8, epochs=5, levels='32'")
+@pytest.mark.parametrize(
+    ("folder", "name", "count"), [("torch_loss", "galaxy", 600), ("network", "looking", 360)]
+)
+def test_the_examples_run(folder: str, name: str, count: int, tmp_path: Path) -> None:
+    example = (EXAMPLE.parent / folder / f"{name}.py").read_text(encoding="utf-8")
+    quick = example.replace(f"count={count}", "count=12, epochs=5, levels='32'")
     assert quick != example
-    (tmp_path / "galaxy.py").write_text(quick, encoding="utf-8")
-    subprocess.run([sys.executable, "galaxy.py"], cwd=tmp_path, check=True)
-    assert (tmp_path / "galaxy.svg").exists()
-    assert (tmp_path / "galaxy.png").exists()
+    (tmp_path / f"{name}.py").write_text(quick, encoding="utf-8")
+    subprocess.run([sys.executable, f"{name}.py"], cwd=tmp_path, check=True)
+    assert (tmp_path / f"{name}.svg").exists()
+    assert (tmp_path / f"{name}.png").exists()
+
+
+def test_the_network_of_the_example_sees_its_sunset(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(EXAMPLE.parent / "network"))
+    looking = importlib.import_module("looking")
+    sunset = looking.sunset(64).permute(1, 2, 0).numpy()
+    blank = np.ones((64, 64), np.float32)
+    alike = looking.evening(blank, sunset, blank)
+    turned = looking.evening(blank, np.ascontiguousarray(sunset[::-1]), blank)
+    assert alike.value < 0.02 * turned.value
+    sys.modules.pop("looking")
