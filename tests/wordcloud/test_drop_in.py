@@ -6,13 +6,15 @@ from collections.abc import Iterator
 from itertools import combinations
 from pathlib import Path
 from random import Random
+from typing import Any
 
 import numpy as np
 import pytest
 from defusedxml import ElementTree
-from PIL import Image
+from PIL import Image, ImageColor
 
 from packwork.readers.words.items import EM_PX
+from packwork.scene.contrast import contrast
 from packwork.wordcloud import (
     STOPWORDS,
     ImageColorGenerator,
@@ -300,6 +302,26 @@ def test_colours_come_from_a_picture(cloud: WordCloud) -> None:
     for shape in ((4,), (4, 4, 2)):
         with pytest.raises(ValueError, match=r"ImageColorGenerator|channels"):
             ImageColorGenerator(np.zeros(shape))
+
+
+@pytest.mark.parametrize("ground", ["black", "white", "#808080", (30, 30, 60)])
+def test_colours_that_no_one_asked_for_stand_out(ground: Any) -> None:
+    words = {f"word{k}": 1.0 for k in range(60)}
+    cloud = WordCloud(background_color=ground, random_state=0).fit_words(words)
+    colours = {entry[4] for entry in cloud.layout_}
+    assert len(colours) > 20
+    channels = ImageColor.getrgb(ground) if isinstance(ground, str) else ground
+    seen = "#{:02x}{:02x}{:02x}".format(*channels)
+    least = min(contrast(colour, seen) for colour in colours)
+    assert least >= 2.0
+    asked = WordCloud(background_color=ground, colormap="viridis", random_state=0).fit_words(words)
+    assert min(contrast(entry[4], seen) for entry in asked.layout_) < 2.0
+
+
+def test_a_clear_background_and_lists_as_backgrounds_have_colours() -> None:
+    for ground in (None, [0, 0, 0], "nosuchcolour"):
+        cloud = WordCloud(background_color=ground, mode="RGBA", random_state=0)
+        assert cloud.fit_words({"ox": 1.0}).layout_[0][4].startswith("rgb(")
 
 
 def test_colour_functions_are_of_one_kind() -> None:

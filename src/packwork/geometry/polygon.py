@@ -82,9 +82,12 @@ def united(regions: Iterable[Region]) -> Region:
     >>> united([shapely.box(0, 0, 2, 2), shapely.box(1, 0, 3, 2)]).area
     6.0
     """
-    parts = [part for region in regions for part in polygon_parts(region)]
+    every = list(regions)
+    parts = [part for region in every for part in polygon_parts(region)]
     if len(parts) == 1:
         return parts[0]
+    if len(every) == 1 and isinstance(every[0], MultiPolygon) and len(parts) > 1:
+        return every[0]
     whole = MultiPolygon(parts)
     return whole if whole.is_valid else union(parts)
 

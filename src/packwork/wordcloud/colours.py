@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import colorsys
 from collections.abc import Callable
+from functools import lru_cache
 from random import Random
 from typing import Any, TypeAlias
 
@@ -11,8 +12,14 @@ import numpy as np
 import numpy.typing as npt
 from PIL import ImageColor, ImageFont
 
-from packwork.scene.contrast import between
+from packwork.scene.contrast import between, contrast
 from packwork.scene.palette import PALETTES
+
+LEGIBLE = 2.0
+"""Contrast with the background, as WCAG counts it, that words have at least where no colours are
+asked for. Larger leaves out half of the palette, smaller words that can hardly be seen. By eye."""
+
+_SHARES = 257
 
 ColourFunction: TypeAlias = Callable[..., Any]
 """Of word, font_size, position, orientation, font_path and random_state, by name."""
@@ -84,6 +91,69 @@ class colormap_color_func:  # noqa: N801 - the other package's name
             assert self._map is not None  # noqa: S101 - one of the two is there
             channels = np.maximum(0, 255 * np.array(self._map(share)))[:3]
         return "rgb({:.0f}, {:.0f}, {:.0f})".format(*channels)
+
+
+class legible_color_func:  # noqa: N801 - as those beside it
+    """Colours drawn at random from those of a palette of ours that stand out from a background.
+
+    Parameters
+    ----------
+    palette
+        By name.
+    ground
+        ``#rrggbb``; all colours are drawn where none stands out.
+
+    Examples
+    --------
+    >>> legible_color_func("viridis", "#000000")(random_state=Random(5))
+    'rgb(61, 186, 118)'
+    """
+
+    def __init__(self, palette: str, ground: str) -> None:
+        every = [between(PALETTES[palette], share) for share in np.linspace(0, 1, _SHARES)]
+        self._colours = [one for one in every if contrast(one, ground) >= LEGIBLE] or every
+
+    def __call__(self, *_: Any, random_state: Random | None = None, **__: Any) -> str:
+        """Colour of one word."""
+        share = (random_state or Random()).random()
+        red, green, blue = ImageColor.getrgb(self._colours[int(share * len(self._colours))])[:3]
+        return f"rgb({red}, {green}, {blue})"
+
+
+def own_color_func(background: Any) -> ColourFunction:
+    """Colours where none were asked for: all of the palette on a clear background.
+
+    Examples
+    --------
+    >>> own_color_func("white") is own_color_func("#ffffff")
+    True
+    """
+    try:
+        red, green, blue, alpha = rgba(background)
+    except (TypeError, ValueError):
+        # What is no colour is told once a picture is asked for.
+        alpha = 0
+    return _legible_on(red, green, blue) if alpha else colormap_color_func("viridis")
+
+
+@lru_cache(16)
+def _legible_on(red: int, green: int, blue: int) -> ColourFunction:
+    return legible_color_func("viridis", f"#{red:02x}{green:02x}{blue:02x}")
+
+
+def rgba(colour: Any) -> tuple[int, int, int, int]:
+    """Channels of any colour that Pillow knows; None is clear.
+
+    Examples
+    --------
+    >>> rgba(None), rgba("white"), rgba([1, 2, 3, 4])
+    ((0, 0, 0, 0), (255, 255, 255, 255), (1, 2, 3, 4))
+    """
+    if colour is None:
+        return (0, 0, 0, 0)
+    channels = ImageColor.getrgb(colour) if isinstance(colour, str) else tuple(colour)
+    red, green, blue, alpha = (*(int(c) for c in channels), 255)[:4]
+    return red, green, blue, alpha
 
 
 class ImageColorGenerator:

@@ -14,7 +14,7 @@ from typing import Any, Literal, Self
 
 import numpy as np
 import numpy.typing as npt
-from PIL import Image, ImageColor, ImageDraw
+from PIL import Image, ImageDraw
 
 from packwork import writers
 from packwork.fonts import bundled_file
@@ -26,7 +26,9 @@ from packwork.wordcloud.colours import (
     ColourFunction,
     colormap_color_func,
     get_single_color_func,
+    own_color_func,
     random_color_func,
+    rgba,
 )
 from packwork.wordcloud.picture import FAINT, paint
 from packwork.wordcloud.setting import (
@@ -117,7 +119,10 @@ class WordCloud:
             self.height, self.width = mask.shape[:2]
         self.margin, self.prefer_horizontal = margin, prefer_horizontal
         self.mask, self.scale = mask, scale
-        self.colormap = "viridis" if color_func is None and colormap is None else colormap
+        is_free = color_func is None and colormap is None
+        self.colormap = "viridis" if is_free else colormap
+        if is_free:
+            color_func = own_color_func(background_color)
         self.color_func = color_func or colormap_color_func(self.colormap)
         self.max_words, self.min_font_size, self.font_step = max_words, min_font_size, font_step
         self.stopwords = STOPWORDS if stopwords is None else stopwords
@@ -210,13 +215,13 @@ class WordCloud:
         """Picture of the cloud, ``scale`` times as large as its canvas."""
         self._check_generated()
         size = (int(self.width * self.scale), int(self.height * self.scale))
-        shown = Image.new("RGBA", size, _rgba(self.background_color))
+        shown = Image.new("RGBA", size, rgba(self.background_color))
         if any(word.drawn.pictures for word in self._placed.words):
             data = png_bytes(self.layout, max(size), SvgOptions())
             with Image.open(io.BytesIO(data)) as drawn:
                 shown.alpha_composite(_without_traces(drawn.convert("RGBA").crop((0, 0, *size))))
         else:
-            colours = [_rgba(entry[4]) for entry in self.layout_]
+            colours = [rgba(entry[4]) for entry in self.layout_]
             paint(shown, zip(self._placed.outlines, colours, strict=True), float(self.scale))
         return self._with_contour(shown).convert(self.mode)
 
@@ -276,7 +281,7 @@ class WordCloud:
         self._check_generated()
         layout = self._placed.layout
         items = [
-            recoloured(item, "#{:02x}{:02x}{:02x}{:02x}".format(*_rgba(entry[4])))
+            recoloured(item, "#{:02x}{:02x}{:02x}{:02x}".format(*rgba(entry[4])))
             for item, entry in zip(layout.items, self.layout_, strict=True)
         ]
         named = [
@@ -346,7 +351,7 @@ class WordCloud:
             raise ValueError("WordCloud has not been calculated, call generate first.")
 
     def _css_background(self) -> str | None:
-        red, green, blue, alpha = _rgba(self.background_color)
+        red, green, blue, alpha = rgba(self.background_color)
         return f"#{red:02x}{green:02x}{blue:02x}{alpha:02x}" if alpha else None
 
     def _with_contour(self, image: Image.Image) -> Image.Image:
@@ -356,7 +361,7 @@ class WordCloud:
         for ring in self._placed.container.outline.rings:
             points = [tuple(point) for point in (ring * self.scale).tolist()]
             width = max(1, round(self.contour_width * self.scale))
-            draw.line([*points, points[0]], _rgba(self.contour_color), width, joint="curve")
+            draw.line([*points, points[0]], rgba(self.contour_color), width, joint="curve")
         return image
 
 
@@ -369,15 +374,6 @@ def _without_traces(image: Image.Image) -> Image.Image:
 
 def _random(state: int | Random | None) -> Random | None:
     return Random(state) if isinstance(state, int) else state
-
-
-def _rgba(colour: Any) -> tuple[int, int, int, int]:
-    """Channels of any colour that Pillow knows; None is clear."""
-    if colour is None:
-        return (0, 0, 0, 0)
-    channels = ImageColor.getrgb(colour) if isinstance(colour, str) else tuple(colour)
-    red, green, blue, alpha = (*(int(c) for c in channels), 255)[:4]
-    return red, green, blue, alpha
 
 
 _warned: set[str] = set()

@@ -176,6 +176,9 @@ def clear_ink(glyphs: Sequence[GlyphInk], places: FloatArray, sizes: FloatArray)
             for m in (k, other)
         )
         least = min(least, distance(one, two))
+        # In scripts that join letters the first two meet already.
+        if not least > 0:
+            return None
     if not least > 0:
         return None
     return ClearInk([glyphs[k] for k in drawn], place, size, least / extent)
