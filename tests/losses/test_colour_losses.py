@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -172,3 +173,43 @@ def test_a_loss_of_colours_that_says_nothing_is_told(caplog: pytest.LogCaptureFi
 
     pw.fill("square", "circle", losses={silent: 1.0}, **{**RUN, "epochs": 2})
     assert "the loss silent is zero wherever items are" in caplog.text
+
+
+def test_a_loss_of_colours_by_name_has_its_term_in_the_history(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    module = """
+import numpy as np
+import packwork as pw
+
+
+def yellow(density, colour, container):
+    by_colour = np.zeros_like(colour)
+    by_colour[..., 2] = 1 / density.size
+    return pw.Term(float(colour[..., 2].mean()), np.zeros_like(density), by_colour)
+"""
+    (tmp_path / "wishes.py").write_text(module, encoding="utf-8")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    layout = pw.fill("square", discs(), losses={"wishes:yellow": 2.0}, history=20, **RUN)
+    blue = layout.history["wishes:yellow"]
+    levels = blue[np.isfinite(blue)]
+    assert len(levels) > 3
+    assert levels[-1] < levels[0] < 1
+    # Red takes blue from the white behind, blue leaves it there.
+    red, kept = (
+        sum(area for area, item in zip(layout.areas, layout.items, strict=True)
+            if item.art.fill == fill)
+        for fill in ("#ff0000", "#0000ff")
+    )  # fmt: skip
+    plain = pw.fill("square", discs(), **RUN)
+    shares = [item.art.fill == "#ff0000" for item in plain.items]
+    assert red / (red + kept) > float(np.average(shares, weights=plain.areas)) + 0.02
+
+
+def test_the_same_layout_for_any_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("packwork.raster.coverage.PARTED", 0)
+    found = []
+    for count in (1, 2):
+        layout = pw.fill("square", discs(), losses={warm_left: 5.0}, threads=count, **RUN)
+        found.append(as_array(layout.poses).tobytes())
+    assert found[0] == found[1]

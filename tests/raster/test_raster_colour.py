@@ -268,6 +268,37 @@ def test_single_precision_is_close_and_does_not_lean(make: Any, rng: np.random.G
                 assert abs(met.bias) < 5e-5, met
 
 
+anywhere = st.one_of(
+    st.sampled_from(
+        [0.0, -0.0, 1.0, 0.5, 3.0, 9.0, np.nextafter(1.0, 0.0), np.nextafter(1.0, 2.0)]
+    ),
+    st.sampled_from([1e9, -1e9, 1e5 + 0.5, -3e7, 5e-324, 2.0**-39, -(2.0**-39)]),
+    st.integers(-3, 12).map(float),
+    st.floats(-4, 13, allow_nan=False),
+)
+
+
+@given(
+    points=st.lists(st.tuples(anywhere, anywhere), min_size=3, max_size=10),
+    shape=SHAPES,
+)
+def test_white_on_black_is_the_density_wherever_points_lie(
+    points: list[tuple[float, float]], shape: tuple[int, int]
+) -> None:
+    starts = [0, len(points)]
+    image = pw.render_colour(points, starts, [[1.0]], shape)[..., 0]
+    # Where an edge of a billion pixels crosses a line is known to a millionth.
+    near = np.abs(points).max() < 100
+    density = pw.render(points, starts, shape)
+    np.testing.assert_allclose(image, density, atol=1e-9 if near else 1e-6)
+    adjoint = np.random.default_rng(0).normal(size=shape)
+    by_points, by_colours, _ = pw.render_colour_pullback(
+        points, starts, [[1.0]], adjoint[..., None]
+    )
+    np.testing.assert_array_equal(by_points, pw.render_pullback(points, starts, adjoint))
+    np.testing.assert_allclose(by_colours.item(), float(np.sum(adjoint * image)), atol=1e-8)
+
+
 def test_far_points_colour_the_whole_image() -> None:
     far = 0.9e9
     whole = [[-far, -far], [far, -far], [far, far], [-far, far]]
