@@ -19,7 +19,7 @@ from typing import Annotated, Any, Literal, Union, get_args, get_origin
 
 from pydantic import BaseModel
 
-from packwork.api.handing import CONTAINERS, ITEMS
+from packwork.api.handing import CONTAINERS, ITEMS, PICTURES, VECTORS
 from packwork.api.verbs import BACKGROUND
 from packwork.offers import Offer, Offered, Verbs
 from packwork.options import Options, offered
@@ -150,6 +150,9 @@ def _taken(name: str, field: Any, takes: Any, imports: set[str]) -> str:
         imports.add("from packwork.scene.layout import Layout")
         imports.add("from packwork.scene.pose import Poses")
         return "str | Path | Layout | Poses | None"
+    if name in (*PICTURES, *VECTORS):
+        imports.add("from packwork.readers.memory.values import Value")
+        return "Value | None"
     if name in (*ITEMS, *CONTAINERS):
         imports.add("from packwork.readers.memory.values import Value")
         more = {"region": "Sequence[str | float] | ", "shape": ""}.get(name, "Iterable[Value] | ")

@@ -41,11 +41,10 @@ Made by `packwork bench batch`, part by part.
 Rows of the wall are containers of four kinds, each filled with 60 bundled icons by the defaults of
 `packwork fill`. Workers are processes of one thread each. The cluster is a scheduler of Dask and
 two workers, all started by hand on the same machine, which the sender and the scheduler share with
-them:
-posters travel to it and back by content. Sixty-four workers are none that were there: the seconds
-that rows took are dealt in turn to whichever worker is free, one after the other, each taking as
-much time as the busier of sender and scheduler took of the processor for a row more. Efficiency is
-the share of the workers' time that is work.
+them: posters travel to it and back by content. Sixty-four workers are none that were there: the
+seconds that rows took are dealt in turn to whichever worker is free, one after the other, each
+taking as much time as the busier of sender and scheduler took of the processor for a row more.
+Efficiency is the share of the workers' time that is work.
 
 Words of the series are made of chance, with lognormal weights that each wander from step to step by
 a factor of 1.16 (a standard deviation), the 100 heaviest of 160 in each step, as shares, so that

@@ -153,3 +153,26 @@ def test_proportions_give_way_until_words_can_be_read() -> None:
     true = layout.manifest["words"]["of_true"]
     assert max(true.values()) > 1.5
     assert np.mean(layout.poses.scale * EM_PX > 0.003 * layout.container.side) > 0.8
+
+
+def _text(heavy: int, count: int) -> str:
+    """A text in which one word is far heavier than all others."""
+    rng = np.random.default_rng(1)
+    letters = "bdfgklmnprst", "aeiou"
+    words = {"".join(rng.choice(list(letters[k % 2])) for k in range(7)) for _ in range(4 * count)}
+    rest = sorted(words)[:count]
+    said = ["mountains"] * heavy + [word for k, word in enumerate(rest) for _ in range(2 + k % 4)]
+    return ". ".join(rng.permutation(said).tolist())
+
+
+def test_sizes_give_way_where_one_word_would_leave_the_container_bare() -> None:
+    text = _text(heavy=90, count=50)
+    found, true = (
+        pw.words("heart", text, count=50, seed=0, **one) for one in ({}, {"sizes": "shared"})
+    )
+    assert true.metrics["bare"] > 0.05
+    assert found.metrics["bare"] < 0.5 * true.metrics["bare"]
+    assert found.certified
+    assert found.manifest["words"]["of_true"]
+    few = pw.words("heart", text, count=30, seed=0)
+    assert not few.manifest["words"]["of_true"]

@@ -20,6 +20,12 @@ ITEMS = ("filler", "items", "mark")
 CONTAINERS = ("container", "region", "shape")
 """Options that are containers."""
 
+PICTURES = ("picture",)
+"""Options that are pictures for what they show, not for a shape."""
+
+VECTORS = ("embeddings",)
+"""Options that are rows of numbers."""
+
 
 @contextmanager
 def handed_over(y_up: bool | None = None, columns: Columns | None = None) -> Iterator[Handed]:
@@ -58,6 +64,10 @@ def _named(key: str, value: Any, handed: Handed) -> Any:
         return handed.name_of(value, key)
     if key in ITEMS:
         return handed.names_of(value, key)
+    if key in PICTURES:
+        return handed.picture_name_of(value, key)
+    if key in VECTORS:
+        return handed.vectors_name_of(value, key)
     if key == "rules" and isinstance(value, list | tuple):
         return [with_names(rule, handed) if isinstance(rule, Mapping) else rule for rule in value]
     return value

@@ -176,8 +176,8 @@ class _FillWordsPhotos(TypedDict, total=False):
     """free: each item finds its size; shared: all have equal areas, or areas in the shares of the
     weights; fixed: as large as in their files; graded (words alone): in proportion as far as there
     is room, the heaviest first, no word larger than a heavier one; auto (words alone): graded where
-    the container is thin or branched, else shared. Default: 'free' (fill, photos), 'auto'
-    (words)."""
+    the container is thin or branched, or many words in proportion would leave it bare, else shared.
+    Default: 'free' (fill, photos), 'auto' (words)."""
 
     size_ratio: float
     """With free sizes: 2 lets an item be half to twice as large as the typical one. Default:
@@ -187,7 +187,7 @@ class _FillWordsPhotos(TypedDict, total=False):
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
-    picture: str | None
+    picture: Value | None
     """A picture that the layout shows from afar: items take on its colours (--tint), photos come to
     lie where theirs fit best. It covers the container's box."""
 
@@ -209,7 +209,7 @@ class _FillWordsPhotos(TypedDict, total=False):
     by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness and
     name."""
 
-    embeddings: str | None
+    embeddings: Value | None
     """Vectors of the items (.npy, .csv, .tsv, .json, .parquet; a row an item, or a first column of
     names): those with like ones come to lie together. auto: of words, by which of them stand near
     each other in the text."""

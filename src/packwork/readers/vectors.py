@@ -14,9 +14,11 @@ from packwork.arrays import BoolArray, FloatArray
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated
 from packwork.readers.files import read_bytes
+from packwork.readers.memory.vectors import GivenVectors
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table, read_table
 from packwork.readers.tables.written import Written
+from packwork.shelf import shelved
 
 MAX_BYTES = 512_000_000
 """Size of an array's file: 100,000 vectors of 600 numbers. Chosen."""
@@ -94,8 +96,7 @@ def read_vectors(file: str, asked: TableFormat | None = None) -> Vectors:
     >>> found.names, found.rows.tolist()
     (('bear', 'fox'), [[1.0, 0.0], [0.0, 2.0]])
     """
-    is_array = Path(file).suffix.lower() == ARRAY
-    found = _of_array(file) if is_array else _of_table(read_table(file, asked), asked)
+    found = _read(file, asked)
     broken = np.argwhere(~np.isfinite(found.rows))
     if len(broken):
         row, column = broken[0]
@@ -103,6 +104,15 @@ def read_vectors(file: str, asked: TableFormat | None = None) -> Vectors:
         raise ReadError(file, f"{called}: number {column + 1} is none; give each row all numbers")
     _check_apart(found)
     return found
+
+
+def _read(file: str, asked: TableFormat | None) -> Vectors:
+    known = shelved(file)
+    if isinstance(known, GivenVectors):
+        return Vectors(file, known.names, known.rows, known.columns)
+    if Path(file).suffix.lower() == ARRAY:
+        return _of_array(file)
+    return _of_table(read_table(file, asked), asked)
 
 
 def _check_apart(found: Vectors) -> None:

@@ -134,7 +134,8 @@ class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
     """free: each item finds its size; shared: all have equal areas, or areas in the shares
     of the weights; fixed: as large as in their files; graded (words alone): in proportion as far
     as there is room, the heaviest first, no word larger than a heavier one; auto (words alone):
-    graded where the container is thin or branched, else shared."""
+    graded where the container is thin or branched, or many words in proportion would leave it bare,
+    else shared."""
 
     size_ratio: Annotated[float, Field(ge=1, le=100), _COLLAGES] = 2.0
     """With free sizes: 2 lets an item be half to twice as large as the typical one."""

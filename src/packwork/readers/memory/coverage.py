@@ -69,6 +69,33 @@ def coverage_of_array(array: Any, name: str) -> Coverage | bytes:
     return Coverage(name, values.astype(np.float64))
 
 
+def picture_of_array(array: Any) -> Image.Image:
+    """Picture of an array of light or colours: shares from 0 to 1, or whole numbers to 255.
+
+    Raises
+    ------
+    UnfitError
+        If its shape or its numbers are those of no picture.
+
+    Examples
+    --------
+    >>> picture_of_array(np.ones((2, 3))).size
+    (3, 2)
+    """
+    values = np.asarray(array)
+    if values.ndim == 3 and values.shape[2] == 1:
+        values = values[:, :, 0]
+    _check_array(values)
+    low, high = values.min(), values.max()
+    most = 255 if values.dtype.kind in "iu" else 1
+    if not (0 <= low <= high <= most):
+        raise UnfitError(
+            f"has numbers from {low:g} to {high:g}; give shares from 0 to 1 (1 is light), or whole "
+            "numbers from 0 to 255"
+        )
+    return Image.fromarray(np.round(values * (255.0 / most)).astype(np.uint8))
+
+
 def png_of_picture(picture: Image.Image) -> bytes:
     r"""PNG file of a picture, turned upright as files are.
 

@@ -13,8 +13,9 @@ from PIL import Image
 
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.readers.memory.coverage import coverage_of_array, png_of_picture
+from packwork.readers.memory.coverage import coverage_of_array, picture_of_array, png_of_picture
 from packwork.readers.memory.shapes import Columns, is_geometry, points_up, shapes_of
+from packwork.readers.memory.vectors import vectors_of
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
@@ -63,6 +64,7 @@ _FORMS = (
     "a path, a built-in name, an array, a picture, bytes or a file of them, a Shapely geometry, "
     "GeoJSON or a frame of geometries"
 )
+_PICTURES = "a path, an array, a picture of Pillow, or bytes of a picture's file"
 _MARKUP = ("<svg", "<?xml", "<!--", "<!doctype")
 _MOST_BLANKS = 1_000
 
@@ -145,6 +147,51 @@ class Handed:
         # An item that was read is called as its file is, unless that file is named too.
         self.texts.update(one for one in given if isinstance(one, str))
         return [self.name_of(one, key) for one in given]
+
+    def picture_name_of(self, value: Any, key: str) -> str:
+        """Name of a picture, whose arrays are light or colours, not shares of a shape.
+
+        Parameters
+        ----------
+        key
+            The option that it is given for.
+
+        Raises
+        ------
+        ReadError
+            If it is damaged.
+        RecipeError
+            If it is no picture.
+
+        Examples
+        --------
+        >>> Handed(Shelf()).picture_name_of(np.zeros((9, 9, 3)), "picture")
+        'memory:picture.png'
+        """
+        if hasattr(value, "__array__") and not isinstance(value, Image.Image):
+            with naming(f"{MEMORY}{key}"):
+                value = picture_of_array(np.asarray(value))
+        if isinstance(value, Item | Container | Outline) or is_geometry(value):
+            raise RecipeError(key, f"is {type(value).__name__}, not a picture; give {_PICTURES}")
+        return self.name_of(value, key, None if isinstance(value, str) else key)
+
+    def vectors_name_of(self, value: Any, key: str) -> str:
+        """Name of vectors: a file's, or that of an array, a dict by name or a data frame.
+
+        Raises
+        ------
+        ReadError
+            If they are no rows of numbers.
+
+        Examples
+        --------
+        >>> Handed(Shelf()).vectors_name_of(np.eye(3), "embeddings")
+        'memory:embeddings'
+        """
+        if isinstance(value, str | os.PathLike):
+            return os.fspath(value)
+        with naming(f"{MEMORY}{key}"):
+            return self.shelf.put(vectors_of(value), key)
 
     def _put_made(self, value: Item | Container) -> str:
         known = self.shelf.values.get(value.source)

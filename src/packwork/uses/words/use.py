@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
 from packwork.finish.finished import Finished
 from packwork.phrasing import enumerated, number_of
-from packwork.pipeline.advice import smaller_copies
+from packwork.pipeline.advice import MOST_BARE, smaller_copies
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.job import Job
 from packwork.pipeline.measure import Unmeasured, measured
@@ -50,6 +50,10 @@ from packwork.uses.words.letters import (
 )
 from packwork.uses.words.repeats import REPEATED, with_repeats
 
+MANY = 40
+"""Words of which a container is to look full. Fewer leave it bare whatever their sizes, and are
+compared with each other. Chosen."""
+
 WORDS_REACH = 0.6
 """Share of a container that smaller copies of words come to cover. Larger is not always reached,
 and then counts as not met. Tried."""
@@ -78,6 +82,17 @@ class Words(Use):
     places: Places | None = None
 
     def run(self, job: Job, watch: Watch) -> Run:
+        """The common road; where many words in proportion leave the container bare, again."""
+        found = self._set(job, watch)
+        is_bare = len(self.read.items) >= MANY and found.metrics.seen.bare > MOST_BARE
+        is_ours = job.recipe.sizes == AUTO and job.plan.sizes == "shared" and can_give_way(job)
+        if not (is_bare and is_ours) or watch.stop():
+            return found
+        graded = self._set(replace(job, plan=replace(job.plan, sizes="graded")), watch)
+        is_fuller = graded.is_as_asked and graded.metrics.seen.bare < found.metrics.seen.bare
+        return graded if is_fuller else found
+
+    def _set(self, job: Job, watch: Watch) -> Run:
         """The common road, and words set again in what is left."""
         placed = along(job, watch)
         if self.options.repeat == "auto" and placed.exact.clean and placed.job.plan.is_exact:
@@ -194,8 +209,10 @@ class Words(Use):
             names = enumerated(words)
             stopped = (f"{many} left out ({names}); --language none keeps them",)
         if self.places is not None and job.recipe.sizes == AUTO:
-            thin = "the container is thin, so sizes of words give way"
-            stopped = (*stopped, f"{thin}; --sizes shared keeps proportions")
+            is_thin = found_sizes(job.recipe, job.container) == "graded"
+            why = "the container is thin" if is_thin else "in proportion they would leave it bare"
+            said = f"{why}, so sizes of words give way; --sizes shared keeps proportions"
+            stopped = (*stopped, said)
         if self.options.count == AUTO:
             return (f"auto chose {number_of(len(job.items), 'word')}", *stopped)
         return (*super().remarks(job), *stopped)
