@@ -34,10 +34,10 @@ from packwork.scene.live_text import LiveText
 EM_PX = 100.0
 """Height of an em in an item's own units. Any number would do."""
 
-WORD_SPACE = (0.06 * EM_PX, 0.02 * EM_PX)
+WORD_SPACE = (0.05 * EM_PX, 0.01 * EM_PX)
 """Room that a word keeps from larger ones beside and above itself, where words give way, beside the
-margin of all: with less words of one size side by side read as one. Larger draws less ink: .550 in
-place of .573 with .12 and .03. By eye."""
+margin of all: with none words of one size side by side read as one. Larger draws less ink: .550 in
+place of .577 with .12 and .03. By eye."""
 
 LONGEST = 100
 """Characters of one word; no more could be read. Chosen."""
