@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from numerics import winding_numbers
 from packwork.arrays import FloatArray
+from packwork.geometry import polygon
 from packwork.geometry.polygon import (
     FillRule,
     Region,
@@ -207,3 +208,17 @@ def test_the_area_of_a_silhouette_is_that_area(rng: np.random.Generator) -> None
     assert silhouette_area(shape) == pytest.approx(silhouette(shape).area)
     ring = shapely.box(0, 0, 30, 30) - shapely.box(0.5, 0.5, 29, 29)
     assert silhouette_area(ring.union(shape)) == pytest.approx(900)
+
+
+def test_few_and_many_edges_are_found_alike() -> None:
+    """Each point's ray meets the boxes of the same edges with an index and without one."""
+    rng = np.random.default_rng(3)
+    a = rng.integers(0, 9, (60, 2)).astype(float)
+    b = a + rng.integers(-3, 4, (60, 2))
+    queries = rng.integers(0, 18, (25, 2)) / 2
+    found = [
+        set(zip(*(part.tolist() for part in near(queries, a, b)), strict=True))
+        for near in (polygon._beside, polygon._beside_each)
+    ]
+    assert found[0] == found[1]
+    assert len(found[0]) > 100

@@ -14,7 +14,7 @@ from defusedxml import ElementTree
 from PIL import Image, ImageColor
 
 from packwork.readers.words.items import EM_PX
-from packwork.scene.contrast import contrast
+from packwork.scene.contrast import contrast, oklab
 from packwork.wordcloud import (
     STOPWORDS,
     ImageColorGenerator,
@@ -316,6 +316,15 @@ def test_colours_that_no_one_asked_for_stand_out(ground: Any) -> None:
     assert least >= 2.0
     asked = WordCloud(background_color=ground, colormap="viridis", random_state=0).fit_words(words)
     assert min(contrast(entry[4], seen) for entry in asked.layout_) < 2.0
+
+
+def test_words_of_about_one_weight_differ_in_colours_of_our_own() -> None:
+    words = {f"word{k}": 1.0 / (k + 1) for k in range(12)}
+    for seed in range(5):
+        cloud = WordCloud(random_state=seed).fit_words(words)
+        for found in (cloud.layout_, cloud.recolor(random_state=seed + 7).layout_):
+            labs = np.array([oklab(entry[4]) for entry in found])
+            assert np.linalg.norm(np.diff(labs, axis=0), axis=1).min() > 0.1
 
 
 def test_a_clear_background_and_lists_as_backgrounds_have_colours() -> None:

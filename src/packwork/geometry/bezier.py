@@ -8,6 +8,7 @@ Algorithms", Morgan Kaufmann 2003, section 5.6.3).
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
@@ -42,6 +43,13 @@ def flatten_cubic(
     )
     steps = math.ceil(math.sqrt(6 * bend / (8 * tolerance))) if bend > 0 else 1
     steps = min(max(steps, 1), MAX_STEPS)
+    first, second, third, last = _shares(steps)
+    return np.asarray(first * p0 + second * p1 + third * p2 + last * p3)
+
+
+@lru_cache(64)
+def _shares(steps: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    """``(steps, 1)`` of each point of a cubic in those along it; curves of a font take few steps."""
     t = np.arange(1, steps + 1)[:, None] / steps
     s = 1 - t
-    return np.asarray(s**3 * p0 + 3 * s * s * t * p1 + 3 * s * t * t * p2 + t**3 * p3)
+    return s**3, 3 * s * s * t, 3 * s * t * t, t**3

@@ -26,6 +26,10 @@ FillRule: TypeAlias = Literal["nonzero", "evenodd"]
 FEW_PARTS = 100
 """Parts up to which all their boxes are compared with each other. Chosen."""
 
+FEW_PAIRS = 1_000_000
+"""Points times edges up to which each point is compared with each edge, without an index. Larger
+takes memory, smaller the time of an index for a letter. Chosen."""
+
 
 def region(rings: Iterable[FloatArray], rule: FillRule = "nonzero") -> Region:
     """Area that closed ``rings`` fill under ``rule``; valid, possibly empty.
@@ -190,13 +194,28 @@ def _winding_numbers(queries: FloatArray, rings: Sequence[FloatArray]) -> np.nda
     """
     a = np.concatenate([ring[:-1] for ring in rings])
     b = np.concatenate([ring[1:] for ring in rings])
-    right = max(float(ring[:, 0].max()) for ring in rings)
-    ends = np.column_stack([np.full(len(queries), right), queries[:, 1]])
-    rays = shapely.linestrings(np.stack([queries, ends], axis=1))
-    ray, edge = shapely.STRtree(shapely.linestrings(np.stack([a, b], axis=1))).query(rays)
+    near = _beside_each if len(queries) * len(a) <= FEW_PAIRS else _beside
+    ray, edge = near(queries, a, b)
     (x, y), a, b = queries[ray].T, a[edge], b[edge]
     side = (b[:, 0] - a[:, 0]) * (y - a[:, 1]) - (x - a[:, 0]) * (b[:, 1] - a[:, 1])
     down = (a[:, 1] <= y) & (b[:, 1] > y) & (side > 0)
     up = (a[:, 1] > y) & (b[:, 1] <= y) & (side < 0)
     turns = down.astype(np.int64) - up.astype(np.int64)
     return np.bincount(ray, weights=turns, minlength=len(queries)).astype(np.int64)
+
+
+def _beside_each(queries: FloatArray, a: FloatArray, b: FloatArray) -> tuple[IntArray, IntArray]:
+    """Pairs of a point and an edge whose box the ray to the right of the point meets."""
+    x, y = queries.T[:, :, None]
+    low, high = np.minimum(a, b), np.maximum(a, b)
+    ray, edge = np.nonzero((low[:, 1] <= y) & (y <= high[:, 1]) & (high[:, 0] >= x))
+    return ray, edge
+
+
+def _beside(queries: FloatArray, a: FloatArray, b: FloatArray) -> tuple[IntArray, IntArray]:
+    """The same by an index."""
+    right = max(float(a[:, 0].max()), float(b[:, 0].max()))
+    ends = np.column_stack([np.full(len(queries), right), queries[:, 1]])
+    rays = shapely.linestrings(np.stack([queries, ends], axis=1))
+    ray, edge = shapely.STRtree(shapely.linestrings(np.stack([a, b], axis=1))).query(rays)
+    return ray, edge

@@ -93,6 +93,31 @@ class colormap_color_func:  # noqa: N801 - the other package's name
         return "rgb({:.0f}, {:.0f}, {:.0f})".format(*channels)
 
 
+GOLDEN = (5**0.5 - 1) / 2
+
+
+class Spread(Random):
+    """Numbers from 0 to 1, each far from those just before, the first drawn by another.
+
+    Drawn one by one, three of the four largest words of a cloud may well look alike.
+
+    Examples
+    --------
+    >>> spread = Spread(Random(0))
+    >>> [round(spread.random(), 2) for _ in range(4)]
+    [0.46, 0.08, 0.7, 0.32]
+    """
+
+    def __init__(self, drawn: Random) -> None:
+        super().__init__(0)
+        self._share = drawn.random()
+
+    def random(self) -> float:
+        """The next one."""
+        self._share = (self._share + GOLDEN) % 1.0
+        return self._share
+
+
 class legible_color_func:  # noqa: N801 - as those beside it
     """Colours drawn at random from those of a palette of ours that stand out from a background.
 
@@ -101,7 +126,7 @@ class legible_color_func:  # noqa: N801 - as those beside it
     palette
         By name.
     ground
-        ``#rrggbb``; all colours are drawn where none stands out.
+        ``#rrggbb``; all colours are drawn where none stands out, and where there is none.
 
     Examples
     --------
@@ -109,9 +134,10 @@ class legible_color_func:  # noqa: N801 - as those beside it
     'rgb(61, 186, 118)'
     """
 
-    def __init__(self, palette: str, ground: str) -> None:
+    def __init__(self, palette: str, ground: str | None) -> None:
         every = [between(PALETTES[palette], share) for share in np.linspace(0, 1, _SHARES)]
-        self._colours = [one for one in every if contrast(one, ground) >= LEGIBLE] or every
+        legible = [one for one in every if ground is None or contrast(one, ground) >= LEGIBLE]
+        self._colours = legible or every
 
     def __call__(self, *_: Any, random_state: Random | None = None, **__: Any) -> str:
         """Colour of one word."""
@@ -132,13 +158,24 @@ def own_color_func(background: Any) -> ColourFunction:
         red, green, blue, alpha = rgba(background)
     except (TypeError, ValueError):
         # What is no colour is told once a picture is asked for.
-        alpha = 0
-    return _legible_on(red, green, blue) if alpha else colormap_color_func("viridis")
+        return _legible_on(None)
+    return _legible_on(f"#{red:02x}{green:02x}{blue:02x}" if alpha else None)
 
 
 @lru_cache(16)
-def _legible_on(red: int, green: int, blue: int) -> ColourFunction:
-    return legible_color_func("viridis", f"#{red:02x}{green:02x}{blue:02x}")
+def _legible_on(ground: str | None) -> ColourFunction:
+    return legible_color_func("viridis", ground)
+
+
+def chances(color_func: ColourFunction, drawn: Random | None) -> Random | None:
+    """What a function of colours draws with: ours with numbers that are spread.
+
+    Examples
+    --------
+    >>> isinstance(chances(own_color_func("white"), None), Spread), chances(random_color_func, None)
+    (True, None)
+    """
+    return Spread(drawn or Random()) if isinstance(color_func, legible_color_func) else drawn
 
 
 def rgba(colour: Any) -> tuple[int, int, int, int]:

@@ -24,6 +24,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
 from packwork.wordcloud.colours import (
     ColourFunction,
+    chances,
     colormap_color_func,
     get_single_color_func,
     own_color_func,
@@ -164,8 +165,9 @@ class WordCloud:
         found = placed(self._setting(largest), [word for word, _ in entries], steps, random)
         self._say_what_is_missing(len(entries), found)
         self._placed = found
+        drawn = chances(self.color_func, random)
         self.layout_ = [
-            self._entry(entries[number], position, random)
+            self._entry(entries[number], position, drawn)
             for position, number in enumerate(found.entries)
         ]
         return self
@@ -204,7 +206,7 @@ class WordCloud:
         self._check_generated()
         if color_func is None:
             color_func = self.color_func if colormap is None else colormap_color_func(colormap)
-        random = _random(random_state)
+        random = chances(color_func, _random(random_state))
         self.layout_ = [
             (*entry[:4], self._colour(entry[0][0], *entry[1:4], random, color_func))
             for entry in self.layout_
@@ -308,7 +310,7 @@ class WordCloud:
             float(max(self.font_step, 1)),
         )
 
-    def _entry(self, pair: tuple[str, float], position: int, random: Random) -> Entry:
+    def _entry(self, pair: tuple[str, float], position: int, random: Random | None) -> Entry:
         """What ``layout_`` says of a word: whole numbers, of its box's upper left corner."""
         left, top, _, _ = self._placed.outlines[position].bounds
         size = round(float(self._placed.poses.scale[position]) * EM_PX)
