@@ -49,7 +49,7 @@ def flatten_cubic(
 
 @lru_cache(64)
 def _shares(steps: int) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
-    """``(steps, 1)`` of each point of a cubic in those along it; curves of a font take few steps."""
+    """``(steps, 1)`` of each point of a cubic in those along it; a font's curves take few steps."""
     t = np.arange(1, steps + 1)[:, None] / steps
     s = 1 - t
     return s**3, 3 * s * s * t, 3 * s * t * t, t**3
