@@ -139,6 +139,43 @@ def test_files_are_brought_and_what_fails_is_a_line(
     desk.settled()
 
 
+def test_files_in_place_of_the_items_keep_the_container_full(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    desk = open_desk()
+    count = desk.look("studio.collage.items.length")
+    for name in ("tile", "slab"):
+        (tmp_path / f"{name}.svg").write_text(TILE, encoding="utf-8")
+    desk.page.locator("select[aria-label='What files do']").select_option("items")
+    with desk.page.expect_file_chooser() as waiting:
+        desk.page.get_by_text("Choose files").click()
+    waiting.value.set_files([tmp_path / "tile.svg", tmp_path / "slab.svg"])
+    desk.until("studio.collage.items.every(item => ['tile', 'slab'].includes(item.name))")
+    desk.settled()
+    assert desk.look("studio.collage.items.length") == count
+    desk.page.keyboard.press("Control+z")
+    desk.until("studio.collage.items.some(item => item.name === 'star')")
+    desk.settled()
+
+
+def test_escape_closes_the_menu_and_leaves_what_is_chosen(open_desk: Callable[..., Desk]) -> None:
+    desk = open_desk()
+    x, y = desk.place(desk.look("studio.collage.items[0].id"))
+    desk.page.mouse.click(x, y)
+    desk.page.mouse.click(x, y, button="right")
+    desk.until("document.querySelector('[role=menu]').matches(':popover-open')")
+    desk.page.keyboard.press("Escape")
+    desk.until("!document.querySelector('[role=menu]').matches(':popover-open')")
+    assert desk.look("studio.choice.ids.size") == 1
+    desk.page.mouse.click(x, y, button="right")
+    desk.page.keyboard.press("h")
+    desk.until("studio.collage.items[0].held[0]")
+    assert not desk.look("document.querySelector('[role=menu]').matches(':popover-open')")
+    desk.page.keyboard.press("Control+z")
+    desk.until("!studio.collage.items[0].held[0]")
+    desk.settled()
+
+
 def test_another_container_is_chosen_by_its_picture(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     desk.page.locator("#tab-room").click()

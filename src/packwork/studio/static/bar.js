@@ -53,6 +53,7 @@ export class Bar {
    */
   show(title, chosen, isSaved, colour) {
     if (colour && document.activeElement !== this.colour) this.colour.value = colour;
+    this.colour.classList.toggle("mixed", !colour);
     this.title.textContent = title;
     this.saved.hidden = !isSaved;
     this.name.textContent = chosen;

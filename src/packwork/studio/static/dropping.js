@@ -12,9 +12,15 @@ const MOST = 1000;
 const MOST_TOLD = 3;
 
 export class Dropping {
-  /** @param {Connection} connection */
-  constructor(connection) {
+  /**
+   * @param {Connection} connection
+   * @param {import("./collage.js").Collage} collage
+   */
+  constructor(connection, collage) {
     this.connection = connection;
+    this.collage = collage;
+    /** Files that were sent last. */
+    this.count = 0;
     this.veil = byId("drop");
     const asks = { type: "file", class: "unseen", tabindex: "-1", "aria-hidden": "true" };
     this.field = h("input", { ...asks, multiple: true, onchange: () => this.chosen(this.field) });
@@ -102,7 +108,12 @@ export class Dropping {
   bring(batch) {
     const source = `file:${batch}`;
     if (this.as === "beside") this.connection.send({ type: "bring", sources: [source] });
-    else this.connection.send({ type: "fill", use: this.as, source });
+    else this.connection.send({ type: "fill", use: this.as, source, ...(this.as === "items" ? { count: this.many() } : {}) });
+  }
+
+  /** As many items as there were, so that the container stays full; no fewer than files. */
+  many() {
+    return Math.max(this.count, this.collage.items.length, 1);
   }
 
   /** @param {string} batch */
@@ -115,6 +126,7 @@ export class Dropping {
    * @param {(batch: string) => void} then
    */
   async send(files, then) {
+    this.count = Math.min(files.length, MOST);
     try {
       const { batch } = await (await this.connection.ask("/files", { method: "POST" })).json();
       if (await this.sendAll(files.slice(0, MOST), batch)) then(batch);

@@ -28,7 +28,9 @@ export class ItemEditor {
   show(items) {
     this.items = items;
     const [first] = items;
-    const colour = this.studio.collage.colour(first.id) ?? this.colour.value;
+    const own = this.studio.collage.colour(first.id);
+    const colour = own ?? this.colour.value;
+    this.colour.classList.toggle("mixed", !own);
     for (const [field, value] of /** @type {const} */ ([[this.name, first.name], [this.weight, shown(first.weight)], [this.colour, colour]])) {
       if (document.activeElement !== field) field.value = value;
     }

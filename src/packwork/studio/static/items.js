@@ -44,7 +44,7 @@ export class ItemList {
     return h("div", { class: "drop-here" }, h("p", {}, "Drop drawings, pictures or folders anywhere, or"),
       h("div", { class: "row center" }, h("button", { type: "button", onclick: () => dropping.choose() }, "Choose files"),
         h("button", { type: "button", onclick: () => dropping.chooseFolder() }, "A folder")),
-      h("label", { class: "row center" }, "They come", choose));
+      h("label", { class: "row center wrap" }, "They come", choose));
   }
 
   /** Bring the list up to what there is. */

@@ -46,12 +46,18 @@ export function listenToKeys(actions, hears) {
     const action = known.get(keyOf(event));
     if (!action || (event.repeat && !action.repeats) || isTaken(event)) return;
     event.preventDefault();
+    closeMenu();
     if (!action.when || action.when()) action.run();
   });
   addEventListener("keyup", (event) => {
     if (event.key === " ") hears.pans(false);
   });
   addEventListener("blur", () => hears.pans(false));
+}
+
+/** Close the menu, if it is open: a key does what it says there, and elsewhere what it always does. */
+function closeMenu() {
+  /** @type {HTMLElement | null} */ (document.querySelector("[role=menu]:popover-open"))?.hidePopover();
 }
 
 /** @param {Event} event */
@@ -68,5 +74,7 @@ function isFree(event) {
 /** Whether a key means something to what has the focus. @param {KeyboardEvent} event */
 function isTaken(event) {
   const target = event.target instanceof HTMLElement ? event.target : null;
+  // A menu's own way to close is Escape: what is chosen stays chosen.
+  if (target?.closest("[role=menu]") && event.key === "Escape") return true;
   return Boolean(target?.closest("[role=listbox], [role=menu], input[type=range]")) && event.key.startsWith("Arrow");
 }

@@ -56,7 +56,7 @@ export class Studio {
       changed: () => this.redraw(),
       menu: (x, y) => this.menu.open(x, y + this.canvas.getBoundingClientRect().top, this.choice.ids.size > 0),
     });
-    this.dropping = new Dropping(this.connection);
+    this.dropping = new Dropping(this.connection, this.collage);
     this.exporting = new Exporting(this.connection, this.collage);
     const actions = actionsOf(this);
     this.actions = new Map(actions.map((action) => [action.id, action]));
