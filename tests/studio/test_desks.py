@@ -39,6 +39,29 @@ def test_the_desk_left_alone_for_longest_is_written_over(folder: Path) -> None:
     assert again.file.name == "desk-1.packwork"
 
 
+def test_a_desk_that_somebody_works_at_is_nobody_elses(folder: Path) -> None:
+    first = desks.new()
+    assert first is not None
+    session = NamedSession(
+        Document.of(pw.fill("circle", "star", count=3, effort="draft", levels="50"))
+    )
+    keeper = kept_in(first.file, session)
+    os.utime(first.file, (1_000, 1_000))
+    os.utime(keeping.lock_of(first.file), (1_000, 1_000))
+    others = [desks.new() for _ in range(desks.MOST_DESKS)]
+    assert all(one is not None and one.file != first.file for one in others)
+    assert first.file.exists()
+    keeper.end(session)
+
+
+def test_two_that_begin_at_once_have_a_desk_each(folder: Path) -> None:
+    # Neither has written anything yet.
+    first, second = desks.new(), desks.new()
+    assert first is not None
+    assert second is not None
+    assert first.file != second.file
+
+
 def read(file: Path) -> NamedSession:
     """What a file holds, left as it is."""
     session, keeper = opened(file)

@@ -15,8 +15,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
+from filelock import FileLock, Timeout
+
 from packwork.errors import PackworkError
 from packwork.folders import private_folder
+from packwork.live.face.keeping import lock_of
 
 MOST_DESKS = 8
 """Desks that are kept; then the one that was left alone for longest is written over. Chosen."""
@@ -70,15 +73,22 @@ def of_file(file: Path) -> Kept:
 
 
 def new() -> Kept | None:
-    """A desk that nothing is on, or the one left alone for longest; None if none may be kept."""
+    """A desk that nothing is on, or the one left alone for longest; None if none may be kept.
+
+    None that somebody works at, however long it was left alone.
+    """
     folder = private_folder("studio")
     if folder is None:
         return None
     files = [folder / f"desk-{number}{ENDING}" for number in range(1, MOST_DESKS + 1)]
-    file = min(files, key=_last_used)
-    for one in (file, file.with_name(file.name + ".log")):
-        one.unlink(missing_ok=True)
-    return Kept(file, file.with_suffix(".json"))
+    for file in sorted(files, key=_last_taken):
+        with contextlib.suppress(Timeout, OSError), FileLock(lock_of(file), blocking=False):
+            # From now on another that begins sees it as taken, until its session holds the lock.
+            os.utime(lock_of(file))
+            for one in (file, file.with_name(file.name + ".log")):
+                one.unlink(missing_ok=True)
+            return Kept(file, file.with_suffix(".json"))
+    return None
 
 
 def last() -> Kept:
@@ -99,6 +109,13 @@ def _known() -> Iterator[Path]:
     folder = private_folder("studio")
     if folder is not None:
         yield from folder.glob(f"desk-*{ENDING}")
+
+
+def _last_taken(file: Path) -> float:
+    """When a desk was last written to, or chosen for a new session; 0 if it is none."""
+    with contextlib.suppress(OSError):
+        return max(_last_used(file), lock_of(file).stat().st_mtime)
+    return _last_used(file)
 
 
 def _last_used(file: Path) -> float:

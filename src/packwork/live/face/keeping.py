@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from packwork.errors import PackworkError
-from packwork.live.file.disk import Disk
+from packwork.live.file.disk import Disk, lock_beside
 from packwork.live.session import Session
 
 LONGEST_JOURNAL = 60_000
 """Bytes of a journal from which on the file is written anew, in a quiet moment. Larger takes longer
 to be done again after a crash: each gesture as long as it took. Chosen."""
+
+
+def lock_of(file: Path) -> Path:
+    """File whose lock says that somebody works at a session that is kept in ``file``."""
+    return lock_beside(file)
 
 
 class Keeper:

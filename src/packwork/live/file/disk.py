@@ -41,6 +41,11 @@ _LOG = logging.getLogger("packwork")
 _Session = TypeVar("_Session", bound=Session)
 
 
+def lock_beside(path: Path) -> Path:
+    """File whose lock says that a session is written by somebody."""
+    return path.with_name(path.name + ".lock")
+
+
 class Disk:
     """Where a session is kept.
 
@@ -60,7 +65,7 @@ class Disk:
         self.is_journaled = is_journaled
         self._things = Things()
         self._digest = ""
-        self._lock = FileLock(f"{self.path}.lock", blocking=False, thread_local=False)
+        self._lock = FileLock(lock_beside(self.path), blocking=False, thread_local=False)
         self._stream: IO[str] | None = None
         self._log: Log | None = None
 
