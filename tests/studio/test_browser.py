@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from PIL import Image
 
 from packwork import compiled
 from studio.browsing import PHONE, WIDE, Desk, Server, in_browser
@@ -313,3 +314,42 @@ def test_a_page_goes_on_by_itself_after_a_crash(
         first.stop()
         second.stop()
         context.close()
+
+
+def test_items_show_a_picture_by_their_colours(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    desk = open_desk()
+    halves = Image.new("RGB", (40, 40), "#101090")
+    halves.paste("#f0c000", (0, 20, 40, 40))
+    halves.save(tmp_path / "halves.png")
+    Image.new("RGB", (40, 40), "#808080").save(tmp_path / "plain.png")
+
+    def show(name: str) -> None:
+        with desk.page.expect_file_chooser() as waiting:
+            desk.page.get_by_text("Show a picture by their colours").click()
+        waiting.value.set_files(tmp_path / name)
+
+    before = desk.look("studio.collage.items.map(item => studio.collage.colour(item.id))")
+    show("plain.png")
+    desk.until("document.querySelectorAll('.toast').length > 0")
+    assert "one colour only" in desk.page.locator(".toast").first.inner_text()
+    desk.page.locator(".toast button").first.click()
+    show("halves.png")
+    desk.until("studio.collage.state.can_undo")
+    desk.settled()
+    blues = desk.look(
+        "studio.collage.items.map(item => [studio.collage.pose(item.id).y,"
+        " parseInt((studio.collage.colour(item.id) ?? '#808080').slice(5, 7), 16)])"
+    )
+    middle = sum(y for y, _ in blues) / len(blues)
+    upper = [blue for y, blue in blues if y < middle]
+    lower = [blue for y, blue in blues if y > middle]
+    assert sum(upper) / len(upper) > sum(lower) / len(lower) + 60
+    desk.picture("mosaic")
+    desk.page.keyboard.press("Control+z")
+    desk.until(
+        "JSON.stringify(studio.collage.items.map(item => studio.collage.colour(item.id)))"
+        f" === {json.dumps(json.dumps(before, separators=(',', ':')))}"
+    )
+    desk.settled()

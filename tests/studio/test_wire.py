@@ -19,6 +19,7 @@ STATIC = Path(studio.__file__).parent / "static"
 GOOD = [
     {"type": "ack", "frame": 3},
     {"type": "leap", "n": 1, "to": "undo"},
+    {"type": "picture", "source": "file:0123456789abcdef"},
     {"type": "do", "n": 1, "command": {"kind": "move", "item": 0, "x": 1.0, "y": 2.0}},
     {"type": "do", "n": 2, "command": {"kind": "grab", "items": [0, 1]}},
     {"type": "count", "count": 12},

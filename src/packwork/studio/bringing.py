@@ -26,6 +26,7 @@ from packwork.live.face.bringing import (
     only_file,
 )
 from packwork.live.face.drawing import FINENESS, drawing_of, path_of
+from packwork.live.face.picturing import showing
 from packwork.live.named import NamedSession
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
@@ -73,6 +74,7 @@ class Bringer:
             "swap": self._swap,
             "fill": self._fill,
             "words": self._words,
+            "picture": self._picture,
         }
 
     def _bring(self, message: wire.Bring) -> None:
@@ -120,6 +122,13 @@ class Bringer:
             self._desk.fill(message.use, source, options)
 
         self._read(read, "Pouring")
+
+    def _picture(self, message: wire.Picture) -> None:
+        def read() -> None:
+            file = only_file(self._uploads.folder(message.source.removeprefix(FILES)))
+            self._desk.change(lambda session: session.apply(showing(session.document, str(file))))
+
+        self._read(read)
 
     def _words(self, message: wire.Words) -> None:
         def read() -> None:

@@ -128,6 +128,13 @@ class Fill(Message):
     """Of words."""
 
 
+class Picture(Message):
+    """Have the items show a picture by their colours."""
+
+    type: Literal["picture"] = "picture"
+    source: Annotated[str, Field(min_length=1, max_length=200)]
+
+
 class Words(Message):
     """Have these words with these weights; those that stay keep their places."""
 
@@ -154,9 +161,10 @@ class Set(Message):
 
 
 Told: TypeAlias = Annotated[
-    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Words | More | Set,
+    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Picture | Words | More
+    | Set,
     Field(discriminator="type"),
-]
+]  # fmt: skip
 """What a page says."""
 
 

@@ -92,6 +92,25 @@ def in_picture(job: Job, layout: Layout) -> Layout:
     return replace(layout, items=tuple(items), ground=hex_colour(css_colour(ground)))
 
 
+def colours_under(layout: Layout, target: TargetPicture) -> list[str]:
+    """Mean colour of a picture under each item of a layout, whatever shows in the gaps.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> from packwork.scene.container import Container
+    >>> from packwork.scene.item import FlatArt, Item
+    >>> from packwork.scene.pose import Poses
+    >>> tile = Outline.box(0, 0, 10, 10)
+    >>> item = Item("tile", "tile", tile, tile, FlatArt("black"))
+    >>> one, zero = np.ones(1), np.zeros(1)
+    >>> layout = Layout(Container("c", "c", tile, 10, 10), (item,), Poses(zero, zero, zero, one))
+    >>> colours_under(layout, TargetPicture(np.zeros((10, 10, 3)), 1.0))
+    ['#000000']
+    """
+    return [_hex(one.mean(target.light)) for one in _windows(layout, target)]
+
+
 def best_ground(target: TargetPicture, covered: float) -> str:
     """Colour of the gaps with which items of any colours show a picture best and are seen.
 

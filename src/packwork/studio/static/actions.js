@@ -65,6 +65,7 @@ function items(studio) {
     { id: "duplicate", group: "Items", label: "Duplicate", keys: ["Mod+D", "D"], icon: "copy", when, run: () => studio.duplicate() },
     { id: "middle", group: "Items", label: "Put it in the middle", keys: ["M"], when: () => choice.ids.size === 1, run: () => studio.toMiddle() },
     { id: "replace", group: "Items", label: "Replace …", keys: ["Shift+R"], icon: "replace", when, run: () => studio.replacing.open() },
+    { id: "picture", group: "Items", label: "Show a picture by their colours …", keys: ["Shift+P"], when: () => studio.collage.hasPoses, run: () => studio.dropping.choosePicture() },
     { id: "exchange", group: "Items", label: "Exchange the two", keys: ["X"], icon: "swap", when: () => choice.ids.size === 2, run: () => studio.exchange() },
     { id: "remove", group: "Items", label: "Remove", keys: ["Delete", "Backspace"], icon: "bin", when, run: () => studio.remove() },
     { id: "larger", group: "Items", label: "Larger", keys: ["+", "="], repeats: true, when: sizes, run: () => studio.resize(LARGER) },

@@ -104,6 +104,11 @@ export class Dropping {
     if (files.length) this.send(files, this.then);
   }
 
+  /** Ask for a picture that the items come to show. */
+  choosePicture() {
+    this.ask("image/*", false, (batch) => this.connection.send({ type: "picture", source: `file:${batch}` }));
+  }
+
   /** @param {string} batch */
   bring(batch) {
     const source = `file:${batch}`;

@@ -31,6 +31,7 @@ export class ItemList {
       h("button", { type: "button", class: "choice", title: one.name, "aria-label": `Add ${one.name}`, onclick: () => connection.send({ type: "bring", sources: [`builtin:${one.name}`] }) }, thumbOf(one)))));
     body.replaceChildren(this.incoming(),
       h("details", {}, h("summary", {}, "Add bundled ones"), grid),
+      h("button", { type: "button", class: "wide", title: "Seen from afar, they are the picture", onclick: () => this.studio.dropping.choosePicture() }, "Show a picture by their colours"),
       h("label", { class: "row" }, "Items in all", this.counter), this.list);
     this.listed = "";
     this.refresh();

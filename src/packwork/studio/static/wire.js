@@ -22,6 +22,7 @@
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
  * @typedef {{type: "more", seed: number}} More
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
+ * @typedef {{type: "picture", source: string}} Picture
  * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number, angle?: number}} PlaceContainer
  * @typedef {{type: "pour", seed: number}} Pour
  * @typedef {{kind: "recolour", items: number[], colour: string}} Recolour
@@ -44,7 +45,7 @@
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
  * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption)[]}} Together
- * @typedef {Ack | Bring | Count | Do | Fill | Leap | More | Pour | Room | Set | Stop | Swap | Words} Told
+ * @typedef {Ack | Bring | Count | Do | Fill | Leap | More | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
