@@ -330,13 +330,14 @@ def test_items_show_a_picture_by_their_colours(
             desk.page.get_by_text("Show a picture by their colours").click()
         waiting.value.set_files(tmp_path / name)
 
-    before = desk.look("studio.collage.items.map(item => studio.collage.colour(item.id))")
+    colours = "JSON.stringify(studio.collage.items.map(item => studio.collage.colour(item.id)))"
+    before = desk.look(colours)
     show("plain.png")
     desk.until("document.querySelectorAll('.toast').length > 0")
     assert "one colour only" in desk.page.locator(".toast").first.inner_text()
     desk.page.locator(".toast button").first.click()
     show("halves.png")
-    desk.until("studio.collage.state.can_undo")
+    desk.until(f"{colours} !== {json.dumps(before)}")
     desk.settled()
     blues = desk.look(
         "studio.collage.items.map(item => [studio.collage.pose(item.id).y,"
@@ -348,8 +349,5 @@ def test_items_show_a_picture_by_their_colours(
     assert sum(upper) / len(upper) > sum(lower) / len(lower) + 60
     desk.picture("mosaic")
     desk.page.keyboard.press("Control+z")
-    desk.until(
-        "JSON.stringify(studio.collage.items.map(item => studio.collage.colour(item.id)))"
-        f" === {json.dumps(json.dumps(before, separators=(',', ':')))}"
-    )
+    desk.until(f"{colours} === {json.dumps(before)}")
     desk.settled()
