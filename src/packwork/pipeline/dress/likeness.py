@@ -104,7 +104,8 @@ def colours_under(layout: Layout, target: TargetPicture) -> list[str]:
     >>> tile = Outline.box(0, 0, 10, 10)
     >>> item = Item("tile", "tile", tile, tile, FlatArt("black"))
     >>> one, zero = np.ones(1), np.zeros(1)
-    >>> layout = Layout(Container("c", "c", tile, 10, 10), (item,), Poses(zero, zero, zero, one))
+    >>> room = Container("c", "c", tile, 10, 10)
+    >>> layout = Layout(room, (item,), Poses(zero, zero, zero, one), one)
     >>> colours_under(layout, TargetPicture(np.zeros((10, 10, 3)), 1.0))
     ['#000000']
     """
