@@ -5,7 +5,9 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
+from PIL import Image
 from typer.testing import CliRunner
 
 import packwork as pw
@@ -86,6 +88,12 @@ def test_what_cannot_be_certified_is_named_and_written_all_the_same(
         (("--recolor", "star=mud"), "'mud' is no colour"),
         (("--padding", "-1"), "padding: "),
         (("--container", "no-such.svg"), "no-such.svg"),
+        (("--arrange", "right by=size"), "--arrange: nothing is measured by 'size'"),
+        (("--embeddings", "auto"), "--embeddings: auto is for words of a text"),
+        (("--embeddings", "no-such.csv"), "no-such.csv"),
+        (("--arrange", "hue", "--embeddings", "v.csv"), "--embeddings: and --arrange both say"),
+        (("--anchors", "left=warm"), "--anchors: are of vectors"),
+        (("--picture", "no-such.png"), "no-such.png"),
         (("--items", "no-such"), "no-such"),
         (("-o", "new.doc"), "new.doc"),
     ],
@@ -120,6 +128,22 @@ def test_a_session_is_edited_where_it_lies(saved: Path, tmp_path: Path) -> None:
     assert code == 0, said
     assert picture.exists()
     assert pw.Session.open(work).document.options.force == ("down",)
+
+
+def test_a_layout_is_put_in_order_and_shows_a_picture(saved: Path, tmp_path: Path) -> None:
+    out, vectors, photo = tmp_path / "new.geojson", tmp_path / "v.csv", tmp_path / "p.png"
+    vectors.write_text("star,1,0\nheart,0,1\n", encoding="utf-8")
+    Image.linear_gradient("L").save(photo)
+    for asked in (
+        ["--arrange", "down by=name"],
+        ["--embeddings", vectors, "--anchors", "up=heart"],
+    ):
+        code, said = run(saved, *asked, "--picture", photo, "-o", out)
+        assert code == 0, said
+        after = pw.Layout.load(out)
+        names = np.array([item.name for item in after.items])
+        assert after.poses.y[names == "heart"].mean() < after.poses.y[names == "star"].mean()
+        assert len({item.art.fill for item in after.items}) > 4
 
 
 def test_the_words_of_a_session_are_changed(tmp_path: Path) -> None:

@@ -351,3 +351,45 @@ def test_items_show_a_picture_by_their_colours(
     desk.page.keyboard.press("Control+z")
     desk.until(f"{colours} === {json.dumps(before)}")
     desk.settled()
+
+
+def test_items_are_put_in_an_order_and_by_a_table(
+    open_desk: Callable[..., Desk], tmp_path: Path
+) -> None:
+    desk = open_desk()
+    names = sorted(set(desk.look("studio.collage.items.map(item => item.name)")))
+    table = tmp_path / "vectors.csv"
+    rows = [f"{name},{int(k % 2 == 0)},{int(k % 2)}" for k, name in enumerate(names)]
+    table.write_text("\n".join(rows), encoding="utf-8")
+
+    def is_left(one: str, other: str) -> str:
+        """Whether things of one name lie to the left of those of another, on the average."""
+        middle = (
+            "(items => items.reduce((sum, i) => sum + studio.collage.pose(i.id).x, 0)"
+            " / items.length)(studio.collage.items.filter(i => i.name === '{}'))"
+        )
+        return f"{middle.format(one)} < {middle.format(other)}"
+
+    first, last = names[0], names[-1]
+    # As they do not lie now.
+    if desk.look(is_left(first, last)):
+        way, ordered = "left", is_left(last, first)
+    else:
+        way, ordered = "right", is_left(first, last)
+    desk.page.keyboard.press("o")
+    desk.page.get_by_label("By what").select_option("name")
+    desk.page.get_by_label("Which way").select_option(way)
+    desk.page.get_by_text("Put in order", exact=True).click()
+    desk.until(f"!studio.collage.state.busy && studio.collage.state.certified && {ordered}")
+    desk.settled()
+    desk.picture("ordered")
+    with desk.page.expect_file_chooser() as waiting:
+        desk.page.get_by_text("Like beside like, by a table").click()
+    before = desk.look("studio.collage.items.map(item => studio.collage.pose(item.id).x)")
+    waiting.value.set_files(table)
+    desk.until(
+        "JSON.stringify(studio.collage.items.map(item => studio.collage.pose(item.id).x))"
+        f" !== {json.dumps(json.dumps(before, separators=(',', ':')))}"
+    )
+    desk.settled()
+    desk.picture("alike")

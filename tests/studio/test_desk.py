@@ -194,6 +194,34 @@ def test_pouring_anew_keeps_what_is_held(play) -> None:
     play(scenario)
 
 
+def test_items_are_put_in_an_order_or_like_beside_like(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified and page.frames)
+        names = np.array([thing["name"] for thing in page.last("scene")["items"]])
+        one, *_, other = sorted(set(names))
+
+        def far(axis: int) -> float:
+            places = poses_of(page.frames[-1])[:, axis]
+            return float(places[names == other].mean() - places[names == one].mean())
+
+        def is_told(text: str) -> bool:
+            return any(text in line["text"] for line in page.said("line"))
+
+        page.tell(type="order", way="right", by="name")
+        await page.until(lambda: page.is_certified and far(0) > 100)
+        page.tell(type="order", way="up", by="name")
+        await page.until(lambda: page.is_certified and far(1) < -100)
+        page.tell(type="alike", source="auto")
+        await page.until(lambda: is_told("for words of a text"))
+        page.tell(type="alike", source="file:0123456789abcdef")
+        await page.until(lambda: is_told("no such files"))
+        page.tell(type="leap", n=1, to="undo")
+        await page.until(lambda: page.is_certified and far(0) > 100)
+
+    play(scenario)
+
+
 KINDS = ["svg", "pdf", "png", "dxf", "geojson", "packwork", "recipe", "film.svg", "film.gif"]
 
 

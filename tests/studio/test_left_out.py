@@ -10,7 +10,8 @@ import pytest
 import packwork as pw
 from packwork.live.document import Document
 from packwork.live.face.opening import Opening
-from packwork.studio.desk import MOST_TOLD, Desk
+from packwork.studio.desk import Desk
+from packwork.studio.view import MOST_TOLD
 
 SAID = [
     {"item": "bee", "index": 12, "reason": "no void is large enough"},

@@ -19,6 +19,8 @@ STATIC = Path(studio.__file__).parent / "static"
 GOOD = [
     {"type": "ack", "frame": 3},
     {"type": "leap", "n": 1, "to": "undo"},
+    {"type": "order", "way": "outwards", "by": "hue"},
+    {"type": "alike", "source": "auto"},
     {"type": "picture", "source": "file:0123456789abcdef"},
     {"type": "do", "n": 1, "command": {"kind": "move", "item": 0, "x": 1.0, "y": 2.0}},
     {"type": "do", "n": 2, "command": {"kind": "grab", "items": [0, 1]}},
@@ -29,7 +31,7 @@ GOOD = [
 BAD = [
     "", "null", "[]", "{}", "7", '{"type": "ack"}', '{"type": "ack", "frame": -1}',
     '{"type": "ack", "frame": 1, "more": 2}', '{"type": "leap", "n": 1, "to": "over"}',
-    "\0", "[" * 90_000,
+    "\0", "[" * 90_000, '{"type": "order", "way": "outwards", "by": "/etc/ages.csv"}',
     '{"type": "do", "n": 1, "command": {"kind": "move", "item": 0, "x": NaN, "y": 1}}',
     '{"type": "do", "n": 1, "command": {"kind": "format_disk"}}',
     '{"type": "do", "n": 1, "command": {"kind": "together", "commands": []}}',

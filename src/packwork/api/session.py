@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
+from packwork.api.handing import handed_over
 from packwork.api.layout import Layout, public
 from packwork.api.verbs import read_container, read_items
 from packwork.errors import RecipeError, WriteError
@@ -164,6 +166,29 @@ class Session(NamedSession):
             run that made the layout.
         """
         self.set_words(words_of(self.document, source, options))
+
+    def picture(self, source: Value) -> None:
+        """Show a picture, from afar: each item takes on its colour there; photographs keep theirs.
+
+        Parameters
+        ----------
+        source
+            As ``picture`` of :func:`fill`: a file, or an image in memory.
+        """
+        with handed_over() as handed:
+            self.show_picture(handed.picture_name_of(source, "picture"))
+
+    def embeddings(self, source: Any, anchors: str | Sequence[str] = (), *, seed: int = 0) -> None:
+        """Put all anew, like items side by side; what is held stays.
+
+        Parameters
+        ----------
+        source, anchors
+            As ``embeddings`` and ``anchors`` of :func:`fill`.
+        """
+        with handed_over() as handed:
+            name = handed.vectors_name_of(source, "embeddings")
+            self.put_alike(name, (anchors,) if isinstance(anchors, str) else anchors, seed=seed)
 
     def replace(self, which: Which, source: Value) -> None:
         """Put another item in an item's place."""

@@ -109,6 +109,15 @@ def edit(
     sizes: Annotated[str | None, typer.Option("--sizes", help=_HELP["sizes"])] = None,
     rotate: Annotated[str | None, typer.Option("--rotate", help=_HELP["rotate"])] = None,
     force: Annotated[Specs, typer.Option("--force", help=_HELP["force"])] = [],  # noqa: B006
+    arrange: Annotated[str | None, typer.Option("--arrange", help=_HELP["arrange"])] = None,
+    embeddings: Annotated[
+        str | None, typer.Option("--embeddings", help=_HELP["embeddings"])
+    ] = None,
+    anchors: Annotated[Specs, typer.Option("--anchors", help=_HELP["anchors"])] = [],  # noqa: B006
+    picture: Annotated[
+        str | None,
+        typer.Option("--picture", help="Show a picture: each item takes on its colour there."),
+    ] = None,
     container: Annotated[
         str | None, typer.Option("--container", help="Fill another container, on that canvas.")
     ] = None,
@@ -170,11 +179,28 @@ def edit(
             session.count(count)
         if cover is not None:
             session.cover(cover)
+        _put_anew(session, arrange, embeddings, anchors)
+        if picture is not None:
+            session.show_picture(picture)
         is_well = _written(session, disk, [*outputs, *sides], report, pixels, quiet)
         if cover is not None and not _covers(session, cover):
             is_well = False
         if not is_well:
             raise typer.Exit(SHORTFALL)
+
+
+def _put_anew(
+    session: NamedSession, arrange: str | None, embeddings: str | None, anchors: Specs
+) -> None:
+    """Put all in the order that is asked for."""
+    if arrange is not None and embeddings is not None:
+        raise RecipeError("embeddings", "and --arrange both say where items lie; leave one out")
+    if anchors and embeddings is None:
+        raise RecipeError("anchors", "are of vectors; say which: --embeddings FILE or auto")
+    if arrange is not None:
+        session.arrange(arrange)
+    if embeddings is not None:
+        session.put_alike(embeddings, anchors)
 
 
 def _covers(session: NamedSession, cover: str) -> bool:

@@ -13,6 +13,7 @@ from typing import Self, TypeAlias
 import numpy as np
 
 from packwork.errors import RecipeError
+from packwork.live.anew import poured_again
 from packwork.live.assets import named_container, named_item
 from packwork.live.certificate import Settlement
 from packwork.live.commands.command import Command, made
@@ -23,6 +24,7 @@ from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
 from packwork.live.commands.together import Together
 from packwork.live.composed import brought, counted, worded
 from packwork.live.document import PROPERTIES, Property
+from packwork.live.picturing import showing
 from packwork.live.session import Session
 from packwork.readers.words.items import WordsRead
 from packwork.recipe.refusals import length_asked
@@ -232,6 +234,21 @@ class NamedSession(Session):
         if not 0 < asked < 1:
             raise RecipeError("cover", f"must be a share such as 70%, not {share}")
         self.apply(made(Cover, share=asked))
+
+    def show_picture(self, source: str) -> None:
+        """Give each item the colour of a picture under it; photographs keep theirs."""
+        self.apply(showing(self.document, source))
+
+    def arrange(self, way: str, *, seed: int = 0) -> None:
+        """Put all anew in an order, as ``outwards by=weight``; what is held stays.
+
+        A run of its own, of seconds; later verbs move items out of that order.
+        """
+        self.apply(poured_again(self.document, seed, arrange=way))
+
+    def put_alike(self, source: str, anchors: Sequence[str] = (), *, seed: int = 0) -> None:
+        """Put all anew, like items side by side, by a file of vectors or ``auto``."""
+        self.apply(poured_again(self.document, seed, embeddings=source, anchors=anchors))
 
     def set_words(self, read: WordsRead) -> None:
         """Have these words with these weights: those that stay are the same items."""

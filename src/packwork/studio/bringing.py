@@ -9,6 +9,7 @@ from functools import cache
 from typing import Any
 
 from packwork.errors import PackworkError, ReadError
+from packwork.live.anew import BY_TEXT
 from packwork.live.assets import named_container, named_item
 from packwork.live.commands.command import Command, made
 from packwork.live.commands.container import SetContainer
@@ -26,7 +27,6 @@ from packwork.live.face.bringing import (
     only_file,
 )
 from packwork.live.face.drawing import FINENESS, drawing_of, path_of
-from packwork.live.face.picturing import showing
 from packwork.live.named import NamedSession
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
@@ -75,6 +75,8 @@ class Bringer:
             "fill": self._fill,
             "words": self._words,
             "picture": self._picture,
+            "order": self._order,
+            "alike": self._alike,
         }
 
     def _bring(self, message: wire.Bring) -> None:
@@ -125,10 +127,23 @@ class Bringer:
 
     def _picture(self, message: wire.Picture) -> None:
         def read() -> None:
-            file = only_file(self._uploads.folder(message.source.removeprefix(FILES)))
-            self._desk.change(lambda session: session.apply(showing(session.document, str(file))))
+            file = str(only_file(self._uploads.folder(message.source.removeprefix(FILES))))
+            self._desk.change(lambda session: session.show_picture(file))
 
         self._read(read)
+
+    def _order(self, message: wire.Order) -> None:
+        asked = {"arrange": f"{message.way} by={message.by}"}
+        self._read(lambda: self._desk.pour_now(asked), "Pouring")
+
+    def _alike(self, message: wire.Alike) -> None:
+        def read() -> None:
+            source = message.source
+            if source != BY_TEXT:
+                source = str(only_file(self._uploads.folder(source.removeprefix(FILES))))
+            self._desk.pour_now({"embeddings": source})
+
+        self._read(read, "Pouring")
 
     def _words(self, message: wire.Words) -> None:
         def read() -> None:

@@ -14,22 +14,25 @@ from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError
+from packwork.live.anew import poured_again
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.face.keeping import Keeper
 from packwork.live.face.opening import Opening, kept_in, opened
-from packwork.live.face.pouring import Moment, in_place, poured, poured_again, poured_into
+from packwork.live.face.pouring import in_place, poured, poured_into
 from packwork.live.named import NamedSession
 from packwork.live.owner import Frame, Owner
+from packwork.live.running import Moment
 from packwork.scene.pose import Poses
-from packwork.studio.view import Scenes, View
+from packwork.studio.view import Scenes, View, left_out_of
 from packwork.studio.wire import LeftOut, Line, Scene, State, Variant
 
 Session = NamedSession
@@ -42,12 +45,6 @@ VARIANTS = 6
 
 MOST_UNHEARD = 8
 """Lines that wait for the first page. Chosen."""
-
-MOST_LEFT_OUT = 100
-"""Unplaced items that pages are told of at most. Chosen."""
-
-MOST_TOLD = 200
-"""Characters of their names and reasons at most. Chosen."""
 
 QUIET_SECONDS = 2.0
 """How long nothing has to move until the session's file may be written anew. Chosen."""
@@ -169,7 +166,7 @@ class Desk:
         is_moving = is_run or frame is None or frame.in_the_way is None
         in_the_way = () if frame is None or frame.in_the_way is None else frame.in_the_way
         return State(
-            covered=_covered(view),
+            covered=view.covered,
             moving=is_moving,
             certified=not is_moving and not in_the_way and len(view.items) > 0,
             in_the_way=in_the_way[:20],
@@ -211,6 +208,18 @@ class Desk:
         else:
             self.work("Pouring", partial(self._pour, self.owner, seed, make))
 
+    def pour_now(self, asked: Mapping[str, str]) -> None:
+        """Fill the container anew, in the worker that calls this.
+
+        Parameters
+        ----------
+        asked
+            Where items are to lie, as :func:`packwork.live.anew.poured_again` has it.
+        """
+        if self.owner is None:
+            raise PackworkError(NOT_YET)
+        self._pour(self.owner, 0, lambda _: (), asked)
+
     def fill(self, use: str, source: str, options: Mapping[str, Any]) -> None:
         """Fill the container with other items, in the worker that calls this."""
         if self.owner is None:
@@ -225,7 +234,7 @@ class Desk:
         def act(session: Session) -> None:
             commands = in_place(session.document, session.library, layout)
             session.apply(Together(commands=tuple(commands)))  # type: ignore[arg-type]
-            self._unplaced = (session.document.ids, _left_out(layout.manifest))
+            self._unplaced = (session.document.ids, left_out_of(layout.manifest))
 
         self.owner.call(act).result()
 
@@ -244,7 +253,7 @@ class Desk:
             self._progress = (number - seed) / VARIANTS
             found = poured_again(document, number, lambda _: None, self._stop.is_set)
             placed = View.of_document(found.applied(document, Library()))
-            self._wake(Variant(seed=number, covered=_covered(placed), command=found))
+            self._wake(Variant(seed=number, covered=placed.covered, command=found))
 
     def _open(self) -> None:
         """Make the first session, in the worker."""
@@ -263,7 +272,7 @@ class Desk:
             return
         if opening.file is None:
             document = session.document
-            self._unplaced = (document.ids, _left_out(document.manifest))
+            self._unplaced = (document.ids, left_out_of(document.manifest))
         if keeper is None and opening.kept_in is not None:
             keeper = self._kept(opening.kept_in, session)
         self._keeper = keeper
@@ -294,7 +303,11 @@ class Desk:
                 self.change(keeper.tidy)
 
     def _pour(
-        self, owner: Owner[Session], seed: int, make: Callable[[Session], Sequence[Command]]
+        self,
+        owner: Owner[Session],
+        seed: int,
+        make: Callable[[Session], Sequence[Command]],
+        asked: Mapping[str, str] = MappingProxyType({}),
     ) -> None:
         """Run, in the worker, what is then put into the session."""
         commands, document = owner.call(lambda session: _prepared(session, make)).result()
@@ -303,7 +316,7 @@ class Desk:
             poses = _stretched(moment.poses, document)
             self._see(View.of_document(document, poses), moment)
 
-        arranged = poured_again(document, seed, show, self._stop.is_set)
+        arranged = poured_again(document, seed, show, self._stop.is_set, **asked)
         whole = Together(commands=(*commands, arranged))  # type: ignore[arg-type]
         owner.call(lambda session: session.apply(whole)).result()
 
@@ -367,31 +380,3 @@ def _prepared(
 
 def _stretched(poses: Poses | None, document: Document) -> Poses | None:
     return None if poses is None else replace(poses, stretch=document.poses.stretch)
-
-
-def _covered(view: View) -> float:
-    """Covered share of the container, as if nothing overlapped."""
-    if view.poses is None or not len(view.items):
-        return 0.0
-    areas = sum(
-        item.outline.area * scale**2
-        for item, scale in zip(view.items, view.poses.scale.tolist(), strict=True)
-    )
-    return min(float(areas / view.container.outline.area), 1.0)
-
-
-def _left_out(manifest: Mapping[str, Any]) -> tuple[LeftOut, ...]:
-    """What the run of a manifest could not place.
-
-    Examples
-    --------
-    >>> _left_out({"unplaced": [{"item": "bee", "index": 3, "reason": "no void is large enough"}]})
-    (LeftOut(name='bee', reason='no void is large enough'),)
-    """
-    found = manifest.get("unplaced")
-    # A layout's file may come from anywhere.
-    rows = [one for one in found if isinstance(one, Mapping)] if isinstance(found, list) else []
-    return tuple(
-        LeftOut(name=str(one.get("item"))[:MOST_TOLD], reason=str(one.get("reason"))[:MOST_TOLD])
-        for one in rows[:MOST_LEFT_OUT]
-    )

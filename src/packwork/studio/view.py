@@ -11,14 +11,21 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.face.drawing import FINENESS, Drawing, drawing_of, path_of
-from packwork.live.face.pouring import Moment
+from packwork.live.running import Moment
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
-from packwork.studio.wire import Scene, Shape, Thing
+from packwork.studio.wire import LeftOut, Scene, Shape, Thing
 
 CONTAINER_FINENESS = FINENESS / 4
 """By how much the container's line may be off on the page, as a share of its extent. Chosen."""
+
+
+MOST_LEFT_OUT = 100
+"""Unplaced items that pages are told of at most. Chosen."""
+
+MOST_TOLD = 200
+"""Characters of their names and reasons at most. Chosen."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -66,6 +73,17 @@ class View:
             held=np.zeros((count, len(PROPERTIES)), dtype=bool),
             poses=moment.poses,
         )
+
+    @property
+    def covered(self) -> float:
+        """Covered share of the container, as if nothing overlapped."""
+        if self.poses is None or not len(self.items):
+            return 0.0
+        areas = sum(
+            item.outline.area * scale**2
+            for item, scale in zip(self.items, self.poses.scale.tolist(), strict=True)
+        )
+        return min(float(areas / self.container.outline.area), 1.0)
 
     def is_like(self, other: View) -> bool:
         """Whether nothing differs but poses."""
@@ -154,3 +172,21 @@ class Scenes:
             path = path_of(container.outline, CONTAINER_FINENESS)
             self._outline = (container, path)
         return self._outline[1]
+
+
+def left_out_of(manifest: Mapping[str, Any]) -> tuple[LeftOut, ...]:
+    """What the run of a manifest could not place.
+
+    Examples
+    --------
+    >>> row = {"item": "bee", "index": 3, "reason": "no void is large enough"}
+    >>> left_out_of({"unplaced": [row]})
+    (LeftOut(name='bee', reason='no void is large enough'),)
+    """
+    found = manifest.get("unplaced")
+    # A layout's file may come from anywhere.
+    rows = [one for one in found if isinstance(one, Mapping)] if isinstance(found, list) else []
+    return tuple(
+        LeftOut(name=str(one.get("item"))[:MOST_TOLD], reason=str(one.get("reason"))[:MOST_TOLD])
+        for one in rows[:MOST_LEFT_OUT]
+    )

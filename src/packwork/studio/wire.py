@@ -135,6 +135,22 @@ class Picture(Message):
     source: Annotated[str, Field(min_length=1, max_length=200)]
 
 
+class Order(Message):
+    """Put all anew in an order along a way; no measure of a file, which a page cannot name."""
+
+    type: Literal["order"] = "order"
+    way: Literal["right", "left", "down", "up", "outwards", "inwards", "around", "along"]
+    by: Literal["weight", "hue", "lightness", "name"]
+
+
+class Alike(Message):
+    """Put all anew, like items side by side, by vectors in a file that was sent before."""
+
+    type: Literal["alike"] = "alike"
+    source: Annotated[str, Field(min_length=1, max_length=200)]
+    """The file, or ``auto``: of words, by their text."""
+
+
 class Words(Message):
     """Have these words with these weights; those that stay keep their places."""
 
@@ -161,8 +177,8 @@ class Set(Message):
 
 
 Told: TypeAlias = Annotated[
-    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Picture | Words | More
-    | Set,
+    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Picture | Order
+    | Alike | Words | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip
 """What a page says."""

@@ -62,15 +62,27 @@ def test_clusters_come_to_lie_together() -> None:
 
 
 def test_what_is_held_stays_and_sizes_are_heeded() -> None:
-    kinds, vectors = _planted(40)
+    _, vectors = _planted(40)
     rng = np.random.default_rng(2)
     points = rng.random((40, 2))
     free = np.arange(40) >= 10
-    sizes = 50.0 * (np.arange(40) % 2)[:, None]
+    large = rng.permutation(40) % 2
+    sizes = 50.0 * large[:, None]
     at = assigned(vectors, points, rng, own=sizes, there=sizes, free=free)
     assert at[:10].tolist() == list(range(10))
-    assert (at % 2 == np.arange(40) % 2).all()
-    del kinds
+    assert (large[at] == large).all()
+
+
+def test_what_is_small_comes_together_where_likeness_asks_for_it() -> None:
+    kinds = np.arange(64) % 2
+    points = np.stack(np.meshgrid(np.arange(8.0), np.arange(8.0)), axis=-1).reshape(-1, 2)
+    sizes = 1.5 * kinds[:, None]
+    at = assigned(np.eye(2)[kinds], points, np.random.default_rng(0), own=sizes, there=sizes)
+    placed = np.empty(64, dtype=int)
+    placed[at] = kinds
+    grid = placed.reshape(8, 8)
+    assert (grid[1:] == grid[:-1]).mean() > 0.8
+    assert (grid[:, 1:] == grid[:, :-1]).mean() > 0.8
 
 
 def test_the_graph_is_symmetric_and_leaves_out_none() -> None:

@@ -6,7 +6,6 @@ any way has a drawing with a name of its own, so that rules speak of it alone.
 
 from __future__ import annotations
 
-import math
 import re
 import shlex
 from collections import Counter
@@ -18,6 +17,7 @@ from typing import Any
 import numpy as np
 
 from packwork.live.document import Document
+from packwork.live.pins import pin_of
 from packwork.live.session import Session
 from packwork.readers.charts.part import markup_of
 from packwork.recipe import make_recipe
@@ -125,23 +125,10 @@ def _rules(document: Document, names: list[str]) -> list[dict[str, Any]]:
         rule: dict[str, Any] = {"items": [name], "count": count}
         k = names.index(name)
         if document.held[k].any():
-            rule["pin"] = _pin(document, k)
+            rule["pin"] = pin_of(document, k)
         if rule != {"items": [name], "count": 1}:
             rules.append(rule)
     return rules
-
-
-def _pin(document: Document, k: int) -> dict[str, Any]:
-    poses, (place, angle, size) = document.poses, document.held[k]
-    unit = document.container.unit
-    pin: dict[str, str | float] = {}
-    if place:
-        pin |= {"x": f"{poses.x[k]:.17g}{unit}", "y": f"{poses.y[k]:.17g}{unit}"}
-    if angle:
-        pin["angle"] = math.degrees(poses.angle[k])
-    if size:
-        pin["size"] = f"{document.items[k].outline.extent * poses.scale[k]:.17g}{unit}"
-    return pin
 
 
 def _names(document: Document) -> list[str]:

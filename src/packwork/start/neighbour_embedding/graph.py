@@ -86,6 +86,21 @@ class NeighbourGraph:
         joined = np.concatenate(rows), np.concatenate(columns), np.concatenate(values)
         return cls._symmetric(count, *joined)
 
+    def means(self, values: FloatArray) -> FloatArray:
+        """``(n, s)`` weighted means of ``(n, s)`` values over partners; 0 of what has none.
+
+        Examples
+        --------
+        >>> pair = NeighbourGraph(np.array([0, 1, 2]), np.array([1, 0]), np.array([0.5, 0.5]))
+        >>> pair.means(np.array([[3.0], [5.0]])).ravel().tolist()
+        [5.0, 3.0]
+        """
+        rows = np.repeat(np.arange(len(values)), np.diff(self.starts))
+        sums, total = np.zeros_like(values), np.zeros(len(values))
+        np.add.at(sums, rows, self.weights[:, None] * values[self.partners])
+        np.add.at(total, rows, self.weights)
+        return np.asarray(sums / np.where(total > 0, total, 1.0)[:, None])
+
     @classmethod
     def _symmetric(
         cls, count: int, rows: IntArray, columns: IntArray, weights: FloatArray

@@ -25,13 +25,15 @@ export class ItemList {
 
   /** @param {HTMLElement} body */
   fill(body) {
-    const { connection, panels } = this.studio;
+    const { connection, ordering, panels } = this.studio;
     const grid = h("div", { class: "grid small" });
     panels.load().then((choices) => grid.replaceChildren(...(choices?.items ?? []).map((/** @type {any} */ one) =>
       h("button", { type: "button", class: "choice", title: one.name, "aria-label": `Add ${one.name}`, onclick: () => connection.send({ type: "bring", sources: [`builtin:${one.name}`] }) }, thumbOf(one)))));
     body.replaceChildren(this.incoming(),
       h("details", {}, h("summary", {}, "Add bundled ones"), grid),
       h("button", { type: "button", class: "wide", title: "Seen from afar, they are the picture", onclick: () => this.studio.dropping.choosePicture() }, "Show a picture by their colours"),
+      h("button", { type: "button", class: "wide", title: "By a table of vectors, such as a model of pictures gives: a row an item, or a first column of names", onclick: () => ordering.chooseVectors() }, "Like beside like, by a table"),
+      ordering.element,
       h("label", { class: "row" }, "Items in all", this.counter), this.list);
     this.listed = "";
     this.refresh();

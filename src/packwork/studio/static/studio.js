@@ -15,6 +15,7 @@ import { Gestures } from "./gestures.js";
 import { Hand, together } from "./hand.js";
 import { listenToKeys } from "./keys.js";
 import { Menu } from "./menu.js";
+import { Ordering } from "./ordering.js";
 import { Palette } from "./palette.js";
 import { Panels } from "./panels.js";
 import { Replacing } from "./replacing.js";
@@ -57,6 +58,7 @@ export class Studio {
       menu: (x, y) => this.menu.open(x, y + this.canvas.getBoundingClientRect().top, this.choice.ids.size > 0),
     });
     this.dropping = new Dropping(this.connection, this.collage);
+    this.ordering = new Ordering(this);
     this.exporting = new Exporting(this.connection, this.collage);
     const actions = actionsOf(this);
     this.actions = new Map(actions.map((action) => [action.id, action]));

@@ -6,6 +6,7 @@
  *
  * @typedef {{type: "ack", frame: number}} Ack
  * @typedef {{kind: "add", asset: string, x: number, y: number, area: number, angle?: number, weight?: (number | null)}} Add
+ * @typedef {{type: "alike", source: string}} Alike
  * @typedef {{kind: "arrange", items: number[], poses: [number, number, number, number][]}} Arrange
  * @typedef {{type: "bring", sources: string[], x?: (number | null), y?: (number | null)}} Bring
  * @typedef {{type: "count", count: number}} Count
@@ -22,6 +23,7 @@
  * @typedef {{type: "line", text: string, is_error?: boolean}} Line
  * @typedef {{type: "more", seed: number}} More
  * @typedef {{kind: "move", item: number, x: number, y: number}} Move
+ * @typedef {{type: "order", way: ("right" | "left" | "down" | "up" | "outwards" | "inwards" | "around" | "along"), by: ("weight" | "hue" | "lightness" | "name")}} Order
  * @typedef {{type: "picture", source: string}} Picture
  * @typedef {{kind: "place_container", x?: number, y?: number, factor?: number, angle?: number}} PlaceContainer
  * @typedef {{type: "pour", seed: number}} Pour
@@ -45,7 +47,7 @@
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
  * @typedef {{kind: "together", commands: (Move | Turn | Scale | Exchange | Cover | Arrange | Hold | Release | Add | Duplicate | Remove | Replace | Weigh | Rename | Recolour | SetContainer | Reshape | PlaceContainer | SetOption)[]}} Together
- * @typedef {Ack | Bring | Count | Do | Fill | Leap | More | Picture | Pour | Room | Set | Stop | Swap | Words} Told
+ * @typedef {Ack | Alike | Bring | Count | Do | Fill | Leap | More | Order | Picture | Pour | Room | Set | Stop | Swap | Words} Told
  * @typedef {{kind: "turn", item: number, angle: number}} Turn
  * @typedef {{type: "variant", seed: number, covered: number, command: Arrange}} Variant
  * @typedef {{kind: "weigh", items: number[], weight: number}} Weigh
