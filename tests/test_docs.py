@@ -48,7 +48,8 @@ IN_ITS_OWN_WORDS = {
 }  # fmt: skip
 """Options of words that say the same thing as elsewhere, of words; what an edit adds, and holds,
 which a film does with its last picture; files of each row of a table, and a table of all;
-sizes of a layout that is there; a table and its column, and a column of the chart's; a picture under a layout that is there."""
+sizes of a layout that is there, and a picture under it; a table and its column, and a column of the
+chart's."""
 
 
 def defines(page: str, name: str) -> bool:
