@@ -110,6 +110,23 @@ def test_heavy_words_come_first() -> None:
     assert layout.manifest["certified"]
 
 
+def test_words_lie_by_a_column_of_their_table(tmp_path: Path) -> None:
+    rows = [f"word{k};{20 - k};{1900 + 7 * k % 80},5;{'abc'[k % 3]}" for k in range(18)]
+    table = tmp_path / "words.csv"
+    table.write_text("Wort;weight;Jahr;Art\r\n" + "\r\n".join(rows), encoding="utf-8-sig")
+    years = pw.words("square", table, arrange="right by=Jahr", effort="draft")
+    said = [1900 + 7 * int(item.name[4:]) % 80 for item in years.items]
+    assert _order(np.array(said, dtype=float), years.poses.x) > 0.6
+    kinds = pw.words("square", table, arrange="down by=Art", effort="draft")
+    said = [int(item.name[4:]) % 3 for item in kinds.items]
+    assert _order(np.array(said, dtype=float), kinds.poses.y) > 0.6
+    with pytest.raises(RecipeError, match=r"nothing is measured by 'Jahre'; .*\(Jahr, Art\)"):
+        pw.words("square", table, arrange="right by=Jahre")
+    table.write_text(table.read_text("utf-8-sig").replace(";1907,5;", ";;"), encoding="utf-8")
+    with pytest.raises(RecipeError, match="word1 has nothing in 'Jahr'"):
+        pw.words("square", table, arrange="right by=Jahr")
+
+
 @pytest.mark.parametrize(
     ("arrange", "said"),
     [

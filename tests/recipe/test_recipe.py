@@ -48,7 +48,7 @@ BAD: dict[str, list[Any]] = {
     "quiet_share": [0, 1, "much"],
     "embeddings": [3, ["a.npy"]],
     "anchors": [3, "warm", "left=", ["left"], "up=a"],
-    "arrange": [3, "sideways", "right by=mood", "right up", ""],
+    "arrange": [3, "sideways", "right by=", "right up", ""],
     "picture": [3, ["a.png"]],
     "tint": [-0.1, 1.1, NAN, "much"],
     "detail": [-0.1, 1.1, NAN, "fine"],

@@ -206,8 +206,8 @@ class _FillWordsPhotos(TypedDict, total=False):
     arrange: str | None
     """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
     middle, around it, or along the container from end to end) and what rises along it, as in right
-    by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness and
-    name."""
+    by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness and name,
+    and of words a column of their table."""
 
     embeddings: Value | None
     """Vectors of the items (.npy, .csv, .tsv, .json, .parquet; a row an item, or a first column of

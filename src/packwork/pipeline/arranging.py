@@ -20,7 +20,7 @@ from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
 from packwork.pipeline.places import exchanged, shapes
 from packwork.readers.tables.pairs import read_pairs
-from packwork.recipe.arrangement import MEASURES, Arrangement, parse_arrangement
+from packwork.recipe.arrangement import FILES, MEASURES, Arrangement, parse_arrangement
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights
@@ -77,8 +77,10 @@ def measured(job: Job, by: str) -> FloatArray:
     ReadError, RecipeError
         As for :func:`check_arranged`.
     """
-    if by not in MEASURES:
+    if by not in MEASURES and by.lower().endswith(FILES):
         values = _of_file(job, by)
+    elif by not in MEASURES:
+        values = job.use.column(job, by)
     elif by == "weight":
         values = job.weights
     elif by == "name":

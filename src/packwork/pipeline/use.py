@@ -13,6 +13,7 @@ from packwork.phrasing import number_of
 from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.recipe import Recipe
+from packwork.recipe.arrangement import unknown_measure
 
 if TYPE_CHECKING:
     from packwork.finish.finished import Finished
@@ -121,6 +122,17 @@ class Use(ABC):
         """Colours that data give to items; None if palette and rules give them."""
         del job, layout
         return None
+
+    def column(self, job: Job, name: str) -> FloatArray:
+        """``(n,)`` numbers of the items in a column of the data that the use reads.
+
+        Raises
+        ------
+        RecipeError
+            If there is no such column.
+        """
+        del job
+        raise unknown_measure(name)
 
     @property
     def palette_tints(self) -> bool:

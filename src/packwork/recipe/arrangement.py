@@ -38,7 +38,7 @@ class Arrangement:
     way
         right, outwards, inwards, around or along; right is the direction of ``angle``.
     by
-        weight, hue, lightness, name or a file.
+        weight, hue, lightness, name, a file, or a column of the words' table.
     angle
         Of a direction, degrees clockwise from the right.
     """
@@ -82,11 +82,28 @@ def parse_arrangement(text: str) -> Arrangement:
 
 
 def _measure(by: str) -> str:
-    if by in MEASURES or by.lower().endswith(FILES):
-        return by
+    if not by:
+        raise RecipeError("arrange", f"{_EXAMPLE}; by= names nothing")
+    return by
+
+
+def unknown_measure(by: str, columns: str = "") -> RecipeError:
+    """Error about a measure that items do not have.
+
+    Parameters
+    ----------
+    columns
+        Of their table, which would do.
+
+    Examples
+    --------
+    >>> print(unknown_measure("hight", "year"))  # doctest: +ELLIPSIS
+    arrange: nothing is measured by 'hight'; did you mean weight?, a column (year), or a file of ...
+    """
     hint = _meant(by, MEASURES)
-    raise RecipeError(
-        "arrange", f"nothing is measured by {by[:40]!r}; {hint}, or a file of name,number (.csv)"
+    others = f"{hint}, a column ({columns})," if columns else f"{hint},"
+    return RecipeError(
+        "arrange", f"nothing is measured by {by[:40]!r}; {others} or a file of name,number (.csv)"
     )
 
 
@@ -113,4 +130,4 @@ class Ordered(Options):
     """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
     middle, around it, or along the container from end to end) and what rises along it, as in
     right by=weight, outwards by=ages.csv (lines of name,number), around by=hue; also lightness
-    and name."""
+    and name, and of words a column of their table."""

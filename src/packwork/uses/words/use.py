@@ -30,6 +30,7 @@ from packwork.readers.vectors import Vectors
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
+from packwork.recipe.arrangement import unknown_measure
 from packwork.recipe.meaning import FROM_TEXT, parse_anchor
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
@@ -38,6 +39,7 @@ from packwork.uses.photos.crop import crops
 from packwork.uses.room import Room
 from packwork.uses.words.cast import cast_words
 from packwork.uses.words.colours import check_colours, word_colours
+from packwork.uses.words.columns import column_values, columns_there
 from packwork.uses.words.counts import words_counted, words_needed
 from packwork.uses.words.graded import Places, can_give_way, graded_places
 from packwork.uses.words.letters import (
@@ -180,6 +182,13 @@ class Words(Use):
         asked = map(parse_anchor, recipe.anchors)
         anchors = tuple((one.angle, words.called(one.name)) for one in asked)
         return ItemVectors.of_rows(self.read.items, rows, known, anchors=anchors)
+
+    def column(self, job: Job, name: str) -> FloatArray:
+        """What the words' table says of each in a column: numbers, or texts by the alphabet."""
+        found = column_values(self.read, job, name)
+        if found is None:
+            raise unknown_measure(name, columns_there(self.read))
+        return found
 
     @property
     def palette_tints(self) -> bool:
