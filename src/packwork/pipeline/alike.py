@@ -16,18 +16,24 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
+from packwork.pipeline.places import even_points
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.first_poses import container_image, disc_radii, start_resolution
+from packwork.start.first_fit.homes import Homes
+from packwork.start.first_poses import disc_radii
 from packwork.start.neighbour_embedding.assignment import assigned
 from packwork.start.neighbour_embedding.graph import unit_rows
-from packwork.start.stippling import stippled
 
 FACTOR, KEPT_FACTOR = 1.6, 1.3
 """Factor between the radii of an item and of its new place that costs as much as lying a spacing
 farther from all its neighbours: where sizes are free, and where they are not. Larger brings more
 together and covers less. Tried."""
+
+
+HOMEWARD = 8.0
+"""Score that an item gives for lying the canvas' side nearer to its own point, where it is put by
+itself. Larger brings more together and fills less. Tried."""
 
 
 def placed_alike(
@@ -47,19 +53,18 @@ def placed_alike(
     return replace(poses, x=poses.x[at], y=poses.y[at])
 
 
-def homes_alike(job: Job, region: Container, rng: np.random.Generator) -> FloatArray | None:
-    """``(n, 2)`` points near which items had better lie, canvas units; None if anywhere.
+def homes_alike(job: Job, region: Container, rng: np.random.Generator) -> Homes | None:
+    """Where items that are put one by one had better lie; None if anywhere.
 
     Points spread evenly over the container.
     """
     if job.vectors is None:
         return None
-    inside, px_per_cu = container_image(region, start_resolution(len(job.items)))
-    found = stippled(inside, np.ones_like(inside), len(job.items), rng)
-    points = np.column_stack([found.x, found.y]) / px_per_cu
+    points = even_points(region, len(job.items), rng)
     vectors = job.vectors.of(job.items)
     drawn, along = _anchored(job.vectors, vectors, points)
-    return np.asarray(points[assigned(vectors, points, rng, drawn=drawn, along=along)])
+    at = assigned(vectors, points, rng, drawn=drawn, along=along)
+    return Homes(points[at], HOMEWARD)
 
 
 def _anchored(

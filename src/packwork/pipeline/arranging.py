@@ -18,12 +18,14 @@ from packwork.errors import ReadError, RecipeError
 from packwork.fields.geodesic import lengthwise
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
-from packwork.pipeline.places import exchanged, shapes
+from packwork.pipeline.places import even_points, exchanged, shapes
 from packwork.readers.tables.pairs import read_pairs
 from packwork.recipe.arrangement import FILES, MEASURES, Arrangement, parse_arrangement
+from packwork.scene.container import Container
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights
+from packwork.start.first_fit.homes import Homes
 from packwork.start.first_poses import container_image
 
 MOST_BYTES = 5_000_000
@@ -32,6 +34,10 @@ MOST_BYTES = 5_000_000
 UNLIKE, UNLIKE_SIZE = 0.01, 0.03
 """What squared logarithms of a factor in shape, and where sizes are given in size, weigh beside
 squared shares of the way. Larger keeps the first places better, smaller the order. Tried."""
+
+HOMEWARD = 40.0
+"""Score that an item gives for lying the canvas' side nearer to its own point, where it is put by
+itself. Larger keeps the order no better, smaller worse. Tried."""
 
 WAY_PX = 160
 """Pixels on the longer side of the image in which ways along the container are found. Larger
@@ -117,6 +123,24 @@ def arranged(job: Job, poses: Poses, nominal: FloatArray) -> Poses:
     return replace(changed, angle=poses.angle, scale=poses.scale if is_limited else scale)
 
 
+def homes_in_order(job: Job, region: Container, rng: np.random.Generator) -> Homes | None:
+    """Where items that are put one by one had better lie; None if anywhere.
+
+    Points spread evenly over the container, in the order asked for.
+    """
+    if job.recipe.arrange is None or not job.keeps_order:
+        return None
+    # An assignment is needed for arrangements alone.
+    from scipy.optimize import linear_sum_assignment
+
+    asked, everything = parse_arrangement(job.recipe.arrange), np.arange(len(job.items))
+    points = even_points(region, len(everything), rng)
+    away = _away(job, asked, points, np.ones(len(points)), job.weights, everything)
+    homes = np.empty_like(points)
+    homes[linear_sum_assignment(away)[1]] = points
+    return Homes(homes, HOMEWARD)
+
+
 def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> IntArray:
     """Which of the movable items comes to each of their places."""
     # An assignment is needed for arrangements alone.
@@ -124,21 +148,41 @@ def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> Int
 
     hulls = hull_areas([job.items[k].outline for k in movable])
     areas = hulls * poses.scale[movable] ** 2
-    values = measured(job, asked.by)[movable]
-    middle = np.array([*job.container.outline.centroid])
-    off = np.column_stack([poses.x, poses.y])[movable] - middle
-    if asked.way == "around":
-        away = _away_around(job, asked, values, off, areas, movable)
-    else:
-        values = np.where(np.isfinite(values), values, np.nanmin(values) - 1.0)
-        along = _lengthwise(job, off + middle) if asked.way == "along" else _along(asked, off)
-        away = (_shares(values, areas)[None] - _shares(along, areas)[:, None]) ** 2
+    points = np.column_stack([poses.x, poses.y])[movable]
+    away = _away(job, asked, points, areas, areas, movable)
     own = shapes(job, movable)
     unlike = UNLIKE * ((own[None] - own[:, None]) ** 2).sum(axis=2)
     if job.plan.sizes != "free":
         sizes = np.log(areas) / 2
         unlike = unlike + UNLIKE_SIZE * (sizes[None] - sizes[:, None]) ** 2
     return np.asarray(linear_sum_assignment(away + unlike)[1])
+
+
+def _away(
+    job: Job,
+    asked: Arrangement,
+    points: FloatArray,
+    rooms: FloatArray,
+    areas: FloatArray,
+    items: IntArray,
+) -> FloatArray:
+    """``(places, items)`` squared distances of places from where items had better lie.
+
+    Parameters
+    ----------
+    points, rooms
+        ``(places, 2)`` and areas of the places.
+    areas
+        Of the items.
+    """
+    values = measured(job, asked.by)[items]
+    middle = np.array([*job.container.outline.centroid])
+    off = points - middle
+    if asked.way == "around":
+        return _away_around(job, asked, values, off, rooms, areas, items)
+    values = np.where(np.isfinite(values), values, np.nanmin(values) - 1.0)
+    along = _lengthwise(job, points) if asked.way == "along" else _along(asked, off)
+    return np.asarray((_shares(values, areas)[None] - _shares(along, rooms)[:, None]) ** 2)
 
 
 def _along(asked: Arrangement, off: FloatArray) -> FloatArray:
@@ -169,6 +213,7 @@ def _away_around(
     asked: Arrangement,
     values: FloatArray,
     off: FloatArray,
+    rooms: FloatArray,
     areas: FloatArray,
     movable: IntArray,
 ) -> FloatArray:
@@ -176,7 +221,7 @@ def _away_around(
 
     By hue the dull lie within the vivid, as on a colour wheel; what has no hue lies in the middle.
     """
-    place = np.sqrt(_shares(np.hypot(off[:, 0], off[:, 1]), areas))
+    place = np.sqrt(_shares(np.hypot(off[:, 0], off[:, 1]), rooms))
     at = place * np.exp(1j * np.arctan2(off[:, 1], off[:, 0]))
     is_known = np.isfinite(values)
     turns = np.zeros(len(values))

@@ -166,10 +166,11 @@ class _Start:
         poses = first.poses
         if forces.acts and not is_tight:
             poses = _by_forces(outlines, poses, limits, forces)
-        if job.vectors is not None:
-            poses = poses if is_tight else placed_alike(job, outlines, poses, self._rng)
-        elif job.keeps_order:
-            poses = arranged(job, poses, self._nominal)
+        if job.keeps_order and not is_tight:
+            if job.vectors is not None:
+                poses = placed_alike(job, outlines, poses, self._rng)
+            else:
+                poses = arranged(job, poses, self._nominal)
         begun = self._beginning(poses, str(first.method), limits, is_tight=is_tight)
         return replace(begun, is_clean=is_tight and is_only_refined(job, forces))
 

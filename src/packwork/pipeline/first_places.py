@@ -14,6 +14,7 @@ from packwork.finish.finish import COMMON_COARSE
 from packwork.forces.forces import PRESSURE, FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.alike import homes_alike
+from packwork.pipeline.arranging import homes_in_order
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.shares import kinds_of
@@ -25,6 +26,7 @@ from packwork.scene.pose import Poses
 from packwork.start.angles import spread_angles
 from packwork.start.erosion import is_thread, scales_within, spread_along
 from packwork.start.first_fit.first_fit import first_fit
+from packwork.start.first_fit.homes import Homes
 from packwork.start.first_poses import FirstPoses, disc_radii, first_poses, poses_apart
 
 ATTEMPTS = {"draft": 1, "normal": 4, "best": 24}
@@ -88,7 +90,7 @@ def first_places(
             limits=limits,
             fields=_fields(job),
             kinds=_kinds(job),
-            homes=homes_alike(job, container, np.random.default_rng(plan.seed)),
+            homes=_homes(job, container, np.random.default_rng(plan.seed)),
             stop=is_over,
         )
         if poses is not None:
@@ -139,7 +141,8 @@ def needs_levels(job: Job, forces: Forces) -> bool:
         or plan.stretch > 1.0
         or plan.keeps_apart
         or bool(forces.bonds)
-        or (job.keeps_order and job.vectors is None)
+        # Icons in an order are placed as well by the levels, and cover more.
+        or (job.keeps_order and job.vectors is None and not job.use.words)
     )
 
 
@@ -165,6 +168,12 @@ def _suits(job: Job, forces: Forces) -> bool:
         and not needs_levels(job, forces)
         and job.use.suits_first_fit(len(job.items), job.plan.rotation.is_free)
     )
+
+
+def _homes(job: Job, container: Container, rng: np.random.Generator) -> Homes | None:
+    """Points near which items had better lie; None if anywhere."""
+    alike = homes_alike(job, container, rng)
+    return homes_in_order(job, container, rng) if alike is None else alike
 
 
 def _kinds(job: Job) -> IntArray | None:

@@ -9,7 +9,17 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
+from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.start.first_poses import container_image, start_resolution
+from packwork.start.stippling import stippled
+
+
+def even_points(region: Container, count: int, rng: np.random.Generator) -> FloatArray:
+    """``(count, 2)`` points spread evenly over a container, canvas units."""
+    inside, px_per_cu = container_image(region, start_resolution(count))
+    found = stippled(inside, np.ones_like(inside), count, rng)
+    return np.column_stack([found.x, found.y]) / px_per_cu
 
 
 def shapes(job: Job, movable: IntArray) -> FloatArray:

@@ -25,6 +25,7 @@ from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import allowed_pixels
+from packwork.start.first_fit.homes import Homes
 from packwork.start.first_fit.kind_penalty import KindPenalty
 from packwork.start.first_fit.occupancy import Occupancy
 from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut
@@ -101,10 +102,6 @@ PULL = 2.0
 """Score that an item gives for coming the canvas' side lower, at a strength of 1. 4 and 8 draw
 nothing nearer. Tried."""
 
-HOMEWARD = 8.0
-"""Score that an item gives for lying the canvas' side nearer to its own point. Larger brings more
-together and fills less. Tried."""
-
 NOISE = 0.01
 """Random part of a place's score, which is 0 to 1: it makes seeds differ. Chosen."""
 
@@ -122,7 +119,7 @@ def first_fit(
     limits: Limits = NO_LIMITS,
     fields: Sequence[FieldForce] = (),
     kinds: IntArray | None = None,
-    homes: FloatArray | None = None,
+    homes: Homes | None = None,
     stop: Stop = never,
 ) -> Poses | None:
     """Poses at which nothing overlaps, all items in proportion; None if none were found.
@@ -155,7 +152,7 @@ def first_fit(
         ``(n,)`` numbers of what is to be mixed: what lies there at any time has as much of each
         kind's area, as what is put later comes to lie elsewhere. None for the largest first.
     homes
-        ``(n, 2)`` points near which items had better lie, canvas units.
+        Where items had better lie.
     stop
         Asked before each attempt; True ends the search with the best found so far.
 
@@ -206,7 +203,7 @@ class _Fitting:
         limits: Limits,
         fields: Sequence[FieldForce],
         kinds: IntArray | None,
-        homes: FloatArray | None,
+        homes: Homes | None,
     ) -> None:
         count = len(outlines)
         self._grain = grain
@@ -224,7 +221,8 @@ class _Fitting:
         self._noise = NOISE * rng.random(image.shape)
         self._fields = fields
         self._heights = _heights(fields, image.shape, self._px_per_cu)
-        self._near = None if homes is None else homes * self._px_per_cu
+        self._near = None if homes is None else homes.points * self._px_per_cu
+        self._pull = 0.0 if homes is None else homes.pull
         self._homes = allowed_pixels(limits, image, self._px_per_cu)
 
     def largest(self, factor: float, attempts: int, stop: Stop) -> tuple[float, Poses] | None:
@@ -354,7 +352,7 @@ class _Fitting:
             if force.strengths[item]:
                 worth = worth - PULL * force.strengths[item] * height
         if self._near is not None:
-            worth = worth - HOMEWARD * self._away(self._near[item], worth.shape)
+            worth = worth - self._pull * self._away(self._near[item], worth.shape)
         home = self._homes[item]
         if home is None:
             return worth

@@ -124,15 +124,17 @@ def can_give_way(job: Job) -> bool:
     """Whether nothing is asked of places or single items that this cannot heed."""
     plan = job.plan
     is_told_where = job.earlier is not None or plan.method or plan.share or job.forces.acts
-    return not (is_told_where or job.is_limited or needs_levels(job, job.forces))
+    is_told = is_told_where or job.keeps_order or job.is_limited
+    return not (is_told or needs_levels(job, job.forces))
 
 
 def _check(job: Job) -> None:
     if not can_give_way(job):
         raise RecipeError(
             "sizes",
-            "graded sets words one after another; leave out --start, --force, --arrange, --share, "
-            "losses, levels, --stretch and what is asked of single items, or use sizes shared",
+            "graded sets words one after another; leave out --start, --force, --arrange, "
+            "--embeddings, --share, losses, levels, --stretch and what is asked of single items, "
+            "or use sizes shared",
         )
 
 
