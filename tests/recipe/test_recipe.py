@@ -47,6 +47,7 @@ BAD: dict[str, list[Any]] = {
     "share": [3, "words", "trees=3", {"words": -1}],
     "quiet_share": [0, 1, "much"],
     "embeddings": [3, ["a.npy"]],
+    "label_regions": ["perhaps", 3],
     "anchors": [3, "warm", "left=", ["left"], "up=a"],
     "arrange": [3, "sideways", "right by=", "right up", ""],
     "picture": [3, ["a.png"]],

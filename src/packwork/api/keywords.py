@@ -218,6 +218,11 @@ class _FillWordsPhotos(TypedDict, total=False):
     """With --embeddings: where things lie that are like a row, a column or a word, as left=warm;
     also right, up, down, 45deg, middle. May be given several times."""
 
+    label_regions: bool
+    """Write names among the items, on small plates that are placed as items are: of groups, where
+    the table of --embeddings has a column of texts beside the names; else of the parts of an SVG as
+    the container that have titles or ids. Default: False."""
+
     target_coverage: float | str | None
     """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round
     by round, until it is reached or nothing more fits."""

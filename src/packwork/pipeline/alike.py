@@ -13,7 +13,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from packwork.arrays import BoolArray, FloatArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
 from packwork.pipeline.places import even_points
@@ -36,6 +36,10 @@ HOMEWARD = 8.0
 itself. Larger brings more together and fills less. Tried."""
 
 
+CENTRAL = 100.0
+"""The same of what names those about it. Larger changes nothing. Chosen."""
+
+
 def placed_alike(
     job: Job, outlines: Sequence[Outline], poses: Poses, rng: np.random.Generator
 ) -> Poses:
@@ -46,10 +50,12 @@ def placed_alike(
     factor = FACTOR if job.plan.sizes == "free" else KEPT_FACTOR
     sizes = (np.log(radii) / np.log(factor))[:, None]
     points = np.column_stack([poses.x, poses.y])
-    free: BoolArray = np.array([not one.voices for one in job.asked], dtype=bool)
+    put = [one.is_put for one in job.asked]
+    free: BoolArray = np.logical_not(np.array(put, dtype=bool))
     vectors = job.vectors.of(job.items)
     drawn, along = _anchored(job.vectors, vectors, points)
     at = assigned(vectors, points, rng, own=sizes, there=sizes, drawn=drawn, along=along, free=free)
+    at = _names_in_the_middle(job, points, at)
     return replace(poses, x=poses.x[at], y=poses.y[at])
 
 
@@ -64,7 +70,22 @@ def homes_alike(job: Job, region: Container, rng: np.random.Generator) -> Homes 
     vectors = job.vectors.of(job.items)
     drawn, along = _anchored(job.vectors, vectors, points)
     at = assigned(vectors, points, rng, drawn=drawn, along=along)
-    return Homes(points[at], HOMEWARD)
+    at = _names_in_the_middle(job, points, at)
+    is_central = np.array([one.is_central for one in job.asked], dtype=bool)
+    return Homes(points[at], np.where(is_central, CENTRAL, HOMEWARD), is_central)
+
+
+def _names_in_the_middle(job: Job, points: FloatArray, at: IntArray) -> IntArray:
+    """Places after names of groups have changed theirs with the most central of their groups."""
+    at, groups = at.copy(), None if job.vectors is None else job.vectors.groups_of(job.items)
+    for k, one in enumerate(job.asked):
+        if one.is_central and groups is not None:
+            own = np.array([j for j, group in enumerate(groups) if group == groups[k]])
+            own = own[[not job.asked[j].is_put for j in own]]
+            away = points[at[own]] - points[at[own]].mean(axis=0)
+            other = own[np.argmin(np.hypot(*away.T))]
+            at[k], at[other] = at[other], at[k]
+    return at
 
 
 def _anchored(

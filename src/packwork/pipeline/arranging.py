@@ -138,7 +138,7 @@ def homes_in_order(job: Job, region: Container, rng: np.random.Generator) -> Hom
     away = _away(job, asked, points, np.ones(len(points)), job.weights, everything)
     homes = np.empty_like(points)
     homes[linear_sum_assignment(away)[1]] = points
-    return Homes(homes, HOMEWARD)
+    return Homes.of(homes, HOMEWARD)
 
 
 def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> IntArray:

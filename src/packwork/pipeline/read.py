@@ -16,6 +16,7 @@ from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
 from packwork.pipeline.plan.vectors import ItemVectors, read_item_vectors
+from packwork.pipeline.region_labels import labelled
 from packwork.pipeline.registration import registered
 from packwork.pipeline.use import Use
 from packwork.readers.container import read_container
@@ -152,6 +153,7 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         skipped=(*material.skipped, *fillers.skipped, *told),
         clock=clock,
     )
+    job = labelled(job)
     job.check_forces()
     check_arranged(job)
     if job.vectors is not None and recipe.arrange is not None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.geometry.polygon import Region
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
@@ -14,7 +15,7 @@ from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
 from packwork.readers.saliency.container import QuietOptions, container_around
 from packwork.readers.slits import closed_slits
-from packwork.readers.svg.container import container_of_svg
+from packwork.readers.svg.container import container_of_svg, parts_of_svg
 from packwork.readers.text import PREFIX
 from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import naming
@@ -89,6 +90,22 @@ def read_container(
         return container
     with naming(container.source):
         return closed_slits(container, reading.close_gaps)
+
+
+def read_parts(container: Container) -> list[tuple[str, Region]]:
+    """Names and regions, canvas units, of the parts of a container that was read from an SVG.
+
+    None of any other.
+
+    Raises
+    ------
+    ReadError
+        If the file is no longer what it was.
+    """
+    path = Path(container.source)
+    if path.suffix.lower() not in {".svg", ".svgz"} or not exists(path):
+        return []
+    return parts_of_svg(read_bytes(path, MAX_BYTES), container)
 
 
 def _sheet(name: str, size: CanvasSize | None) -> Container:

@@ -43,12 +43,15 @@ class Vectors:
         ``(n, d)``, finite.
     columns
         What their numbers are called, where the file says so.
+    groups
+        Of what group each row is, where a column of texts says so.
     """
 
     file: str
     names: tuple[str, ...] | None
     rows: FloatArray
     columns: tuple[str, ...] = ()
+    groups: tuple[str, ...] | None = None
 
     def called(self, name: str) -> FloatArray:
         """``(d,)`` vector of a row by its name, or else the axis of a column.
@@ -79,7 +82,8 @@ class Vectors:
 def read_vectors(file: str, asked: TableFormat | None = None) -> Vectors:
     r"""Vectors of a file: an array of NumPy, or a table whose columns are their numbers.
 
-    A table's first column may hold names. A first line of numbers alone is a row too.
+    A table's first column may hold names, and one more texts: of what group each is. A first line
+    of numbers alone is a row too.
 
     Raises
     ------
@@ -109,7 +113,7 @@ def read_vectors(file: str, asked: TableFormat | None = None) -> Vectors:
 def _read(file: str, asked: TableFormat | None) -> Vectors:
     known = shelved(file)
     if isinstance(known, GivenVectors):
-        return Vectors(file, known.names, known.rows, known.columns)
+        return Vectors(file, known.names, known.rows, known.columns, known.groups)
     if Path(file).suffix.lower() == ARRAY:
         return _of_array(file)
     return _of_table(read_table(file, asked), asked)
@@ -154,6 +158,11 @@ def _of_table(table: Table, asked: TableFormat | None) -> Vectors:
     first, rows = table.columns[0], _with_first_line(table)
     has_names = any(_number(row.get(first)) is None for row in rows) and _is_text(rows, first)
     columns = table.columns[1:] if has_names else table.columns
+    kinds = [column for column in columns if has_names and _is_all_text(rows, column)]
+    if len(kinds) > 1:
+        told = enumerated([repr(kind) for kind in kinds])
+        raise ReadError(table.name, f"has columns of texts, {told}; leave one, which names groups")
+    columns = tuple(column for column in columns if column not in kinds)
     if not columns:
         raise ReadError(table.name, "has names alone; give columns of numbers beside them")
     decimal = asked.decimal if asked is not None else None
@@ -163,7 +172,10 @@ def _of_table(table: Table, asked: TableFormat | None) -> Vectors:
         twice = next(name for name in names if names.count(name) > 1)
         raise ReadError(table.name, f"has {twice[:40]!r} twice; give each name one row")
     called = tuple(columns) if len(rows) == len(table.rows) else ()
-    return Vectors(table.name, names, np.array(cells).T, called)
+    groups = (
+        tuple(" ".join(str(row.get(kinds[0]) or "").split()) for row in rows) if kinds else None
+    )
+    return Vectors(table.name, names, np.array(cells).T, called, groups)
 
 
 def _with_first_line(table: Table) -> Sequence[Row]:
@@ -178,6 +190,15 @@ def _is_text(rows: Sequence[Row], column: str) -> bool:
     """Whether no cell is a number as any language writes it, so that they are names."""
     cells = [row.get(column) for row in rows]
     return any(isinstance(cell, str) and any(map(str.isalpha, cell)) for cell in cells)
+
+
+def _is_all_text(rows: Sequence[Row], column: str) -> bool:
+    """Whether no cell could be a number; some may be empty."""
+    cells = [cell for row in rows if (cell := row.get(column)) not in (None, "")]
+    return bool(cells) and all(
+        isinstance(cell, str) and any(map(str.isalpha, cell)) and _number(cell) is None
+        for cell in cells
+    )
 
 
 def _column(table: Table, rows: Sequence[Row], column: str, decimal: str | None) -> list[float]:
@@ -216,6 +237,23 @@ def in_order(vectors: Vectors, names: Sequence[Sequence[str]]) -> tuple[FloatArr
     >>> in_order(vectors, [["bear", "bear.svg"], ["owl", "owl.svg"]])[1].tolist()
     [True, False]
     """
+    found = _places(vectors, names)
+    known = np.array([k is not None for k in found])
+    rows = np.zeros((len(names), vectors.rows.shape[1]))
+    rows[known] = vectors.rows[[k for k in found if k is not None]]
+    return rows, known
+
+
+def groups_in_order(vectors: Vectors, names: Sequence[Sequence[str]]) -> tuple[str, ...]:
+    """Groups of things that go by several names each; empty for what is of none."""
+    if vectors.groups is None:
+        return ("",) * len(names)
+    groups = vectors.groups
+    return tuple("" if k is None else groups[k] for k in _places(vectors, names))
+
+
+def _places(vectors: Vectors, names: Sequence[Sequence[str]]) -> Sequence[int | None]:
+    """Which row is that of each thing; None for none."""
     if vectors.names is None:
         if len(vectors.rows) != len(names):
             raise ReadError(
@@ -223,7 +261,7 @@ def in_order(vectors: Vectors, names: Sequence[Sequence[str]]) -> tuple[FloatArr
                 f"has {len(vectors.rows):,} rows, and there are {len(names):,} items; give a row "
                 "for each, in their order, or a first column of names",
             )
-        return vectors.rows, np.ones(len(names), dtype=bool)
+        return range(len(names))
     exact = {name: k for k, name in enumerate(vectors.names)}
     alike = {name.casefold(): k for k, name in reversed(list(enumerate(vectors.names)))}
 
@@ -235,10 +273,7 @@ def in_order(vectors: Vectors, names: Sequence[Sequence[str]]) -> tuple[FloatArr
         return None
 
     found = [row_of(own) for own in names]
-    known = np.array([k is not None for k in found])
-    if not known.any():
+    if all(k is None for k in found):
         there, asked = ", ".join(vectors.names[:6]), ", ".join(own[0] for own in names[:6])
         raise ReadError(vectors.file, f"names none of the items ({asked} ...), but {there} ...")
-    rows = np.zeros((len(names), vectors.rows.shape[1]))
-    rows[known] = vectors.rows[[k for k in found if k is not None]]
-    return rows, known
+    return found

@@ -83,6 +83,11 @@ class Meant(Options):
     """With --embeddings: where things lie that are like a row, a column or a word, as left=warm;
     also right, up, down, 45deg, middle. May be given several times."""
 
+    label_regions: Annotated[bool, Offer(after="anchors")] = False
+    """Write names among the items, on small plates that are placed as items are: of groups, where
+    the table of --embeddings has a column of texts beside the names; else of the parts of an SVG
+    as the container that have titles or ids."""
+
     @field_validator("anchors", mode="before")
     @classmethod
     def _one_anchor_is_enough(cls, value: object) -> object:

@@ -118,11 +118,14 @@ def _palettes(job: Job) -> list[tuple[str, ...]]:
 
 
 def _by_cluster(job: Job, palettes: list[tuple[str, ...]]) -> list[tuple[str, ...]]:
-    """One colour of each palette for items of one cluster, where it is known which are alike."""
+    """One colour of each palette for items of one group or cluster, where that is known."""
     most = max(map(len, palettes), default=0)
     if job.vectors is None or most < 2:
         return palettes
-    numbers = clusters(job.vectors.of(job.items), most, np.random.default_rng(job.plan.seed))
+    if job.vectors.groups:
+        numbers = np.unique(job.vectors.groups_of(job.items), return_inverse=True)[1]
+    else:
+        numbers = clusters(job.vectors.of(job.items), most, np.random.default_rng(job.plan.seed))
     pairs = zip(palettes, numbers.tolist(), strict=True)
     return [(palette[k % len(palette)],) if palette else () for palette, k in pairs]
 

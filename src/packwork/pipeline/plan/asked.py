@@ -53,12 +53,15 @@ class Asked:
         Which option asked, by the same keys, those of the pin with ``pin.`` before them.
     is_read
         Whether the copy is a word.
+    is_central
+        Whether it names those about it, and has to lie among them.
     """
 
     values: Mapping[str, Any] = field(default_factory=dict)
     pin: Mapping[str, Any] = field(default_factory=dict)
     voices: Mapping[str, Voice] = field(default_factory=dict)
     is_read: bool = False
+    is_central: bool = False
 
     def heard(self, rule: Rule, voice: Voice) -> Asked:
         """The same after one more rule.
@@ -96,6 +99,11 @@ class Asked:
     def is_placed(self) -> bool:
         """Whether the copy has to lie at one point."""
         return "x" in self.pin and "y" in self.pin
+
+    @property
+    def is_put(self) -> bool:
+        """Whether a rule says where the copy lies, be it roughly."""
+        return "x" in self.pin or "y" in self.pin or "region" in self.values
 
     @property
     def rotation(self) -> Rotation | None:

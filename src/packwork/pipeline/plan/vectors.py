@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeAlias
 
@@ -12,10 +13,12 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
-from packwork.readers.vectors import in_order, read_vectors
+from packwork.readers.vectors import groups_in_order, in_order, read_vectors
 from packwork.recipe import Recipe
 from packwork.recipe.meaning import parse_anchor
 from packwork.scene.item import Item
+
+_LOG = logging.getLogger("packwork")
 
 Key: TypeAlias = tuple[str, str]
 """Name and source of an item."""
@@ -38,11 +41,14 @@ class ItemVectors:
         What has to be told of items that have none.
     anchors
         Of what is drawn in some direction or to the middle.
+    groups
+        Names of groups by name and source, where the file says so; nothing of what is of none.
     """
 
     by_item: Mapping[Key, FloatArray]
     told: tuple[ReadError, ...] = ()
     anchors: tuple[AnchorVector, ...] = ()
+    groups: Mapping[Key, str] = field(default_factory=dict)
 
     @classmethod
     def of_rows(
@@ -64,6 +70,19 @@ class ItemVectors:
         nothing = np.zeros(width)
         return np.array([self.by_item.get(_key(item), nothing) for item in items])
 
+    def groups_of(self, items: Sequence[Item]) -> list[str]:
+        """Names of the groups of items; empty for what is of none."""
+        return [self.groups.get(_key(item), "") for item in items]
+
+    def joined_by(self, items: Sequence[Item], rows: FloatArray) -> ItemVectors:
+        """The same with rows of some more items, each the one of its name in its group."""
+        pairs = zip(items, rows, strict=True)
+        return replace(
+            self,
+            by_item={**self.by_item, **{_key(item): row for item, row in pairs}},
+            groups={**self.groups, **{_key(item): item.name for item in items}},
+        )
+
 
 def read_item_vectors(recipe: Recipe, file: str, items: Sequence[Item]) -> ItemVectors:
     """Vectors of a file for the items of a run, by their names or in their order.
@@ -82,9 +101,12 @@ def read_item_vectors(recipe: Recipe, file: str, items: Sequence[Item]) -> ItemV
     if without:
         many = number_of(len(without), "item has", "items have")
         told = (ReadError(file, f"{many} no row ({enumerated(without)}) and may lie anywhere"),)
+        _LOG.warning("%s", told[0])
     asked = map(parse_anchor, recipe.anchors)
     anchors = tuple((one.angle, vectors.called(one.name)) for one in asked)
-    return ItemVectors.of_rows(things, rows, known, told, anchors)
+    found = ItemVectors.of_rows(things, rows, known, told, anchors)
+    pairs = zip(things, groups_in_order(vectors, names), strict=True)
+    return replace(found, groups={_key(item): group for item, group in pairs if group})
 
 
 def _key(item: Item) -> Key:

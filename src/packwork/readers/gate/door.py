@@ -46,6 +46,24 @@ def admit(data: bytes) -> ET.Element:
     >>> root[0].attrib
     {'d': 'M0 0h9v9z', 'fill': 'red'}
     """
+    data = unpacked(data)
+    with one_budget():
+        return _admitted(data)
+
+
+def unpacked(data: bytes) -> bytes:
+    """The same bytes, unpacked if they are compressed.
+
+    Raises
+    ------
+    UnfitError
+        If there are none, or too many.
+
+    Examples
+    --------
+    >>> unpacked(b"<svg/>")
+    b'<svg/>'
+    """
     if not data.strip():
         raise UnfitError("is empty; give a drawing with at least one shape")
     if data.startswith(_GZIP):
@@ -54,8 +72,7 @@ def admit(data: bytes) -> ET.Element:
         raise UnfitError(
             f"has {len(data) // 1_000_000} MB; {MAX_BYTES // 1_000_000} MB are the most for an SVG"
         )
-    with one_budget():
-        return _admitted(data)
+    return data
 
 
 def _admitted(data: bytes) -> ET.Element:

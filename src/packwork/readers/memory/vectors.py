@@ -24,15 +24,20 @@ class GivenVectors:
         ``(n, d)``.
     columns
         What their numbers are called, where that is said.
+    groups
+        Of what group each row is, where a column of texts says so.
     """
 
     names: tuple[str, ...] | None
     rows: FloatArray
     columns: tuple[str, ...] = ()
+    groups: tuple[str, ...] | None = None
 
 
 def vectors_of(value: Any) -> GivenVectors:
     """Vectors of an array, a row an item; or by name, of a dict or a data frame's index.
+
+    A column of texts in a data frame says of what group each is.
 
     Raises
     ------
@@ -48,12 +53,17 @@ def vectors_of(value: Any) -> GivenVectors:
     """
     names: tuple[str, ...] | None = None
     columns: tuple[str, ...] = ()
+    groups: tuple[str, ...] | None = None
     if isinstance(value, Mapping):
         names, value = tuple(map(str, value)), list(value.values())
     elif hasattr(value, "columns") and hasattr(value, "index"):
         # An index of numbers only counts the rows.
         has_numbers = getattr(getattr(value.index, "dtype", None), "kind", "O") in "iuf"
         names = None if has_numbers else tuple(map(str, value.index))
+        texts = [k for k in value.columns if _is_text(value[k])]
+        if len(texts) == 1:
+            groups = tuple("" if cell is None else str(cell) for cell in value[texts[0]])
+            value = value[[k for k in value.columns if k not in texts]]
         columns = tuple(map(str, value.columns))
         value = value.to_numpy()
     try:
@@ -64,4 +74,12 @@ def vectors_of(value: Any) -> GivenVectors:
         ) from None
     if rows.ndim != 2 or min(rows.shape) < 1:
         raise UnfitError(f"has the shape {rows.shape}; give one row of numbers an item")
-    return GivenVectors(names, rows, columns)
+    return GivenVectors(names, rows, columns, groups)
+
+
+def _is_text(column: Any) -> bool:
+    """Whether a column of a data frame holds texts, and none that is a number."""
+    cells = [cell for cell in column if cell is not None and cell == cell]
+    return bool(cells) and all(
+        isinstance(cell, str) and any(map(str.isalpha, cell)) for cell in cells
+    )

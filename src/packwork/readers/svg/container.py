@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import contextlib
 import xml.etree.ElementTree as ET
 from dataclasses import replace
 
+import numpy as np
 import shapely
 
+from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region, silhouette
+from packwork.readers.gate.named_parts import named_parts
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
@@ -19,7 +23,7 @@ from packwork.readers.svg.region.sheet import LEAST_WHITE, WHOLE_PAGE
 from packwork.readers.svg.render.trace import TRACE_PX, page_picture
 from packwork.readers.svg.whites import has_whites, without_whites
 from packwork.readers.trimming import canvas_box
-from packwork.readers.unfit import naming, notice
+from packwork.readers.unfit import UnfitError, naming, notice
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
@@ -85,6 +89,36 @@ def container_of_svg(
             side = convert(max(canvas[2:]), "px", unit)
         placed = placed_container(name, source, region, canvas, side or DEFAULT_SIDE)
         return placed if unit is None else replace(placed, unit=unit)
+
+
+def parts_of_svg(data: bytes, container: Container) -> list[tuple[str, Region]]:
+    """Names and regions, canvas units, of the parts of the SVG that a container was read from.
+
+    Parts that paint nothing are left out.
+
+    Raises
+    ------
+    ReadError
+        If it is no SVG or passes a limit.
+    """
+    with naming(container.source):
+        found = []
+        for name, document in named_parts(data):
+            with contextlib.suppress(UnfitError):
+                found.append((name, _inside(read_drawing(document).ink)))
+        if not found:
+            return []
+        bounds = np.reshape(_inside(read_drawing(data).ink).bounds, (2, 2))
+    low, scale = bounds[0], container.outline.extent / np.ptp(bounds, axis=0).max()
+    corner = np.array(container.outline.bounds[:2])
+    inside = container.outline.region
+
+    def placed(region: Region) -> Region:
+        moved = shapely.transform(region, lambda points: (points - low) * scale + corner)
+        return intersection(moved, inside)
+
+    parts = [(name, placed(region)) for name, region in found]
+    return [(name, region) for name, region in parts if region.area > 0]
 
 
 def stated_unit(root: ET.Element) -> Unit | None:

@@ -94,6 +94,9 @@ MOST_STRIDE = 1.12
 URGENCY = 2.0
 """Factor on the area by which items are ordered, for one that found no place. Chosen."""
 
+FIRST = 1e6
+"""The same of what is put before all others. Derived: no two items differ as much in area."""
+
 LOOSE = (0.2, 0.1, 0.05, 0.02)
 """Shares of the items, the smallest, that are put where there is most room: the first with which
 all still find a place. Beginning with 0.4 or 0.6 gives the same. Tried."""
@@ -214,6 +217,8 @@ class _Fitting:
         self._margin_cu, self._slack = margin_cu, slack
         self._areas = np.array([outline.area for outline in outlines]) * scales**2
         self._urgency, self._kinds = self._areas, kinds
+        if homes is not None:
+            self._urgency = self._areas * np.where(homes.is_first, FIRST, 1.0)
         self._penalty: KindPenalty | None = None
         limits = limits if limits.binds else Limits.free(count)
         self._is_sized = limits.held[:, 3]
@@ -222,7 +227,7 @@ class _Fitting:
         self._fields = fields
         self._heights = _heights(fields, image.shape, self._px_per_cu)
         self._near = None if homes is None else homes.points * self._px_per_cu
-        self._pull = 0.0 if homes is None else homes.pull
+        self._pull = np.zeros(count) if homes is None else homes.pull
         self._homes = allowed_pixels(limits, image, self._px_per_cu)
 
     def largest(self, factor: float, attempts: int, stop: Stop) -> tuple[float, Poses] | None:
@@ -352,7 +357,7 @@ class _Fitting:
             if force.strengths[item]:
                 worth = worth - PULL * force.strengths[item] * height
         if self._near is not None:
-            worth = worth - self._pull * self._away(self._near[item], worth.shape)
+            worth = worth - self._pull[item] * self._away(self._near[item], worth.shape)
         home = self._homes[item]
         if home is None:
             return worth

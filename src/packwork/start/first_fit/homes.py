@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from packwork.arrays import FloatArray
+import numpy as np
+
+from packwork.arrays import BoolArray, FloatArray
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,8 +18,16 @@ class Homes:
     points
         ``(n, 2)``, canvas units.
     pull
-        Score that an item gives for lying the canvas' side nearer to its own.
+        ``(n,)`` score that an item gives for lying the canvas' side nearer to its own.
+    is_first
+        ``(n,)`` whether it is put before all that are not, however small it is.
     """
 
     points: FloatArray
-    pull: float
+    pull: FloatArray
+    is_first: BoolArray
+
+    @classmethod
+    def of(cls, points: FloatArray, pull: float) -> Homes:
+        """Points that all items are drawn to alike."""
+        return cls(points, np.full(len(points), pull), np.zeros(len(points), dtype=bool))
