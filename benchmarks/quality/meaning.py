@@ -8,6 +8,7 @@ order; what is covered and how long it takes, beside the same run without.
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 import tempfile
@@ -27,14 +28,17 @@ from skimage.metrics import structural_similarity
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table
 from packwork import pipeline, uses, writers
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.raster.coverage import coverage
 from packwork.readers.pictures.target import read_target
 from packwork.recipe import Recipe, make_recipe
+from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.layout import Layout
 from packwork.scene.light import channels_of, light_of
 from packwork.scene.recolour import recoloured
+from packwork.scene.swatch import patch_of
 from packwork.scene.target import blurred
+from packwork.start.colour_exchange.exchange import GRID, exchanged_by_colour
 
 ITEMS = 400
 SIZE_RATIO = 1.5
@@ -44,11 +48,14 @@ POOL = 4
 TINT = 0.3
 """Of photographs that are tinted."""
 
+CELL = 2
+"""Pixels of a part of a photograph on a grid of squares."""
+
 AFAR = 1.0
 """Side of the squares over which is blurred, thrice, over that of an item's share of the canvas."""
 
-HEADER = ["picture", "shown by", "distance", "in any order", "ratio", "similarity", "covered",
-          "without", "seconds over those without"]  # fmt: skip
+HEADER = ["picture", "shown by", "distance", "in any order", "ratio", "of squares", "similarity",
+          "covered", "without", "seconds over those without"]  # fmt: skip
 
 PAGE = """# Layouts that mean something
 
@@ -58,7 +65,9 @@ Made by `packwork bench meaning` on {date}.
 {items} items in a square, `--size-ratio {ratio}`. "distance": mean CIEDE2000 of the layout's light,
 blurred by squares of an item's share of the canvas thrice over, from the picture blurred likewise;
 "in any order" the same with the same colours given to icons by chance, or the same photos placed
-without the picture, on the same ground. "similarity": structural similarity of their lightnesses.
+without the picture, on the same ground. "Of squares": the ratio of the same photos as squares of
+one size that fill a grid without gaps, assigned to it and exchanged: about what they have to give.
+"Similarity": structural similarity of their lightnesses.
 Covered is exact; seconds are of the whole run but writing, on a machine that others use too.
 Portrait and gradient are drawn by formula, logo and rocket are sample images of scikit-image
 {skimage}; photographs are square pieces of other such images, drawn by chance.
@@ -167,6 +176,49 @@ def compared(layout: Layout, file: Path, ground: str) -> tuple[float, float]:
     return away, float(structural_similarity(first[..., 0], second[..., 0], data_range=100.0))
 
 
+def of_squares(layout: Layout, file: Path) -> float:
+    """Ratio of the photos of a layout on a grid of squares, none of which has a form to heed."""
+    from scipy.optimize import linear_sum_assignment
+
+    many = math.isqrt(len(layout.items))
+    items = layout.items[: many**2]
+    px, target = GRID * CELL, read_target(file, layout.container)
+    wanted = np.stack([
+        np.asarray(Image.fromarray(target.light[..., k].astype(np.float32)).resize(
+            (many * px, many * px), Image.Resampling.BOX)) for k in range(3)
+    ], axis=2).astype(np.float64)  # fmt: skip
+    patches = np.array([patch_of(item, GRID) for item in items])
+
+    def shown(order: IntArray) -> FloatArray:
+        parts = patches[order].reshape(many, many, GRID, GRID, 3).transpose(0, 2, 1, 3, 4)
+        fine = parts.reshape(many * GRID, many * GRID, 3)
+        return np.repeat(np.repeat(fine, CELL, axis=0), CELL, axis=1)
+
+    def away(order: IntArray) -> float:
+        first, second = (
+            rgb2lab(channels_of(np.clip(afar(one, many**2), 0, 1)))
+            for one in (wanted, shown(order))
+        )
+        return float(deltaE_ciede2000(first, second).mean())
+
+    def at_cells(light: FloatArray) -> FloatArray:
+        return light.reshape(many, px, many, px, 3).mean(axis=(1, 3)).reshape(-1, 3)
+
+    own, asked = oklabs_of_light(patches.mean(axis=1)), oklabs_of_light(at_cells(wanted))
+    order = linear_sum_assignment(((own[None] - asked[:, None]) ** 2).sum(axis=2))[1]
+    steps = np.arange(many) + 0.5
+    x, y = (one.ravel() for one in np.meshgrid(steps, steps))
+    rng = np.random.default_rng(0)
+    blurs = 3
+    order = exchanged_by_colour(
+        order, np.column_stack([x, y, np.zeros(many**2)]), np.ones((many**2, 2)), patches,
+        at_cells(afar(wanted, many**2)), np.zeros((many**2, many**2)),
+        AFAR * math.sqrt(blurs / 12), rng,
+    )  # fmt: skip
+    chance = np.mean([away(rng.permutation(many**2)) for _ in range(5)])
+    return away(order) / float(chance)
+
+
 def row(name: str, file: Path, how: str, recipe: Recipe) -> list[str]:
     plain = uses.fill(recipe.model_copy(update={"tint": None}))
     run = uses.fill(recipe.model_copy(update={"picture": str(file)}))
@@ -177,7 +229,8 @@ def row(name: str, file: Path, how: str, recipe: Recipe) -> list[str]:
     seconds = [sum(one.seconds.values()) for one in (run, plain)]
     covered = [one.metrics.exact.coverage for one in (run, plain)]
     assert run.certified
-    return [name, how, f"{distance:.1f}", f"{chance:.1f}", f"{distance / chance:.2f}",
+    squares = "" if how == "icons" or "tint" in how else f"{of_squares(layout, file):.2f}"
+    return [name, how, f"{distance:.1f}", f"{chance:.1f}", f"{distance / chance:.2f}", squares,
             f"{similarity:.2f}", *(f"{one:.3f}" for one in covered),
             f"{seconds[0] / seconds[1]:.2f}"]  # fmt: skip
 

@@ -11,14 +11,14 @@ from packwork.scene.colour import css_colour
 from packwork.scene.light import channels_of, light_of
 
 # Ottosson 2020, "A perceptual color space for image processing" (Oklab).
-_TO_CONES = np.array(
+CONES_OF_LIGHT = np.array(
     [
         [0.4122214708, 0.5363325363, 0.0514459929],
         [0.2119034982, 0.6806995451, 0.1073969566],
         [0.0883024619, 0.2817188376, 0.6299787005],
     ]
 )
-_TO_LAB = np.array(
+LAB_OF_CONES = np.array(
     [
         [0.2104542553, 0.7936177850, -0.0040720468],
         [1.9779984951, -2.4285922050, 0.4505937099],
@@ -70,7 +70,7 @@ def readable_over(colour: str, darkest: float, brightest: float, least: float) -
     >>> contrast_over(readable_over("#004488", 0.0, 0.1, 4.5), 0.0, 0.1) >= 4.5
     True
     """
-    lab = _TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour))
+    lab = LAB_OF_CONES @ np.cbrt(CONES_OF_LIGHT @ _linear(colour))
     lights = np.concatenate([lab[:1], np.linspace(0.0, 1.0, _LIGHTS)])
     nearest_first = lights[np.argsort(np.abs(lights - lab[0]), kind="stable")]
     shades = (colour if light == lab[0] else _hex(_at(lab, light)) for light in nearest_first)
@@ -108,7 +108,7 @@ def readable(colour: str, background: str, least: float) -> str:
     """
     if contrast(colour, background) >= least:
         return colour
-    lab = _TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour))
+    lab = LAB_OF_CONES @ np.cbrt(CONES_OF_LIGHT @ _linear(colour))
     end = max((0.0, 1.0), key=lambda light: contrast(_hex(_at(lab, light)), background))
     near, far = float(lab[0]), end
     for _ in range(_STEPS):
@@ -145,7 +145,7 @@ def oklab(colour: str) -> FloatArray:
     >>> abs(oklab("white")).round(3).tolist()
     [1.0, 0.0, 0.0]
     """
-    return np.asarray(_TO_LAB @ np.cbrt(_TO_CONES @ _linear(colour)))
+    return np.asarray(LAB_OF_CONES @ np.cbrt(CONES_OF_LIGHT @ _linear(colour)))
 
 
 def oklabs(rgb: FloatArray) -> FloatArray:
@@ -161,7 +161,7 @@ def oklabs(rgb: FloatArray) -> FloatArray:
 
 def oklabs_of_light(light: FloatArray) -> FloatArray:
     """The same of light, ``(n, 3)``, 0..1."""
-    return np.asarray(np.cbrt(light @ _TO_CONES.T) @ _TO_LAB.T)
+    return np.asarray(np.cbrt(light @ CONES_OF_LIGHT.T) @ LAB_OF_CONES.T)
 
 
 def shade(colour: str, light: float) -> FloatArray:
@@ -190,7 +190,7 @@ def _luminance(linear: FloatArray) -> float:
 
 
 def _rgb(lab: FloatArray) -> FloatArray:
-    return np.asarray(np.linalg.solve(_TO_CONES, np.linalg.solve(_TO_LAB, lab) ** 3))
+    return np.asarray(np.linalg.solve(CONES_OF_LIGHT, np.linalg.solve(LAB_OF_CONES, lab) ** 3))
 
 
 def _at(lab: FloatArray, light: float) -> FloatArray:

@@ -96,19 +96,54 @@ def mean_lights(items: Sequence[Item]) -> FloatArray:
     return np.array([known[id(item.art)] for item in items])
 
 
+def patch_of(item: Item, grid: int) -> FloatArray:
+    """``(grid * grid, 3)`` light of the parts of an item's box, row by row.
+
+    The mean of all where nothing shows in a part, or the item is dear to render.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> ink = Outline.box(-1, -1, 1, 1)
+    >>> patch_of(Item("tile", "", ink, ink, FlatArt("black")), 2).tolist()[3]
+    [0.0, 0.0, 0.0]
+    """
+    pixels = _shown_pixels(item)
+    if pixels is None:
+        return np.tile(mean_light(item), (grid * grid, 1))
+    light, solid = light_of(pixels[..., :3] / 255), pixels[..., 3]
+    mean = np.average(light.reshape(-1, 3), axis=0, weights=solid.ravel())
+    cuts = [np.linspace(0, side, grid + 1).round().astype(int) for side in solid.shape]
+    found = np.tile(mean, (grid * grid, 1))
+    for row in range(grid):
+        for column in range(grid):
+            part = (slice(*cuts[0][row : row + 2]), slice(*cuts[1][column : column + 2]))
+            if (weights := solid[part]).sum() > 0:
+                colours = light[part].reshape(-1, 3)
+                found[row * grid + column] = np.average(colours, axis=0, weights=weights.ravel())
+    return found
+
+
 def shown_light(item: Item) -> ShownLight | None:
     """Light ``(n, 3)`` of the pixels of a small copy, and how solid each is ``(n,)``.
 
     None where nothing shows, or it is dear to render.
     """
+    image = _shown_pixels(item)
+    if image is None:
+        return None
+    pixels = image.reshape(-1, 4)
+    return light_of(pixels[:, :3] / 255), pixels[:, 3]
+
+
+def _shown_pixels(item: Item) -> FloatArray | None:
+    """``(rows, columns, 4)`` channels, 0..255, of a small copy of what shows; None as above."""
     png = _photo(item.art) if isinstance(item.art, PhotoArt) else None
     if png is None:
         art = item.art.preview if isinstance(item.art, PhotoArt) else item.art
         png = small_png(replace(item, art=art))
-    pixels = None if png is None else _small_pixels(png)
-    if pixels is None or pixels[:, 3].sum() == 0:
-        return None
-    return light_of(pixels[:, :3] / 255), pixels[:, 3]
+    image = None if png is None else _small_pixels(png)
+    return None if image is None or image[..., 3].sum() == 0 else image
 
 
 def small_png(item: Item) -> bytes | None:
@@ -158,20 +193,21 @@ def _most_named(markup: str) -> str:
 
 
 def _small_pixels(png: bytes) -> FloatArray | None:
-    """``(n, 4)`` channels, 0..255, of a small copy of a picture; None of what is broken."""
+    """``(rows, columns, 4)`` channels, 0..255, of a small copy; None of what is broken."""
     try:
         with Image.open(io.BytesIO(png)) as picture:
             picture.thumbnail((_SAMPLE_PX, _SAMPLE_PX), reducing_gap=1.0)
             small = picture.convert("RGBA")
     except (OSError, ValueError, UnidentifiedImageError, Image.DecompressionBombError):
         return None
-    return np.asarray(small, dtype=np.float64).reshape(-1, 4)
+    return np.asarray(small, dtype=np.float64)
 
 
 def _mean_shown(png: bytes) -> str | None:
-    pixels = _small_pixels(png)
-    if pixels is None:
+    image = _small_pixels(png)
+    if image is None:
         return None
+    pixels = image.reshape(-1, 4)
     colours, weights = pixels[:, :3], pixels[:, 3]
     if weights.sum() == 0:
         return None

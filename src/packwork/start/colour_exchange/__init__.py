@@ -1,0 +1,1 @@
+"""Items exchanged until what is seen from afar is nearest to a picture."""
