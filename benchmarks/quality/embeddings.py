@@ -51,8 +51,8 @@ Made by `packwork bench embeddings` on {date}.
 Vectors of 20 numbers about five centres, drawn by chance; icons of free sizes, all different to the
 program. "Of its cluster": share of the {nearest} nearest icons, by their centres, that are of an
 icon's own cluster. "Of discs": the same of as many even points in the container, assigned without
-regard to any form: half of a hundred items lie at the border of a cluster, so that no layout of
-even gaps has much more. Covered is exact.
+regard to any form; that icons have more is since unlike neighbours are drawn apart before the gaps
+are made even. Covered is exact.
 
 {icons}
 

@@ -2,7 +2,8 @@
 
 A neighbour embedding whose repulsion is that two items cannot lie in one place
 (:mod:`packwork.start.neighbour_embedding`). Items take each other's places before the levels, which
-then make room for their forms but lift none into a void elsewhere, as the finish exchanges none.
+then make room for their forms, draw like neighbours closer and unlike ones apart, and lift none
+into a void elsewhere, as the finish exchanges none.
 What is put one by one gets a point near which it had better lie.
 """
 
@@ -14,6 +15,8 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.forces.forces import BondForce, Forces
+from packwork.forces.ties import Ties
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
 from packwork.pipeline.places import even_points
@@ -23,12 +26,24 @@ from packwork.scene.pose import Poses
 from packwork.start.first_fit.homes import Homes
 from packwork.start.first_poses import disc_radii
 from packwork.start.neighbour_embedding.assignment import assigned
-from packwork.start.neighbour_embedding.graph import unit_rows
+from packwork.start.neighbour_embedding.diffusion import likeness
+from packwork.start.neighbour_embedding.graph import NeighbourGraph, unit_rows
 
 FACTOR, KEPT_FACTOR = 1.6, 1.3
 """Factor between the radii of an item and of its new place that costs as much as lying a spacing
 farther from all its neighbours: where sizes are free, and where they are not. Larger brings more
 together and covers less. Tried."""
+
+TIED = 2.5
+"""How strongly neighbours are drawn together or apart in the levels. Larger parts clusters better
+and covers less. Tried."""
+
+UNLIKE = 0.77
+"""Likeness below which neighbours are drawn apart. Larger only drives apart, smaller draws whole
+clusters together: both leave more bare. Tried."""
+
+MOST_TIED = 4_000
+"""Items up to which each two are tied. More take memory by their square. Chosen."""
 
 
 HOMEWARD = 8.0
@@ -54,9 +69,41 @@ def placed_alike(
     free: BoolArray = np.logical_not(np.array(put, dtype=bool))
     vectors = job.vectors.of(job.items)
     drawn, along = _anchored(job.vectors, vectors, points)
-    at = assigned(vectors, points, rng, own=sizes, there=sizes, drawn=drawn, along=along, free=free)
+    at = assigned(
+        vectors, points, rng, own=sizes, there=sizes, drawn=drawn, along=along, free=free,
+        ties=_likeness(job),
+    )  # fmt: skip
     at = _names_in_the_middle(job, points, at)
     return replace(poses, x=poses.x[at], y=poses.y[at])
+
+
+def tied_alike(job: Job, forces: Forces) -> Forces:
+    """The forces, and one that draws like neighbours together in the levels, unlike ones apart."""
+    like = _likeness(job)
+    if like is None:
+        return forces
+    count = len(like)
+    # Where all are about as like each other, none is to be drawn anywhere.
+    ties = (like - max(UNLIKE, float(like.sum()) / (count * (count - 1)))) / UNLIKE
+    known: BoolArray = np.asarray(like.any(axis=1))
+    ties *= known[:, None] & known
+    np.fill_diagonal(ties, 0.0)
+    tied = BondForce(Ties(ties), np.full(count, TIED))
+    return Forces(forces.fields, [*forces.bonds, tied], forces.kinds, forces.side)
+
+
+def _likeness(job: Job) -> FloatArray | None:
+    """``(n, n)`` how alike items are, 0 of each and itself; None where that is not asked."""
+    if job.vectors is None or not 1 < len(job.items) <= MOST_TIED:
+        return None
+    rng = np.random.default_rng(job.plan.seed)
+    vectors = job.vectors.of(job.items)
+    like = likeness(NeighbourGraph.of(vectors, rng))
+    known: BoolArray = np.asarray(vectors.any(axis=1))
+    # What has no vector may lie anywhere.
+    like *= known[:, None] & known
+    np.fill_diagonal(like, 0.0)
+    return like
 
 
 def homes_alike(job: Job, region: Container, rng: np.random.Generator) -> Homes | None:

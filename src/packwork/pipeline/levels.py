@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from packwork.pipeline.alike import tied_alike
 from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.dress.colours import colours_seen
 from packwork.pipeline.film.recorder import Recorder
@@ -38,8 +39,7 @@ def run_levels(begun: Beginning, watch: Watch) -> Placed:
             options = _with_colours(options, begun)
         if begun.goes_on:
             options = calmed(options)
-        if job.plan.stays:
-            forces = with_homes(begun)
+        forces = with_homes(begun) if job.plan.stays else tied_alike(job, forces)
         outcome = solve(
             begun.region, begun.outlines, begun.poses, begun.nominal, options,
             observer, watch.stop, begun.limits, forces,

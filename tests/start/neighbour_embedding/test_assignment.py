@@ -9,6 +9,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.start.neighbour_embedding import _kernels
 from packwork.start.neighbour_embedding.assignment import assigned
 from packwork.start.neighbour_embedding.clusters import clusters
+from packwork.start.neighbour_embedding.diffusion import likeness
 from packwork.start.neighbour_embedding.graph import NeighbourGraph
 
 
@@ -119,3 +120,36 @@ def test_planted_clusters_are_found() -> None:
     found = clusters(vectors, 4, np.random.default_rng(5))
     assert len({(int(a), int(b)) for a, b in zip(kinds, found, strict=True)}) == 4
     assert clusters(np.ones((3, 2)), 2, np.random.default_rng(0)).tolist() == [0, 0, 0]
+
+
+def test_walks_tell_clusters_without_their_number() -> None:
+    kinds, vectors = _planted(80)
+    like = likeness(NeighbourGraph.of(vectors, np.random.default_rng(0)))
+    same = kinds[:, None] == kinds
+    assert like[same].mean() > 0.8
+    assert like[~same].max() < 0.1
+
+
+def test_walks_along_a_ring_fade_with_the_way() -> None:
+    angles = np.linspace(0, 2 * np.pi, 100, endpoint=False)
+    ring = np.column_stack([np.cos(angles), np.sin(angles)])
+    like = likeness(NeighbourGraph.of(ring, np.random.default_rng(0)))
+    assert like[0, 1] > like[0, 5] > like[0, 10]
+    assert like[0, 50] == 0.0
+    assert not likeness(NeighbourGraph.of(np.eye(3), np.random.default_rng(0))).any()
+
+
+def test_neighbours_are_sharpened_and_what_is_held_stays() -> None:
+    _, vectors = _planted(80)
+    points = np.random.default_rng(1).random((80, 2))
+    ties = likeness(NeighbourGraph.of(vectors, np.random.default_rng(0)))
+    squares = ((points[:, None] - points) ** 2).sum(axis=2) * 80
+    free = np.arange(80) > 5
+    unsharp, sharp = (
+        assigned(vectors, points, np.random.default_rng(2), free=free, ties=some)
+        for some in (None, ties)
+    )
+    near = np.exp(-squares / 2)
+    assert (ties * near[sharp][:, sharp]).sum() > (ties * near[unsharp][:, unsharp]).sum()
+    assert sorted(sharp.tolist()) == list(range(80))
+    assert sharp[:6].tolist() == list(range(6))

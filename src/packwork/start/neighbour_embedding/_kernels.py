@@ -53,3 +53,21 @@ def anneal_exchanges(at, starts, partners, weights, points, own, there, pairs, c
             at[first], at[second] = other, here
             gained -= cost
     return gained
+
+
+@kernel
+def anneal_neighbours(at, ties, near, own, there, pairs, chances, heat):
+    """The same where what counts is how near places are, ``(n, n)``, of items tied so strongly."""
+    for k in range(len(pairs)):
+        first, second = pairs[k, 0], pairs[k, 1]
+        if first == second:
+            continue
+        here, other = at[first], at[second]
+        cost = _unlike(first, other, own, there) + _unlike(second, here, own, there)
+        cost -= _unlike(first, here, own, there) + _unlike(second, other, own, there)
+        for item in range(len(at)):
+            if item not in (first, second):
+                more = ties[first, item] - ties[second, item]
+                cost -= more * (near[other, at[item]] - near[here, at[item]])
+        if cost <= 0.0 or chances[k] < math.exp(-cost / heat):
+            at[first], at[second] = other, here
