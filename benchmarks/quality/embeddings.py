@@ -35,10 +35,11 @@ COUNTS, KINDS, NEAREST = (100, 400), 5, 5
 CONTAINERS = ("circle", "heart", "square")
 WORDS, SEEDS = 100, (0, 1, 2)
 SHAPES = ("circle", "heart")
+CONSTITUTION = DOCS.parent / "examples" / "words-meaning" / "constitution.txt"
 
 ICON_HEADER = ["container", "icons", "of its cluster", "without", "of discs", "covered", "without",
                "seconds over those without", "certified"]  # fmt: skip
-WORD_HEADER = ["container", "information shared", "without", "ratio", "ink", "without", "ratio",
+WORD_HEADER = ["text", "container", "information shared", "without", "ratio", "ink", "without", "ratio",
                "certified"]  # fmt: skip
 
 PAGE = """# Like things side by side
@@ -58,8 +59,8 @@ are made even. Covered is exact.
 
 ## Words of a text
 
-The {words} most frequent words of this project's own documents, `--embeddings auto`; means of seeds
-{seeds}. "Information shared": mean positive pointwise mutual information, in bits, of a word
+The {words} most frequent words of this project's own documents, and of the Constitution of the
+United States; `--embeddings auto`, sizes in proportion; means of seeds {seeds}. "Information shared": mean positive pointwise mutual information, in bits, of a word
 with its {nearest} nearest. Ink: share of the container.
 
 {clouds}
@@ -118,13 +119,15 @@ def ink(layout: Layout) -> float:
     return float(drawn / layout.container.outline.area)
 
 
-def word_row(shape: str, file: Path) -> list[str]:
+def word_row(shape: str, name: str, file: Path) -> list[str]:
     text = file.read_text(encoding="utf-8")
 
     def runs(embeddings: str | None) -> list[Run]:
         return [
             uses.fill(
-                uses.words_recipe(shape, str(file), count=WORDS, seed=seed, embeddings=embeddings)
+                uses.words_recipe(
+                    shape, str(file), count=WORDS, seed=seed, sizes="shared", embeddings=embeddings
+                )
             )
             for seed in SEEDS
         ]
@@ -134,7 +137,7 @@ def word_row(shape: str, file: Path) -> list[str]:
             for some in (with_text, plain)]  # fmt: skip
     inks = [float(np.mean([ink(one.layout) for one in some])) for some in (with_text, plain)]
     certified = "yes" if all(one.certified for one in (*with_text, *plain)) else "no"
-    return [shape, *(f"{one:.2f}" for one in bits), f"{bits[0] / bits[1]:.2f}",
+    return [name, shape, *(f"{one:.2f}" for one in bits), f"{bits[0] / bits[1]:.2f}",
             *(f"{one:.3f}" for one in inks), f"{inks[0] / inks[1]:.3f}", certified]  # fmt: skip
 
 
@@ -150,9 +153,10 @@ def main() -> None:
         text = folder / "documents.txt"
         pages = sorted([*DOCS.glob("*.md"), *(DOCS / "decisions").glob("*.md")])
         text.write_text("\n".join(page.read_text(encoding="utf-8") for page in pages), "utf-8")
-        for shape in SHAPES:
-            clouds.append(word_row(shape, text))
-            print("  ".join(clouds[-1]), flush=True)
+        for called, file in (("documents", text), ("constitution", CONSTITUTION)):
+            for shape in SHAPES:
+                clouds.append(word_row(shape, called, file))
+                print("  ".join(clouds[-1]), flush=True)
     write_page(
         "benchmarks-embeddings.md", PAGE, nearest=str(NEAREST), words=str(WORDS),
         seeds=", ".join(map(str, SEEDS)), icons=markdown_table(ICON_HEADER, icons),

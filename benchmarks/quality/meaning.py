@@ -65,9 +65,9 @@ Made by `packwork bench meaning` on {date}.
 {items} items in a square, `--size-ratio {ratio}`. "distance": mean CIEDE2000 of the layout's light,
 blurred by squares of an item's share of the canvas thrice over, from the picture blurred likewise;
 "in any order" the same with the same colours given to icons by chance, or the same photos placed
-without the picture, on the same ground. "Of squares": the ratio of the same photos as squares of
-one size that fill a grid without gaps, assigned to it and exchanged: about what they have to give.
-"Similarity": structural similarity of their lightnesses.
+without the picture (of more than there are places the first), on the same ground. "Of squares": the
+ratio of the same photos as squares of one size that fill a grid without gaps, assigned to it and
+exchanged. "Similarity": structural similarity of their lightnesses.
 Covered is exact; seconds are of the whole run but writing, on a machine that others use too.
 Portrait and gradient are drawn by formula, logo and rocket are sample images of scikit-image
 {skimage}; photographs are square pieces of other such images, drawn by chance.

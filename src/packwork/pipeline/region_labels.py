@@ -18,6 +18,7 @@ import shapely
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
 from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
@@ -162,7 +163,7 @@ class _Plate:
         half = np.array([self.wide, self.high]) / 2 - ROUND
         inner = shapely.box(*-half, *half)
         plate = Outline.from_region(shapely.affinity.scale(
-            inner.buffer(ROUND), UNIT, UNIT, origin=(0, 0)
+            buffered(inner, ROUND), UNIT, UNIT, origin=(0, 0)
         ))  # fmt: skip
         place = affine.similarity(
             -UNIT * (left + right) / 2, -UNIT * (top + bottom) / 2, 0.0, UNIT / self.drawn.units
