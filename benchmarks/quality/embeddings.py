@@ -39,8 +39,8 @@ CONSTITUTION = DOCS.parent / "examples" / "words-meaning" / "constitution.txt"
 
 ICON_HEADER = ["container", "icons", "of its cluster", "without", "of discs", "covered", "without",
                "seconds over those without", "certified"]  # fmt: skip
-WORD_HEADER = ["text", "container", "information shared", "without", "ratio", "ink", "without", "ratio",
-               "certified"]  # fmt: skip
+WORD_HEADER = ["text", "container", "information shared", "without", "ratio", "ink", "without",
+               "ratio", "certified"]  # fmt: skip
 
 PAGE = """# Like things side by side
 
@@ -60,8 +60,9 @@ are made even. Covered is exact.
 ## Words of a text
 
 The {words} most frequent words of this project's own documents, and of the Constitution of the
-United States; `--embeddings auto`, sizes in proportion; means of seeds {seeds}. "Information shared": mean positive pointwise mutual information, in bits, of a word
-with its {nearest} nearest. Ink: share of the container.
+United States; `--embeddings auto`, sizes in proportion; means of seeds {seeds}. "Information
+shared": mean positive pointwise mutual information, in bits, of a word with its {nearest} nearest.
+Ink: share of the container.
 
 {clouds}
 """
