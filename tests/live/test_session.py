@@ -13,7 +13,7 @@ import pytest
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.live.commands.gestures import Drop, Grab
-from packwork.live.commands.placing import Move
+from packwork.live.commands.placing import Move, Turn
 from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
 from packwork.metrics.violations import violations
@@ -173,6 +173,22 @@ def test_polish_leaves_what_was_put_last_and_the_angle_of_what_was_put_before(
     assert after.angle[3] == before.angle[3]
     assert after.x[7] == before.x[7]
     assert session.is_certified
+
+
+@pytest.mark.parametrize("item", [0, 4, 9])
+def test_what_the_hand_has_turned_stays_turned(session: pw.Session, item: int) -> None:
+    began = session.document.poses.angle[item]
+    session.apply(Grab(items=(item,)))
+    for quarter in np.linspace(0, np.pi / 2, 9)[1:]:
+        session.apply(Turn(item=item, angle=float(np.degrees(began + quarter))))
+        session.flow(epochs=3)
+    turned = session.document.poses.angle[item]
+    session.apply(Drop())
+    session.flow(epochs=100)
+    assert session.document.poses.angle[item] == turned
+    assert session.settle().certified
+    session.polish(30)
+    assert session.document.poses.angle[item] == turned
 
 
 def test_a_log_that_was_cut_off_loses_its_last_line_only() -> None:

@@ -156,6 +156,20 @@ class Desk:
         mouse.move(*end, steps=steps)
         mouse.up()
 
+    def take_handle(self, number: int, item: int) -> None:
+        """Press on a handle of an item; anew where it was moved away meanwhile, as a polish may."""
+        at = f"studio.stage.handles()[{number}].at"
+        for _ in range(20):
+            self.page.mouse.click(*self.place(item))
+            x, y = self.look(at)
+            left, top = self.look("(r => [r.left, r.top])(studio.canvas.getBoundingClientRect())")
+            self.page.mouse.move(x + left, y + top)
+            self.page.mouse.down()
+            if self.look("studio.gestures.doing?.act") in ("turn", "scale"):
+                return
+            self.page.mouse.up()
+        raise AssertionError(f"handle {number} of item {item} cannot be taken")
+
     def picture(self, name: str) -> None:
         """Keep what it looks like, if that is asked for."""
         folder = os.environ.get("PACKWORK_STUDIO_PICTURES")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +21,10 @@ TILE = (
     '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">'
     '<path fill="teal" d="M0 0h9v4H5v5H0z"/></svg>'
 )
+
+
+CORNER, TURN = 2, 4
+"""Handles of what is chosen: one of its corners, and what turns it."""
 
 
 def test_a_drag_is_followed_settles_and_is_undone(open_desk: Callable[..., Desk]) -> None:
@@ -49,18 +54,29 @@ def test_handles_turn_and_scale(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     desk.page.mouse.click(*desk.place(1))
     assert desk.look("[...studio.choice.ids]") == [1]
-    offset = desk.look("studio.canvas.getBoundingClientRect().top")
-    angle = desk.look("studio.collage.pose(1).angle")
-    *_, turn = desk.look("studio.stage.handles().map(h => h.at)")
-    x, y = desk.place(1)
-    desk.drag((turn[0], turn[1] + offset), (x + 80, y + 30))
+    desk.take_handle(TURN, 1)
+    # A quarter turn about where it is when it is taken.
+    about = desk.look("studio.gestures.doing.about")
+    start = desk.look("studio.gestures.doing.from")
+    top = desk.look("studio.canvas.getBoundingClientRect().top")
+    across, along = start["x"] - about["x"], start["y"] - about["y"]
+    desk.page.mouse.move(about["x"] - along, about["y"] + across + top, steps=8)
+    began = desk.look("studio.hand.began.get(1).angle")
+    turned = desk.look("studio.hand.held(1).angle")
+    assert turned - began == pytest.approx(math.pi / 2, abs=0.05)
+    desk.page.mouse.up()
     desk.settled()
-    assert abs(desk.look("studio.collage.pose(1).angle") - angle) > 0.2
+    # What the hand has turned stays turned, also when neighbours win back what was lost.
+    desk.page.wait_for_timeout(1000)
+    assert math.remainder(desk.look("studio.collage.pose(1).angle") - turned, math.tau) == (
+        pytest.approx(0, abs=1e-4)
+    )
+    desk.take_handle(CORNER, 1)
+    about, start = desk.look("studio.gestures.doing.about"), desk.look("studio.gestures.doing.from")
     scale = desk.look("studio.collage.pose(1).scale")
-    corner = desk.look("studio.stage.handles()[2].at")
-    x, y = desk.place(1)
-    inner = (x + 0.6 * (corner[0] - x), y + 0.6 * (corner[1] + offset - y))
-    desk.drag((corner[0], corner[1] + offset), inner)
+    x, y = (about[axis] + 0.6 * (start[axis] - about[axis]) for axis in "xy")
+    desk.page.mouse.move(x, y + top, steps=8)
+    desk.page.mouse.up()
     desk.settled()
     assert desk.look("studio.collage.pose(1).scale") < 0.85 * scale
     for _ in range(2):

@@ -97,15 +97,14 @@ class Following:
         """Let what was touched make room, then finish it."""
         self.marks.given = self._fitting(self.marks.given)
         flow.bring_in(self._rows(self.marks.touched - self.marks.given))
-        held = self._document.held.copy()
-        held[self._rows(self.marks.turned), PROPERTIES.index("angle")] = True
-        flow.rule(replace(self._document, held=held))
+        strict = self._turned_held(self._document)
+        flow.rule(strict)
         flow.hold(self._rows(self.marks.given))
         flow.harden(RELAX, self._rows(near | self.marks.touched))
         self._follow(flow)
         touched = np.union1d(self._rows(self.marks.touched), np.flatnonzero(flow.moved))
         flow.review()
-        strict = replace(self._document, held=held)
+        strict = replace(self._document, held=strict.held)
         given = self._rows(self.marks.given)
         done = settle(strict, touched.astype(np.int64), given, flow.touching, self.shapes, stop)
         self._document = self._document.with_poses(done.document.poses)
@@ -129,7 +128,7 @@ class Following:
     def _begin_anew(self) -> None:
         """Have a flow that knows no more than documents and marks say; nothing moves yet."""
         now, base = self._document, self._base
-        self._flow = Flow(now, self._sights)
+        self._flow = Flow(self._turned_held(now), self._sights)
         _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
         self._flow.moved[rows] = differing(now.poses.some(rows), base.poses.some(theirs))
         self._hold()
@@ -156,7 +155,7 @@ class Following:
             return
         flow = self._flow = self._flow or Flow(before, self._sights)
         if change.stale <= Stale.RULES:
-            flow.rule(after)
+            flow.rule(self._turned_held(after))
             return
         if change.stale == Stale.POSES:
             self._give(flow, before.poses, after)
@@ -166,7 +165,7 @@ class Following:
         if len(gone) and change.stale == Stale.ITEMS:
             rows = np.array([before.index(int(k)) for k in gone], dtype=np.int64)
             beside = set(before.ids[flow.touching.beside(rows)].tolist())
-        flow.turn_to(after)
+        flow.turn_to(self._turned_held(after))
         present = set(after.ids.tolist())
         self.marks.given &= present
         self.marks.touched = (self.marks.touched | beside | set(change.items.tolist())) & present
@@ -190,9 +189,16 @@ class Following:
         if len(new):
             self.marks.left |= set(numbers[flow.touching.rings(new, LEFT) >= 0].tolist())
         self.marks.touched |= set(numbers[changed].tolist())
-        flow.rule(after)
+        flow.rule(self._turned_held(after))
         kept = self.marks.given | set(numbers[changed].tolist()) | set(self._grabbed)
         flow.give(self._rows(kept), now)
+
+    def _turned_held(self, document: Document) -> Document:
+        """A document in which what the hand has turned holds its angle."""
+        held = document.held.copy()
+        turned = np.isin(document.ids, list(self.marks.turned))
+        held[turned, PROPERTIES.index("angle")] = True
+        return replace(document, held=held)
 
     def _hold(self) -> None:
         """Have the flow hold what lies where the hand has put it, or is in the hand."""
