@@ -57,7 +57,7 @@ def test_the_version_is_one_line(packwork: Command) -> None:
     assert result.stdout.count("\n") == 1
 
 
-HEAVY = {"numpy", "numba", "scipy", "shapely", "skimage", "PIL"}
+HEAVY = {"numpy", "numba", "scipy", "shapely", "contourpy", "PIL"}
 OURS = {"packwork.recipe", "packwork.cli.options", "packwork.cli.fill"}
 MODELS = {"pydantic", *OURS}
 
@@ -108,7 +108,7 @@ def test_every_command_has_a_summary() -> None:
 def test_a_run_waits_for_no_library_that_only_some_need() -> None:
     script = (
         "import sys, packwork.cli.running\n"
-        "sys.exit(', '.join({'scipy.optimize', 'skimage', 'pandas'} & set(sys.modules)) or 0)\n"
+        "sys.exit(', '.join({'scipy.optimize', 'contourpy', 'pandas'} & set(sys.modules)) or 0)\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", script], capture_output=True, text=True, check=False

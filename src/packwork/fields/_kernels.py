@@ -167,3 +167,36 @@ def label_parts(mask, labels):
                     waiting[many] = i * width + j
                     many += 1
     return count
+
+
+@kernel
+def thin(image, removable, rows, cols):
+    """Clear pixels of ``image`` (0 or 1, framed by zeros) in two turns until none is removable.
+
+    ``removable[turn, code]`` says which go, by their eight neighbours: bit 0 is the one above,
+    the others follow clockwise. ``rows`` and ``cols`` hold the pixels that are 1, and are spent.
+    """
+    left = rows.size
+    gone = np.empty(left, np.int64)
+    turns_without_change = 0
+    turn = 0
+    while turns_without_change < 2:
+        removed = 0
+        for k in range(left):
+            r, c = rows[k], cols[k]
+            code = image[r - 1, c] | image[r - 1, c + 1] << 1 | image[r, c + 1] << 2
+            code |= image[r + 1, c + 1] << 3 | image[r + 1, c] << 4 | image[r + 1, c - 1] << 5
+            code |= image[r, c - 1] << 6 | image[r - 1, c - 1] << 7
+            if removable[turn, code]:
+                gone[removed] = k
+                removed += 1
+        for k in gone[:removed]:
+            image[rows[k], cols[k]] = 0
+        kept = 0
+        for k in range(left):
+            if image[rows[k], cols[k]]:
+                rows[kept], cols[kept] = rows[k], cols[k]
+                kept += 1
+        left = kept
+        turns_without_change = 0 if removed else turns_without_change + 1
+        turn = 1 - turn

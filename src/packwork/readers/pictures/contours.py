@@ -59,15 +59,15 @@ def contour_region(coverage: FloatArray, simplify_px: float) -> Region:
 
 def _rings(coverage: FloatArray) -> list[FloatArray]:
     """Contours at one half, specks left out."""
-    from skimage.measure import find_contours
+    from contourpy import contour_generator
 
     inside = coverage > _LEVEL
     crossings = sum(np.count_nonzero(np.diff(inside, axis=axis)) for axis in (0, 1))
     if crossings > MAX_CROSSINGS:
         raise _noisy(f"{crossings:,} edges between its pixels")
-    # find_contours speaks of (row, col) of pixel centres; the padding moves them by one.
-    found = find_contours(np.pad(coverage, 1), _LEVEL)
-    rings = [ring[:-1, ::-1] - 0.5 for ring in found]
+    # Contours run between pixel centres; the padding moves them by one.
+    found = contour_generator(z=np.pad(coverage, 1), name="serial").lines(_LEVEL)
+    rings = [np.asarray(ring)[:-1] - 0.5 for ring in found]
     kept = [ring for ring in rings if abs(signed_area(ring)) >= SMALLEST_PX]
     if len(kept) > MAX_CONTOURS:
         raise _noisy(f"{len(kept):,} separate contours")
