@@ -1,0 +1,47 @@
+"""The source does not grow back unseen: counts of ``tools/house.py`` keep to their limits."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+from pathlib import Path
+from types import ModuleType
+
+import pytest
+
+TOOL = Path(__file__).resolve().parent.parent / "tools" / "house.py"
+
+
+@pytest.fixture(scope="module")
+def house() -> ModuleType:
+    spec = importlib.util.spec_from_file_location("house", TOOL)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def test_no_count_is_above_its_limit(house: ModuleType) -> None:
+    above = [count for count in house.counts() if count.value > count.limit]
+    assert not above
+
+
+def test_no_limit_is_far_above_its_count(house: ModuleType) -> None:
+    idle = [count for count in house.counts() if count.limit > 1.05 * count.value + 5]
+    assert not idle
+
+
+def test_docstrings_and_comments_are_no_code(house: ModuleType) -> None:
+    text = '"""Says\n\nmuch."""\n# a comment\n\nX = 1\n"""Of a field."""\n'
+    described = house.docstring_lines(ast.parse(text))
+    assert described == {1, 2, 3}
+    assert house.code_lines(text) - described == {6, 7}
+
+
+def test_a_docstring_that_asks_is_counted(house: ModuleType) -> None:
+    asks, answers = ast.parse(
+        'def f():\n    """How it is."""\ndef g():\n    """Height of it."""\n'
+    ).body
+    assert house.begins_with_question(asks)
+    assert not house.begins_with_question(answers)
