@@ -14,16 +14,14 @@ import sys
 import tempfile
 from collections.abc import Callable
 from dataclasses import replace
+from importlib.metadata import version
 from io import BytesIO
 from pathlib import Path
 
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 
 import numpy as np
-import skimage
 from PIL import Image
-from skimage.color import deltaE_ciede2000, rgb2lab
-from skimage.metrics import structural_similarity
 
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table
@@ -109,9 +107,16 @@ def gradient(size: int = 400) -> FloatArray:
     return np.stack([np.interp(along, [0, 0.5, 1], stops[:, k]) for k in range(3)], axis=2)
 
 
+def sample_images() -> Path:
+    """The folder of scikit-image's sample images."""
+    import skimage
+
+    return Path(skimage.__file__).parent / "data"
+
+
 def pictures(folder: Path) -> dict[str, Path]:
     """The four, as files."""
-    samples = Path(skimage.__file__).parent / "data"
+    samples = sample_images()
     made: dict[str, Callable[[], FloatArray]] = {"portrait": portrait, "gradient": gradient}
     for name, draw in made.items():
         pixels = np.rint(255 * draw()).astype(np.uint8)
@@ -125,7 +130,7 @@ def pictures(folder: Path) -> dict[str, Path]:
 
 def album(folder: Path, count: int) -> Path:
     """Square pieces of sample images."""
-    samples = Path(skimage.__file__).parent / "data"
+    samples = sample_images()
     names = ["astronaut.png", "coffee.png", "chelsea.png", "hubble_deep_field.jpg", "ihc.png",
              "motorcycle_left.png", "retina.jpg", "color.png", "moon.png", "camera.png",
              "cell.png", "page.png", "grass.png", "horse.png"]  # fmt: skip
@@ -162,6 +167,9 @@ def seen(layout: Layout, shape: tuple[int, ...], ground: str) -> FloatArray:
 
 def compared(layout: Layout, file: Path, ground: str) -> tuple[float, float]:
     """Mean colour distance and structural similarity of a layout and a picture, seen from afar."""
+    from skimage.color import deltaE_ciede2000, rgb2lab
+    from skimage.metrics import structural_similarity
+
     target = read_target(file, layout.container)
     outline = layout.container.outline
     room = coverage(outline.points * target.px_per_cu, outline.starts, target.light.shape[:2])
@@ -179,6 +187,7 @@ def compared(layout: Layout, file: Path, ground: str) -> tuple[float, float]:
 def of_squares(layout: Layout, file: Path) -> float:
     """Ratio of the photos of a layout on a grid of squares, none of which has a form to heed."""
     from scipy.optimize import linear_sum_assignment
+    from skimage.color import deltaE_ciede2000, rgb2lab
 
     many = math.isqrt(len(layout.items))
     items = layout.items[: many**2]
@@ -272,7 +281,7 @@ def main() -> None:
     table = markdown_table(HEADER, rows)
     write_page(
         "benchmarks-meaning.md", PAGE, items=str(count), ratio=f"{SIZE_RATIO:g}",
-        skimage=skimage.__version__, table=table,
+        skimage=version("scikit-image"), table=table,
     )  # fmt: skip
 
 
