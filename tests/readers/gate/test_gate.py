@@ -161,6 +161,7 @@ def nested_masks(levels: int) -> str:
         ("<rect/>" * 40_000, "grows to 40,000"),
         ("<g/>" * 300_000, "more than 200,000 elements"),
         ("<style>" + "g>g{fill:red}" * 2000 + "</style>" + "<g/>" * 2000, "style rules"),
+        ("<style>a~g{fill:red}</style>" + "<g/>" * 20_000, "style rules"),
         ("<style>" + "a," * 1_500_000 + "b{fill:red}</style>", "style rules"),
         ("<text>" + "a" * 30_000 + "</text>", "letters of text"),
     ],

@@ -9,14 +9,13 @@ from typing import TypeAlias, final
 from packwork.readers.account import spend
 from packwork.readers.gate.css.declarations import Declarations
 from packwork.readers.gate.css.nodes import Node
-from packwork.readers.gate.css.selectors import Compound
+from packwork.readers.gate.css.selectors import TOO_MANY, Compound
 from packwork.readers.gate.css.sheets import StyleRule
 
 _COMPARISON_NS, _MERGE_NS = 4e3, 5e2
 """For a step of a rule that is held against an element, and a declaration that is laid over
 others. Measured."""
 
-_TOO_MANY = "has too many style rules for its elements"
 _Signature: TypeAlias = tuple[str, str | None, frozenset[str]]
 
 _Layers: TypeAlias = tuple[Mapping[str, str], Mapping[str, str]]
@@ -62,12 +61,12 @@ class Cascade:
     def _of_rules(self, node: Node) -> _Layers:
         signature = (node.tag, node.attributes.get("id"), node.classes)
         sure, open_ones = self._candidates(node, signature)
-        spend(_COMPARISON_NS * sum(len(r.selector.steps) for r in open_ones), _TOO_MANY)
+        spend(_COMPARISON_NS * sum(len(r.selector.steps) for r in open_ones), TOO_MANY)
         met = [rule for rule in open_ones if rule.selector.matches(node)]
         key = (signature, tuple(rule.order for rule in met))
         if key not in self._merged:
             rules = sorted([*sure, *met], key=_rank)
-            spend(_MERGE_NS * sum(len(rule.declarations.values) for rule in rules), _TOO_MANY)
+            spend(_MERGE_NS * sum(len(rule.declarations.values) for rule in rules), TOO_MANY)
             self._merged[key] = _layers(rules)
         return self._merged[key]
 
@@ -78,7 +77,7 @@ class Cascade:
         if signature not in self._plain:
             keys = ["*", node.tag, f"#{signature[1]}", *(f".{c}" for c in sorted(node.classes))]
             found = [rule for key in keys for rule in self._by_key.get(key, [])]
-            spend(_COMPARISON_NS * len(found), _TOO_MANY)
+            spend(_COMPARISON_NS * len(found), TOO_MANY)
             sure = [
                 rule for rule in found if rule.selector.is_plain and rule.selector.matches(node)
             ]

@@ -13,7 +13,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
+from packwork.readers.account import spend
 from packwork.readers.gate.css.nodes import Node
+
+_WALK_NS = 1e2
+"""For a step from an element to the one before or above. Measured."""
+
+TOO_MANY = "has too many style rules for its elements"
+"""What is said where comparisons pass the account."""
 
 MAX_STEPS = 20
 """Compounds of a selector; longer ones are left out. Chosen."""
@@ -153,13 +160,12 @@ class Selector:
 def _related(node: Node | None, relation: str, step: Compound) -> Node | None:
     """Nearest element in that relation that the step means."""
     is_beside = relation in "+~"
-    while node is not None:
-        node = node.before if is_beside else node.parent
-        if node is not None and step.matches(node):
-            return node
-        if relation in ">+":
-            return None
-    return None
+    walked, is_met = 0, False
+    while node is not None and not is_met and (walked == 0 or relation not in ">+"):
+        node, walked = node.before if is_beside else node.parent, walked + 1
+        is_met = node is not None and step.matches(node)
+    spend(_WALK_NS * walked, TOO_MANY)
+    return node if is_met else None
 
 
 def parse_selector(text: str, depth: int = 0) -> Selector:
