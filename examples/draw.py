@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import re
+import runpy
 import shlex
 import shutil
 import sys
@@ -42,6 +43,12 @@ def commands(folder: Path) -> list[list[str]]:
     return [shlex.split(line)[1:] for line in lines if line.startswith(STARTS)]
 
 
+def scripts(folder: Path) -> list[str]:
+    """Scripts that draw what the commands read: a block begins with them."""
+    text = (folder / "README.md").read_text(encoding="utf-8")
+    return re.findall(r"```sh\npython (\S+)\npackwork", text)
+
+
 def pictures(arguments: list[str], flag: str = "-o") -> list[str]:
     """PNGs that a command writes for a flag."""
     written = [value for given, value in pairwise(arguments) if given == flag]
@@ -58,6 +65,8 @@ def draw(folder: Path) -> None:
     lines = commands(folder)
     with tempfile.TemporaryDirectory() as place:
         copy = Path(shutil.copytree(folder, Path(place) / folder.name))
+        for script in scripts(folder):
+            runpy.run_path(str(copy / script), run_name="__main__")
         for arguments in lines:
             with contextlib.chdir(copy):
                 run(arguments)

@@ -58,8 +58,15 @@ class Example:
     @property
     def group(self) -> str:
         """Heading for what the commands call first."""
-        called = re.search(r"^(?:packwork (\w+)|python )", self.commands, flags=re.MULTILINE)
-        name = (called and called[1]) or "python"
+        # A script that calls nothing of packwork draws what the next command reads.
+        called = (
+            verb or "python"
+            for verb, script in re.findall(
+                r"^(?:packwork (\w+)|python (\S+))", self.commands, flags=re.MULTILINE
+            )
+            if verb or "packwork" in (self.folder / script).read_text(encoding="utf-8")
+        )
+        name = next(called)
         return GROUPS.get(name, name.capitalize())
 
     def __str__(self) -> str:

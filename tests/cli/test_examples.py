@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import runpy
 import shlex
 import shutil
 from collections.abc import Callable
@@ -37,6 +38,15 @@ def commands(page: Path) -> list[list[str]]:
     blocks = re.findall(r"```sh\n(.*?)```", text, flags=re.DOTALL)
     lines = [line for block in blocks for line in block.splitlines()]
     return [shlex.split(line, comments=True)[1:] for line in lines if line.startswith("packwork ")]
+
+
+def draw_inputs(example: Path) -> None:
+    """Run the script that draws what the first command reads, where its block begins with one."""
+    script = re.search(
+        r"```sh\npython (\S+)\npackwork", (example / "README.md").read_text(encoding="utf-8")
+    )
+    if script is not None:
+        runpy.run_path(str(example / script[1]), run_name="__main__")
 
 
 FILLS = [
@@ -85,6 +95,7 @@ def test_the_command_of_an_example_writes_what_it_names(
     copy = shutil.copytree(example, folder / example.name)
     monkeypatch.chdir(copy)
     monkeypatch.syspath_prepend(str(copy))
+    draw_inputs(copy)
     *earlier, arguments = commands(example / "README.md")[: number + 1]
     for one in earlier:
         if set(files_named_in(one)) & set(arguments):
