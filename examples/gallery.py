@@ -58,16 +58,20 @@ class Example:
     @property
     def group(self) -> str:
         """Heading for what the commands call first."""
-        # A script that calls nothing of packwork draws what the next command reads.
+        # A script of a folder that calls nothing of packwork draws what the next command reads.
         called = (
             verb or "python"
             for verb, script in re.findall(
                 r"^(?:packwork (\w+)|python (\S+))", self.commands, flags=re.MULTILINE
             )
-            if verb or "packwork" in (self.folder / script).read_text(encoding="utf-8")
+            if verb or not self._only_draws(script)
         )
         name = next(called)
         return GROUPS.get(name, name.capitalize())
+
+    def _only_draws(self, script: str) -> bool:
+        file = self.folder / script
+        return file.is_file() and "packwork" not in file.read_text(encoding="utf-8")
 
     def __str__(self) -> str:
         """Title, picture and commands, in Markdown."""

@@ -115,9 +115,8 @@ def _documents() -> list[Path]:
 
 
 def _readable(path: Path) -> str:
-    """A page whose links to folders lead to what lies in them, and to README.md to the index."""
+    """A page whose links to README.md lead to the index."""
     text = path.read_text(encoding="utf-8")
-    text = re.sub(r"\]\((docs/decisions)/\)", r"](\1/0001-sums-run-down-the-columns.md)", text)
     if path.parent in {ROOT, ROOT / "docs"}:
         text = re.sub(r"\]\(((?:\.\./)*)README\.md", r"](\1index.md", text)
     return text
