@@ -38,7 +38,7 @@ def test_a_layout_is_changed_and_certified_again(saved: Path, tmp_path: Path, en
     y = 300.0 + 0.5 * (300.0 - before.poses.y[held])
     code, said = run(
         saved.with_suffix(ending), "--items", "star", "--items", "heart", "--hold", "heart#1",
-        "--move", f"star#2={x},{y}", "--turn", "heart#3=90", "--scale", "heart#2=1.2",
+        "--move", f"star#2={x},{y}", "--turn", "heart#3=90", "--scale", "heart#2=0.7",
         "--add", "hexagon", "--add", f"circle@{x},30%", "--remove", "star#1",
         "--replace", "star#4=square", "--recolor", "heart*=teal", "--padding", "1",
         "-o", out, "-o", tmp_path / "new.png", "--report", report,
@@ -113,6 +113,17 @@ def test_the_layout_that_is_read_is_not_written_over(saved: Path) -> None:
     assert code == 2
     assert saved.name in said
     assert saved.read_bytes() == before
+
+
+def test_a_size_that_is_not_had_is_one_line_and_exit_1(saved: Path, tmp_path: Path) -> None:
+    out, report = tmp_path / "new.geojson", tmp_path / "report.json"
+    holds = [f"--hold={name}#{k}" for name in ("star", "heart") for k in range(1, 5)][1:]
+    code, said = run(saved, *holds, "--scale", "star#1=2.5", "-o", out, "--report", report)
+    assert code == 1
+    (told,) = json.loads(report.read_text())["unmet"]
+    assert told in said
+    assert "not 2.5 times: there is no room for more" in told
+    assert json.loads(report.read_text())["certified"] is True
 
 
 def test_a_session_is_edited_where_it_lies(saved: Path, tmp_path: Path) -> None:

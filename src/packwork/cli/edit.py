@@ -183,7 +183,9 @@ def edit(
         if picture is not None:
             session.show_picture(picture)
         is_well = _written(session, disk, [*outputs, *sides], report, pixels, quiet)
-        if cover is not None and not _covers(session, cover):
+        for line in session.unmet:
+            say(line)
+        if session.unmet or (cover is not None and not _covers(session, cover)):
             is_well = False
         if not is_well:
             raise typer.Exit(SHORTFALL)
@@ -265,6 +267,7 @@ def _written(
         "items": len(made.items),
         "certified": done.certified,
         "in_the_way": done.in_the_way,
+        "unmet": session.unmet,
         "moved": done.moved,
     }
     if report is not None:

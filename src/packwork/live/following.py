@@ -193,6 +193,12 @@ class Following:
         kept = self.marks.given | set(numbers[changed].tolist()) | set(self._grabbed)
         flow.give(self._rows(kept), now)
 
+    def _keep_angles(self, numbers: Iterable[int]) -> None:
+        """Have items keep their angles while others make room for them."""
+        given = set(numbers)
+        self.marks.turned |= given
+        self.marks.by_hand |= given
+
     def _turned_held(self, document: Document) -> Document:
         """A document in which what the hand has turned holds its angle."""
         held = document.held.copy()

@@ -68,7 +68,7 @@ class NamedSession(Session):
         return Settlement(self.is_certified, self.in_the_way, found.moved)
 
     def find(self, which: Which) -> tuple[int, ...]:
-        """Numbers of the items that a name means, in their order.
+        """Numbers of the items that a name means, in their order; :meth:`positions` are others.
 
         Raises
         ------
@@ -94,6 +94,19 @@ class NamedSession(Session):
         if not rows:
             raise RecipeError("item", f"there is no item {text[:40]!r}; {_some(names)}")
         return tuple(int(document.ids[k]) for k in rows)
+
+    def positions(self, which: Which) -> list[int]:
+        """Places of items in :attr:`layout`, for such as ``layout.poses.x[positions]``.
+
+        Numbers that :meth:`find` gives are for ever; positions are others once items are removed.
+
+        Raises
+        ------
+        RecipeError
+            If there is no such item.
+        """
+        rows = {int(number): k for k, number in enumerate(self.document.ids)}
+        return [rows[number] for number in self.find(which)]
 
     def one(self, which: Which) -> int:
         """Number of the one item that a name means.

@@ -14,6 +14,7 @@ from packwork.live.certificate import Certificate, Settlement, promise_of
 from packwork.live.change import Change, Stale, differing
 from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Drop, Grab
+from packwork.live.commands.placing import Scale
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.following import Following, beyond
 from packwork.live.history import History
@@ -22,6 +23,7 @@ from packwork.live.log import MOST_TRIALS, Entry, Log
 from packwork.live.neighbourhood.flow import Flow
 from packwork.live.neighbourhood.settle import polish
 from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.requests import Requests
 from packwork.progress import Stop, never
 from packwork.scene.layout import Layout
 
@@ -60,7 +62,8 @@ class Session(Following):
     >>> change = session.apply(Move(item=0, x=300.0, y=300.0))
     >>> session.settle().certified, session.document.poses.x[0]
     (True, np.float64(300.0))
-    >>> session.undo()
+    >>> session.undo(), session.undo()
+    (True, False)
     >>> bool((session.document.poses.x == layout.poses.x).all())
     True
     """
@@ -78,6 +81,7 @@ class Session(Following):
         self.log = log or Log()
         self.history = History()
         self._before: Document | None = None
+        self._requests = Requests()
 
     @property
     def is_grabbed(self) -> bool:
@@ -101,6 +105,8 @@ class Session(Following):
         change = Change.between(before, documents[-1])
         self.log.bring(command.assets, self.library)
         self.log.note("do", command)
+        self._requests.note(command.steps, before, documents[-1])
+        self._keep_angles(step.item for step in command.steps if isinstance(step, Scale))
         for one, other in pairwise(documents):
             self._take(Change.between(one, other), one, other)
         if isinstance(command, Grab):
@@ -244,13 +250,24 @@ class Session(Following):
         self.log.flush()
         return int(differing(before.poses, self._document.poses).sum())
 
-    def undo(self) -> None:
-        """Go back to the document before the last gesture, exactly; the flow pauses."""
-        self._leap("undo")
+    def undo(self) -> bool:
+        """Go back to the document before the last gesture, exactly; the flow pauses.
 
-    def redo(self) -> None:
-        """Go forward again."""
-        self._leap("redo")
+        Returns
+        -------
+        bool
+            Whether there was one; nothing changes where there was none.
+        """
+        return self._leap("undo")
+
+    def redo(self) -> bool:
+        """Go forward again; whether there was anything to go forward to."""
+        return self._leap("redo")
+
+    @property
+    def unmet(self) -> tuple[str, ...]:
+        """Places and sizes that items were given and have not got, a sentence each."""
+        return self._requests.unmet(self._document)
 
     @property
     def layout(self) -> Layout:
@@ -322,6 +339,7 @@ class Session(Following):
         self.history, self.marks = kept.history, kept.marks
         self.shapes, self._certificate = Shapes(), Certificate()
         self._grabbed, self._before, self._flow = (), None, None
+        self._requests.forget()
         if self.marks.touched:
             self._begin_anew()
             self._flow_again()
@@ -343,14 +361,18 @@ class Session(Following):
         self._hold()
         self.log.flush()
 
-    def _leap(self, kind: str) -> None:
+    def _leap(self, kind: str) -> bool:
         if self._grabbed:
             raise RecipeError(kind, "something is held by the hand; drop it first")
+        if not getattr(self.history, f"can_{kind}"):
+            return False
         document = getattr(self.history, kind)(self._document)
         self.log.note(kind)
         self._document = self._base = document
         self.marks.leapt()
+        self._requests.forget()
         if self._flow is not None:
             self._flow.turn_to(document)
         self._film()
         self.log.flush()
+        return True

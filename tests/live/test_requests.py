@@ -1,0 +1,72 @@
+"""What was asked of items is had, or said; numbers and positions; whether a step was undone."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+import packwork as pw
+
+
+@pytest.mark.parametrize("which", ["star#1", "heart#2", "hexagon#3"])
+def test_what_is_scaled_keeps_its_angle(session: pw.Session, dozen: pw.Layout, which: str) -> None:
+    (k,) = session.positions(which)
+    session.scale(which, 1.6)
+    session.finish()
+    assert session.layout.poses.angle[k] == dozen.poses.angle[k]
+
+
+def test_a_size_for_which_there_is_no_room_is_said(session: pw.Session, dozen: pw.Layout) -> None:
+    (k,) = session.positions("star#1")
+    session.hold([n for n in session.find("*") if n != session.one("star#1")])
+    session.scale("star#1", 2.5)
+    assert session.unmet == ()
+    assert session.finish().certified
+    (said,) = session.unmet
+    factor = session.layout.poses.scale[k] / dozen.poses.scale[k]
+    assert said == (
+        f"star#1 is {factor:.3g} times as large as it was, not 2.5 times: there is no room for more"
+    )
+    assert session.undo()
+    assert session.unmet == ()
+
+
+def test_a_size_that_is_had_is_not_spoken_of(session: pw.Session) -> None:
+    session.scale("star#1", 0.7)
+    session.scale("star#1", 1.1)
+    session.finish()
+    assert session.unmet == ()
+
+
+def test_a_place_outside_is_said(session: pw.Session) -> None:
+    session.move("heart#1", 0, 0)
+    session.move("star#1", "50%", "50%")
+    session.finish()
+    (said,) = session.unmet
+    assert said.startswith("heart#1 is at ")
+    assert "not at 0, 0: there is no room for it" in said
+
+
+def test_positions_are_of_the_layout_and_numbers_for_ever(session: pw.Session) -> None:
+    (number,) = session.find("hexagon#4")
+    session.remove("star#1")
+    session.move("hexagon#4", 300, 300)
+    (position,) = session.positions("hexagon#4")
+    assert session.find("hexagon#4") == (number,)
+    assert position == number - 1
+    layout = session.layout
+    assert layout.items[position].name == "hexagon"
+    assert layout.poses.x[session.positions("hexagon#4")].tolist() == [300.0]
+    assert session.positions(number) == [position]
+    names = np.array([item.name for item in layout.items])
+    assert set(names[session.positions("heart")].tolist()) == {"heart"}
+
+
+def test_undo_and_redo_say_whether_they_did_anything(session: pw.Session) -> None:
+    assert not session.undo()
+    assert not session.redo()
+    session.move("star#1", 300, 300)
+    assert session.undo()
+    assert not session.undo()
+    assert session.redo()
+    assert not session.redo()
