@@ -30,7 +30,7 @@ def _no_lines_of_slow_machines(monkeypatch: pytest.MonkeyPatch) -> None:
 @pytest.fixture(autouse=True)
 def _no_notice_of_kernels(monkeypatch: pytest.MonkeyPatch) -> None:
     """Which test compiles the first kernel, and logs that, is chance."""
-    monkeypatch.setattr(compiled, "_tell_once", lambda: None)
+    monkeypatch.setattr(compiled.listeners, "_tell_once", lambda: None)
 
 
 class _OfThisSession(dict[str, bytes]):

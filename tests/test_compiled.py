@@ -70,6 +70,17 @@ def test_what_is_compiled_is_kept_and_loaded_and_said_once(package: Path) -> Non
 
 
 @NEEDS_JIT
+def test_with_a_numba_that_lacks_private_parts_its_own_cache_is_used(package: Path) -> None:
+    lacking = "import numba.core.ccallback, numba.core.caching as caching; del caching.NullCache; "
+    own = "import packwork.compiled as compiled; print(compiled.HAS_OWN_CACHE); "
+    cache = {"NUMBA_CACHE_DIR": str(package.parent / "numba")}
+    assert call(package, lacking + own + PROGRAM, **cache)[0].split() == ["False", "1"]
+    assert list((package.parent / "numba").rglob("*.nbi"))
+    assert call(package, lacking + own + PROGRAM, **cache)[0].split() == ["False", "1"]
+    assert not (package.parent / "cache").exists()
+
+
+@NEEDS_JIT
 def test_a_kernel_that_was_kept_calls_the_others_as_they_are_now(package: Path) -> None:
     assert call(package)[0] == "1"
     (package / "called" / "_kernels.py").write_text(CALLED.format(2))

@@ -72,9 +72,9 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 51_500,
+    "lines of code": 51_900,
     "lines of docstrings": 22_500,
-    "files": 720,
+    "files": 724,
     "functions of the road in one plain fill": 178,
     "files of the road in one plain fill": 45,
     "calls of id()": 100,

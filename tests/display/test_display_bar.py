@@ -134,7 +134,7 @@ def test_a_file_in_place_of_the_terminal_stays_clean() -> None:
     # Which test compiles the first kernel, and logs that, is chance.
     code = (
         "import sys, packwork as pw, packwork.compiled, packwork.display.bar as bars\n"
-        "pw.compiled._tell_once = lambda: None\n"
+        "pw.compiled.listeners._tell_once = lambda: None\n"
         "for seconds in (1e9, 0.0):\n"
         "    bars.SECONDS_BETWEEN_LINES = seconds\n"
         "    pw.fill('circle', 'star', count=2, epochs=30, levels='16', progress=True)\n"

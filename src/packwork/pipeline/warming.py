@@ -196,7 +196,7 @@ def _may_have_help() -> bool:
     cores = min(threads.available(), threads.thread_count())
     # Of a program with Python inside it is that program.
     is_python = Path(sys.executable or "").stem.lower().startswith("python")
-    is_ours = is_python and not getattr(sys, "frozen", False)
+    is_ours = is_python and not getattr(sys, "frozen", False) and compiled.HAS_OWN_CACHE
     return is_ours and cores > 1 and compiled.STORE.folder is not None
 
 

@@ -1,4 +1,4 @@
-"""Decorators of compiled kernels, and their cache, which holds none that is out of date.
+"""Cache of compiled kernels, which holds none that is out of date, by private parts of Numba.
 
 Numba keeps compiled functions beside the sources, by the text of the one file each stands in. What
 it took over into a kernel from those that it calls, in other files, it does not look at; and where
@@ -13,22 +13,14 @@ only.
 
 from __future__ import annotations
 
-import contextlib
-import functools
-import hashlib
-import inspect
 import io
-import logging
 import pickle
-import re
 import sys
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any, NamedTuple, Protocol, final
+from collections.abc import Callable, Iterable
+from typing import Any, NamedTuple, final
 
 import llvmlite.binding
 import llvmlite.ir
-import numba
-from numba import njit
 from numba.core import serialize
 from numba.core.caching import NullCache
 from numba.core.codegen import JITCodeLibrary
@@ -36,124 +28,23 @@ from numba.core.compiler import CompilerBase, CompileResult, DefaultPassBuilder
 from numba.core.environment import Environment, lookup_environment
 from numba.core.runtime import rtsys
 
-from packwork.folders import Store
+from packwork.compiled.keys import FORM, STORE, VERSIONS, fingerprint
+from packwork.compiled.listeners import tell
 
-FORM = 3
-"""Number of the form in which kernels are kept; a new one forgets all."""
+_NEEDED = (
+    (CompileResult, "_rebuild"),
+    (CompileResult, "_reduce"),
+    (CompileResult, "_find_referenced_environments"),
+    (Environment, "_memo"),
+    (JITCodeLibrary, "_ensure_finalized"),
+    (JITCodeLibrary, "_finalize_dynamic_globals"),
+    (JITCodeLibrary, "_optimize_final_module"),
+    (DefaultPassBuilder, "define_nopython_pipeline"),
+)
+"""Private parts of Numba that are called or overridden here."""
 
-MOST_BYTES = 200_000_000
-"""Size of the cache: about a hundred times what one version of all kernels takes. Chosen."""
-
-OUTER = {"nogil": True, "error_model": "numpy", "no_cfunc_wrapper": True}
-"""Options of kernels that Python calls: without its lock, divisions by zero as in NumPy."""
-
-VERSIONS = (numba.config.OPT, numba.__version__, llvmlite.__version__, sys.version)
-
-NOTICE = "compiling kernels, once after each installation: 10 to 40 s of one processor core"
-
-_IMPORT = re.compile(r"^[ \t]*from\s+(\S+)\s+import\s+(\([^)]*\)|[^\n(]*)", re.MULTILINE)
-_NAME = re.compile(r"\w+")
-
-_LOG = logging.getLogger("packwork")
-
-STORE = Store("kernels", MOST_BYTES, variable="NUMBA_CACHE_DIR")
-
-
-class Listener(Protocol):
-    """Callback for kernels that are compiled."""
-
-    def __call__(self, kernel: str, is_done: bool) -> None:
-        """Called before a kernel is compiled, and after."""
-        ...
-
-
-_listeners: list[Listener] = []
-
-
-def kernel(function: Any = None, /, **options: Any) -> Any:
-    """Compile a function when it is first called, once for each installation.
-
-    Kernels that call it call its machine code.
-
-    Parameters
-    ----------
-    function
-        What is compiled; None where options are given, as for ``@kernel(fastmath=True)``.
-    **options
-        Of ``numba.njit``, beside ``OUTER``.
-    """
-    if function is None:
-        return functools.partial(kernel, **options)
-    options = {**OUTER, **options}
-    compiled = njit(function, **options)
-    # Where compiling is switched off, that is the function itself.
-    if compiled is not function:
-        compiled._cache = KernelCache(function, options)
-    return compiled
-
-
-def shared(function: Any = None, /, **options: Any) -> Any:
-    """Compile a function once for all kernels that call its machine code; Python cannot call it.
-
-    For what is long and what several kernels call: a call costs some 50 ns more than a helper's.
-
-    Parameters
-    ----------
-    function
-        What is compiled; None where options are given.
-    **options
-        Of ``numba.njit``, beside ``OUTER``.
-    """
-    return kernel(function, no_cpython_wrapper=True, **options)
-
-
-def helper(function: Any = None, /, **options: Any) -> Any:
-    """Compile a function into the kernels that call it, which keep it; Python cannot call it.
-
-    Parameters
-    ----------
-    function
-        What is compiled; None where options are given.
-    **options
-        Of ``numba.njit``, beside ``OUTER``.
-    """
-    if function is None:
-        return functools.partial(helper, **options)
-    inner = {"no_cpython_wrapper": True, "pipeline_class": HelperCompiler}
-    return njit(function, **{**OUTER, **inner, **options})
-
-
-def as_python(compiled: Any) -> Any:
-    """The function that a kernel or helper was made of, as Python runs it."""
-    return getattr(compiled, "py_func", compiled)
-
-
-def mark_of(modules: Iterable[str]) -> str:
-    """One word for some modules of kernels on this machine, as :data:`STORE` takes it."""
-    texts = sorted(map(fingerprint, modules))
-    return repr((FORM, texts, VERSIONS, llvmlite.binding.get_host_cpu_name()))
-
-
-@contextlib.contextmanager
-def listening(listener: Listener) -> Iterator[None]:
-    """Tell ``listener`` what is compiled while the block runs, in place of the log."""
-    _listeners.append(listener)
-    try:
-        yield
-    finally:
-        _listeners.remove(listener)
-
-
-@functools.cache
-def _tell_once() -> None:
-    _LOG.warning(NOTICE)
-
-
-def _tell(name: str, is_done: bool) -> None:
-    if not _listeners:
-        _tell_once()
-    for listener in _listeners:
-        listener(name, is_done)
+if missing := [name for owner, name in _NEEDED if not hasattr(owner, name)]:
+    raise ImportError(f"this Numba lacks {missing[0]}")
 
 
 class KernelCache(NullCache):  # type: ignore[misc]
@@ -179,7 +70,7 @@ class KernelCache(NullCache):  # type: ignore[misc]
         loaded = None if kept is None else _loaded(kept, target_context)
         if loaded is None:
             target_context.refresh()
-            _tell(self._name, is_done=False)
+            tell(self._name, is_done=False)
             return None
         self._add(loaded)
         return loaded
@@ -193,7 +84,7 @@ class KernelCache(NullCache):  # type: ignore[misc]
         key = self._key(sig, cres.codegen)
         if key is not None and not cres.library.has_dynamic_globals:
             STORE.put(key, serialize.dumps((_calls_of(cres.library), _state(cres))))
-        _tell(self._name, is_done=True)
+        tell(self._name, is_done=True)
 
     def _add(self, compiled: Any) -> None:
         """Let other kernels call its machine code, and not compile it once more."""
@@ -343,42 +234,3 @@ def _names_alone(names: Iterable[str]) -> bytes:
         block = llvmlite.ir.Function(module, kind, name).append_basic_block()
         llvmlite.ir.IRBuilder(block).ret_void()
     return bytes(llvmlite.binding.parse_assembly(str(module)).as_bitcode())
-
-
-@functools.cache
-def fingerprint(module: str) -> str:
-    """One word for the text of a module of kernels and of all those that it calls.
-
-    Examples
-    --------
-    >>> import packwork.fields._kernels as kernels
-    >>> fingerprint(kernels.__name__) == fingerprint(kernels.__name__)
-    True
-    """
-    source = inspect.getsource(sys.modules[module])
-    whole = hashlib.sha256(source.encode())
-    for called in sorted(called_by(source) - {module}):
-        whole.update(fingerprint(called).encode())
-    return whole.hexdigest()
-
-
-def called_by(source: str) -> set[str]:
-    """Modules of kernels from which one of them imports; without a parser, ten times as fast."""
-    found = set()
-    for package, names in _IMPORT.findall(source):
-        found |= {package, *(f"{package}.{name}" for name in _NAME.findall(names))}
-    return {name for name in found if holds_kernels(name) and name in sys.modules}
-
-
-def holds_kernels(module: str) -> bool:
-    """Whether compiled code may lie in a module: one called ``_kernels``, or in ``kernels/``.
-
-    Examples
-    --------
-    >>> holds_kernels("packwork.solve._kernels"), holds_kernels("packwork.raster.kernels.overlay")
-    (True, True)
-    >>> holds_kernels("packwork.raster.kernels"), holds_kernels("packwork.raster.overlay")
-    (False, False)
-    """
-    *packages, name = module.split(".")
-    return name == "_kernels" or packages[-1:] == ["kernels"]
