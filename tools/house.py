@@ -81,7 +81,7 @@ LIMITS = {
     "context variables": 5,
     "docstrings that begin with a question word": 516,
     "class names that occur twice": 26,
-    "constants chosen by hand": 680,
+    "constants chosen by hand": 683,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

@@ -17,6 +17,7 @@ from packwork.live.commands.any_command import COMMANDS, AnyCommand
 from packwork.live.commands.command import Library
 from packwork.live.file.brought import BROUGHT, brought_of, brought_record
 from packwork.live.neighbourhood.flow import COARSEST, FINEST
+from packwork.readers.json_text import check_size
 from packwork.readers.unfit import naming
 
 Entry: TypeAlias = tuple[str, Any]
@@ -125,6 +126,8 @@ def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
 
 
 def _entry(line: str, number: int, name: str) -> Entry:
+    with naming(f"{name}: line {number}"):
+        check_size(line.encode("utf-8", "surrogatepass"))
     try:
         found = json.loads(line)
     except (ValueError, RecursionError):

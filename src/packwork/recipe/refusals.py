@@ -20,6 +20,9 @@ _PLAIN_WORDS = {
     "less than or equal to": "at most",
     "greater than": "more than",
     "a valid integer, unable to parse string as an integer": "a whole number",
+    "Unable to parse input string as an integer, exceeded maximum size": (
+        "must be a whole number of fewer digits"
+    ),
     "a valid number, unable to parse string as a number": "a number",
     "a valid integer, got a number with a fractional part": "a whole number",
     "a valid dictionary or instance of Rule": 'a table such as {items = "star", count = 3}',

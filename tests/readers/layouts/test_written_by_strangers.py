@@ -10,7 +10,8 @@ import pytest
 import packwork as pw
 from packwork.errors import ReadError
 from packwork.metrics.certificate import taken_on_trust
-from packwork.readers.layouts import assembly
+from packwork.readers import json_text
+from packwork.readers.layouts import assembly, dxf_tags
 from packwork.readers.layouts import geojson as saved
 from packwork.readers.layouts.read import read_written
 
@@ -85,10 +86,10 @@ def test_work_and_memory_are_bounded_before_they_are_done(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = _geojson(tmp_path)
-    monkeypatch.setattr(saved, "MAX_PARTS", 20)
-    with pytest.raises(ReadError, match="numbers and lists, more than 20"):
+    monkeypatch.setattr(json_text, "MAX_PARTS", 20)
+    with pytest.raises(ReadError, match="more than 20 numbers and lists"):
         read_written(file)
-    monkeypatch.setattr(saved, "MAX_PARTS", 1_000)
+    monkeypatch.setattr(json_text, "MAX_PARTS", 1_000)
     monkeypatch.setattr(saved, "MAX_ITEMS", 0)
     with pytest.raises(ReadError, match="holds 2, more than 0 items"):
         read_written(file)
@@ -99,3 +100,13 @@ def test_work_and_memory_are_bounded_before_they_are_done(
     monkeypatch.setattr(assembly, "MAX_POINTS", 3)
     with pytest.raises(ReadError, match="points, more than 3"):
         read_written(_svg(tmp_path, f'{WALL}<g id="items">{TILES}</g>'))
+
+
+def test_a_dxf_of_millions_of_lines_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "found.dxf"
+    file.write_text("0\nEOF\n" * 30)
+    monkeypatch.setattr(dxf_tags, "MOST_LINES", 40)
+    with pytest.raises(ReadError, match="has more than 40 lines"):
+        read_written(file)

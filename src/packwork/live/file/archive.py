@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import re
 import zipfile
 import zlib
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from packwork.readers.unfit import UnfitError
 
 MOST_BYTES = 1_000_000_000
 """Of a session file, packed and unpacked. Chosen: two hundred photographs."""
 
-MOST_PART_BYTES = 200_000_000
-"""Of one part unpacked. Larger takes gigabytes once it is read. Chosen."""
+MOST_PART_BYTES = 120_000_000
+"""Of one part unpacked: the large and the small copy of a photograph, or six million numbers.
+Larger takes gigabytes once it is read. Derived."""
+
+EASILY_UNPACKED, MOST_FOLD = 100_000_000, 50
+"""Bytes that any file may unpack to, and how many times its own size a larger one may: photographs
+and coordinates are packed by less than ten. Larger lets a small file fill the memory. Chosen."""
 
 MOST_PARTS = 100_010
 """As many items as a layout may have, and a few. Chosen."""
@@ -42,19 +48,41 @@ def packed(parts: Mapping[str, bytes]) -> bytes:
     return file.getvalue()
 
 
-def unpacked(data: bytes) -> dict[str, bytes]:
-    """Parts of a zip.
+def unpacked(data: bytes) -> Mapping[str, bytes]:
+    """Parts of a zip, each unpacked whenever it is asked for, so that never all are in memory.
 
     Raises
     ------
     UnfitError
-        If it is none, is spoilt, or holds more or larger parts than a session has.
+        If it is none, is spoilt, or holds more or larger parts than a session has; of a part, when
+        it is asked for.
     """
+    return _Parts(data)
+
+
+class _Parts(Mapping[str, bytes]):
+    def __init__(self, data: bytes) -> None:
+        with _refusing():
+            self._archive = zipfile.ZipFile(io.BytesIO(data))
+            self._infos = {info.filename: info for info in self._archive.infolist()}
+            _check(self._archive.infolist(), len(data))
+
+    def __getitem__(self, name: str) -> bytes:
+        info = self._infos[name]
+        with _refusing():
+            return _read(self._archive, info)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._infos)
+
+    def __len__(self) -> int:
+        return len(self._infos)
+
+
+@contextlib.contextmanager
+def _refusing() -> Iterator[None]:
     try:
-        with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            infos = archive.infolist()
-            _check(infos)
-            return {info.filename: _read(archive, info) for info in infos}
+        yield
     except UnfitError:
         raise
     except (
@@ -64,7 +92,7 @@ def unpacked(data: bytes) -> dict[str, bytes]:
         raise UnfitError(f"is no session file, or a spoilt one ({str(error)[:80]})") from None
 
 
-def _check(infos: list[zipfile.ZipInfo]) -> None:
+def _check(infos: list[zipfile.ZipInfo], size: int) -> None:
     names = [info.filename for info in infos]
     if len(infos) > MOST_PARTS or len(set(names)) < len(names):
         raise UnfitError(f"holds {len(infos)} parts; {MOST_PARTS} different ones go")
@@ -75,8 +103,9 @@ def _check(infos: list[zipfile.ZipInfo]) -> None:
         raise UnfitError("is locked by a password")
     if "session.json" not in names:
         raise UnfitError("is no session file: it has no session.json")
-    if sum(info.file_size for info in infos) > MOST_BYTES:
-        raise UnfitError(f"unpacks to more than {MOST_BYTES // 1_000_000} MB")
+    most = min(MOST_BYTES, max(EASILY_UNPACKED, MOST_FOLD * size))
+    if sum(info.file_size for info in infos) > most:
+        raise UnfitError(f"unpacks to more than {most // 1_000_000} MB, the most for its size")
 
 
 def _read(archive: zipfile.ZipFile, info: zipfile.ZipInfo) -> bytes:

@@ -36,6 +36,9 @@ ENDING = ".packwork"
 LONGEST_LINE = 256_000_000
 """Characters of a journal's line at most: an item with a large photograph. Chosen."""
 
+LONGEST_GESTURE = 500_000
+"""Lines of a journal's one gesture at most: more than an hour of a drag. Chosen."""
+
 _LOG = logging.getLogger("packwork")
 
 _Session = TypeVar("_Session", bound=Session)
@@ -244,7 +247,7 @@ class Disk:
             raise ReadError(
                 self.journal, f"is no journal of {self.path.name} as it is now; move it away"
             )
-        return _whole_gestures(read_entries(lines, str(self.journal)))
+        return _whole_gestures(read_entries(lines, str(self.journal)), self.journal)
 
 
 def _follows(line: str) -> str:
@@ -256,13 +259,15 @@ def _follows(line: str) -> str:
     return str(said.get("follows", "")) if isinstance(said, dict) else ""
 
 
-def _whole_gestures(entries: Iterator[Entry]) -> Iterator[Entry]:
+def _whole_gestures(entries: Iterator[Entry], journal: Path) -> Iterator[Entry]:
     """Entries without a gesture at the end that was not ended."""
     open_: list[Entry] = []
     for entry in entries:
         kind = getattr(entry[1], "kind", "") if entry[0] == "do" else ""
         if kind == "grab" or open_:
             open_.append(entry)
+            if len(open_) > LONGEST_GESTURE:
+                raise ReadError(journal, f"has a gesture of more than {LONGEST_GESTURE:,} lines")
         else:
             yield entry
         if kind == "drop":

@@ -25,6 +25,10 @@ from packwork.scene.pose import Poses
 MOST_ID = 2**53
 """Numbers of items at most: larger ones are no whole numbers in JSON. Derived."""
 
+MOST_ROWS = 4_000_000
+"""Items of all documents of a file together: of each some hundred bytes are held. Larger lets a
+small file fill the memory. Chosen: all that can be undone with four thousand items."""
+
 _HELD = 2 ** np.arange(len(PROPERTIES))
 
 Column: TypeAlias = Literal[
@@ -40,7 +44,7 @@ Id: TypeAlias = Annotated[int, Field(ge=0, le=MOST_ID)]
 class Changed(Options):
     """Some rows of a column."""
 
-    rows: tuple[Annotated[int, Field(ge=0)], ...]
+    rows: tuple[Annotated[int, Field(ge=0, lt=MOST_ITEMS)], ...]
     values: tuple[Number, ...]
 
 
@@ -111,16 +115,33 @@ class Parts:
     containers: Sequence[Container]
 
 
-def documents_of(records: Iterable[DocumentRecord], parts: Parts) -> Iterator[Document]:
+def rows_of(records: Iterable[DocumentRecord]) -> int:
+    """Items of all documents together.
+
+    Examples
+    --------
+    >>> rows_of([DocumentRecord(ids=(0, 1, 2)), DocumentRecord()])
+    6
+    """
+    count = rows = 0
+    for record in records:
+        count = count if record.ids is None else len(record.ids)
+        rows += count
+    return rows
+
+
+def documents_of(records: Sequence[DocumentRecord], parts: Parts) -> Iterator[Document]:
     """Documents of records.
 
     Raises
     ------
     UnfitError
-        If one is no document.
+        If one is no document, or they are too many of too many items.
     RecipeError
         If an item is of a size that none has.
     """
+    if rows_of(records) > MOST_ROWS:
+        raise UnfitError(f"holds documents of more than {MOST_ROWS:,} items together")
     before: Document | None = None
     then: dict[Column, FloatArray] = {}
     for record in records:

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal, TypeAlias
 from pydantic import AfterValidator, BeforeValidator, Field
 
 from packwork.options import Options
+from packwork.readers.regions import MAX_POINTS
 from packwork.scene.label import MAX_LENGTH
 from packwork.units import Unit
 
@@ -16,6 +17,9 @@ MOST_NAMED = 10_000
 
 FARTHEST = 1e12
 """Numbers of matrices and of text at most. Larger ones drown what is beside them. Chosen."""
+
+MOST_LINES = 100_000
+"""Walls of a container, or runs and advances of a word, at most. Chosen."""
 
 MOST_CELLS = 10_000
 """Cells of one row of a table at most. Chosen."""
@@ -81,7 +85,9 @@ class OutlineRecord(Options):
 
     points: Numbers
     """x, y, x, y and so on, eight bytes each."""
-    starts: tuple[Annotated[int, Field(ge=0)], ...]
+    starts: Annotated[
+        tuple[Annotated[int, Field(ge=0, le=MAX_POINTS)], ...], Field(max_length=MAX_POINTS)
+    ]
 
 
 class FlatRecord(Options):
@@ -136,7 +142,7 @@ class RunRecord(Options):
     x: Number
     y: Number
     size: Length
-    steps: tuple[Number, ...]
+    steps: Annotated[tuple[Number, ...], Field(max_length=MOST_LINES)]
     advance: Number
     is_leftward: bool = False
 
@@ -144,7 +150,7 @@ class RunRecord(Options):
 class WordRecord(Options):
     """What a word says, beside the curves that draw it."""
 
-    runs: tuple[RunRecord, ...]
+    runs: Annotated[tuple[RunRecord, ...], Field(max_length=MOST_LINES)]
     path: Annotated[str, Field(pattern=r"^[MmLlHhVvCcSsQqTtAaZz0-9eE .,+-]*$")]
     language: Annotated[str, Field(pattern="^[A-Za-z0-9-]{0,40}$")] = ""
 
@@ -210,4 +216,4 @@ class ContainerRecord(Options):
     height: Length
     unit: Unit
     backdrop: BackdropRecord | None = None
-    walls: tuple[Numbers, ...] | None = None
+    walls: Annotated[tuple[Numbers, ...], Field(max_length=MOST_LINES)] | None = None

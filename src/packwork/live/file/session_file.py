@@ -2,24 +2,36 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
 from packwork.errors import RecipeError
 from packwork.live.file.archive import packed, unpacked
-from packwork.live.file.documents import DocumentRecord, Parts, documents_of, records_of
+from packwork.live.file.documents import (
+    MOST_ROWS,
+    DocumentRecord,
+    Parts,
+    documents_of,
+    records_of,
+    rows_of,
+)
 from packwork.live.file.records import ContainerRecord, ItemRecord
 from packwork.live.file.things import Shared, Things, container_of, decoded, item_of
 from packwork.live.history import MOST_ENTRIES, History
 from packwork.live.kept import Kept
 from packwork.live.marks import Marks
 from packwork.options import Options
+from packwork.phrasing import number_of
+from packwork.readers.json_text import is_read
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+
+_LOG = logging.getLogger("packwork")
 
 _Path = Annotated[str, Field(pattern=r"^(items|containers)/[0-9a-f]{64}\.json$")]
 _Ids = tuple[Annotated[int, Field(ge=0)], ...]
@@ -75,6 +87,23 @@ def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
         If the file of a photograph is no longer there.
     """
     past, future = kept.history.past, kept.history.future
+    while True:
+        record = _record(replace(kept, history=History(past, future)), things, follows)
+        first = record.model_dump_json(exclude_none=True).encode()
+        if (is_read(first) and rows_of(record.documents) <= MOST_ROWS) or not (past or future):
+            break
+        past, future = past[1 + len(past) // 8 :], future[: len(future) * 7 // 8]
+    left_out = len(kept.history.past) - len(past) + len(kept.history.future) - len(future)
+    if left_out:
+        steps = number_of(left_out, "step")
+        _LOG.warning("the file would be too large; it is kept without %s of undo or redo", steps)
+    used = {*record.items, *record.containers}
+    parts = {p: d for p, d in things.encoded.items() if p in used or p.startswith("fonts/")}
+    return packed({"session.json": first, **parts})
+
+
+def _record(kept: Kept, things: Things, follows: str) -> SessionRecord:
+    past, future = kept.history.past, kept.history.future
     is_unsettled = kept.base is not kept.document
     documents = [*past, kept.document, *future, *([kept.base] if is_unsettled else [])]
     items = _Listed(lambda item: things.item(item))
@@ -83,7 +112,7 @@ def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
     def place(thing: object) -> int:
         return containers.place(thing) if isinstance(thing, Container) else items.place(thing)
 
-    record = SessionRecord(
+    return SessionRecord(
         follows=follows,
         documents=tuple(records_of(documents, place)),
         items=items.paths,
@@ -92,10 +121,6 @@ def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
         unsettled=is_unsettled,
         marks=_marks_record(kept.marks),
     )
-    used = {*items.paths, *containers.paths}
-    parts = {p: d for p, d in things.encoded.items() if p in used or p.startswith("fonts/")}
-    first = record.model_dump_json(exclude_none=True).encode()
-    return packed({"session.json": first, **parts})
 
 
 @dataclass(frozen=True)

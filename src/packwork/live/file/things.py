@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-import json
-from collections.abc import Callable, Mapping
-from typing import Any, TypeVar
+from collections.abc import Callable
+from typing import TypeVar
 
 import numpy as np
 from pydantic import BaseModel, ValidationError
@@ -34,6 +33,7 @@ from packwork.live.file.records import (
 )
 from packwork.readers.budget.crossings import MAX_CROSSINGS, Allowance
 from packwork.readers.fonts.guard import checked_face
+from packwork.readers.json_text import check_size
 from packwork.readers.unfit import UnfitError
 from packwork.recipe.refusals import refusal
 from packwork.scene.container import Backdrop, Container
@@ -232,33 +232,13 @@ def decoded(model: type[_Model], data: bytes) -> _Model:
     Raises
     ------
     UnfitError
-        Saying what is wrong with it.
+        Saying what is wrong with it, or that it is too large.
     """
+    check_size(data)
     try:
         return model.model_validate_json(data)
     except ValidationError as error:
         raise UnfitError(f"holds what cannot be read: {refusal(error, model)}") from None
-
-
-def plain(data: bytes) -> Mapping[str, Any]:
-    """A table of JSON.
-
-    Raises
-    ------
-    UnfitError
-        If it is none.
-    """
-    try:
-        found = json.loads(data, parse_constant=_refused)
-    except (ValueError, RecursionError):
-        raise UnfitError("holds text that is not JSON") from None
-    if not isinstance(found, dict):
-        raise UnfitError("holds a list where a table has to be")
-    return found
-
-
-def _refused(constant: str) -> None:
-    raise ValueError(constant)
 
 
 def _word_record(text: LiveText, things: Things) -> WordRecord:

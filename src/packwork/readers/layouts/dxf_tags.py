@@ -23,6 +23,9 @@ APPLICATION = "PACKWORK"
 OPEN_LAYER = "container"
 """Where lines may be open: the walls of a container that has openings."""
 
+MOST_LINES = 6_000_000
+"""Of a file, two for each tag: one takes about 100 bytes. Larger: a gigabyte. Chosen."""
+
 Tag: TypeAlias = tuple[int, str]
 
 _CLOSED = 1
@@ -57,13 +60,15 @@ def tags_of(text: str) -> list[Tag]:
     Raises
     ------
     UnfitError
-        If it is not DXF in text form.
+        If it is not DXF in text form, or too long.
 
     Examples
     --------
     >>> tags_of("0\nEOF\n")
     [(0, 'EOF')]
     """
+    if text.count("\n") > MOST_LINES:
+        raise UnfitError(f"has more than {MOST_LINES:,} lines; simplify it")
     lines = text.rstrip().split("\n")
     try:
         numbers = [int(number) for number in lines[0::2]]

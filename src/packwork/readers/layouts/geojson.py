@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 import shapely
@@ -19,6 +18,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region
 from packwork.readers.files import read_text
+from packwork.readers.json_text import parsed
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
 from packwork.readers.unfit import UnfitError, naming
@@ -40,11 +40,6 @@ Larger: numbers whose inverse drowns in rounding. Chosen."""
 
 SMALLEST_SCALE, LARGEST_SCALE = 1e-15, 1e15
 """Scales of items: drawings of 1e-4 to 1e7 px on canvases of 1e-3 to 1e6, and room. Derived."""
-
-MAX_PARTS = 6_000_000
-"""Commas and brackets of a layout file: each number read takes about 60 bytes, lists more. Larger:
-more than a gigabyte. Measured: 0.42 GB for 19 items of 100,000 points, 0.38 GB for one list of
-numbers, 0.27 GB for empty lists."""
 
 MAX_ITEMS = 100_000
 """Items of a layout file: each takes half a millisecond and 3 kB, however small it is. Larger:
@@ -72,7 +67,7 @@ def read_layout(path: str | Path) -> Layout:
 
     Examples
     --------
-    >>> import tempfile
+    >>> import json, tempfile
     >>> tile = {"type": "Polygon", "coordinates": [[[0, 0], [4, 0], [4, 4], [0, 0]]]}
     >>> feature = {"type": "Feature", "properties": {"role": "container"}, "geometry": tile}
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -104,22 +99,10 @@ def read_layout(path: str | Path) -> Layout:
 
 
 def _parsed(text: str) -> Mapping[str, Any]:
-    parts = text.count(",") + text.count("[") + text.count("{")
-    if parts > MAX_PARTS:
-        raise UnfitError(f"holds {parts:,} numbers and lists, more than {MAX_PARTS:,}; simplify it")
-    try:
-        collection = json.loads(text, parse_constant=_refuse_constant)
-    except json.JSONDecodeError as error:
-        raise UnfitError(f"is not JSON (line {error.lineno}: {error.msg})") from None
-    except (RecursionError, ValueError) as error:
-        raise UnfitError(f"is not JSON that can be read ({str(error)[:80]})") from None
+    collection = parsed(text)
     if not isinstance(collection, dict) or collection.get("type") != "FeatureCollection":
         raise UnfitError("is not a GeoJSON FeatureCollection; give a layout saved as .geojson")
     return collection
-
-
-def _refuse_constant(name: str) -> NoReturn:
-    raise UnfitError(f"holds the number {name}; give finite numbers")
 
 
 _Posed = tuple[str, Mapping[str, Any]]
