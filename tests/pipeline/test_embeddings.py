@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -197,3 +198,52 @@ def test_phrases_and_plurals_are_found() -> None:
         1,
     ]
     assert related(text * 2, words, 2).shape[0] == 2
+
+
+WEIGHTS = {"fox": 1, "bear": 5, "owl": 2, "Moose": 4, "hare": 3, "moose": 1}
+"""Neither by weight nor by name, and two that become one in lower case."""
+
+
+@pytest.mark.parametrize("options", [{}, {"count": 3}, {"case": "lower"}, {"stopwords": ["owl"]}])
+def test_rows_without_names_are_those_of_the_words_as_given(
+    tmp_path: Path, options: dict[str, Any]
+) -> None:
+    rows = np.random.default_rng(1).normal(size=(len(WEIGHTS), 3))
+    lines = [f"{word},{weight}" for word, weight in WEIGHTS.items()]
+    (tmp_path / "words.csv").write_text("word,weight\n" + "\n".join(lines), encoding="utf-8")
+    by_name = dict(zip(WEIGHTS, rows, strict=True))
+    if options.get("case") == "lower":
+        # Of words that become one, the first has the row.
+        del by_name["moose"]
+    named = pw.words("circle", WEIGHTS, embeddings=by_name, **options, **QUICK)
+    for source in (WEIGHTS, str(tmp_path / "words.csv")):
+        given = pw.words("circle", source, embeddings=rows, **options, **QUICK)
+        assert np.array_equal(given.poses.x, named.poses.x)
+
+
+def test_rows_of_what_is_not_placed_are_passed_over() -> None:
+    rows = np.random.default_rng(1).normal(size=(len(NAMES), 3))
+    by_name = dict(zip(NAMES, rows, strict=True))
+    named, given = (
+        pw.fill("circle", list(NAMES), count=4, embeddings=one, **QUICK) for one in (by_name, rows)
+    )
+    assert np.array_equal(given.poses.x, named.poses.x)
+
+
+def test_items_among_words_have_the_last_rows() -> None:
+    rows = np.random.default_rng(1).normal(size=(len(WEIGHTS) + 1, 3))
+    by_name = dict(zip([*WEIGHTS, "star"], rows, strict=True))
+    named, given = (
+        pw.words("circle", WEIGHTS, add="star", embeddings=one, **QUICK) for one in (by_name, rows)
+    )
+    assert np.array_equal(given.poses.x, named.poses.x)
+
+
+def test_rows_without_names_and_words_without_an_order() -> None:
+    with pytest.raises(ReadError, match="has 2 rows, and there are 6 items"):
+        pw.words("circle", WEIGHTS, embeddings=np.eye(2), **QUICK)
+    with pytest.raises(ReadError, match="rows without names, and words of a text"):
+        pw.words("circle", "one owl saw one bear", embeddings=np.eye(4), **QUICK)
+    session = pw.words("circle", WEIGHTS, **QUICK).edit()
+    with pytest.raises(ReadError, match="rows without names, and words of a text or a session"):
+        session.embeddings(np.eye(len(WEIGHTS)))

@@ -15,7 +15,7 @@ from packwork.pipeline.plan.own_losses import losses_with_a_say
 from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
-from packwork.pipeline.plan.vectors import ItemVectors, read_item_vectors
+from packwork.pipeline.plan.vectors import ItemVectors, Key, key_of, read_item_vectors
 from packwork.pipeline.region_labels import labelled
 from packwork.pipeline.registration import registered
 from packwork.pipeline.use import Use
@@ -53,6 +53,8 @@ class Material:
         All copies to be placed.
     fillers
         Of which voids are filled, unless the recipe names others.
+    given
+        Names and sources of all that was read, in the order it was given; None if it had none.
     skipped
         Files that were left out, with the reason.
     """
@@ -61,6 +63,7 @@ class Material:
     container: Container
     cast: Cast
     fillers: tuple[Item, ...]
+    given: tuple[Key, ...] | None = None
     skipped: tuple[PackworkError, ...] = ()
 
 
@@ -70,6 +73,11 @@ class Named:
 
     items: tuple[Item, ...]
     skipped: tuple[PackworkError, ...]
+
+    @property
+    def keys(self) -> tuple[Key, ...]:
+        """Names and sources of the items, each once."""
+        return tuple(dict.fromkeys(map(key_of, self.items)))
 
 
 def read_room(recipe: Recipe, given: Container | None) -> Container:
@@ -175,7 +183,7 @@ def _vectors(recipe: Recipe, material: Material) -> ItemVectors | None:
         raise RecipeError("embeddings", "puts like items together in a collage; this is none")
     if recipe.embeddings == FROM_TEXT:
         return material.use.vectors(recipe)
-    return read_item_vectors(recipe, recipe.embeddings, material.cast.items)
+    return read_item_vectors(recipe, recipe.embeddings, material.cast.items, material.given)
 
 
 def _target(recipe: Recipe, container: Container) -> TargetPicture | None:

@@ -47,5 +47,7 @@ def material_of(use: Use, recipe: Recipe, room: Room, given: Sequence[Item] | No
         container=room.of(chosen),
         cast=chosen,
         fillers=named.items,
+        # Words of a layout come by weight: what a user means by their order is not known.
+        given=None if any(item.text is not None for item in given or ()) else named.keys,
         skipped=named.skipped,
     )

@@ -64,6 +64,7 @@ def test_vectors_are_given_as_arrays_dicts_and_frames() -> None:
         ROWS,
         dict(zip(NAMES, ROWS, strict=True)),
         pandas.DataFrame(ROWS, index=list(NAMES), columns=["warm", "cold"]),
+        pandas.DataFrame([(n, *r) for n, r in zip(NAMES, ROWS, strict=True)][::-1]),
     ]
     layouts = [pw.fill("circle", list(NAMES), count=16, embeddings=one, **QUICK) for one in given]
     assert all(np.array_equal(layouts[0].poses.x, one.poses.x) for one in layouts[1:])

@@ -13,7 +13,7 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray
 from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
-from packwork.readers.vectors import groups_in_order, in_order, read_vectors
+from packwork.readers.vectors import Vectors, groups_in_order, in_order, read_vectors
 from packwork.recipe import Recipe
 from packwork.recipe.meaning import parse_anchor
 from packwork.scene.item import Item
@@ -61,40 +61,47 @@ class ItemVectors:
     ) -> ItemVectors:
         """Rows of items, in their order, some of which are known."""
         triples = zip(items, rows, known, strict=True)
-        by_item = {_key(item): row for item, row, is_known in triples if is_known}
+        by_item = {key_of(item): row for item, row, is_known in triples if is_known}
         return cls(by_item, told, anchors)
 
     def of(self, items: Sequence[Item]) -> FloatArray:
         """``(n, d)`` vectors of items, zeros of those that have none."""
         width = len(next(iter(self.by_item.values())))
         nothing = np.zeros(width)
-        return np.array([self.by_item.get(_key(item), nothing) for item in items])
+        return np.array([self.by_item.get(key_of(item), nothing) for item in items])
 
     def groups_of(self, items: Sequence[Item]) -> list[str]:
         """Names of the groups of items; empty for what is of none."""
-        return [self.groups.get(_key(item), "") for item in items]
+        return [self.groups.get(key_of(item), "") for item in items]
 
     def joined_by(self, items: Sequence[Item], rows: FloatArray) -> ItemVectors:
         """The same with rows of some more items, each the one of its name in its group."""
         pairs = zip(items, rows, strict=True)
         return replace(
             self,
-            by_item={**self.by_item, **{_key(item): row for item, row in pairs}},
-            groups={**self.groups, **{_key(item): item.name for item in items}},
+            by_item={**self.by_item, **{key_of(item): row for item, row in pairs}},
+            groups={**self.groups, **{key_of(item): item.name for item in items}},
         )
 
 
-def read_item_vectors(recipe: Recipe, file: str, items: Sequence[Item]) -> ItemVectors:
-    """Vectors of a file for the items of a run, by their names or in their order.
+def read_item_vectors(
+    recipe: Recipe, file: str, items: Sequence[Item], given: Sequence[Key] | None
+) -> ItemVectors:
+    """Vectors of a file for the items of a run, by their names or in the order given.
+
+    Parameters
+    ----------
+    given
+        All that was read, in its order, which may be more than the run places; None if it has none.
 
     Raises
     ------
     ReadError
         If it cannot be read, or has no row for each.
     """
-    things = list({_key(item): item for item in items}.values())
+    things = list({key_of(item): item for item in items}.values())
     names = [(item.name, Path(item.source).name) for item in things]
-    vectors = read_vectors(file, recipe)
+    vectors = _picked(read_vectors(file, recipe), things, given)
     rows, known = in_order(vectors, names)
     without = [item.name for item, is_known in zip(things, known, strict=True) if not is_known]
     told: tuple[ReadError, ...] = ()
@@ -106,8 +113,26 @@ def read_item_vectors(recipe: Recipe, file: str, items: Sequence[Item]) -> ItemV
     anchors = tuple((one.angle, vectors.called(one.name)) for one in asked)
     found = ItemVectors.of_rows(things, rows, known, told, anchors)
     pairs = zip(things, groups_in_order(vectors, names), strict=True)
-    return replace(found, groups={_key(item): group for item, group in pairs if group})
+    return replace(found, groups={key_of(item): group for item, group in pairs if group})
 
 
-def _key(item: Item) -> Key:
+def _picked(vectors: Vectors, things: Sequence[Item], given: Sequence[Key] | None) -> Vectors:
+    """Rows of the things that are placed, where rows have no names; else the vectors themselves."""
+    if vectors.names is not None:
+        return vectors
+    if given is None:
+        raise ReadError(
+            vectors.file,
+            "has rows without names, and words of a text or a session have no order of their own; "
+            "give a first column of words (in Python a dict of vectors by word)",
+        )
+    in_order(vectors, given)
+    first = {key: k for k, key in reversed(list(enumerate(given)))}
+    rows = [first[key_of(thing)] for thing in things]
+    groups = vectors.groups and tuple(vectors.groups[k] for k in rows)
+    return replace(vectors, rows=vectors.rows[rows], groups=groups)
+
+
+def key_of(item: Item) -> Key:
+    """Name and source of an item."""
     return item.name, item.source

@@ -37,7 +37,8 @@ class GivenVectors:
 def vectors_of(value: Any) -> GivenVectors:
     """Vectors of an array, a row an item; or by name, of a dict or a data frame's index.
 
-    A column of texts in a data frame says of what group each is.
+    Where a data frame's index only counts, a first column of texts, none twice, has the names, as
+    in a file. Another column of texts says of what group each is.
 
     Raises
     ------
@@ -60,6 +61,11 @@ def vectors_of(value: Any) -> GivenVectors:
         # An index of numbers only counts the rows.
         has_numbers = getattr(getattr(value.index, "dtype", None), "kind", "O") in "iuf"
         names = None if has_numbers else tuple(map(str, value.index))
+        first = value.columns[0] if len(value.columns) else None
+        if has_numbers and first is not None and _is_text(value[first]):
+            cells = tuple(map(str, value[first]))
+            if len(set(cells)) == len(cells):
+                names, value = cells, value[list(value.columns[1:])]
         texts = [k for k in value.columns if _is_text(value[k])]
         if len(texts) == 1:
             groups = tuple("" if cell is None else str(cell) for cell in value[texts[0]])

@@ -26,7 +26,7 @@ from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.options import WeightIs, WordOptions
 from packwork.readers.words.source import ranked_words
 from packwork.readers.words.together import related
-from packwork.readers.words.word import Word
+from packwork.readers.words.word import Word, lines_of
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.label import Label
 from packwork.scene.live_text import LiveText
@@ -76,6 +76,8 @@ class WordsRead:
         Words of a text that are left out since they say little, the most frequent first.
     vectors
         ``(n, d)`` of the items, by which of them stand together; None unless asked for.
+    order
+        Names and texts of all rows of a table, as they stand there; None of a text.
     """
 
     items: tuple[Item, ...]
@@ -86,6 +88,7 @@ class WordsRead:
     told: tuple[ReadError, ...] = ()
     stopped: tuple[str, ...] = ()
     vectors: FloatArray | None = None
+    order: tuple[tuple[str, str], ...] | None = None
 
 
 def read_word_items(
@@ -146,6 +149,7 @@ def read_word_items(
         ranked.told,
         ranked.stopped,
         related(ranked.sentences, words, options.phrases) if is_related else None,
+        ranked.order and tuple((" ".join(lines_of(text)), text) for text in ranked.order),
     )
 
 
@@ -221,8 +225,7 @@ def shaped_word(word: Word, fonts: Fonts, holes: Holes = "fill") -> ShapedWord:
     """
     if len(word.text) > LONGEST:
         raise UnfitError(f"has {len(word.text):,} characters; the most is {LONGEST}")
-    lines = [" ".join(line.split()) for line in word.text.split("|")]
-    lines = [line for line in lines if line]
+    lines = lines_of(word.text)
     if not lines:
         raise UnfitError("has no letters")
     drawn = fonts.lettering(lines)

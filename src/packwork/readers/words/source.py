@@ -58,12 +58,15 @@ class Ranked:
         frequent first; none where the language was asked for.
     sentences
         Words of a text in their order; none of a table.
+    order
+        Words of all rows of a table, as they stand there; None of a text.
     """
 
     words: tuple[Word, ...]
     told: tuple[ReadError, ...] = ()
     stopped: tuple[str, ...] = ()
     sentences: Sequence[Sequence[str]] = ()
+    order: tuple[str, ...] | None = None
 
 
 def read_words(options: WordOptions, asked: TableFormat | None = None) -> list[Word]:
@@ -107,7 +110,7 @@ def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Rank
     2
     """
     read = _words(options, asked or TableFormat())
-    cased = [_cased(word, options.case) for word in read.words]
+    cased = [replace(word, text=_cased(word.text, options.case)) for word in read.words]
     seen = [word for word in cased if sound(word.text).replace("|", "").strip()]
     ranked = sorted(_merged(seen), key=lambda word: -word.weight)
     if not ranked:
@@ -116,7 +119,8 @@ def ranked_words(options: WordOptions, asked: TableFormat | None = None) -> Rank
     if unseen := len(cased) - len(seen):
         many = number_of(unseen, "word is", "words are")
         told += (ReadError(_name(options), f"{many} empty, and left out"),)
-    return replace(read, words=tuple(ranked), told=told)
+    order = read.order and tuple(sound(_cased(text, options.case)) for text in read.order)
+    return replace(read, words=tuple(ranked), told=told, order=order)
 
 
 def _words(options: WordOptions, asked: TableFormat) -> Ranked:
@@ -132,7 +136,7 @@ def _words(options: WordOptions, asked: TableFormat) -> Ranked:
         told = (ReadError(_name(options), text.notice),) if text.notice else ()
         return replace(read, told=told)
     kept = tuple(word for word in read.words if word.text.casefold() not in stops)
-    return replace(read, words=kept)
+    return replace(read, words=kept, order=tuple(word.text for word in read.words))
 
 
 def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
@@ -245,10 +249,10 @@ def _merged(words: Iterable[Word]) -> list[Word]:
     return list(found.values())
 
 
-def _cased(word: Word, case: str) -> Word:
+def _cased(text: str, case: str) -> str:
     if case == "common":
-        return word
-    return replace(word, text=word.text.lower() if case == "lower" else word.text.upper())
+        return text
+    return text.lower() if case == "lower" else text.upper()
 
 
 def _name(options: WordOptions) -> str:

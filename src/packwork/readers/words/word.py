@@ -26,6 +26,18 @@ class Word:
     columns: Mapping[str, str] = field(default_factory=dict)
 
 
+def lines_of(text: str) -> list[str]:
+    """Lines of a word as it is written, none of them empty.
+
+    Examples
+    --------
+    >>> lines_of("polar |bear")
+    ['polar', 'bear']
+    """
+    lines = (" ".join(line.split()) for line in text.split("|"))
+    return [line for line in lines if line]
+
+
 def sound(text: str) -> str:
     r"""Text without control characters, lone surrogates and idle spaces, composed.
 

@@ -334,5 +334,6 @@ def read_cloud(
         container=container,
         cast=chosen,
         fillers=words.items,
+        given=None if words.order is None else (*words.order, *named.keys),
         skipped=(*named.skipped, *words.told),
     )
