@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 import re
 import subprocess
 import sys
@@ -11,6 +12,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
+import packwork as pw
 
 ROOT = Path(__file__).parents[1]
 ASKED: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
@@ -73,3 +76,21 @@ def test_the_verb_finish_hides_no_module_of_that_package(imported: str, order: s
         [sys.executable, "-c", checked], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_functions_that_name_the_package_travel_to_other_processes() -> None:
+    """As joblib, Dask, Ray and Spark send them."""
+    cloudpickle = pytest.importorskip("cloudpickle")
+    sent = cloudpickle.dumps(lambda: (pw.fill.__name__, pw.Poses([1], [2])))
+    program = "import pickle, sys\nprint(pickle.loads(bytes.fromhex(sys.argv[1]))()[0])"
+    done = subprocess.run(
+        [sys.executable, "-c", program, sent.hex()], capture_output=True, text=True, check=False
+    )
+    assert (done.stdout.strip(), done.stderr) == ("fill", "")
+
+
+def test_the_package_and_all_that_it_offers_are_pickled_by_name() -> None:
+    assert pickle.loads(pickle.dumps(pw)) is pw  # noqa: S301
+    for name in pw.__all__:
+        one = getattr(pw, name)
+        assert pickle.loads(pickle.dumps(one)) == one  # noqa: S301

@@ -73,7 +73,7 @@ class Count(NamedTuple):
 
 LIMITS = {
     "lines of code": 51_900,
-    "lines of docstrings": 22_500,
+    "lines of docstrings": 22_544,
     "files": 724,
     "functions of the road in one plain fill": 178,
     "files of the road in one plain fill": 45,

@@ -158,5 +158,9 @@ class _Package(type(sys)):  # type: ignore[misc]
         if not (name == "finish" and isinstance(value, type(sys))):
             super().__setattr__(name, value)
 
+    def __reduce__(self) -> tuple[Any, ...]:
+        # Functions sent to other processes name it, and cloudpickle knows plain modules alone.
+        return importlib.import_module, (__name__,)
+
 
 sys.modules[__name__].__class__ = _Package

@@ -149,8 +149,13 @@ def read_word_items(
         ranked.told,
         ranked.stopped,
         related(ranked.sentences, words, options.phrases) if is_related else None,
-        ranked.order and tuple((" ".join(lines_of(text)), text) for text in ranked.order),
+        None if ranked.order is None else tuple(map(_named, ranked.order)),
     )
+
+
+def _named(text: str) -> tuple[str, str]:
+    """Name and text of a word, as its item has them."""
+    return " ".join(lines_of(text)), text
 
 
 def word_item(word: Word, fonts: Fonts, holes: Holes = "fill") -> Item:
