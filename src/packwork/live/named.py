@@ -222,7 +222,7 @@ class NamedSession(Session):
         """Move the container on its canvas, scale and turn it, in degrees, about its middle."""
         self.apply(made(PlaceContainer, x=x, y=y, factor=factor, angle=angle))
 
-    def set(self, **options: str | float | Sequence[str]) -> None:
+    def set(self, /, **options: str | float | Sequence[str]) -> None:
         """Set numbers for all: ``padding``, ``sizes``, ``rotate``, ``force`` and so on."""
         container, given = self.document.container, dict(options)
         asked = given.get("padding")

@@ -8,7 +8,7 @@ from packwork.recipe.refusals import validated
 from packwork.writers.film.options import FilmOptions
 
 
-def film_options(recipes: FilmOptions | None = None, **given: Any) -> FilmOptions:
+def film_options(recipes: FilmOptions | None = None, /, **given: Any) -> FilmOptions:
     """Options of a film: those given, then the recipe's, then the defaults.
 
     Parameters

@@ -158,7 +158,7 @@ async def _body(request: Request, most: int) -> bytes:
 
 def refused(error: PackworkError) -> Response:
     """Answer of one clear line."""
-    return PlainTextResponse(f"{' '.join(str(error).split())}\n", 422)
+    return PlainTextResponse(f"{' '.join(str(error).split())}\n", 400)
 
 
 def guarded(desk: Desk, uploads: Uploads, host: str, token: str) -> Guard:

@@ -18,7 +18,8 @@ MOST_BYTES_IN_ALL = 1_000_000_000
 MOST_FILES = 2_000
 """Files at most. Chosen."""
 
-LONGEST_NAME = 120
+LONGEST_NAME = 200
+"""Bytes of a file's name at most: systems take 255, and a number may be added. Derived."""
 
 _NO_LETTER = re.compile(r"[^\w .()+-]")
 _BATCH = re.compile(r"[0-9a-f]{16}")
@@ -87,8 +88,14 @@ def safe_name(name: str) -> str:
     plain = _NO_LETTER.sub("_", name.replace("\\", "/").rpartition("/")[2]).strip(" .")
     stem, dot, ending = plain.rpartition(".")
     if dot and len(ending) <= 8:
-        return f"{stem[: LONGEST_NAME - 9]}.{ending}" if stem else f"file.{ending}"
-    return plain[:LONGEST_NAME] or "file"
+        ending = _shortened(ending, 40)
+        return f"{_shortened(stem, LONGEST_NAME - 41) or 'file'}.{ending}"
+    return _shortened(plain, LONGEST_NAME) or "file"
+
+
+def _shortened(text: str, most: int) -> str:
+    """The beginning of a text, so many bytes of it at most."""
+    return text.encode()[:most].decode(errors="ignore").strip(" .")
 
 
 def _free(folder: Path, name: str) -> Path:
