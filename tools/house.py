@@ -73,9 +73,9 @@ class Count(NamedTuple):
 
 LIMITS = {
     "lines of code": 51_900,
-    "lines of docstrings": 22_544,
+    "lines of docstrings": 22_563,
     "files": 724,
-    "functions of the road in one plain fill": 178,
+    "functions of the road in one plain fill": 179,
     "files of the road in one plain fill": 45,
     "calls of id()": 100,
     "context variables": 5,

@@ -32,10 +32,13 @@ class Objective:
         Sum of all terms, each by its weight at that epoch; not a number where nothing is minimised.
     terms
         Value of each loss by name, not weighed; ``recall`` and ``forces`` too, where they act.
+    weights
+        Factor of each term in the total.
     """
 
     total: float = nan
     terms: Mapping[str, float] = field(default_factory=dict)
+    weights: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

@@ -139,3 +139,59 @@ def test_every_verb_keeps_one(tmp_path: Path) -> None:
     ]
     assert [kept(layout)["stage"][-1] for layout in layouts] == ["done"] * 5
     assert layouts[1].track is not None
+
+
+def lively(density: Any, container: Any) -> pw.Term:
+    return pw.Term(float(density.mean()), np.ones_like(density) / density.size)
+
+
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"preset": "paper"}, {"losses": {"area-shares": 2.0, lively: 0.5}, "force": "down"}],
+)
+def test_the_total_is_the_sum_of_the_terms_by_their_weights(options: dict[str, Any]) -> None:
+    history = kept(made(history=True, **options))
+    levels = history["stage"] == "levels"
+    terms = [name.removeprefix("weight_") for name in history.columns if "weight_" in name]
+    weighed = [history[f"weight_{name}"] * history[name] for name in terms]
+    np.testing.assert_allclose(np.sum(weighed, axis=0)[levels], history["total"][levels])
+
+
+@pytest.mark.parametrize("preset", ["default", "paper"])
+def test_the_manifest_has_all_weights_of_the_levels(preset: str) -> None:
+    layout = made(history=True, preset=preset, losses={"filling": 0.5, "overlap": 0, lively: 0.25})
+    solve, history = layout.manifest["solve"], kept(layout)
+    assert solve["losses"]["filling"] == 0.5
+    assert solve["losses"]["lively"] == 0.25
+    assert "overlap" not in solve["losses"]
+    assert solve["epochs"] == QUICK["epochs"]
+    for k, epoch in enumerate(history["epoch"][history["stage"] == "levels"]):
+        progress = min(epoch / (solve["epochs"] - 1), 1.0)
+        is_settling = progress > 1 - solve["settling"]
+        for name, weight in {**solve["losses"], "recall": solve["recall"]}.items():
+            grown = 1.0 if name == "filling" else solve["hardening"] ** progress
+            cut = is_settling and name in {"filling", "evenness"}
+            factor = grown * (solve["settling_reward"] if cut else 1.0)
+            assert history[f"weight_{name}"][k] == pytest.approx(weight * factor)
+
+
+@pytest.mark.parametrize(
+    ("preset", "name", "said"),
+    [
+        ("paper", "containment", "paper-containment, overlap, paper-evenness"),
+        ("paper", "filling", "paper-containment, overlap, paper-evenness"),
+        ("default", "paper-evenness", "containment, overlap, filling, evenness"),
+    ],
+)
+def test_no_loss_is_left_out_that_the_preset_has_not(preset: str, name: str, said: str) -> None:
+    with pytest.raises(pw.RecipeError, match=f"losses: {name} is none .*{preset}.*{said}$"):
+        made(preset=preset, losses={name: 0})
+    # Beside the preset's own it is one more.
+    layout = made(preset=preset, losses={name: 1.0})
+    assert layout.manifest["solve"]["losses"][name] == 1.0
+
+
+def test_a_loss_that_weighs_nothing_anyway_is_told(caplog: pytest.LogCaptureFixture) -> None:
+    layout = made(sizes="shared", losses={"evenness": 0, lively: 0})
+    assert "the loss evenness weighs nothing here anyway" in caplog.text
+    assert "evenness" not in layout.manifest["solve"]["losses"]

@@ -14,13 +14,16 @@ import numpy.typing as npt
 from packwork.api.frozen import ReadOnly
 from packwork.display.extras import found
 from packwork.errors import RecipeError
-from packwork.progress import Step
+from packwork.progress import Objective, Step
 
 if TYPE_CHECKING:
     from pandas import DataFrame
 
 TAKEN = "loss_"
 """What the column of a loss begins with whose name another column has."""
+
+WEIGHT = "weight_"
+"""What the column of a term's weight begins with."""
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -35,9 +38,10 @@ class History:
         of a chart are solved one after another), ``level`` (from 0), ``level_px``, ``epoch``
         (of that solve; in other stages rounds), ``progress`` (0 to 1); ``LC``, ``OO`` and ``EA``,
         in the levels as their pixels show them; ``total``, what the levels minimise: the sum of
-        all terms, each by its weight at that epoch (most weights grow over a run); and a column
-        for each term, not weighed. Terms of the image and the total are means over the canvas;
-        after the levels terms are not a number.
+        all terms, each by its weight at that epoch (most weights grow over a run); a column for
+        each term, not weighed, and one for its weight, as ``overlap`` and ``weight_overlap``. Terms
+        of the image and the total are means over the canvas; after the levels terms are not a
+        number.
 
     Examples
     --------
@@ -95,7 +99,7 @@ class HistoryKeeper:
     def __init__(self, every: int) -> None:
         self.every = every
         self._rows: list[dict[str, Any]] = []
-        self._terms: list[Mapping[str, float]] = []
+        self._met: list[Objective] = []
         self._solve, self._epoch = 1, 0
 
     def on_step(self, step: Step) -> None:
@@ -117,17 +121,19 @@ class HistoryKeeper:
                 "total": step.objective.total,
             }
         )
-        self._terms.append(step.objective.terms)
+        self._met.append(step.objective)
 
     def history(self) -> History:
         """All that was kept."""
-        rows, terms = self._rows, self._terms
+        rows, met = self._rows, self._met
         columns = {name: np.array([row[name] for row in rows]) for name in rows[0]}
-        names = dict.fromkeys(name for one in terms for name in one)
+        names = dict.fromkeys(name for one in met for name in one.terms)
+        weights = {}
         for name in names:
             free = f"{TAKEN}{name}" if name in columns else name
-            columns[free] = np.array([one.get(name, nan) for one in terms])
-        return History(columns)
+            columns[free] = np.array([one.terms.get(name, nan) for one in met])
+            weights[WEIGHT + free] = np.array([one.weights.get(name, nan) for one in met])
+        return History(columns | weights)
 
 
 def keeper(history: bool | int) -> HistoryKeeper | None:

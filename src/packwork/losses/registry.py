@@ -6,6 +6,7 @@ import importlib
 import inspect
 from collections.abc import Mapping
 from functools import partial
+from itertools import count
 from types import MappingProxyType
 from typing import Any
 
@@ -86,6 +87,22 @@ def loss_name(loss: str | ImageLoss | PoseLoss) -> str:
     ('overlap', 'overlap')
     """
     return loss if isinstance(loss, str) else getattr(loss, "__name__", type(loss).__name__)
+
+
+def by_name(weights: Mapping[Any, float]) -> dict[str, float]:
+    """Weights by what losses are called, in their order, numbered where two are called the same.
+
+    Examples
+    --------
+    >>> by_name({overlap: 2.0, "overlap": 1.0})
+    {'overlap': 2.0, 'overlap 2': 1.0}
+    """
+    found: dict[str, float] = {}
+    for loss, weight in weights.items():
+        name = loss_name(loss)
+        numbered = (name if k == 1 else f"{name} {k}" for k in count(1))
+        found[next(one for one in numbered if one not in found)] = weight
+    return found
 
 
 def find_pose_loss(name: str | ImageLoss | PoseLoss) -> PoseLoss | None:

@@ -11,7 +11,7 @@ from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.pipeline.arranging import check_arranged
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.plan.cast import Cast
-from packwork.pipeline.plan.own_losses import losses_with_a_say
+from packwork.pipeline.plan.own_losses import check_ablations, losses_with_a_say
 from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
@@ -141,6 +141,7 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
     weights = shared_out(chosen.items, chosen.weights, material.use.words, recipe.share)
     plan = Plan.of(recipe, container)
     fillers = _fillers(recipe, material.fillers)
+    check_ablations(plan, recipe.preset)
     plan = replace(plan, losses=losses_with_a_say(plan.losses, container, chosen.items))
     vectors = _vectors(recipe, material)
     told = () if vectors is None else vectors.told

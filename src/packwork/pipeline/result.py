@@ -11,6 +11,7 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError, RowsLostError
 from packwork.installed import installed_version
+from packwork.losses.registry import by_name
 from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.resolution import photo_pixels
@@ -18,6 +19,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.solve.detail import seen_posed
 from packwork.solve.level import Level
+from packwork.solve.options import SolveOptions
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.solver import Ending, Outcome
 
@@ -222,6 +224,14 @@ def find_unplaced(layout: Layout, limits: Limits = NO_LIMITS) -> tuple[Unplaced,
     )
 
 
+def _solved(options: SolveOptions) -> dict[str, Any]:
+    """All numbers that the levels were run by, losses by their names."""
+    return {
+        **options.model_dump(mode="json", exclude={"losses"}),
+        "losses": by_name(options.losses),
+    }
+
+
 def manifest(
     job: Job,
     method: str,
@@ -238,6 +248,7 @@ def manifest(
         "start": method,
         "ending": outcome.ending.value,
         "levels": [asdict(level) for level in outcome.levels],
+        "solve": _solved(job.plan.solve_options()) if outcome.levels else None,
         "metrics": metrics.as_dict(),
         "seconds": dict(job.clock.seconds),
         "unplaced": [asdict(u) for u in unplaced],

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import count
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from packwork.geometry.outline import Outline
 from packwork.losses.colour import SeenInColour
 from packwork.losses.evenness import evenness
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
-from packwork.losses.registry import find_loss, find_pose_loss, loss_name
+from packwork.losses.registry import by_name, find_loss, find_pose_loss
 from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, Term, checked_term
 from packwork.progress import Objective
 from packwork.raster.coverage import Rasteriser
@@ -150,21 +149,21 @@ class Level:
         density = self.density(poses)
         canvas = density.size / self.px_per_cu**2
         terms: dict[str, float] = {}
-        total = 0.0
-        for loss, weight in weights.items():
-            value, share = self._value(loss, poses, density), 1.0
-            if loss in self._of_poses:
-                share = self._container_area / canvas
-            terms[_unused(loss_name(loss), terms)] = value
-            total += weight * share * value
+        factors: dict[str, float] = {}
+        for (loss, weight), name in zip(weights.items(), by_name(weights), strict=True):
+            terms[name] = self._value(loss, poses, density)
+            # That of the poses has no unit, and weighs by the container's area.
+            share = self._container_area / canvas if loss in self._of_poses else 1.0
+            factors[name] = weight * share
         if recall:
             terms["recall"] = self._recall_value(poses, density) / canvas
-            total += recall * terms["recall"]
+            factors["recall"] = recall
         if self._forces.acts:
             centres = np.column_stack([poses.x, poses.y])
             terms["forces"] = self._forces.cost(centres, self._areas_of(poses)).value / canvas
-            total += force * terms["forces"]
-        return Objective(total, terms)
+            factors["forces"] = force
+        total = sum((factors[name] * value for name, value in terms.items()), 0.0)
+        return Objective(total, terms, factors)
 
     def _value(self, loss: str | ImageLoss | SeenInColour, poses: Poses, density: Image) -> float:
         """Value of one loss; ``density``: that of the last sweep, which has these poses."""
@@ -222,12 +221,6 @@ class Level:
         for key, term in terms.items():
             adjoint += weights.get(key, 0.0) * density.size * term.adjoint
         return adjoint
-
-
-def _unused(name: str, taken: Mapping[str, float]) -> str:
-    """The name, numbered if there is another loss of that name."""
-    numbered = (name if k == 1 else f"{name} {k}" for k in count(1))
-    return next(one for one in numbered if one not in taken)
 
 
 def _add(by_pose: FloatArray, term: PoseTerm, weight: float) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any, TypeAlias
 
 import numpy as np
@@ -20,6 +21,7 @@ from packwork.losses.registry import (
     takes_colour,
 )
 from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, checked_call, checked_term
+from packwork.pipeline.plan.plan import Plan
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image
 from packwork.scene.colour import parse_colour
@@ -58,6 +60,28 @@ def _has_a_say(key: str | ImageLoss, container: Container, items: Sequence[Item]
         name = key if isinstance(key, str) else getattr(key, "__name__", repr(key))
         _LOG.warning("the loss %s is zero wherever items are: it changes nothing", name)
     return says
+
+
+def check_ablations(plan: Plan, preset: str) -> None:
+    """Refuse to switch a loss off that the preset has not, tell of one that weighs nothing here.
+
+    Raises
+    ------
+    RecipeError
+        Naming the losses of the preset.
+    """
+    plain = replace(plan, losses={}).solve_options().losses
+    known = dict.fromkeys([*plan.preset.solve.losses, *plain])
+    for name, weight in plan.losses.items():
+        if weight or name not in {*LOSSES, *POSE_LOSSES} or name in plain:
+            continue
+        if name not in known:
+            raise RecipeError(
+                "losses",
+                f"{name} is none of the losses of the preset {preset}, so 0 would change nothing; "
+                f"those are {', '.join(map(loss_name, known))}",
+            )
+        _LOG.warning("the loss %s weighs nothing here anyway: 0 changes nothing", name)
 
 
 def sees_colours(losses: Losses) -> bool:
