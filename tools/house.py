@@ -72,16 +72,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 51_900,
-    "lines of docstrings": 22_563,
-    "files": 724,
+    "lines of code": 52_304,
+    "lines of docstrings": 22_764,
+    "files": 725,
     "functions of the road in one plain fill": 179,
     "files of the road in one plain fill": 45,
     "calls of id()": 100,
     "context variables": 5,
     "docstrings that begin with a question word": 516,
     "class names that occur twice": 26,
-    "constants chosen by hand": 683,
+    "constants chosen by hand": 684,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

@@ -116,8 +116,9 @@ class Layout(scene.Layout):
     def load(cls, path: str | Path, items: Iterable[scene_item.Item] = ()) -> Layout:
         """Layout from a file that was saved as ``.geojson``; also from an SVG or a DXF of ours.
 
-        The items come back as flat shapes in their mean colour: pictures and drawings stay in
-        their files. SVG and DXF hold shapes in place, and no poses.
+        An SVG holds everything that is seen. Of the others items come back as flat shapes, of
+        GeoJSON in their mean colour: pictures and drawings stay in their files. DXF holds shapes in
+        place, and no poses.
 
         Parameters
         ----------

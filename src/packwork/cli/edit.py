@@ -5,9 +5,9 @@ from __future__ import annotations
 import contextlib
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TypeAlias, cast
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, cast
 
 import typer
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
     from packwork.scene.item import Item
+    from packwork.scene.layout import Layout
 
 _FORMS = {
     "remove": "ITEM", "hold": "ITEM or ITEM=place,angle,size", "replace": "ITEM=FILE",
@@ -42,6 +43,9 @@ Specs: TypeAlias = list[str]
 
 NEARLY = 0.005
 """Share of the container by which less than was asked for may be covered. Chosen."""
+
+KEPT_OPTIONS = ("flatten", "show_container", "cut", "kiss_cut")
+"""Ways of drawing that a file tells of, and that an edit of it goes on with."""
 
 DEFAULT_OUTPUT = Path("edited.svg")
 """File to write where none is named."""
@@ -227,11 +231,14 @@ def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
     from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
     from packwork.pipeline.registration import drawn_by
-    from packwork.readers.layouts.read import read_written
+    from packwork.readers.layouts.read import is_drawn, read_written
 
     if not _is_session(path):
         found = read_written(path)
         made = drawn_by(found, _read(items)) if items else found
+        not_kept = found.manifest.get("not_kept", ())
+        for line in not_kept if is_drawn(path) else ():
+            say(f"{path}: {line}")
         return NamedSession(Document.of(made)), None
     if items:
         raise RecipeError("items", "are in a session file already; leave them out")
@@ -255,7 +262,8 @@ def _written(
 
     done = session.finish()
     made = session.layout
-    drawing = writers.write_options(pixels=pixels)
+    # The file's own way of drawing is gone on with.
+    drawing = writers.write_options(**_drawing_of(made), pixels=pixels)
     files = [
         (path, writers.encoded(made, path, drawing))
         for path in outputs
@@ -286,6 +294,13 @@ def _written(
     for line in done.in_the_way:
         say(line)
     return done.certified
+
+
+def _drawing_of(layout: Layout) -> dict[str, Any]:
+    """Options by which the file was drawn that a layout came from."""
+    found = layout.manifest.get("drawing")
+    known = found if isinstance(found, Mapping) else {}
+    return {key: known[key] for key in KEPT_OPTIONS if key in known}
 
 
 def _planned(session: NamedSession, flag: str, spec: str) -> Callable[[], None]:

@@ -10,6 +10,7 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.forces.forces import NO_FORCES, Forces
+from packwork.live.notes import Attached, attached, notes_on
 from packwork.live.options import LiveOptions
 from packwork.pipeline.plan.forces import forces_of
 from packwork.scene.container import Container
@@ -52,6 +53,8 @@ class Document:
         Number of the next item that is added.
     manifest
         What is known of where the layout came from.
+    notes
+        Labels on items and letters beside them, as they were at first.
 
     Examples
     --------
@@ -72,6 +75,7 @@ class Document:
     options: LiveOptions
     next_id: int
     manifest: Mapping[str, Any] = field(default_factory=dict)
+    notes: tuple[Attached, ...] = ()
 
     def __post_init__(self) -> None:
         put = object.__setattr__
@@ -97,6 +101,7 @@ class Document:
             options=options,
             next_id=count,
             manifest=layout.manifest,
+            notes=attached(layout),
         )
         return document.with_ranges(options)
 
@@ -107,9 +112,11 @@ class Document:
     def layout(self) -> Layout:
         """The layout as it is now; of its manifest what does not depend on places."""
         ground = ground_in(self.manifest)
-        return Layout(
+        made = Layout(
             self.container, self.items, self.poses, self.weights, self.manifest, ground=ground
         )
+        rows = {number: row for row, number in enumerate(self.ids.tolist())}
+        return replace(made, notes=tuple(notes_on(made, rows, self.notes)))
 
     @property
     def own_areas(self) -> FloatArray:

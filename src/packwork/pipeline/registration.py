@@ -16,10 +16,14 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.pipeline.earlier import matched
-from packwork.scene.item import Item
+from packwork.scene.colour import hex_colour
+from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
+from packwork.scene.recolour import one_colour, recoloured
+from packwork.scene.swatch import representative_colour
 
 DIRECTIONS = 1_440
 """Directions of a signature, a quarter of a degree apart. More tell turns finer than a finish
@@ -41,10 +45,10 @@ lay a hair apart may meet. Larger gives more to grow back, smaller makes conflic
 STEPS = 6
 """Steps of the refinement; three are enough for all that was tried. Chosen."""
 
-ALIKE = 1e-5
+ALIKE = 2 * FLATTENING
 """Difference of two boxes, shares of an item's extent, up to which its shape in a file is the
-item's own. Larger takes a shape for another one's, smaller the rounding of files for a
-difference. Chosen."""
+item's own: curves of a drawing are followed more finely there. Larger takes a shape for another
+one's. Derived."""
 
 ROUND = 1e-6
 """Mean squared lever, of an outline of area 1, below which it has no turn to speak of: a disc.
@@ -52,9 +56,11 @@ Chosen."""
 
 
 def registered(layout: Layout, items: Sequence[Item]) -> Layout:
-    """The layout with the items of a run in place of plain shapes of the same names.
+    """The layout with the items of a run in place of those of the same names.
 
-    Shapes whose names no item has are kept as they are.
+    Where an item of the file is the run's own, in its units, the file's pose is the truth: a round
+    item has an angle too. Of other shapes poses are found. Shapes whose names no item has are kept
+    as they are.
 
     Parameters
     ----------
@@ -64,28 +70,48 @@ def registered(layout: Layout, items: Sequence[Item]) -> Layout:
         Of the run; copies of one name are taken in turn.
     """
     found = matched([item.name for item in layout.items], [item.name for item in items])
-    own, angles, scales = list(layout.items), layout.poses.angle.copy(), layout.poses.scale.copy()
-    for k in np.flatnonzero(found >= 0).tolist():
-        own[k] = items[int(found[k])]
-        shape = layout.items[k].outline
-        scales[k] *= (1 - SLACK) * np.sqrt(shape.area / own[k].outline.area)
-        angles[k] = turn_of(own[k].outline, shape)
-    poses = replace(layout.poses, angle=angles, scale=scales)
-    return replace(layout, items=tuple(own), poses=poses)
+    own = [items[n] if n >= 0 else shape for n, shape in zip(found, layout.items, strict=True)]
+    poses = layout.poses
+    columns = {name: getattr(poses, name).copy() for name in ("x", "y", "angle", "scale")}
+    for k, (item, shape) in enumerate(zip(own, layout.items, strict=True)):
+        if item is shape or _is_alike(item, shape):
+            continue
+        columns["x"][k], columns["y"][k] = layout.outlines[k].centroid
+        columns["angle"][k] += turn_of(item.outline, shape.outline)
+        columns["scale"][k] *= (1 - SLACK) * np.sqrt(shape.outline.area / item.outline.area)
+    return replace(layout, items=tuple(own), poses=replace(poses, **columns))
 
 
 def drawn_by(layout: Layout, items: Sequence[Item]) -> Layout:
-    """The layout with items in place of plain shapes of the same names; poses that fit are kept.
+    """The layout with items in place of plain shapes of the same names, in the layout's colours.
 
     Where a file holds poses, they are those of the items that it was made of; where it holds shapes
-    alone, as drawings do, poses are found as by :func:`registered`.
+    alone, as cut sheets do, poses are found as by :func:`registered`.
     """
     known = {item.name: item for item in items}
-    found = [known.get(item.name, item) for item in layout.items]
-    same = [_is_alike(one, shape) for one, shape in zip(found, layout.items, strict=True)]
-    if all(same):
-        return replace(layout, items=tuple(found))
+    made: dict[tuple[Item, Item], Item] = {}
+    found = []
+    for shape in layout.items:
+        item = known.get(shape.name, shape)
+        key = (item, shape)
+        if key not in made:
+            made[key] = coloured_as(item, shape)
+        found.append(made[key])
     return registered(layout, found)
+
+
+def coloured_as(item: Item, shape: Item) -> Item:
+    """The item in the colour of a shape that stands for it, with its name, link and halo.
+
+    A shape of the usual colour, as all are that come from a cut sheet, tells of none.
+    """
+    if item is shape:
+        return item
+    dressed = replace(item, label=shape.label, halo=shape.halo, datum=shape.datum)
+    channels = None if shape.art == FlatArt() else one_colour(shape.art)
+    if channels is None or hex_colour(channels) == representative_colour(item):
+        return dressed
+    return recoloured(dressed, hex_colour(channels))
 
 
 def _is_alike(item: Item, shape: Item) -> bool:

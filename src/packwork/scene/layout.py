@@ -20,7 +20,7 @@ from packwork.scene.note import Note
 from packwork.scene.pose import Poses
 from packwork.scene.track import Track
 
-_HEX = re.compile(r"#[0-9a-f]{6}")
+_HEX = re.compile(r"#(?:[0-9a-f]{6}|[0-9a-f]{8})")
 
 
 @dataclass(frozen=True, eq=False, repr=False)

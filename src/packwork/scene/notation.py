@@ -53,7 +53,8 @@ def matrix_text(matrix: FloatArray) -> str:
     >>> matrix_text(np.array([[2.0, 0.0, 5.0], [0.0, 2.0, 7.5]]))
     'matrix(2 0 0 2 5 7.5)'
     """
-    return "matrix(" + " ".join(f"{v:.12g}" for v in matrix.T.ravel()) + ")"
+    # Adding nothing makes a plain zero of a negative one.
+    return "matrix(" + " ".join(f"{v + 0.0:.12g}" for v in matrix.T.ravel()) + ")"
 
 
 def path_data(outline: Outline, digits: int) -> str:

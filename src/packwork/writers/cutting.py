@@ -135,6 +135,9 @@ def cut_group(layout: Layout, options: CutOptions, digits: int) -> list[str]:
     head = attributes(
         {
             "id": "cut",
+            # So that a reader can draw them anew.
+            "data-line": options.line or "",
+            "data-kiss": options.kiss or "",
             "fill": "none",
             "stroke": MAGENTA,
             "stroke-width": f"{convert(HAIRLINE_PT, 'pt', layout.container.unit):.6g}",

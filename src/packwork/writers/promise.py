@@ -9,6 +9,9 @@ from collections.abc import Mapping
 
 from packwork.scene.layout import Layout
 
+_USUAL = {"rotate": ("free", ""), "sizes": ("free",), "size_ratio": ("2.0", "2")}
+"""Options of items as files leave them out."""
+
 
 def promised(layout: Layout) -> tuple[str, bool]:
     """Smallest gap in canvas units, empty without a promise; and whether shares are kept.
@@ -39,3 +42,28 @@ def stated_weights(layout: Layout) -> list[str]:
     has_shares = promised(layout)[1]
     weights = layout.weights.tolist()
     return [f"{weight:.12g}" if has_shares and weight != 1.0 else "" for weight in weights]
+
+
+def stated_limits(layout: Layout) -> dict[str, str]:
+    """Attributes that say how far items may turn and how sizes vary, where that is not free.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> from packwork.scene.blank import blank
+    >>> stated_limits(replace(blank(), manifest={"recipe": {"rotate": "none", "sizes": "free"}}))
+    {'data-rotate': 'none'}
+    """
+    found: dict[str, str] = {}
+    for source in ("recipe", "edited"):
+        said = layout.manifest.get(source)
+        if isinstance(said, Mapping):
+            found |= {key: f"{said[key]}" for key in _USUAL if said.get(key) is not None}
+    if promised(layout)[1]:
+        # Shares leave sizes no freedom.
+        found.pop("sizes", None)
+    return {
+        f"data-{key.replace('_', '-')}": value
+        for key, value in found.items()
+        if value not in _USUAL[key]
+    }

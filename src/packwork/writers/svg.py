@@ -37,7 +37,7 @@ from packwork.writers.labels import item_ids, labelled
 from packwork.writers.live import LiveWords
 from packwork.writers.marks import element, paint, shape_key
 from packwork.writers.options import TextChoice
-from packwork.writers.promise import promised, stated_weights
+from packwork.writers.promise import promised, stated_limits, stated_weights
 
 PRECISION = 1e-7
 """Every point drawn lies within this share of the canvas's longer side of its place in
@@ -211,21 +211,24 @@ def _shapes(layout: Layout) -> dict[int, _Shape]:
         key = shape_key(item)
         items.setdefault(key, item)
         largest[key] = max(largest.get(key, 0.0), scale)
-    step = layout.container.side * _STEP_SHARE
+    side = layout.container.side
     return {
-        key: _shape(f"shape-{n}", item, largest[key], step)
+        key: _shape(f"shape-{n}", item, largest[key], side)
         for n, (key, item) in enumerate(items.items(), start=1)
     }
 
 
-def _shape(name: str, item: Item, scale: float, step: float) -> _Shape:
-    radius = max(item.ink.radius, item.outline.radius)
+def _shape(name: str, item: Item, scale: float, side: float) -> _Shape:
+    radius, step = max(item.ink.radius, item.outline.radius), side * _STEP_SHARE
+    # As fine as the largest that the canvas has room for needs it: how one copy is written must
+    # not depend on how large another one has become.
+    reach = max(side, radius * scale)
     return _Shape(
         name=name,
         item=item,
-        path_digits=decimals(step / scale),
+        path_digits=decimals(step * radius / reach),
         scale_digits=decimals(step / radius),
-        turn_digits=decimals(math.degrees(step / (radius * scale))),
+        turn_digits=decimals(math.degrees(step / reach)),
     )
 
 
@@ -322,6 +325,7 @@ def _said(layout: Layout) -> dict[str, str]:
         "data-gap": gap,
         "data-in-shares": "true" if shares else "",
         "data-holes": "keep" if any(item.outline.has_holes for item in layout.items) else "",
+        **stated_limits(layout),
     }
 
 

@@ -52,7 +52,7 @@ def test_files_of_ours_say_nothing(tmp_path: Path) -> None:
 def test_what_lost_its_groups_is_measured_as_it_stands(tmp_path: Path) -> None:
     # As an optimiser leaves it: hidden paths, names and groups are gone.
     found = read_written(_svg(tmp_path, f'<g transform="scale(.5)">{TILES}</g>'))
-    assert [item.outline.area for item in found.items] == pytest.approx([1.0, 1.0])
+    assert [outline.area for outline in found.outlines] == pytest.approx([1.0, 1.0])
     assert found.container.outline.area == 81
     assert found.manifest["promised"] is None
     assert ["no group named" in said for said in taken_on_trust(found.manifest)] == [True, True]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -17,9 +16,9 @@ from packwork.live.file.records import (
     PictureRecord,
     VectorRecord,
 )
-from packwork.readers.gate.door import MAX_BYTES, admit, link_declaration, serialised
+from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.pictures.decode import opened
-from packwork.readers.svg.art import vector_art
+from packwork.readers.svg.art import KeptOriginal, kept_art
 from packwork.readers.unfit import UnfitError
 from packwork.scene.colour import css_colour
 from packwork.scene.item import Art, FlatArt, PhotoArt, PictureArt, VectorArt
@@ -30,17 +29,6 @@ of hundreds of megabytes. Chosen."""
 
 HALVES = 4
 """How often a photograph whose file would be too large is halved at most. Chosen."""
-
-
-@dataclass(frozen=True, eq=False)
-class KeptOriginal:
-    """A photograph out of a session file: with all the pixels that it has there."""
-
-    art: VectorArt
-
-    def printed(self, px_per_unit: float) -> VectorArt:
-        """The photograph, whatever is asked."""
-        return self.art
 
 
 def art_record(art: Art, extent: float) -> ArtRecord:
@@ -132,16 +120,7 @@ def _vector_record(art: VectorArt) -> VectorRecord:
 
 
 def _vector_of(record: VectorRecord) -> VectorArt:
-    """The fragment, as it is if the gate has nothing to change, else as the gate has made it."""
-    name, value = link_declaration()
-    links = f' {name}="{value}"'
-    root = admit(f'<svg xmlns="http://www.w3.org/2000/svg"{links}>{record.markup}</svg>'.encode())
-    matrix = matrix_of(record.matrix)
-    plain = record.markup.replace(links, "").replace(" />", "/>")
-    if "".join(serialised(child) for child in root) == plain:
-        return VectorArt(record.markup, matrix, record.is_traced)
-    made = vector_art(root, None, is_cut=False, place=matrix)
-    return VectorArt(made.markup, matrix, record.is_traced)
+    return kept_art(record.markup, matrix_of(record.matrix), is_traced=record.is_traced)
 
 
 def colour_of(text: str) -> str:

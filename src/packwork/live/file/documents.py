@@ -13,14 +13,20 @@ from packwork.arrays import FloatArray
 from packwork.live.commands.command import FARTHEST, sized
 from packwork.live.commands.items import MOST_ITEMS
 from packwork.live.document import PROPERTIES, Document
-from packwork.live.file.records import Text
+from packwork.live.file.art import colour_of, matrix_of, matrix_record
+from packwork.live.file.records import Text, kept_text
+from packwork.live.notes import Attached
 from packwork.live.options import LiveOptions
 from packwork.options import Options
 from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE, WIDEST_STRETCH
 from packwork.readers.unfit import UnfitError
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.scene.note import Note
 from packwork.scene.pose import Poses
+
+PATH = r"^[MmZzLlHhVvCcSsQqTtAaeE\d\s+.,-]*$"
+"""Path data of a note, which is written as it is: nothing else may stand in it."""
 
 MOST_ID = 2**53
 """Numbers of items at most: larger ones are no whole numbers in JSON. Derived."""
@@ -48,6 +54,18 @@ class Changed(Options):
     values: tuple[Number, ...]
 
 
+class NoteRecord(Options):
+    """A label or a letter beside the items."""
+
+    path: Annotated[str, Field(pattern=PATH)]
+    matrix: tuple[Number, Number, Number, Number, Number, Number]
+    fill: str
+    says: Text = ""
+    is_on_item: bool = False
+    item: Id | None = None
+    pose: tuple[Number, Number, Number, Annotated[Number, Field(gt=0)]] = (0.0, 0.0, 0.0, 1.0)
+
+
 class DocumentRecord(Options):
     """A document, or what differs from the one before: what is not there is as it was.
 
@@ -62,6 +80,8 @@ class DocumentRecord(Options):
     options: LiveOptions | None = None
     next_id: Id | None = None
     manifest: dict[Text, Any] | None = None
+    notes: tuple[NoteRecord, ...] | None = None
+    """Of the first document: all others have them too."""
 
 
 def records_of(
@@ -86,6 +106,7 @@ def records_of(
                 options=document.options,
                 next_id=document.next_id,
                 manifest=dict(document.manifest),
+                notes=tuple(map(_note_record, document.notes)) if before is None else None,
             )
         else:
             is_moved = before.container is not document.container
@@ -201,9 +222,24 @@ def _document(
         options=options,
         next_id=next_id,
         manifest=manifest,
+        notes=tuple(map(_note_of, record.notes or ())) if before is None else before.notes,
     )
     _check_numbers(document)
     return sized(document, "item"), columns
+
+
+def _note_record(one: Attached) -> NoteRecord:
+    note = one.note
+    return NoteRecord(
+        path=note.path, matrix=matrix_record(note.matrix), fill=note.fill,
+        says=kept_text(note.says), is_on_item=note.is_on_item, item=one.item, pose=one.pose,
+    )  # fmt: skip
+
+
+def _note_of(record: NoteRecord) -> Attached:
+    matrix, fill = matrix_of(record.matrix), colour_of(record.fill)
+    note = Note(record.path, matrix, fill, record.says, record.is_on_item)
+    return Attached(note, record.item, record.pose)
 
 
 def _container(record: DocumentRecord, was: Document | None, parts: Parts) -> Container:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, TypeAlias
 
 import numpy as np
 import shapely
@@ -12,14 +13,21 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.unfit import UnfitError
-from packwork.scene.container import Container
-from packwork.scene.item import FlatArt, Item
-from packwork.scene.layout import Layout
+from packwork.scene.container import Backdrop, Container
+from packwork.scene.item import FlatArt, Item, PhotoArt
+from packwork.scene.layout import Layout, ground_in
+from packwork.scene.note import Note
 from packwork.scene.pose import Poses
 from packwork.units import Unit
+
+STRAIGHT = 1e-9
+"""Share by which sides of what was square may differ from being upright on each other, and of one
+length, and count as that. Larger: what another program skews a little is unskewed. Derived:
+rounding of a file's digits."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,15 +38,18 @@ class FoundItem:
     ----------
     name
         What the file calls it.
-    region
-        In place, canvas units.
+    shape
+        Region in place, canvas units, of a file that holds no more; else the item.
     weight
         Share of area that was asked for it.
+    place
+        2 x 3 map from the item's units to canvas units; None where the shape is in place.
     """
 
     name: str
-    region: Region
+    shape: Region | Item
     weight: float = 1.0
+    place: FloatArray | None = None
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -59,6 +70,12 @@ class FoundSheet:
         What of it could not be seen and was believed, a sentence each.
     walls
         Lines that are seen of a container with openings, canvas units; None: all of its edge.
+    backdrop
+        Picture behind all items; None if there is none.
+    notes
+        Letters and keys beside the items and on them.
+    said
+        What else the file says, as a manifest has it.
     """
 
     width: float
@@ -70,10 +87,13 @@ class FoundSheet:
     items: Sequence[FoundItem] = field(default_factory=tuple)
     on_trust: tuple[str, ...] = ()
     walls: tuple[FloatArray, ...] | None = None
+    backdrop: Backdrop | None = None
+    notes: tuple[Note, ...] = ()
+    said: Mapping[str, Any] = field(default_factory=dict)
 
 
 def assembled(sheet: FoundSheet, name: str) -> Layout:
-    """Layout of what was found: every item a plain shape, unturned and as large as it is.
+    """Layout of what was found; what is a plain shape is unturned and as large as it is.
 
     Raises
     ------
@@ -91,27 +111,24 @@ def assembled(sheet: FoundSheet, name: str) -> Layout:
     >>> layout.poses.x.tolist(), layout.outlines[0].bounds, layout.manifest["promised"]["gap"]
     ([2.0], (1.0, 1.0, 3.0, 2.0), 0.5)
     """
-    outline = _outline(sheet.container, "the container")
+    outline = sound_outline(sheet.container, "the container")
     container = Container(
-        name, name, outline, sheet.width, sheet.height, sheet.unit, walls=sheet.walls
+        name, name, outline, sheet.width, sheet.height, sheet.unit, sheet.backdrop, sheet.walls
     )
-    outlines = [
-        _outline(one.region, f"item {number} ({one.name})")
+    placed = [
+        _placed(one, f"item {number} ({one.name})")
         for number, one in enumerate(sheet.items, start=1)
     ]
-    centres = np.array([one.centroid for one in outlines]).reshape(-1, 2)
-    items = tuple(
-        _item(one.name, outline, centre)
-        for one, outline, centre in zip(sheet.items, outlines, centres, strict=True)
-    )
-    n = len(items)
-    poses = Poses(centres[:, 0].copy(), centres[:, 1].copy(), np.zeros(n), np.ones(n))
+    rows = np.array([pose for _, pose in placed], dtype=np.float64).reshape(-1, 5)
     weights = np.array([one.weight for one in sheet.items], dtype=np.float64)
     promised = (
         None if sheet.gap is None else {"gap": sheet.gap, "areas_in_shares": sheet.areas_in_shares}
     )
-    said = {"promised": promised, "on_trust": list(sheet.on_trust)}
-    return Layout(container, items, poses, weights, said)
+    said = {**sheet.said, "promised": promised, "on_trust": list(sheet.on_trust)}
+    return Layout(
+        container, tuple(item for item, _ in placed), Poses(*rows.T.copy()), weights, said,
+        sheet.notes, ground=ground_in(said),
+    )  # fmt: skip
 
 
 def sound_weight(text: str) -> float:
@@ -158,15 +175,75 @@ def sound_gap(text: str) -> float:
     return gap
 
 
-def _item(name: str, placed: Outline, centre: np.ndarray) -> Item:
-    outline = placed.mapped(affine.similarity(-float(centre[0]), -float(centre[1]), 0.0, 1.0))
-    return Item(name, name, outline, outline, FlatArt())
+def sound_outline(region: Region, what: str) -> Outline:
+    """Outline of a region, if it has an area and no more points than can be followed.
 
+    Raises
+    ------
+    UnfitError
+        About ``what``.
 
-def _outline(region: Region, what: str) -> Outline:
+    Examples
+    --------
+    >>> sound_outline(shapely.box(0, 0, 2, 1), "item 1").area
+    2.0
+    """
     count = shapely.get_num_coordinates(region)
     if count > MAX_POINTS:
         raise UnfitError(f"{what} has {count:,} points, more than {MAX_POINTS:,}; simplify it")
     if not region.area > 0:
         raise UnfitError(f"{what} has no area")
     return Outline.from_region(region)
+
+
+Pose: TypeAlias = tuple[float, float, float, float, float]
+
+
+def _placed(found: FoundItem, what: str) -> tuple[Item, Pose]:
+    """An item and its pose: x, y, angle, scale and stretch."""
+    if not isinstance(found.shape, Item):
+        outline = sound_outline(found.shape, what)
+        x, y = (float(value) for value in outline.centroid)
+        own = outline.mapped(affine.similarity(-x, -y, 0.0, 1.0))
+        return Item(found.name, found.name, own, own, FlatArt()), (x, y, 0.0, 1.0, 1.0)
+    place = affine.identity() if found.place is None else found.place
+    pose = _pose_of(place)
+    if pose is not None:
+        return found.shape, pose
+    # Mirrored or skewed, as no pose is: the item itself is.
+    bent = place.copy()
+    bent[:, 2] = 0.0
+    return _bent(found.shape, bent, what), (float(place[0, 2]), float(place[1, 2]), 0.0, 1.0, 1.0)
+
+
+def _pose_of(place: FloatArray) -> Pose | None:
+    """Pose that is the same as a map; None for one that mirrors or skews.
+
+    Examples
+    --------
+    >>> _pose_of(affine.similarity(1.0, 2.0, 0.5, 3.0))
+    (1.0, 2.0, 0.5, 3.0, 1.0)
+    """
+    first, second = place[:, 0], place[:, 1]
+    wide, high = float(np.hypot(*first)), float(np.hypot(*second))
+    across = float(first[0] * second[1] - first[1] * second[0])
+    if not across > 0 or abs(float(first @ second)) > STRAIGHT * wide * high:
+        return None
+    stretch = wide / high
+    stretch = 1.0 if abs(stretch - 1.0) < STRAIGHT else stretch
+    scale = wide if stretch == 1.0 else math.sqrt(wide * high)
+    angle = math.atan2(first[1], first[0])
+    return float(place[0, 2]), float(place[1, 2]), angle, scale, stretch
+
+
+def _bent(item: Item, matrix: FloatArray, what: str) -> Item:
+    """The item in other units, of a map without a shift."""
+    outline, ink = (
+        sound_outline(valid(one.mapped(matrix).region), what) for one in (item.outline, item.ink)
+    )
+    art = item.art
+    if isinstance(art, PhotoArt):
+        art = art.preview
+    if not isinstance(art, FlatArt):
+        art = replace(art, matrix=affine.compose(matrix, art.matrix))
+    return replace(item, outline=outline, ink=ink, art=art)

@@ -7,6 +7,7 @@ as it stands, and what is missing is said.
 from __future__ import annotations
 
 import xml.etree.ElementTree as ET
+from collections.abc import Set
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
@@ -48,19 +49,31 @@ def unmeasured(root: ET.Element) -> tuple[str, ...]:
     >>> unmeasured(root)
     ('2 drawings outside the group items are not measured',)
     """
-    met: set[str] = set()
-    count = 0
-    for element in root:
-        name = element.get("id", "")
-        if tag(element) in PAINTED and (name not in OWN or name in met):
-            count += 1
-        met.add(name)
+    count = strange(root, OWN)
     if count == 0:
         return ()
     many = number_of(
         count, "drawing outside the group items is", "drawings outside the group items are"
     )
     return (f"{many} not measured",)
+
+
+def strange(root: ET.Element, known: Set[str]) -> int:
+    """Number of drawings at the top of a file that are no groups of these names, each once.
+
+    Examples
+    --------
+    >>> strange(ET.fromstring('<svg><g id="items"/><g id="cut"/><rect/></svg>'), OWN)
+    2
+    """
+    met: set[str] = set()
+    count = 0
+    for element in root:
+        name = element.get("id", "")
+        if tag(element) in PAINTED and (name not in known or name in met):
+            count += 1
+        met.add(name)
+    return count
 
 
 def loose_items(root: ET.Element) -> tuple[list[ET.Element], FloatArray]:

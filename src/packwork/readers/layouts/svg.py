@@ -20,9 +20,10 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.overlay import union
-from packwork.geometry.polygon import Region, silhouette
+from packwork.geometry.polygon import Region
 from packwork.phrasing import number_of
 from packwork.readers.gate.xml_tree import parse_xml
+from packwork.readers.layouts.arts import LINK, Arts, labelled, place_and_art
 from packwork.readers.layouts.assembly import (
     FoundItem,
     FoundSheet,
@@ -30,7 +31,22 @@ from packwork.readers.layouts.assembly import (
     sound_gap,
     sound_weight,
 )
-from packwork.readers.layouts.strangers import group_named, loose_items, tag, unmeasured
+from packwork.readers.layouts.sheet import (
+    backdrop_of,
+    drawing_of,
+    ground_of,
+    limits_of,
+    notes_of,
+    with_halos,
+)
+from packwork.readers.layouts.strangers import (
+    OWN,
+    group_named,
+    loose_items,
+    strange,
+    tag,
+    unmeasured,
+)
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
 from packwork.readers.regions import SPECK, clean_union
@@ -64,7 +80,6 @@ _OWN = frozenset({"transform", "data-bays"})
 
 _SAME = 1e-9
 _SPACE = "{http://www.w3.org/2000/svg}"
-_LINK = "{http://www.w3.org/1999/xlink}href"
 _NOT_OURS = "as packwork writes it; give an SVG of ours, or the layout saved as .geojson"
 
 
@@ -96,12 +111,21 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
     if not drawn and (items is None or walls is None):
         raise UnfitError(f"has no group named items at its top, {_NOT_OURS}")
     drawings = _Drawings(root, drawn, max(width, height) / scale)
+    sources = [drawings.source(one) for one in drawn]
+    backdrop = group_named(root, "backdrop")
+    arts = Arts(root, data, [*sources, *([] if backdrop is None else [backdrop])])
     # Other programs move a whole group by a transform of its own.
     to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
+    to_items = affine.compose(to_canvas, place)
     page = shapely.box(0, 0, width, height)
     said = items.attrib if items is not None and walls is not None else {}
     gap, is_kept = said.get("data-gap"), said.get("data-holes") == "keep"
-    found = [_found(drawings, one, affine.compose(to_canvas, place), is_kept) for one in drawn]
+    found = [
+        _found(drawings, arts, one, number, to_items, is_kept)
+        for number, one in enumerate(zip(elements, drawn, sources, strict=True), start=1)
+    ]
+    unseen = [] if items is None else unmeasured(root)
+    is_in_full = all(source is one for source, one in zip(sources, drawn, strict=True))
     sheet = FoundSheet(
         width=width,
         height=height,
@@ -114,13 +138,22 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
         items=found,
         on_trust=(
             *drawings.on_trust,
-            *([] if items is None else unmeasured(root)),
+            *unseen,
             *([LOST_ITEMS] if items is None else []),
             *([LOST_CONTAINER] if walls is None else []),
         ),
         walls=None if walls is None else _walls(walls, affine.compose(to_canvas, _place(walls))),
+        backdrop=backdrop_of(root, arts, to_canvas),
+        notes=notes_of(root, to_canvas),
+        said={
+            "ground": ground_of(root),
+            "recipe": limits_of(said),
+            "drawing": drawing_of(root, is_in_full and arts.texts < len(drawn)),
+            "not_kept": [*_not_kept(root, items), *_turned_to_curves(arts.texts)],
+        },
     )
-    return assembled(sheet, name)
+    known = None if walls is None else walls.get("data-name")
+    return with_halos(root, assembled(sheet, known or name))
 
 
 @final
@@ -144,8 +177,9 @@ class _Drawings:
         self._largest: dict[int, float] = {}
         self._stated = 0
         for one in drawn:
-            key = id(self._source(one))
-            size = _size(_place(one))
+            source = self.source(one)
+            key = id(source)
+            size = _size(place_and_art(source, one)[0])
             self._largest[key] = max(size, self._largest.get(key, 0.0))
 
     def wall(self, group: ET.Element) -> Region:
@@ -166,19 +200,19 @@ class _Drawings:
         )
 
     def item(self, drawn: ET.Element) -> Region:
-        """What shows of one item, in the units in which its place is given."""
-        source = self._source(drawn)
+        """What shows of one item, in its own units."""
+        source = self.source(drawn)
         key = id(source)
         if key not in self._regions:
-            # The place of a copy in full is its element's own transform.
-            own = affine.identity() if source is drawn else _place(source)
+            own = place_and_art(source, drawn)[1]
             self._regions[key] = self._ink(source, own, self._largest[key])
         return self._regions[key]
 
-    def _source(self, drawn: ET.Element) -> ET.Element:
+    def source(self, drawn: ET.Element) -> ET.Element:
+        """The element that draws an item: itself, or what it uses."""
         if tag(drawn) != "use":
             return drawn
-        source = self._by_id.get((drawn.get(_LINK) or drawn.get("href") or "").removeprefix("#"))
+        source = self._by_id.get((drawn.get(LINK) or drawn.get("href") or "").removeprefix("#"))
         if source is None or tag(source) == "use":
             raise UnfitError(f"has an item that shows nothing, {_NOT_OURS}")
         return source
@@ -214,12 +248,29 @@ class _Drawings:
 
 
 def _found(
-    drawings: _Drawings, drawn: ET.Element, to_canvas: FloatArray, keeps_holes: bool
-) -> FoundItem:
-    ink = drawings.item(drawn)
-    placed = _placed(ink, affine.compose(to_canvas, _place(drawn)))
-    name, weight = drawn.get("data-name", "item"), drawn.get("data-weight", "1")
-    return FoundItem(name, placed if keeps_holes else silhouette(placed), sound_weight(weight))
+    drawings: _Drawings, arts: Arts, element: tuple[ET.Element, ET.Element, ET.Element],
+    number: int, to_canvas: FloatArray, keeps_holes: bool,
+) -> FoundItem:  # fmt: skip
+    outer, drawn, source = element
+    label, ink = labelled(outer, drawn), drawings.item(drawn)
+    item = arts.item(number, drawn, source, label, ink, keeps_holes=keeps_holes)
+    place = affine.compose(to_canvas, place_and_art(source, drawn)[0])
+    return FoundItem(item.name, item, sound_weight(drawn.get("data-weight", "1")), place)
+
+
+def _turned_to_curves(count: int) -> list[str]:
+    many = number_of(count, "word that is text there is", "words that are text there are")
+    return [f"{many} curves from now on"] if count else []
+
+
+def _not_kept(root: ET.Element, items: ET.Element | None) -> list[str]:
+    """Sentences about drawings beside the items that an edit does not write again."""
+    cut = group_named(root, "cut")
+    if cut is not None and not {"data-line", "data-kiss"} & cut.attrib.keys():
+        return ["its cut lines are not kept"]
+    others = 0 if items is None else strange(root, OWN | {"cut"})
+    many = number_of(others, "drawing beside its items is", "drawings beside its items are")
+    return [f"{many} not kept"] if others else []
 
 
 def _walls(group: ET.Element, place: FloatArray) -> tuple[FloatArray, ...] | None:
@@ -264,7 +315,7 @@ def _canvas(root: ET.Element) -> tuple[float, float, Unit, float]:
 
 def _picture(image: ET.Element) -> Region:
     """What an embedded picture shows, in the units of its element."""
-    _, _, encoded = (image.get(_LINK) or image.get("href") or "").partition("base64,")
+    _, _, encoded = (image.get(LINK) or image.get("href") or "").partition("base64,")
     try:
         picture = decode_picture(base64.b64decode(encoded, validate=True), ART_PX)
     except (binascii.Error, ValueError):

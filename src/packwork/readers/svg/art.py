@@ -6,10 +6,11 @@ import copy
 import hashlib
 import re
 import xml.etree.ElementTree as ET
+from dataclasses import dataclass
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.gate.door import link_declaration, serialised, uses_links
+from packwork.readers.gate.door import admit, link_declaration, serialised, uses_links
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.references import elements_by_id, rename_references
 from packwork.readers.svg_syntax.vocabulary import GRADIENTS
@@ -57,6 +58,49 @@ def vector_art(
     if page is not None:
         matrix = affine.compose(place, page.matrix)
     return VectorArt(_plain_fragment(drawing), matrix)
+
+
+def kept_art(markup: str, place: FloatArray, *, is_traced: bool = False) -> VectorArt:
+    """Art of a fragment out of a file of ours: as it is if the gate has nothing to change in it.
+
+    Parameters
+    ----------
+    place
+        2 x 3 map from the fragment's units to the item's own.
+    is_traced
+        As in the art.
+
+    Raises
+    ------
+    UnfitError
+        If it is no drawing.
+
+    Examples
+    --------
+    >>> kept_art('<path d="M0 0h9v9z" />', affine.identity()).markup
+    '<path d="M0 0h9v9z" />'
+    >>> kept_art('<path onclick="a()" d="M0 0h9v9z"/>', affine.identity()).markup
+    '<path d="M0 0h9v9z"/>'
+    """
+    name, value = link_declaration()
+    links = f' {name}="{value}"'
+    root = admit(f'<svg xmlns="http://www.w3.org/2000/svg"{links}>{markup}</svg>'.encode())
+    plain = markup.replace(links, "").replace(" />", "/>")
+    if "".join(serialised(child) for child in root) == plain:
+        return VectorArt(markup, place, is_traced)
+    made = vector_art(root, None, is_cut=False, place=place)
+    return VectorArt(made.markup, place, is_traced)
+
+
+@dataclass(frozen=True, eq=False)
+class KeptOriginal:
+    """A photograph out of a file of ours: with all the pixels that it has there."""
+
+    art: VectorArt
+
+    def printed(self, px_per_unit: float) -> VectorArt:
+        """The photograph, whatever is asked."""
+        return self.art
 
 
 def _plain_fragment(drawing: ET.Element) -> str:

@@ -1,0 +1,46 @@
+"""Labels on items follow them in sessions; titles and keys stay."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import packwork as pw
+
+TABLE = {"name": ["fig", "kiwi", "plum", "pear"], "kg": [4, 2, 5, 3]}
+
+
+@pytest.fixture(scope="module")
+def chart() -> pw.Layout:
+    """Four marks with their names on them, and a title."""
+    return pw.chart(
+        "circle", TABLE, size_by="kg", label_by="name", title="Fruit", effort="draft", levels="50"
+    )
+
+
+def test_a_label_follows_its_mark_and_all_else_stays(chart: pw.Layout, tmp_path: Path) -> None:
+    session = chart.edit()
+    fig = session.positions("fig")[0]
+    session.turn("fig", 30)
+    session.finish()
+    made = session.layout
+    assert [note.is_on_item for note in made.notes] == [note.is_on_item for note in chart.notes]
+    moved = made.poses.x - chart.poses.x
+    for before, after in zip(chart.notes, made.notes, strict=True):
+        if not before.is_on_item:
+            assert after is before
+    session.save(tmp_path / "a.packwork")
+    again = pw.Session.open(tmp_path / "a.packwork").layout
+    assert again.to_svg() == made.to_svg()
+    assert np.isfinite(moved[fig])
+
+
+def test_a_label_goes_with_the_item_that_is_taken_away(chart: pw.Layout) -> None:
+    session = chart.edit()
+    labels = [note for note in chart.notes if note.is_on_item]
+    session.remove("fig")
+    assert len([note for note in session.layout.notes if note.is_on_item]) == len(labels) - 1
+    assert session.undo()
+    assert len([note for note in session.layout.notes if note.is_on_item]) == len(labels)
