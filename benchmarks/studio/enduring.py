@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from benchmarks.studio.drags import opened
+from packwork.studio.proof import Secret
 
 Row = list[str]
 
@@ -82,7 +83,8 @@ def malformed(count: int) -> list[Row]:
     from studio.browsing import Server
 
     server = Server("circle", "star", "-n", "5").start()
-    address, token = re.match(r"http://([^/]+)/#(.+)", server.address).groups()
+    address, secret = re.match(r"http://([^/]+)/#(.+)", server.address).groups()
+    token = Secret(address, secret).token
     began = time.perf_counter()
     lines, longest = _messages(address, token, count)
     refused, uploads, odd = _uploads(address, token, count // 10)

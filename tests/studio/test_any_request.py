@@ -19,7 +19,8 @@ from packwork.recipe.film import FilmOptions
 from packwork.studio import wire
 from packwork.studio.app import guarded
 from packwork.studio.desk import Desk
-from packwork.studio.guard import TOKEN_HEADER, new_token
+from packwork.studio.guard import TOKEN_HEADER
+from packwork.studio.proof import Secret
 from packwork.studio.uploads import Uploads
 from packwork.writers.options import DrawingOptions
 
@@ -73,11 +74,11 @@ def talk(opening: Opening, scenario: Callable[[Ask, Desk, Uploads], Awaitable[No
     """Have a scenario ask a studio that is open."""
 
     async def played() -> None:
-        token, uploads, desk = new_token(), Uploads(), Desk(opening)
-        app = guarded(desk, uploads, HOST, token)
+        secret, uploads, desk = Secret(HOST), Uploads(), Desk(opening)
+        app = guarded(desk, uploads, secret)
 
         async def ask(method: str, path: str, body: bytes, headers: Mapping[str, str]) -> Answer:
-            return await asked(app, token, method, path, body, headers)
+            return await asked(app, secret.token, method, path, body, headers)
 
         await desk.begin()
         try:

@@ -320,9 +320,11 @@ def test_a_page_goes_on_by_itself_after_a_crash(
         first.kill()
         desk.until("!studio.connection.isOpen")
         second.start()
-        assert second.address == first.address
+        assert second.port == first.port
+        assert second.address != first.address
         desk.until("studio.connection.isOpen")
         desk.settled()
+        assert desk.look("location.href") == second.address
         assert desk.look("studio.collage.items.filter(item => item.held[0]).length") == 1
         assert desk.look("studio.collage.state.can_undo")
         assert desk.faults == []

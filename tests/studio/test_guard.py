@@ -11,18 +11,20 @@ from starlette.routing import Mount, Route, WebSocketRoute
 from packwork.live.face.opening import Opening
 from packwork.studio.app import Studio
 from packwork.studio.desk import Desk
-from packwork.studio.guard import OPEN, Guard, Message
+from packwork.studio.guard import AGAIN, OPEN, Guard, Message
+from packwork.studio.proof import Secret, mac
 from packwork.studio.uploads import Uploads
 
 HOST = "127.0.0.1:8123"
-TOKEN = "a-token-that-nobody-knows"  # noqa: S105
+SECRET = Secret(HOST, "a-secret-that-nobody-knows", "k" * 64, nonce="n")
+TOKEN = SECRET.token
 ORIGIN = f"http://{HOST}"
 
 
 def routes() -> list[Any]:
     uploads = Uploads()
     uploads.close()
-    return Studio(Desk(Opening()), uploads).routes
+    return Studio(Desk(Opening()), uploads, SECRET).routes
 
 
 def asked() -> list[tuple[str, str, str]]:
@@ -35,22 +37,25 @@ def asked() -> list[tuple[str, str, str]]:
             found.append(("http", "GET", f"{route.path}/main.js"))
         else:
             assert isinstance(route, Route)
-            path = route.path.replace("{batch}", "0" * 16)
+            path = route.path.replace("{batch}", "0" * 16).replace("{nonce}", "1" * 32)
             found += [("http", method, path) for method in sorted(route.methods or ())]
     return found
 
 
 ASKED = asked()
-CLOSED = [one for one in ASKED if one[2] not in {"/", "/static/main.js"}]
+CLOSED = [one for one in ASKED if one[2] not in {"/", "/static/main.js", f"/proof/{'1' * 32}"}]
+PROOF_OF_PAGE = mac(SECRET.key_before, f"page {HOST} {SECRET.nonce}")
 
 
-def headers_of(kind: str, method: str, **changed: str | None) -> list[tuple[bytes, bytes]]:
+def headers_of(
+    kind: str, method: str, path: str = "", **changed: str | None
+) -> list[tuple[bytes, bytes]]:
     """What the studio's own page sends."""
     given: dict[str, str | None] = {"host": HOST}
     if kind == "websocket":
         given |= {"origin": ORIGIN, "sec-websocket-protocol": f"packwork, token.{TOKEN}"}
     else:
-        given |= {"x-packwork-token": TOKEN}
+        given |= {"x-packwork-token": PROOF_OF_PAGE if path == AGAIN else TOKEN}
     if method == "POST":
         given |= {"origin": ORIGIN, "sec-fetch-site": "same-origin"}
     given |= {name.replace("_", "-"): value for name, value in changed.items()}
@@ -74,7 +79,7 @@ def answer(kind: str, method: str, path: str, headers: list[tuple[bytes, bytes]]
         sent.append(message)
 
     scope = {"type": kind, "method": method, "path": path, "headers": headers}
-    asyncio.run(Guard(app, HOST, TOKEN)(scope, receive, send))
+    asyncio.run(Guard(app, SECRET)(scope, receive, send))
     return sent
 
 
@@ -86,12 +91,12 @@ def is_refused(sent: list[Message]) -> bool:
 def test_the_scan_sees_the_socket_and_all_that_is_posted() -> None:
     assert ("websocket", "GET", "/socket") in ASKED
     assert {path for _, method, path in ASKED if method == "POST"} >= {"/files", "/export"}
-    assert OPEN == ("/", "/static/")
+    assert OPEN == ("/", "/static/", "/proof/")
 
 
 @pytest.mark.parametrize(("kind", "method", "path"), ASKED)
 def test_the_own_page_is_let_through(kind: str, method: str, path: str) -> None:
-    assert not is_refused(answer(kind, method, path, headers_of(kind, method)))
+    assert not is_refused(answer(kind, method, path, headers_of(kind, method, path)))
 
 
 @pytest.mark.parametrize(("kind", "method", "path"), CLOSED)
@@ -103,7 +108,7 @@ def test_without_the_token_all_but_the_page_is_refused(
     changed = (
         {"sec_websocket_protocol": told} if kind == "websocket" else {"x_packwork_token": token}
     )
-    assert is_refused(answer(kind, method, path, headers_of(kind, method, **changed)))
+    assert is_refused(answer(kind, method, path, headers_of(kind, method, path, **changed)))
 
 
 @pytest.mark.parametrize(("kind", "method", "path"), ASKED)
@@ -115,7 +120,7 @@ def test_without_the_token_all_but_the_page_is_refused(
 def test_another_host_is_refused_even_for_the_page(
     kind: str, method: str, path: str, host: str | None
 ) -> None:
-    assert is_refused(answer(kind, method, path, headers_of(kind, method, host=host)))
+    assert is_refused(answer(kind, method, path, headers_of(kind, method, path, host=host)))
 
 
 @pytest.mark.parametrize(("kind", "method", "path"), ASKED)
@@ -124,7 +129,7 @@ def test_another_host_is_refused_even_for_the_page(
     ["http://evil.example", "null", "https://127.0.0.1:8123", "http://127.0.0.1:81234", ""],
 )
 def test_another_origin_is_refused(kind: str, method: str, path: str, origin: str) -> None:
-    assert is_refused(answer(kind, method, path, headers_of(kind, method, origin=origin)))
+    assert is_refused(answer(kind, method, path, headers_of(kind, method, path, origin=origin)))
 
 
 @pytest.mark.parametrize(("kind", "method", "path"), ASKED)
@@ -133,7 +138,7 @@ def test_a_name_that_was_bound_to_this_machine_is_refused(
 ) -> None:
     # Host and origin agree, and even the token is known: the address is still another one.
     there = {"host": "rebound.example:8123", "origin": "http://rebound.example:8123"}
-    assert is_refused(answer(kind, method, path, headers_of(kind, method, **there)))
+    assert is_refused(answer(kind, method, path, headers_of(kind, method, path, **there)))
 
 
 def test_a_socket_without_an_origin_is_refused() -> None:
@@ -157,7 +162,7 @@ def test_a_header_that_is_there_twice_is_refused(name: str) -> None:
 
 
 def test_other_kinds_of_connections_are_refused() -> None:
-    guard = Guard(lambda *_: asyncio.sleep(0), HOST, TOKEN)
+    guard = Guard(lambda *_: asyncio.sleep(0), SECRET)
     scope = {"type": "webtransport", "headers": headers_of("http", "GET"), "path": "/"}
     assert guard.refusal(scope) is not None
 

@@ -18,7 +18,7 @@ _TEXTS = re.compile(rb'"[^"\\]*(?:\\.[^"\\]*)*"', re.DOTALL)
 
 
 def is_read(data: bytes) -> bool:
-    """Whether JSON has no more values than may be read.
+    """True for JSON of no more values than may be read.
 
     Examples
     --------

@@ -22,7 +22,8 @@ from packwork.errors import PackworkError
 from packwork.studio.bringing import Bringer, choices
 from packwork.studio.desk import Desk
 from packwork.studio.exporting import Exporter
-from packwork.studio.guard import PROTOCOL, Guard
+from packwork.studio.guard import AGAIN, PROTOCOL, Guard
+from packwork.studio.proof import Secret
 from packwork.studio.seats import Seats, person_of
 from packwork.studio.tab import Tab
 from packwork.studio.uploads import MOST_BYTES, Uploads
@@ -46,10 +47,12 @@ class Studio:
         What pages work on.
     uploads
         Where files go that they send.
+    secret
+        What its pages know.
     """
 
-    def __init__(self, desk: Desk, uploads: Uploads) -> None:
-        self._desk, self._uploads = desk, uploads
+    def __init__(self, desk: Desk, uploads: Uploads, secret: Secret) -> None:
+        self._desk, self._uploads, self._secret = desk, uploads, secret
         self._bringer, self._exporter = Bringer(desk, uploads), Exporter(desk)
         self._tabs: set[Tab] = set()
         self._seats = Seats()
@@ -61,6 +64,8 @@ class Studio:
         return [
             Route("/", self._page),
             Mount("/static", static),
+            Route("/proof/{nonce}", self._proof),
+            Route(AGAIN, self._again, methods=["POST"]),
             Route("/choices", self._choices),
             Route("/files", self._batch, methods=["POST"]),
             Route("/files/{batch}", self._file, methods=["POST"]),
@@ -70,6 +75,12 @@ class Studio:
 
     async def _page(self, request: Request) -> Response:
         return Response(page_text(), media_type="text/html")
+
+    async def _proof(self, request: Request) -> Response:
+        return JSONResponse(self._secret.proofs(request.path_params["nonce"]))
+
+    async def _again(self, request: Request) -> Response:
+        return JSONResponse({"secret": self._secret.text})
 
     async def _choices(self, request: Request) -> Response:
         return JSONResponse(await asyncio.to_thread(choices))
@@ -161,14 +172,12 @@ def refused(error: PackworkError) -> Response:
     return PlainTextResponse(f"{' '.join(str(error).split())}\n", 400)
 
 
-def guarded(desk: Desk, uploads: Uploads, host: str, token: str) -> Guard:
+def guarded(desk: Desk, uploads: Uploads, secret: Secret) -> Guard:
     """The studio behind its guard; its desk begins when the server does.
 
     Parameters
     ----------
-    host
-        Host and port, as addresses have them.
-    token
+    secret
         What only the page that was opened knows.
     """
 
@@ -179,7 +188,6 @@ def guarded(desk: Desk, uploads: Uploads, host: str, token: str) -> Guard:
             yield
         finally:
             await asyncio.to_thread(desk.close)
-            uploads.close()
 
-    app = Starlette(routes=Studio(desk, uploads).routes, lifespan=open_)
-    return Guard(app, host, token)
+    app = Starlette(routes=Studio(desk, uploads, secret).routes, lifespan=open_)
+    return Guard(app, secret)

@@ -1,8 +1,8 @@
 """Where desks are kept and were served: so that what was not saved is found again.
 
-Each desk is a session file in a private folder, with a journal; beside it stand the port and the
-token of its page, so that a page that is still open goes on by itself when its desk is opened
-again.
+Each desk is a session file in a private folder, with a journal; beside it stand its page's port
+and a key that the page has too, so that one that is still open goes on by itself when its desk is
+opened again: both prove to each other that they know the key.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ import contextlib
 import hashlib
 import json
 import os
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -26,6 +27,8 @@ MOST_DESKS = 8
 
 ENDING = ".packwork"
 
+_KEY = re.compile("[0-9a-f]{64}")
+
 
 @dataclass(frozen=True)
 class Kept:
@@ -36,33 +39,33 @@ class Kept:
     file
         The session's.
     place
-        Where its port and token stand; None if nothing may be kept.
+        Where its port and key stand; None if nothing may be kept.
     """
 
     file: Path
     place: Path | None
 
     @property
-    def address(self) -> tuple[int, str | None]:
-        """Port and token that its page had; 0 and None if there was none."""
+    def address(self) -> tuple[int, str]:
+        """Port and key that its page had; 0 and nothing if there was none."""
         if self.place is None:
-            return 0, None
+            return 0, ""
         try:
             said = json.loads(self.place.read_text(encoding="utf-8"))
-            port, token = said["port"], said["token"]
+            port, key = said["port"], said["key"]
         except (OSError, ValueError, TypeError, KeyError):
-            return 0, None
-        is_sound = isinstance(port, int) and 0 < port < 65_536 and isinstance(token, str)
-        return (port, token) if is_sound and len(token) >= 24 and token.isascii() else (0, None)
+            return 0, ""
+        is_sound = isinstance(port, int) and 0 < port < 65_536 and isinstance(key, str)
+        return (port, key) if is_sound and _KEY.fullmatch(key) else (0, "")
 
-    def remember(self, port: int, token: str) -> None:
+    def remember(self, port: int, key: str) -> None:
         """Keep where its page is, for the same user alone to read."""
         if self.place is not None:
             with contextlib.suppress(OSError):
                 self.place.unlink(missing_ok=True)
                 flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL
                 with os.fdopen(os.open(self.place, flags, 0o600), "w", encoding="utf-8") as out:
-                    json.dump({"port": port, "token": token}, out)
+                    json.dump({"port": port, "key": key}, out)
 
 
 def of_file(file: Path) -> Kept:

@@ -2,16 +2,17 @@
 
 A page of any other place can send requests to this machine, and by rebinding a name can even seem
 to be of the same place. So all that comes in has to name the very host and port that we listen at;
-whatever is not a page of ours also needs the token, which stands in the fragment of the address
-that was opened, so that it is in no log and no referrer.
+whatever is not a page of ours also needs the token, which follows from the secret in the fragment
+of the address that was opened, so that it is in no log and no referrer.
 """
 
 from __future__ import annotations
 
-import secrets
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
+
+from packwork.studio.proof import Secret
 
 Message: TypeAlias = MutableMapping[str, Any]
 Receive: TypeAlias = Callable[[], Awaitable[Message]]
@@ -27,20 +28,19 @@ TOKEN_PREFIX = "token."  # noqa: S105
 TOKEN_HEADER = "x-packwork-token"  # noqa: S105
 """Header of requests that carries it."""
 
-OPEN = ("/", "/static/")
-"""What is served without a token: the page and its parts, which hold nothing of anybody's. A path
-that ends in a stroke stands for all below it, but the root for itself alone."""
+OPEN = ("/", "/static/", "/proof/")
+"""What is served without a token: the page and its parts, which hold nothing of anybody's, and the
+proof that they are ours. A path that ends in a stroke stands for all below it, but the root for
+itself alone."""
+
+AGAIN = "/again"
+"""Where a page of the studio before asks for the new secret: with a proof in place of the token."""
 
 POLICY = (
     "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' ws://{host}; "
     "object-src 'none'; frame-ancestors 'none'; base-uri 'none'; form-action 'none'"
 )
 """What a page of ours may load, and who may show it: our own modules alone."""
-
-
-def new_token() -> str:
-    """A token that nobody can guess."""
-    return secrets.token_urlsafe(24)
 
 
 @dataclass(frozen=True)
@@ -51,15 +51,17 @@ class Guard:
     ----------
     app
         What is guarded.
-    host
-        Host and port as the address has them.
-    token
+    secret
         What only that page knows.
     """
 
     app: App
-    host: str
-    token: str
+    secret: Secret
+
+    @property
+    def host(self) -> str:
+        """Host and port as the address has them."""
+        return self.secret.host
 
     async def __call__(self, scope: Message, receive: Receive, send: Send) -> None:
         """Refuse what is not ours, else hand it on; answers say what browsers may do with them."""
@@ -88,12 +90,12 @@ class Guard:
             return "this is for the studio's own page"
         if is_read and _is_open(scope["path"]):
             return None
-        told = _only(headers, TOKEN_HEADER)
-        return None if self._has_token([told or ""]) else "the token is missing"
+        told = _only(headers, TOKEN_HEADER) or ""
+        is_known = self.secret.is_page_before if scope["path"] == AGAIN else self.secret.is_token
+        return None if is_known(told) else "the token is missing"
 
     def _has_token(self, told: Iterable[str]) -> bool:
-        expected = self.token.encode()
-        return any(secrets.compare_digest(one.encode(), expected) for one in told)
+        return any(map(self.secret.is_token, told))
 
     def _with_policy(self, send: Send) -> Send:
         """Have answers carry what browsers are to keep to."""

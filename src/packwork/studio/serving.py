@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import html
+import os
 import socket
 import sys
 import webbrowser
 from collections.abc import Callable
+from contextlib import closing
 from dataclasses import dataclass
+from pathlib import Path
 
 import uvicorn
 
@@ -15,12 +19,15 @@ from packwork.live.face.opening import Opening
 from packwork.studio.app import guarded
 from packwork.studio.desk import Desk
 from packwork.studio.desks import Kept
-from packwork.studio.guard import new_token
+from packwork.studio.proof import Secret
 from packwork.studio.uploads import Uploads
 from packwork.studio.wire import MOST_TEXT
 
 HERE = "127.0.0.1"
 """Where nobody but this machine can reach us."""
+
+LOOPBACK = (HERE, "::1")
+"""Where browsers take a page without encryption for safe."""
 
 SWITCH_SECONDS = 0.0005
 """How long the session's thread goes on with Python's lock while the event loop has a message to
@@ -70,45 +77,63 @@ def serve(
     PackworkError
         If the port is taken.
     """
-    port, known = (place.port, None) if kept is None or place.port else kept.address
+    port, key_before = (place.port, "") if kept is None or place.port else kept.address
     try:
         bound = _bound(Place(host=place.host, port=port))
     except PackworkError:
         if port == place.port:
             raise
         # Another program is there by now: its page has to be opened anew.
-        bound, known = _bound(place), None
+        bound, key_before = _bound(place), ""
     host, port = bound.getsockname()[:2]
     name = f"[{host}]:{port}" if ":" in host else f"{host}:{port}"
-    token = known or new_token()
+    secret = Secret(name, key_before=key_before, is_plain=host not in LOOPBACK)
     if kept is not None:
-        kept.remember(port, token)
-    address = f"http://{name}/#{token}"
-    uploads = Uploads()
-    config = uvicorn.Config(
-        guarded(Desk(opening), uploads, name, token),
-        log_level="warning",
-        access_log=False,
-        server_header=False,
-        date_header=False,
-        ws="websockets-sansio",
-        ws_max_size=4 * MOST_TEXT,
-        ws_per_message_deflate=False,
-        timeout_graceful_shutdown=1,
-        lifespan="on",
-    )
-    tell(f"the studio is open at {address}\nit ends with Ctrl-C")
-    if browses:
-        webbrowser.open(address)
-    sys.setswitchinterval(SWITCH_SECONDS)
-    uvicorn.Server(config).run(sockets=[bound])
+        kept.remember(port, secret.key)
+    address = f"http://{name}/#{secret.text}"
+    with closing(Uploads()) as uploads:
+        config = uvicorn.Config(
+            guarded(Desk(opening), uploads, secret),
+            log_level="warning",
+            access_log=False,
+            server_header=False,
+            date_header=False,
+            ws="websockets-sansio",
+            ws_max_size=4 * MOST_TEXT,
+            ws_per_message_deflate=False,
+            timeout_graceful_shutdown=1,
+            lifespan="on",
+        )
+        tell(f"the studio is open at {address}\nit ends with Ctrl-C")
+        if browses:
+            # Whoever sees what is running sees no more than the name of a private file.
+            webbrowser.open(_leading_to(address, uploads.root).as_uri())
+        sys.setswitchinterval(SWITCH_SECONDS)
+        uvicorn.Server(config).run(sockets=[bound])
+
+
+def _leading_to(address: str, folder: Path) -> Path:
+    """Page for this user alone that leads to an address."""
+    file, there = folder / "open.html", html.escape(address)
+    flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL
+    with os.fdopen(os.open(file, flags, 0o600), "w", encoding="utf-8") as page:
+        page.write(
+            f'<!doctype html><meta charset="utf-8"><meta name="referrer" content="no-referrer">'
+            f'<meta http-equiv="refresh" content="0;url={there}"><title>Packwork studio</title>'
+            f'<a href="{there}">Open the studio</a>'
+        )
+    return file
 
 
 def _bound(place: Place) -> socket.socket:
     """Socket that listens there."""
     family = socket.AF_INET6 if ":" in place.host else socket.AF_INET
     bound = socket.socket(family, socket.SOCK_STREAM)
-    bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    if sys.platform == "win32":
+        # There another program may else listen at the same port.
+        bound.setsockopt(socket.SOL_SOCKET, socket.SO_EXCLUSIVEADDRUSE, 1)
+    else:
+        bound.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         bound.bind((place.host, place.port))
         # From now on a browser that is early waits, and is not turned away.

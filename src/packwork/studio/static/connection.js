@@ -1,6 +1,8 @@
 // @ts-check
 /** The one way to the studio: a socket for messages and frames, requests for files. */
 
+import { hex, provenToken } from "./proof.js";
+
 /** @typedef {import("./wire.js").Said} Said */
 /** @typedef {import("./wire.js").Told} Told */
 /** @typedef {{number: number, version: number, done: number, moving: boolean, poses: Float32Array}} Frame */
@@ -21,6 +23,8 @@ export function frameOf(data) {
   return { number, version, done, moving: (flags & 1) === 1, poses: new Float32Array(data, HEAD) };
 }
 
+const NO_ANSWER = "the studio does not answer";
+
 export class Connection {
   /**
    * @param {{said: (message: Said) => void, frame: (frame: Frame) => void,
@@ -28,7 +32,12 @@ export class Connection {
    */
   constructor(hears) {
     this.hears = hears;
-    this.token = location.hash.slice(1);
+    /** Known once the studio has proved to be ours. */
+    this.token = "";
+    this.isProving = false;
+    /** @type {() => void} */
+    this.begun = () => {};
+    this.hasBegun = new Promise((begun) => (this.begun = () => begun(null)));
     /** @type {WebSocket | null} */
     this.socket = null;
     this.wait = SHORTEST_WAIT;
@@ -40,11 +49,24 @@ export class Connection {
     for (const event of ["online", "focus", "pageshow"]) addEventListener(event, () => this.hurry());
   }
 
-  open() {
+  /** Open the socket, once what listens there has proved to be the studio. */
+  async open() {
+    if (this.isProving) return;
+    this.isProving = true;
+    this.token = await provenToken().catch(() => "");
+    this.isProving = false;
+    if (this.token) this.connect();
+    else this.openLater();
+  }
+
+  connect() {
     const joins = sessionStorage.getItem("joins") !== null;
     const socket = new WebSocket(`ws://${location.host}/socket`, ["packwork", `token.${this.token}`, `${joins ? "join" : "person"}.${this.person}`]);
     socket.binaryType = "arraybuffer";
-    socket.onopen = () => this.hears.changed(true);
+    socket.onopen = () => {
+      this.begun();
+      this.hears.changed(true);
+    };
     socket.onmessage = (event) => this.heard(event.data);
     socket.onclose = (event) => this.lost(socket, event.code);
     this.socket = socket;
@@ -63,6 +85,10 @@ export class Connection {
     if (this.socket !== socket) return;
     this.socket = null;
     if (code === TAKEN) this.take(true);
+    this.openLater();
+  }
+
+  openLater() {
     this.hears.changed(false);
     this.timer = setTimeout(() => this.open(), this.wait);
     this.wait = Math.min(2 * this.wait, LONGEST_WAIT);
@@ -124,16 +150,18 @@ export class Connection {
    * @param {RequestInit} [asked]
    */
   async ask(path, asked = {}) {
+    await this.hasBegun;
+    if (!this.isOpen) throw new Error(NO_ANSWER);
     const headers = { ...asked.headers, "x-packwork-token": this.token };
     const answer = await fetch(path, { ...asked, headers });
-    if (!answer.ok) throw new Error((await answer.text()).trim() || "the studio does not answer");
+    if (!answer.ok) throw new Error((await answer.text()).trim() || NO_ANSWER);
     return answer;
   }
 }
 
 /** A name for whoever has this browser; no secret. */
 function newPerson() {
-  const person = [...crypto.getRandomValues(new Uint8Array(8))].map((one) => one.toString(16).padStart(2, "0")).join("");
+  const person = hex(crypto.getRandomValues(new Uint8Array(8)));
   localStorage.setItem("person", person);
   return person;
 }
