@@ -72,8 +72,8 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 52_304,
-    "lines of docstrings": 22_764,
+    "lines of code": 52_450,
+    "lines of docstrings": 22_840,
     "files": 725,
     "functions of the road in one plain fill": 179,
     "files of the road in one plain fill": 45,
