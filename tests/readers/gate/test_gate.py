@@ -215,10 +215,24 @@ def test_billion_laughs():
         admit(head.encode() + svg("<text>&l9;</text>"))
 
 
-def test_default_attributes_are_refused():
-    head = b'<!DOCTYPE svg [<!ATTLIST path onload CDATA "evil()">]>'
-    with pytest.raises(UnfitError, match="document type of its own"):
-        admit(head + svg("<g/>"))
+def test_declared_attributes_are_no_harm_and_no_default():
+    head = b'<!DOCTYPE svg [<!ATTLIST path fill CDATA "red" onload CDATA "evil()">]>'
+    (path,) = admit(head + svg('<path d="M0 0h9v9z"/>')).iter("path")
+    assert path.attrib == {"d": "M0 0h9v9z"}
+
+
+@pytest.mark.parametrize(
+    "declared",
+    [
+        f'<!ATTLIST path d CDATA "{"h1" * 1000}">',
+        "".join(f'<!ATTLIST path a{k} CDATA "9">' for k in range(200)),
+        "<!ELEMENT svg ANY><!ATTLIST svg a %b;>",
+        '<!ENTITY % b "c"><!ATTLIST svg a CDATA %b;>',
+    ],
+)
+def test_attributes_declared_to_excess_are_refused(declared):
+    with pytest.raises(UnfitError):
+        admit(b"<!DOCTYPE svg [" + declared.encode() + b"]>" + svg("<g/>"))
 
 
 @pytest.mark.parametrize(

@@ -8,9 +8,10 @@ import zlib
 from packwork.readers.account import one_budget
 from packwork.readers.budget.expansion import bound_expansion, check_size
 from packwork.readers.budget.filters import settle_filters
-from packwork.readers.gate.plain.cuts import settle_cuts
+from packwork.readers.gate.plain.cuts import settle_cuts, settle_stencils
 from packwork.readers.gate.plain.dash_units import settle_dash_units
 from packwork.readers.gate.plain.moves import settle_moves
+from packwork.readers.gate.plain.symbols import settle_symbols
 from packwork.readers.gate.plain.units import settle_root, settle_units
 from packwork.readers.gate.sanitise import sanitised
 from packwork.readers.gate.xml_tree import parse_xml
@@ -83,8 +84,10 @@ def _admitted(data: bytes) -> ET.Element:
     page = read_page(root)
     settle_units(root, page)
     settle_dash_units(root)
+    settle_stencils(root)
     settle_cuts(root, page)
     settle_moves(root, page)
+    settle_symbols(root)
     drop_dangling(root)
     settle_filters(root)
     prune_hidden(root)

@@ -25,6 +25,9 @@ _DECLARES = f"declares XML entities or a document type of its own; {_REMEDY}"
 MAX_ENTITY = 300
 """Letters of an entity, as some programs declare for the addresses of namespaces. Chosen."""
 
+MAX_ATTRIBUTES = 100
+"""Attributes that a document type declares. Chosen."""
+
 MAX_REPLACED = 2_000_000
 """Letters that all entities of a document may come to. Chosen."""
 
@@ -33,7 +36,8 @@ def parse_xml(data: bytes) -> ET.Element:
     """Root of a document, without default attributes and all but the plainest entities.
 
     A ``<!DOCTYPE svg PUBLIC ...>`` passes: nothing is fetched for it. Its own entities
-    pass if each is a short plain text, so that none can multiply.
+    pass if each is a short plain text, so that none can multiply, and a few lists of attributes,
+    whose defaults are not taken.
 
     Raises
     ------
@@ -49,7 +53,9 @@ def parse_xml(data: bytes) -> ET.Element:
     references = data.count(b"&")
     parser.parser.EntityDeclHandler = partial(_check_entity, references)
     parser.parser.UnparsedEntityDeclHandler = _refuse_declaration
-    parser.parser.AttlistDeclHandler = _refuse_declaration
+    parser.parser.AttlistDeclHandler = _AttributeLists().declare
+    # What they give by default is not taken.
+    parser.parser.specified_attributes = True
     try:
         parser.feed(data)
         root: ET.Element = parser.close()
@@ -71,6 +77,19 @@ def _check_entity(
         raise UnfitError(_DECLARES)
     if references * len(value or "") > MAX_REPLACED:
         raise UnfitError(f"repeats the XML entity {name[:20]!r} too often; {_REMEDY}")
+
+
+class _AttributeLists:
+    """Counts the attributes that a document type declares: a parser goes over them per element."""
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def declare(self, element: str, name: str, kind: str, default: str | None, _: bool) -> None:
+        """Refuse one that is too much."""
+        self._count += 1
+        if self._count > MAX_ATTRIBUTES or len(default or "") > MAX_ENTITY:
+            raise UnfitError(_DECLARES)
 
 
 def _refuse_declaration(*_what: object) -> None:

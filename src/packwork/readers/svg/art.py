@@ -54,6 +54,7 @@ def vector_art(
     if page is not None and (is_cut or _has_percentages(drawing)):
         drawing.attrib |= {"width": repr(page.width), "height": repr(page.height)}
         drawing.attrib["overflow"] = "hidden" if is_cut else "visible"
+        _move_looks_inside(drawing)
         return VectorArt(_with_links(drawing), matrix)
     if page is not None:
         matrix = affine.compose(place, page.matrix)
@@ -110,6 +111,20 @@ def _plain_fragment(drawing: ET.Element) -> str:
     if drawing.attrib or uses_links(drawing):
         return _with_links(drawing)
     return "".join(serialised(child) for child in drawing)
+
+
+def _move_looks_inside(drawing: ET.Element) -> None:
+    """Put all that the root says of looks and place on a group in it, in place.
+
+    Transforms and clips of an inner ``<svg>`` are in the units of what it stands in.
+    """
+    looks = {k: v for k, v in drawing.attrib.items() if k not in _OWN_TO_ROOT}
+    if not looks:
+        return
+    group = ET.Element("g", looks)
+    group.extend(list(drawing))
+    drawing[:] = [group]
+    drawing.attrib = {k: v for k, v in drawing.attrib.items() if k in _OWN_TO_ROOT}
 
 
 def _with_links(drawing: ET.Element) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.account import one_budget
 from packwork.readers.files import read_bytes, stem
@@ -13,14 +14,15 @@ from packwork.readers.options import ReadOptions
 from packwork.readers.pages import PageFate, Read, agreed
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import vector_art
-from packwork.readers.svg.drawing import LARGESSE, read_drawing
+from packwork.readers.svg.drawing import LARGESSE, Drawing, read_drawing
 from packwork.readers.svg.glow import without_glow
 from packwork.readers.svg.kept import read_once
+from packwork.readers.svg.overpaint import whole_reach, within_outline
 from packwork.readers.svg.region.ink import TracedInk
 from packwork.readers.svg.region.sheet import WHOLE_PAGE
 from packwork.readers.svg.rounds import with_short_arcs
 from packwork.readers.unfit import naming
-from packwork.scene.item import Item
+from packwork.scene.item import Item, VectorArt
 
 
 def read_svg(path: str | Path, holes: Holes = "fill", reading: ReadOptions | None = None) -> Read:
@@ -107,12 +109,27 @@ def _read_anew(
         outline, ink, place = centred(clean_union(drawing.ink.body), holes)
         if drawing.ink.body is not drawing.ink.whole:
             ink = Outline.from_region(clean_union(drawing.ink.whole)).mapped(place)
-        root = with_short_arcs(without_glow(drawing))
-        art = vector_art(root, drawing.page, is_cut=drawing.ink.is_cut, place=place)
-        art = replace(art, is_traced=isinstance(drawing.ink, TracedInk))
+        art = _art(drawing, outline, place, is_checked=is_compared)
     item = Item(name, source, outline, ink, art)
     fate = drawing.sheet
     if fate is PageFate.NONE and drawing.page is not None:
         whole = drawing.page.width * drawing.page.height
         fate = PageFate.FILLED if outline.area >= WHOLE_PAGE * whole else fate
     return Read(item, source, fate)
+
+
+def _art(drawing: Drawing, outline: Outline, place: FloatArray, *, is_checked: bool) -> VectorArt:
+    """What is written into files for an item: nothing beyond its outline."""
+    root = with_short_arcs(without_glow(drawing))
+    is_traced = isinstance(drawing.ink, TracedInk)
+
+    def art(is_cut: bool) -> VectorArt:
+        made = vector_art(root, drawing.page, is_cut=is_cut, place=place)
+        return replace(made, is_traced=is_traced)
+
+    is_cut = drawing.ink.is_cut
+    if not is_checked:
+        return art(is_cut)
+    # As it is, else as viewers show it by itself.
+    ways = [is_cut] if is_cut or drawing.page is None else [False, True]
+    return within_outline(map(art, ways), outline, whole_reach(drawing.shapes, place), drawing.work)

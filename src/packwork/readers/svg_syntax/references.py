@@ -6,6 +6,7 @@ import re
 import xml.etree.ElementTree as ET
 from collections.abc import Callable, Iterator
 
+from packwork.readers.svg_syntax.lengths import parse_numbers
 from packwork.readers.svg_syntax.vocabulary import (
     GRADIENTS,
     GROUPS,
@@ -127,8 +128,15 @@ def prune_hidden(root: ET.Element) -> None:
         for child in list(parent):
             is_hidden = child.get("display") == "none" and child.tag not in NEVER_DRAWN
             is_lost = child.tag == "image" and HREF not in child.attrib
+            is_lost |= child.tag == "svg" and _is_flat(child)
             if (is_hidden or is_lost) and not any(e.get("id") in used for e in child.iter()):
                 parent.remove(child)
+
+
+def _is_flat(element: ET.Element) -> bool:
+    """Whether a viewport has no width or no height; viewers differ about these."""
+    sides = (parse_numbers(element.get(name)) for name in ("width", "height"))
+    return any(side and side[0] <= 0 for side in sides)
 
 
 def prune_unused(root: ET.Element) -> None:

@@ -1,4 +1,4 @@
-"""CSS clip shapes (``circle()``, ``polygon()`` ...) to ``clipPath`` elements."""
+"""Clip paths: CSS shapes (``circle()`` ...) to elements, and what browsers pass over."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from packwork.readers.gate.plain.boxes import Box, fill_box, place_in
 from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.svg_syntax.page import Page, root_viewport
 from packwork.readers.svg_syntax.references import elements_by_id
+from packwork.readers.svg_syntax.vocabulary import HREF, SHAPES, TEXTS
 
 CLIP = "clip-path"
 
@@ -50,6 +51,25 @@ def settle_cuts(root: ET.Element, page: Page | None) -> None:
         clip.append(_stencil(match[1], match[2], box))
         by_id[name] = clip
         element.set(CLIP, f"url(#{name})")
+
+
+def settle_stencils(root: ET.Element) -> None:
+    """Take out of clip paths what browsers pass over there, in place: groups, and uses of these.
+
+    Examples
+    --------
+    >>> root = ET.fromstring('<svg><clipPath id="c"><g/><path/></clipPath></svg>')
+    >>> settle_stencils(root)
+    >>> [child.tag for child in root[0]]
+    ['path']
+    """
+    clips = list(root.iter("clipPath"))
+    by_id = elements_by_id(root) if clips else {}
+    for clip in clips:
+        for child in list(clip):
+            meant = by_id.get(child.get(HREF, "")[1:]) if child.tag == "use" else child
+            if meant is None or meant.tag not in SHAPES | TEXTS:
+                clip.remove(child)
 
 
 def _line_width(element: ET.Element, parents: dict[ET.Element, ET.Element]) -> float:

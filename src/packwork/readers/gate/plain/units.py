@@ -94,7 +94,7 @@ def settle_units(root: ET.Element, page: Page | None) -> None:
 
 
 def settle_root(root: ET.Element) -> None:
-    """The same for the size of the page itself, in place.
+    """The same for the size of the page itself, in place; where it lies in a window is forgotten.
 
     Examples
     --------
@@ -104,6 +104,8 @@ def settle_root(root: ET.Element) -> None:
     """
     plain = Context(PLAIN_FONT_PX, PLAIN_FONT_PX, (0.0, 0.0), (0.0, 0.0))
     font = _font_size(root, plain)
+    for name in ("x", "y"):
+        root.attrib.pop(name, None)
     for name in ("width", "height"):
         text = root.get(name, "")
         if "v" in text or "%" in text:

@@ -190,7 +190,7 @@ class _Walk:
         inner = self.framed(element, frame)
         if element.tag == "use":
             target = self._target(element)
-            return [] if target is None or target.tag == "use" else self._stencils(target, inner)
+            return [] if target is None else self._stencils(target, inner)
         if element.tag not in SHAPES or not inner.painting.is_visible:
             return []
         pieces = self._pieces(element, inner.viewport)

@@ -141,6 +141,7 @@ class PaintedInk(Ink):
         self, shapes: Sequence[Painted], extent: float, flattening: float = FLATTENING
     ) -> None:
         self._shapes = [shape for shape in shapes if shown_box(shape) is not None]
+        self._has_hidden = len(self._shapes) < len(shapes)
         self._extent = extent
         self._follower = Follower(extent, flattening)
 
@@ -174,7 +175,7 @@ class PaintedInk(Ink):
     @cached_property
     def is_cut(self) -> bool:
         """Whether the page or a viewport cuts off part of any shape."""
-        return any(self._follower.is_cut(shape) for shape in self._shapes)
+        return self._has_hidden or any(self._follower.is_cut(shape) for shape in self._shapes)
 
     def _together(self, *, is_bridged: bool) -> Region:
         """Union of all shapes but those that larger ones hide: these are never followed."""
