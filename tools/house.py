@@ -72,16 +72,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 52_450,
-    "lines of docstrings": 22_840,
-    "files": 725,
+    "lines of code": 53_500,
+    "lines of docstrings": 23_300,
+    "files": 745,
     "functions of the road in one plain fill": 179,
     "files of the road in one plain fill": 45,
     "calls of id()": 100,
     "context variables": 5,
-    "docstrings that begin with a question word": 516,
+    "docstrings that begin with a question word": 530,
     "class names that occur twice": 26,
-    "constants chosen by hand": 684,
+    "constants chosen by hand": 700,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

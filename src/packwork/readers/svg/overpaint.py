@@ -125,9 +125,9 @@ def paints_beyond(art: VectorArt, outline: Outline, reach: Box | None, work: Wor
 def _wider(near: Box, reach: Box) -> Box:
     """Box round both, but no farther than is looked."""
     far = FARTHEST * max(near[2] - near[0], near[3] - near[1])
-    low = (max(min(near[k], reach[k]), near[k] - far) for k in range(2))
-    high = (min(max(near[k], reach[k]), near[k] + far) for k in range(2, 4))
-    return (*low, *high)
+    left, top = (max(min(near[k], reach[k]), near[k] - far) for k in (0, 1))
+    right, bottom = (min(max(near[k], reach[k]), near[k] + far) for k in (2, 3))
+    return left, top, right, bottom
 
 
 def cut_by_outline(art: VectorArt, outline: Outline) -> VectorArt:
