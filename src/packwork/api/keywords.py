@@ -238,6 +238,17 @@ class _FillWordsPhotos(TypedDict, total=False):
     """Items to put into the voids, in place of smaller copies of the items."""
 
 
+class _FillPhotos(TypedDict, total=False):
+    """Options of fill, photos."""
+
+    least_dpi: float | None
+    """Enlarge no picture beyond so many of its own pixels to the inch: those of few pixels stay
+    small. Default: pictures are as large as suits the layout."""
+
+    apart: bool
+    """Keep copies of one item from lying side by side, as far as that goes. Default: False."""
+
+
 class _FillWordsPile(TypedDict, total=False):
     """Options of fill, words, pile."""
 
@@ -269,13 +280,6 @@ class _FillPile(TypedDict, total=False):
     """What --palette does to drawings of several colours: tint (each in the tints and shades of one
     colour, by lightness), nearest (each of their colours becomes the palette's nearest) or keep
     (they keep their own, as among words). Default: 'tint'."""
-
-
-class _FillPhotos(TypedDict, total=False):
-    """Options of fill, photos."""
-
-    apart: bool
-    """Keep copies of one item from lying side by side, as far as that goes. Default: False."""
 
 
 class _FillWords(TypedDict, total=False):
@@ -338,10 +342,10 @@ class FillKeywords(
     _FillPhotosPile,
     _Every,
     _FillWordsPhotos,
+    _FillPhotos,
     _FillWordsPile,
     _FillWordsChartPile,
     _FillPile,
-    _FillPhotos,
     _FillWords,
     _FillWordsPhotosChart,
     total=False,
@@ -447,10 +451,6 @@ class PhotosKeywords(
     total=False,
 ):
     """Options of :func:`packwork.photos`."""
-
-    least_dpi: float | None
-    """Enlarge no photo beyond so many of its own pixels to the inch: those of few pixels stay
-    small. Default: photos are as large as suits the layout."""
 
     shape: Value | None
     """Cut photos to a shape: rounded, rounded:20% (radius as a share of the shorter side), or

@@ -26,6 +26,7 @@ from packwork.errors import RecipeError
 from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.exact import exact_metrics
 from packwork.metrics.measure import Metrics, measure
+from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import read_written
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import refusal
@@ -190,14 +191,15 @@ class Layout(scene.Layout):
                 writers.write(self, path, _drawing(options))
             else:
                 writers.write_atomic(path, self._encoded(format, options))
-            return
-        if not hasattr(path, "write"):
+        elif not hasattr(path, "write"):
             raise RecipeError("path", f"is {type(path).__name__}; give a path or an open file")
-        format = format or Path(str(getattr(path, "name", ""))).suffix
-        if not format:
-            raise RecipeError("format", "a buffer has no ending; give a format, such as 'svg'")
-        content = self._encoded(format, options)
-        path.write(content.decode() if isinstance(path, io.TextIOBase) else content)
+        else:
+            format = format or Path(str(getattr(path, "name", ""))).suffix
+            if not format:
+                raise RecipeError("format", "a buffer has no ending; give a format, such as 'svg'")
+            content = self._encoded(format, options)
+            path.write(content.decode() if isinstance(path, io.TextIOBase) else content)
+        tell_coarse(self, _drawing(options).dpi)
 
     @of_model(DrawingOptions)
     def to_svg(self, **options: Unpack[SaveKeywords]) -> str:

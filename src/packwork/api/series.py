@@ -14,7 +14,7 @@ from packwork.api.keywords import ChartKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
 from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.errors import RecipeError
-from packwork.pipeline import warm_up_once
+from packwork.pipeline import tell_coarse, warm_up_once
 from packwork.progress import Stop, never
 from packwork.readers.memory.values import Value
 from packwork.readers.tables.frames import is_frame, rows_of_frame
@@ -83,6 +83,8 @@ class Series:
         pairs = zip((one[0] for one in files), self.layouts, strict=True)
         made = [(file, writers.encoded(layout, file, options)) for file, layout in pairs]
         writers.write_all(made)
+        for layout in self.layouts:
+            tell_coarse(layout, options.dpi)
         return tuple(file for file, _ in made)
 
     def save_sheet(self, path: str | Path) -> None:

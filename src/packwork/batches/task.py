@@ -129,6 +129,7 @@ def draw(task: Task, stop: Stop = never) -> Drawn | Outcome:
                 return Outcome(row=task.row, name=task.name, status="stopped")
             options = writers.write_options(**task.drawing)
             files = tuple(writers.encoded(run.layout, path, options) for path in task.outputs)
+            pipeline.tell_coarse(run.layout, options.dpi)
             read = tuple(dict.fromkeys(noted.values()))
         told = _told(task, run, time.perf_counter() - began)
     except PackworkError as error:

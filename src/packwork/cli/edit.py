@@ -259,6 +259,7 @@ def _written(
     from packwork.cli.show import Paper, certificate_line, metrics_table, printing
     from packwork.live.file.disk import Disk
     from packwork.metrics.measure import measure
+    from packwork.pipeline import tell_coarse
 
     done = session.finish()
     made = session.layout
@@ -285,6 +286,7 @@ def _written(
             own = disk if disk and disk.is_at(path) else Disk(path, is_journaled=False)
             files.append((path, saved.enter_context(own.replacing(session))))
         writers.write_all(files)
+    tell_coarse(made, drawing.dpi)
     console = Paper(quiet=quiet, highlight=False)
     with printing():
         console.print(metrics_table(metrics, made.container.unit))

@@ -234,7 +234,9 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         if not was_cut_short and (outputs.report is not None or not quiet):
             # Looks at pictures of all items, for which nobody waits who wants it to end.
             results["advice"] += _hard_to_see(run, outputs)
-        results["advice"] += pipeline.coarse_photos(run.layout, outputs.options.dpi)
+        results["advice"] += pipeline.coarse_photos(
+            run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
+        )
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
         replaced = {path for path, _ in written if os.path.lexists(path)}
@@ -250,6 +252,13 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             worth = "certified" if run.certified else "not certified"
             say(f"stopped by Ctrl-C; this is the best so far, {worth}")
     return INTERRUPTED if was_stopped else 0 if run.is_as_asked and not undrawn else SHORTFALL
+
+
+def _bounds_resolution(job: pipeline.Job) -> bool:
+    """Whether ``least_dpi`` may be asked of it."""
+    recipe = job.recipe
+    is_collage = recipe.words is None and recipe.chart is None and recipe.pile is None
+    return is_collage and job.plan.sizes == "free"
 
 
 def _print_results(

@@ -19,6 +19,7 @@ from packwork.display.bar import TerminalBar
 from packwork.errors import RecipeError
 from packwork.inputs import check_no_input
 from packwork.phrasing import number_of
+from packwork.pipeline import tell_coarse
 from packwork.readers.words.items import EM_PX
 from packwork.readers.words.steps import named_column, read_word_steps
 from packwork.recipe.film import film_options
@@ -177,6 +178,8 @@ class _Files:
         if self.report is not None:
             pairs.append((self.report, writers.json_bytes(report(series))))
         writers.write_all(pairs)
+        for run in series.runs:
+            tell_coarse(run.layout, self._drawing.dpi)
         return [path for path, _ in pairs]
 
 

@@ -3,7 +3,7 @@
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.plan.cast import item_weights
 from packwork.pipeline.plan.padding import padded
-from packwork.pipeline.plan.resolution import coarse_photos
+from packwork.pipeline.plan.resolution import coarse_photos, tell_coarse
 from packwork.pipeline.result import Run, Unplaced, find_unplaced
 from packwork.pipeline.run import run
 from packwork.pipeline.warming import KERNELS, warm_up, warm_up_once
@@ -19,6 +19,7 @@ __all__ = [
     "item_weights",
     "padded",
     "run",
+    "tell_coarse",
     "warm_up",
     "warm_up_once",
 ]

@@ -92,10 +92,11 @@ class Pictured(Options):
     """Photographs to place: which, and what becomes of their edges (``packwork photos``)."""
 
     least_dpi: Annotated[
-        Annotated[float, Field(gt=0, le=10_000)] | None, Offer(verbs=Verbs.PHOTOS, after="weights")
+        Annotated[float, Field(gt=0, le=10_000)] | None,
+        Offer(verbs=Verbs.FILL | Verbs.PHOTOS, after="weights"),
     ] = None
-    """Enlarge no photo beyond so many of its own pixels to the inch: those of few pixels stay
-    small. Default: photos are as large as suits the layout."""
+    """Enlarge no picture beyond so many of its own pixels to the inch: those of few pixels stay
+    small. Default: pictures are as large as suits the layout."""
 
     quiet_share: Annotated[
         float,

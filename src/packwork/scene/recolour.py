@@ -16,9 +16,9 @@ from packwork.scene.colour import ABSENT, css_colour, hex_colour
 from packwork.scene.item import Art, FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.notation import with_fresh_ids
 
-_XLINK = "http://www.w3.org/1999/xlink"
-_HREF = f"{{{_XLINK}}}href"
-ET.register_namespace("xlink", _XLINK)
+XLINK = "http://www.w3.org/1999/xlink"
+_HREF = f"{{{XLINK}}}href"
+ET.register_namespace("xlink", XLINK)
 
 _COLOURFUL = frozenset(
     {"image", "linearGradient", "radialGradient", "pattern", "marker", "mask", "filter", "style"}
@@ -125,7 +125,7 @@ def recoloured(item: Item, colour: str) -> Item:
 
 def tree_of(markup: str) -> ET.Element:
     """Elements of a fragment, in one group."""
-    tree: ET.Element = fromstring(f'<g xmlns:xlink="{_XLINK}">{markup}</g>')
+    tree: ET.Element = fromstring(f'<g xmlns:xlink="{XLINK}">{markup}</g>')
     return tree
 
 
