@@ -37,6 +37,9 @@ TAKEN = 4409
 MOST_ASKED = 10_000
 """Bytes of what an export asks for. Chosen."""
 
+BODY_SECONDS = 300.0
+"""How long a file may take to arrive. Chosen: the largest one, in a slow network."""
+
 
 class Studio:
     """What answers requests.
@@ -156,14 +159,18 @@ async def _body(request: Request, most: int) -> bytes:
     Raises
     ------
     PackworkError
-        If it is longer than that.
+        If it is longer than that, or takes too long.
     """
     parts, length = [], 0
-    async for part in request.stream():
-        length += len(part)
-        if length > most:
-            raise PackworkError(f"more than {most / 1e6:g} MB are too many")
-        parts.append(part)
+    try:
+        async with asyncio.timeout(BODY_SECONDS):
+            async for part in request.stream():
+                length += len(part)
+                if length > most:
+                    raise PackworkError(f"more than {most / 1e6:g} MB are too many")
+                parts.append(part)
+    except TimeoutError:
+        raise PackworkError(f"takes longer than {BODY_SECONDS:g} seconds; send it again") from None
     return b"".join(parts)
 
 

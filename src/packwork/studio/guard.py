@@ -8,6 +8,8 @@ of the address that was opened, so that it is in no log and no referrer.
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 from collections.abc import Awaitable, Callable, Iterable, MutableMapping
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -32,6 +34,9 @@ OPEN = ("/", "/static/", "/proof/")
 """What is served without a token: the page and its parts, which hold nothing of anybody's, and the
 proof that they are ours. A path that ends in a stroke stands for all below it, but the root for
 itself alone."""
+
+OPEN_SECONDS = 60.0
+"""How long such an answer may take to be read. Chosen."""
 
 AGAIN = "/again"
 """Where a page of the studio before asks for the new secret: with a proof in place of the token."""
@@ -69,6 +74,11 @@ class Guard:
             await self.app(scope, receive, send)
         elif (reason := self.refusal(scope)) is not None:
             await _refuse(scope, receive, send, reason)
+        elif scope["type"] == "http" and _is_open(scope["path"]):
+            # Whoever reads an answer slowly is nobody whom we know.
+            with contextlib.suppress(TimeoutError):
+                async with asyncio.timeout(OPEN_SECONDS):
+                    await self.app(scope, receive, self._with_policy(send))
         else:
             await self.app(scope, receive, self._with_policy(send))
 

@@ -17,6 +17,7 @@ import uvicorn
 from packwork.errors import PackworkError
 from packwork.live.face.opening import Opening
 from packwork.studio.app import guarded
+from packwork.studio.connections import BoundedProtocol
 from packwork.studio.desk import Desk
 from packwork.studio.desks import Kept
 from packwork.studio.proof import Secret
@@ -98,6 +99,7 @@ def serve(
             access_log=False,
             server_header=False,
             date_header=False,
+            http=BoundedProtocol,
             ws="websockets-sansio",
             ws_max_size=4 * MOST_TEXT,
             ws_per_message_deflate=False,
