@@ -33,7 +33,7 @@ def test_each_mark_has_its_row_and_its_pose(layout: pw.Layout) -> None:
     assert (frame["area"] / frame["kg"]).to_numpy() == pytest.approx(frame["area"][0] / 25.0)
     assert frame["x"].tolist() == [1, 3, 4]
     assert frame["mark_x"].tolist() == layout.poses.x.tolist()
-    assert frame["category"].tolist() == ["x", "y", "missing"]
+    assert frame["category"].tolist() == ["x", "y", "no value"]
     assert len(set(frame["color"])) == 3
 
 

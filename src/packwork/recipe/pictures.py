@@ -50,7 +50,7 @@ def share_of_kinds(value: object) -> dict[str, float]:
 
 
 def known_palette(value: object) -> object:
-    """The same value, refused unless it is a palette, colours or None.
+    """The same value, refused unless it is a palette, colours or None; of names a dict.
 
     Raises
     ------
@@ -59,13 +59,25 @@ def known_palette(value: object) -> object:
     """
     if value is not None:
         # Loads the picture library, which the command line's help can do without.
-        from packwork.scene.palette import palette_colours
+        from packwork.scene.palette import colours_by_name, palette_colours
 
         try:
+            if (named := colours_by_name(value)) is not None:
+                return named
             palette_colours(value)
         except ValueError as error:
             raise RecipeError("palette", str(error)) from None
     return value
+
+
+def check_no_names(palette: object) -> None:
+    """Refuse a palette that gives colours to names, which only categories of a chart have."""
+    if isinstance(palette, Mapping):
+        raise RecipeError(
+            "palette",
+            "gives colours to names, which categories of a chart have (--color-by); give a list, "
+            "as red,#457b9d",
+        )
 
 
 Shades: TypeAlias = Literal["tint", "nearest", "keep"]

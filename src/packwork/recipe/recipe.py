@@ -25,7 +25,7 @@ from packwork.recipe.arrangement import Ordered
 from packwork.recipe.levels import checked_levels
 from packwork.recipe.meaning import Meant
 from packwork.recipe.mosaic import Shown
-from packwork.recipe.pictures import Pictured, known_palette
+from packwork.recipe.pictures import Pictured, check_no_names, known_palette
 from packwork.recipe.piles import Moving
 from packwork.recipe.reading import Interpreted
 from packwork.recipe.refusals import length_asked, length_of, validated
@@ -165,12 +165,13 @@ class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
     palette: Annotated[
-        str | tuple[str, ...] | None,
+        str | tuple[str, ...] | dict[str, str] | None,
         BeforeValidator(known_palette),
         Offer(verbs=Verbs.EVERY & ~Verbs.PHOTOS),
     ] = None
     """New colours for items, neighbours unlike: #e63946,#457b9d or okabe-ito, tol-bright,
-    tol-vibrant, tol-muted, tol-high-contrast. Photographs keep theirs."""
+    tol-vibrant, tol-muted, tol-high-contrast; of a chart's categories also by name, as
+    bear=red,fox=#457b9d. Photographs keep theirs."""
 
     apart: Annotated[bool, Offer(verbs=Verbs.FILL | Verbs.PHOTOS)] = False
     """Keep copies of one item from lying side by side, as far as that goes."""
@@ -284,6 +285,12 @@ class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
                     f"rule {number}: scale bounds free sizes, not {self.sizes} ones; "
                     'leave it out, pin the size, or use sizes = "free"',
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _colours_have_names(self) -> Recipe:
+        if self.chart is None:
+            check_no_names(self.palette)
         return self
 
     @model_validator(mode="after")

@@ -44,7 +44,7 @@ _COMMA = re.compile(r",(?![^(]*\))")
 
 
 def palette_colours(value: object) -> tuple[str, ...]:
-    """Colours of a named palette, of ``red,#457b9d`` or of a list, each as ``#rrggbb``.
+    """Colours of a named palette, of ``red,#457b9d``, a list or a dict, each as ``#rrggbb``.
 
     Raises
     ------
@@ -58,12 +58,37 @@ def palette_colours(value: object) -> tuple[str, ...]:
     >>> palette_colours("tomato, rgb(0, 0, 255)"), palette_colours(["#ff000080"])
     (('#ff6347', '#0000ff'), ('#ff000080',))
     """
+    if isinstance(value, Mapping):
+        return tuple((colours_by_name(value) or {}).values())
     if isinstance(value, str):
         named = PALETTES.get(value.strip().lower())
         return named or tuple(_colour(part) for part in _COMMA.split(value))
     if isinstance(value, list | tuple) and value and all(isinstance(c, str) for c in value):
         return tuple(_colour(part) for part in value)
     raise ValueError(f"use colours such as '#e63946,teal' or a palette's name, not {value!r}")
+
+
+def colours_by_name(value: object) -> dict[str, str] | None:
+    """Colours of ``bear=red,fox=#457b9d`` or a dict of them; None if they are given to no names.
+
+    Raises
+    ------
+    ValueError
+        If a name has no colour, or one that there is not.
+
+    Examples
+    --------
+    >>> colours_by_name("bear=tomato, fox=rgb(0, 0, 255)"), colours_by_name("red,blue")
+    ({'bear': '#ff6347', 'fox': '#0000ff'}, None)
+    """
+    if isinstance(value, str) and "=" in value:
+        parts = [part.rpartition("=") for part in _COMMA.split(value)]
+        value = {name.strip(): colour for name, _, colour in parts}
+    if not isinstance(value, Mapping):
+        return None
+    if not value or not all(name and isinstance(colour, str) for name, colour in value.items()):
+        raise ValueError(f"give each name its colour, as bear=red,fox=#457b9d, not {value!r:.60}")
+    return {str(name): _colour(colour) for name, colour in value.items()}
 
 
 def _colour(text: str) -> str:

@@ -15,10 +15,11 @@ from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
 from packwork.readers.words.items import height_shares
 from packwork.readers.words.word import Word
+from packwork.scene.palette import palette_colours
 from packwork.uses.charts.grouped import unit_scales
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.charts.steps import read_steps
-from packwork.uses.words.recipe import words_recipe
+from packwork.uses.words.recipe import PALETTE, words_recipe
 from packwork.uses.words.use import Words
 
 IDLE: Mapping[str, tuple[Any, ...]] = {
@@ -91,7 +92,7 @@ def word_steps(
     said = {key: value for key, value in options.items() if key not in IDLE} | {"sizes": "shared"}
     if said.get("color_by") is None:
         recipe = words_recipe(container, next(iter(weights.values())), **said)
-        said["color_by"] = in_turn(weights, recipe.palette or ())
+        said["color_by"] = in_turn(weights, palette_colours(recipe.palette or PALETTE))
     jobs: list[Job] = []
     for source in weights.values():
         recipe = words_recipe(container, dict(source), **said)

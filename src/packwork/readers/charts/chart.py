@@ -13,7 +13,15 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import number_of
 from packwork.readers.charts.amounts import marks_of, read_amounts
-from packwork.readers.charts.columns import as_number, categories, is_numeric, shown
+from packwork.readers.charts.columns import (
+    MISSING,
+    as_number,
+    categories,
+    is_missing,
+    is_numeric,
+    names_of_all,
+    shown,
+)
 from packwork.readers.charts.groups import Groups, read_groups
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.charts.part import part_of
@@ -45,14 +53,21 @@ class ChartKeys:
     ----------
     order
         Categories of colours, the most frequent first.
+    names
+        All categories that the column of colours has, by the alphabet, but the one of no value.
     ends
         Smallest and largest number of a ramp of colours; 0 where there is none.
-    largest
-        Largest number that a mark stands for.
+    has_gaps
+        Whether some mark has no number on the ramp.
+    smallest, largest
+        Of the numbers that marks stand for.
     """
 
     order: tuple[str, ...]
+    names: tuple[str, ...]
     ends: tuple[float, float]
+    has_gaps: bool
+    smallest: float
     largest: float
 
 
@@ -170,7 +185,7 @@ def read_chart(
     rows, amounts = shown_rows.rows, shown_rows.amounts
     owner, shares = marks_of(amounts, options)
     kinds, more = _categories(rows, options.mark_by)
-    marks = _drawings(options, kinds, holes, reading)
+    marks = _drawings(options, table, kinds, holes, reading)
     is_ramp = options.color_by is not None and is_numeric(rows, options.color_by)
     colours, told = _categories(rows, None if is_ramp else options.color_by)
     items = _items(
@@ -216,7 +231,10 @@ def read_chart(
         lost=lost,
         keys=ChartKeys(
             order=tuple(name for name, _ in Counter(colour_of or ()).most_common()),
+            names=names_of_all(table, options.color_by or "", colour_of) if colour_of else (),
             ends=_ends(rows, options.color_by) if is_ramp else (0.0, 0.0),
+            has_gaps=is_ramp and any(is_missing(row.get(options.color_by or "")) for row in rows),
+            smallest=float(values.min()),
             largest=float(values.max()),
         ),
         decimal=(asked and asked.decimal) or shown_decimal(_number_cells(table, options)),
@@ -256,17 +274,25 @@ def _categories(rows: Sequence[Row], column: str | None) -> tuple[list[str] | No
 
 
 def _drawings(
-    options: ChartOptions, kinds: Sequence[str] | None, holes: Holes, reading: ReadOptions | None
+    options: ChartOptions,
+    table: Table,
+    kinds: Sequence[str] | None,
+    holes: Holes,
+    reading: ReadOptions | None,
 ) -> dict[str, Item]:
-    """Mark of each category: that of its name, the others in turn."""
+    """Mark of each category: that of its name, the others in turn, by the alphabet."""
     given: tuple[Item, ...] = ()
     if kinds or options.mark:
         given = read_items(options.mark or SHAPES, holes=holes, reading=reading).items
-    if kinds is None:
+    if kinds is None or options.mark_by is None:
         if len(given) > 1:
             raise RecipeError("mark", f"gives {len(given)} marks; say which row has which: mark_by")
         return {"": given[0] if given else read_items("circle").items[0]}
-    names = sorted(dict.fromkeys(kinds), key=lambda name: -list(kinds).count(name))
+    there = dict.fromkeys(kinds)
+    names = list(names_of_all(table, options.mark_by, there))
+    if len(names) + (MISSING in there) > len(given):
+        names = [name for name in names if name in there]
+    names += [name for name in there if name == MISSING]
     if options.mark and len(names) > len(given):
         raise RecipeError(
             "mark_by",
@@ -281,7 +307,8 @@ def _drawings(
     named = {item.name.casefold(): item for item in given}
     own = {name: named[name.casefold()] for name in names if name.casefold() in named}
     left = iter(item for item in given if item not in own.values())
-    return {name: own[name] if name in own else next(left) for name in names}
+    found = {name: own[name] if name in own else next(left) for name in names}
+    return {name: mark for name, mark in found.items() if name in there}
 
 
 def _items(

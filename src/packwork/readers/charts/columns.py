@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -23,7 +23,7 @@ numbers. Chosen."""
 LARGE = 10**9
 """Counts from which on only about how many is said. Chosen."""
 
-MISSING = "missing"
+MISSING = "no value"
 """Category of cells that hold nothing."""
 
 
@@ -84,7 +84,7 @@ def shown(cell: Any) -> str:
     Examples
     --------
     >>> shown("a  b"), shown(2.0), shown(None)
-    ('a b', '2', 'missing')
+    ('a b', '2', 'no value')
     """
     if is_missing(cell):
         return MISSING
@@ -115,6 +115,27 @@ def categories(rows: Sequence[Row], column: str) -> tuple[list[str], list[str]]:
             rows_said = number_of(count, "row")
             told.append(f"{column}: {text[:40]!r} ({rows_said}) counts as {first[:40]!r}")
     return [common[shown(row.get(column)).casefold()] for row in rows], told
+
+
+def names_of_all(table: Table, column: str, shown_names: Iterable[str]) -> tuple[str, ...]:
+    """Names of all categories of a column by the alphabet, of rows that are not shown too.
+
+    Parameters
+    ----------
+    shown_names
+        Categories of the rows that are shown, as those write them.
+
+    Examples
+    --------
+    >>> rows = ({"k": "pear"}, {"k": "fig"}, {"k": None}, {"k": "Fig"})
+    >>> names_of_all(Table("data", ("k",), rows), "k", ["Fig"])
+    ('Fig', 'pear')
+    """
+    known = {name.casefold(): name for name in shown_names}
+    for text in map(shown, (row.get(column) for row in table.rows)):
+        known.setdefault(text.casefold(), text)
+    known.pop(MISSING, None)
+    return tuple(known[key] for key in sorted(known))
 
 
 @dataclass(frozen=True, eq=False)

@@ -20,14 +20,13 @@ from packwork.pipeline.result import Unplaced
 from packwork.pipeline.watch import Watch
 from packwork.progress import NOBODY, Observer, Stop
 from packwork.readers.charts.chart import ChartRead
-from packwork.readers.charts.columns import as_number
+from packwork.readers.charts.columns import MISSING, as_number
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
 from packwork.settle.pile import Arrival, pile
 from packwork.uses.charts.cells import SNUG_SHARE, Cell, joined_rooms
 from packwork.uses.charts.chart import Chart
-from packwork.uses.charts.colours import chart_colours
 from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
 from packwork.uses.charts.heights import COVER, is_alike_and_round, rows_in_hollows
 
@@ -239,7 +238,8 @@ def _ranks(job: Job, chart: Chart) -> IntArray:
         return np.asarray(np.argsort(np.argsort(numbers, kind="stable"), kind="stable"))
     if read.colour_of is None:
         return np.zeros(len(read.items), dtype=np.int64)
-    order = {name: k for k, (name, _) in enumerate(chart_colours(job.recipe, read).keys)}
+    named = sorted(read.keys.order, key=lambda name: name == MISSING)
+    order = {name: k for k, name in enumerate(named)}
     return np.array([order[name] for name in read.colour_of], dtype=np.int64)
 
 

@@ -2,25 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import logging
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from packwork.errors import RecipeError
-from packwork.phrasing import number_of
-from packwork.readers.charts.chart import ChartRead
-from packwork.readers.charts.columns import MISSING, as_number, is_missing
+from packwork.phrasing import enumerated, number_of
+from packwork.readers.charts.chart import ChartKeys, ChartRead
+from packwork.readers.charts.columns import MISSING, MOST_NAMED, as_number, is_missing
 from packwork.recipe import Recipe
-from packwork.scene.contrast import between, contrast, readable
+from packwork.scene.contrast import between, readable
 from packwork.scene.palette import palette_colours
 
 CATEGORIES = "okabe-ito"
 """Colours of categories that are given none. Its black goes last: it reads as ink."""
 
 RAMP = "viridis"
-"""Colours from small to large, where none are given."""
+"""Colours from small to large, where none are given, in the direction of other programs."""
 
 UNKNOWN = "#9aa0a6"
 """Colour of what holds nothing: grey is in no palette of ours."""
+
+_LOG = logging.getLogger("packwork")
 
 LEAST_CONTRAST = 1.3
 """Of a mark and what is behind it, so that its form is seen. Larger darkens yellows until they
@@ -36,7 +39,7 @@ class ChartColours:
     marks
         One per mark; None for one that keeps its own.
     keys
-        Colour of each category, the most frequent first; empty for a ramp.
+        Colour of each category, by the alphabet, that of no value last; of a ramp that alone.
     ramp
         Its colours from small to large; empty for categories.
     ends
@@ -59,46 +62,85 @@ def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
     """
     paper, column = chart.options.paper, chart.options.color_by
     if chart.is_ramp and column is not None:
-        return _ramp(recipe, chart, column, paper)
+        return _ramp(recipe, chart, column)
     if chart.colour_of is None:
         first = None if recipe.palette is None else palette_colours(recipe.palette)[0]
         return ChartColours((first,) * len(chart.items))
-    return _by_category(recipe, chart.colour_of, chart.keys.order, paper)
+    return _by_category(recipe, chart.colour_of, chart.keys, paper)
 
 
 def _by_category(
-    recipe: Recipe, names: Sequence[str], all_of_them: Sequence[str], paper: str
+    recipe: Recipe, names: Sequence[str], known: ChartKeys, paper: str
 ) -> ChartColours:
-    order = [name for name in all_of_them if name != MISSING]
-    palette = _palette(recipe, CATEGORIES)
-    if recipe.palette is None:
-        palette = tuple(readable(colour, paper, LEAST_CONTRAST) for colour in palette)
-    if len(order) > len(palette):
+    own = _own_colours(recipe)
+    there = [name for name in known.names if name in known.order]
+    # Of the whole column, so that a value keeps its colour where others are left out.
+    for order in (known.names, there):
+        others = [name for name in order if name.casefold() not in own]
+        palette = _palette(recipe, CATEGORIES) if not own else palette_colours(CATEGORIES)
+        if recipe.palette is None or own:
+            palette = tuple(readable(colour, paper, LEAST_CONTRAST) for colour in palette)
+        palette = tuple(colour for colour in palette if colour not in own.values())
+        if len(others) <= len(palette):
+            break
+    else:
         raise RecipeError(
             "color_by",
-            f"has {len(order)} values, the palette {number_of(len(palette), 'colour')}; "
+            f"has {len(others)} values, the palette {number_of(len(palette), 'colour')}; "
             "colour by a column of fewer, or give a --palette of as many",
         )
-    keys = dict(zip(order, palette, strict=False))
-    if MISSING in all_of_them:
-        keys[MISSING] = UNKNOWN
+    colours = {**dict(zip(others, palette, strict=False)), MISSING: UNKNOWN}
+    colours |= {name: own[name.casefold()] for name in known.order if name.casefold() in own}
+    keys = {name: colours[name] for name in (*there, MISSING) if name in known.order}
     return ChartColours(tuple(keys[name] for name in names), tuple(keys.items()))
 
 
-def _ramp(recipe: Recipe, chart: ChartRead, column: str, paper: str) -> ChartColours:
+def _own_colours(recipe: Recipe) -> dict[str, str]:
+    """Colours that the palette gives by name, in small letters; none if it is a list."""
+    if not isinstance(recipe.palette, Mapping):
+        return {}
+    pairs = zip(recipe.palette, palette_colours(recipe.palette), strict=True)
+    return {name.casefold(): colour for name, colour in pairs}
+
+
+def check_palette(recipe: Recipe, chart: ChartRead) -> None:
+    """Refuse a palette that does not fit the data; tell of names that it gives in vain.
+
+    Raises
+    ------
+    RecipeError
+        If there are too few colours, or they are given to names and the marks have none.
+    """
+    chart_colours(recipe, chart)
+    known = {name.casefold(): name for name in (*chart.keys.names, *chart.keys.order)}
+    own = recipe.palette if isinstance(recipe.palette, Mapping) else {}
+    vain = [name for name in own if name.casefold() not in known]
+    if not vain:
+        return
+    column = chart.options.color_by
+    if not known:
+        why = "its numbers run along a list of colours" if column else "which column's? --color-by"
+        raise RecipeError("palette", f"gives colours to names such as {vain[0][:40]!r}: {why}")
+    text = f"gives a colour to {enumerated([repr(name[:40]) for name in vain])}; " + (
+        f"{column} has {enumerated(list(known.values()), MOST_NAMED)}"
+    )
+    if len(vain) == len(own):
+        raise RecipeError("palette", text)
+    _LOG.warning("palette %s", text)
+
+
+def _ramp(recipe: Recipe, chart: ChartRead, column: str) -> ChartColours:
     cells = [row.get(column) for row in chart.rows]
     numbers = [as_number(cell) for cell in cells]
     low, high = chart.keys.ends
     ramp = _palette(recipe, RAMP)
-    if recipe.palette is None and contrast(ramp[0], paper) > contrast(ramp[-1], paper):
-        # The end that is more like the paper stands for little.
-        ramp = ramp[::-1]
     span = high - low or 1.0
     marks = tuple(
         UNKNOWN if is_missing(cell) else between(ramp, (number - low) / span)
         for cell, number in zip(cells, numbers, strict=True)
     )
-    return ChartColours(marks, ramp=ramp, ends=(low, high))
+    keys = ((MISSING, UNKNOWN),) if chart.keys.has_gaps else ()
+    return ChartColours(marks, keys, ramp, (low, high))
 
 
 def _palette(recipe: Recipe, default: str) -> tuple[str, ...]:

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 from packwork.geometry.outline import Outline
+from packwork.readers.charts.groups import ROUNDING
 from packwork.readers.charts.options import ChartOptions
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
@@ -92,7 +93,7 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
     """Marks of round numbers, at the chart's own scale; the height of all."""
     read, options, frame, em = chart.read, chart.options, chart.frame, chart.frame.em
     mark = next(iter(read.marks.values())).outline
-    numbers = _round_numbers(read.keys.largest)
+    numbers = round_numbers(read.keys.smallest, read.keys.largest)
     height = mark.bounds[3] - mark.bounds[1]
     scales = {number: _scale(options, layout, mark, number) for number in numbers}
     fitting = [
@@ -101,10 +102,15 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
         if SMALLEST_KEY_EM * em <= height * scale <= KEY_ROOM_EM * em
     ]
     # Every second of 1, 2, 5, 10 ...: sizes that are told apart at a glance.
-    chosen = fitting[::2][:KEYS]
+    chosen = fitting if len(fitting) <= KEYS else fitting[::2][:KEYS]
     tallest = max([height * scales[number] for number in chosen], default=0.0)
     low = y + 1.9 * em + max(tallest, em)
-    pen.write(options.size_by or "rows", frame.left, y + 1.2 * em, em)
+    heading = options.size_by or "rows"
+    if not chosen:
+        # Marks are larger than a key may be, or specks.
+        ends = dict.fromkeys((read.keys.smallest, read.keys.largest))
+        heading += f": {' – '.join(spoken(end, read.decimal) for end in ends)}"
+    pen.write(heading, frame.left, y + 1.2 * em, em)
     x = frame.left
     for number in chosen:
         left, _, right, bottom = (v * scales[number] for v in mark.bounds)
@@ -129,17 +135,28 @@ def _scale(options: ChartOptions, layout: Layout, mark: Outline, number: float) 
     return share * float(layout.poses.scale[k]) * lengths[0] / lengths[1]
 
 
-def _round_numbers(largest: float) -> list[float]:
-    """1, 2 or 5 times a power of ten, from the largest down.
+def round_numbers(smallest: float, largest: float) -> list[float]:
+    """Numbers to show of a range, from the largest down: 1, 2 or 5 times powers of ten.
+
+    Where the range has fewer than two, multiples of the widest such step of which it has two; of
+    one number that alone.
 
     Examples
     --------
-    >>> _round_numbers(30.0)[:4]
-    [20.0, 10.0, 5.0, 2.0]
+    >>> round_numbers(3.0, 30.0), round_numbers(1773.0, 5140.0), round_numbers(61.0, 84.0)
+    ([20.0, 10.0, 5.0], [5000.0, 2000.0], [80.0, 70.0])
     """
     power = math.floor(math.log10(largest))
     steps = [s * 10.0**p for p in range(power, power - 8, -1) for s in (5.0, 2.0, 1.0)]
-    return [step for step in steps if step <= largest]
+    there = [step for step in steps if smallest <= step <= largest]
+    if len(there) > 1:
+        return there
+    for step in steps:
+        least = math.ceil(smallest / step - ROUNDING)
+        several = range(math.floor(largest / step + ROUNDING), least - 1, -1)
+        if len(several) > 1:
+            return [float(f"{k * step:.12g}") for k in several]
+    return [largest]
 
 
 def _end(value: float, decimal: str) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -12,10 +13,11 @@ from packwork.errors import RecipeError
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.read import Material, job_of, read_room
 from packwork.readers.charts.chart import ChartRead, read_chart
+from packwork.readers.charts.columns import MISSING
 from packwork.recipe import Recipe
 from packwork.uses.charts.cast import cast_chart
 from packwork.uses.charts.chart import Chart
-from packwork.uses.charts.colours import chart_colours
+from packwork.uses.charts.colours import chart_colours, check_palette
 from packwork.uses.charts.layout import spread_out
 from packwork.uses.charts.use import Marks
 from packwork.uses.room import NO_CONTAINER
@@ -67,7 +69,7 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
         raise RecipeError("series", f"column {asked.by!r} says one step; 2 or more go")
     # Groups are no groups of one chart here: no copies of the container, no names beside them.
     read = replace(grouped, groups=(), options=asked.model_copy(update={"by": None}))
-    chart_colours(recipe, read)
+    check_palette(recipe, read)
     spread = spread_out(recipe, read, read_room(recipe, None))
     chart = Chart(read, spread.frame, (), None)
     material = Material(
@@ -93,10 +95,20 @@ def _step(whole: Job, chart: Chart, label: str, column: str, marks: IntArray) ->
     rows = tuple({id(row): dict(row) for row in own.rows}.values())
     options = own.options.model_copy(update={"title": title})
     recipe = job.recipe.model_copy(
-        update={"chart": options.model_copy(update={"data": rows, "by_step": None})}
+        update={
+            "chart": options.model_copy(update={"data": rows, "by_step": None}),
+            "palette": _colours_of_all(job.recipe, own),
+        }
     )
     use = Marks(replace(chart, read=replace(own, options=options)))
     return ChartStep(label, replace(job, recipe=recipe, use=use), mark_names(own))
+
+
+def _colours_of_all(recipe: Recipe, chart: ChartRead) -> Any:
+    """Palette with the colour of each category; of a step alone it would give others."""
+    keys = () if chart.is_ramp else chart_colours(recipe, chart).keys
+    named = {name: colour for name, colour in keys if name != MISSING}
+    return named or recipe.palette
 
 
 def mark_names(chart: ChartRead) -> tuple[str, ...]:

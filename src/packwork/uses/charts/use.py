@@ -23,7 +23,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.note import Note
 from packwork.uses.charts.cast import cast_chart
 from packwork.uses.charts.chart import Chart
-from packwork.uses.charts.colours import chart_colours
+from packwork.uses.charts.colours import chart_colours, check_palette
 from packwork.uses.charts.groups import run_groups
 from packwork.uses.charts.layout import spread_out
 from packwork.uses.charts.legend import legend_notes
@@ -89,7 +89,7 @@ def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> M
         )
     read = read_chart(asked, recipe.holes, recipe, recipe.read_options)
     # Refuses too few colours before anything is run.
-    chart_colours(recipe, read)
+    check_palette(recipe, read)
     chosen = cast_chart(recipe, read)
     spread = spread_out(recipe, read, room)
     return Material(

@@ -11,6 +11,7 @@ from packwork.offers import Verbs
 from packwork.readers.tables.frames import is_frame, rows_of_frame
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
+from packwork.recipe.pictures import check_no_names, known_palette
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import with_defaults
 from packwork.recipe_paths import AROUND, check_names
@@ -98,6 +99,7 @@ def words_colours(palette: object, asked: WordOptions, container: str) -> tuple[
     ('#999a1b',)
     """
     default = PALETTE if asked.color_by is None else RAMP
+    check_no_names(known_palette(palette))
     try:
         colours = palette_colours(default if palette is None else palette)
     except ValueError as error:
