@@ -81,3 +81,13 @@ def test_a_film_shows_words_come_in_the_largest_first() -> None:
     assert early[largest] > 0
     assert (early == 0).sum() >= 3
     assert (late > 0).all()
+
+
+def test_thousands_of_words_fill_as_hundreds_do() -> None:
+    def ink(count: int) -> float:
+        words = {f"w{k}": (k + 3) ** -0.6 for k in range(count)}
+        layout = pw.words("circle", words, sizes="shared", effort="draft")
+        assert _starts(layout) == "first-fit"
+        return float(layout.metrics["LC_ink"])
+
+    assert ink(1_700) > 0.75 * ink(400)

@@ -23,7 +23,7 @@ from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.pipeline.read import AUTO, Material, read_named
 from packwork.pipeline.result import Run, Unplaced, WordsFound
 from packwork.pipeline.run import along
-from packwork.pipeline.use import MOST_FIRST_FIT, OwnPlaces, Use
+from packwork.pipeline.use import OwnPlaces, Use
 from packwork.pipeline.watch import Watch
 from packwork.progress import Stop
 from packwork.readers.vectors import Vectors
@@ -109,9 +109,9 @@ class Words(Use):
         return self.read.items
 
     def suits_first_fit(self, count: int, is_turning: bool) -> bool:
-        """Whether there are few enough: letters leave more room to each other than levels find."""
-        del is_turning
-        return count <= MOST_FIRST_FIT
+        """However many: levels find no room for letters, and shrink thousands of words to specks."""
+        del count, is_turning
+        return True
 
     def before(self, job: Job, stop: Stop) -> Job:
         """Job without words that could not even be large enough in the fullest cloud.
