@@ -109,7 +109,7 @@ class Words(Use):
         return self.read.items
 
     def suits_first_fit(self, count: int, is_turning: bool) -> bool:
-        """However many: levels find no room for letters, and shrink thousands of words to specks."""
+        """However many: levels leave letters no room, and thousands of words become specks."""
         del count, is_turning
         return True
 
