@@ -95,8 +95,73 @@ def test_folders_that_others_may_write_to_are_not_private(tmp_path: Path) -> Non
     tmp_path.chmod(0o777)
     assert not is_private(mine)
     # Where only owners may rename what is theirs, as in /tmp.
-    tmp_path.chmod(0o1777)
-    assert is_private(mine)
+    for mode in (0o1777, 0o1770):
+        tmp_path.chmod(mode)
+        assert is_private(mine)
+
+
+@POSIX
+@pytest.mark.parametrize("mode", [0o770, 0o775, 0o702, 0o720, 0o777, 0o2775])
+def test_below_a_folder_that_a_group_or_all_may_write_to_nothing_is_private(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, mode: int
+) -> None:
+    deep = tmp_path / "shared" / "one" / "two" / "mine"
+    deep.mkdir(parents=True, mode=0o700)
+    for folder in (deep.parent, deep.parent.parent):
+        folder.chmod(0o700)
+    deep.chmod(0o700)
+    (tmp_path / "shared").chmod(0o700)
+    assert is_private(deep)
+    (tmp_path / "shared").chmod(mode)
+    assert not is_private(deep)
+    monkeypatch.setenv(folders.VARIABLE, str(deep))
+    found = private_folder("some")
+    assert found is not None
+    assert tmp_path / "shared" not in found.parents
+
+
+@POSIX
+def test_links_on_the_way_are_followed_and_where_they_lie_is_looked_at(tmp_path: Path) -> None:
+    (tmp_path / "home" / "mine").mkdir(parents=True)
+    (tmp_path / "home" / "mine").chmod(0o700)
+    (tmp_path / "home").chmod(0o700)
+    (tmp_path / "shared").mkdir()
+    (tmp_path / "shared" / "link").symlink_to(tmp_path / "home")
+    (tmp_path / "link").symlink_to("shared/../shared/link")
+    (tmp_path / "round").symlink_to("round")
+    for way in (tmp_path / "link" / "mine", tmp_path / "shared" / "link" / "mine"):
+        (tmp_path / "shared").chmod(0o755)
+        assert is_private(way)
+        (tmp_path / "shared").chmod(0o775)
+        # Whoever writes to that folder may let the link lead elsewhere.
+        assert not is_private(way)
+    assert is_private(tmp_path / "home" / "mine")
+    assert not folders.is_private(tmp_path / "home" / "mine" / ".." / "mine" / ".." / ".." / "link")
+
+
+@POSIX
+@pytest.mark.skipif(not hasattr(os, "geteuid") or os.geteuid() != 0, reason="gives files away")
+def test_below_a_folder_or_link_of_another_user_nothing_is_private(tmp_path: Path) -> None:
+    (tmp_path / "theirs" / "mine").mkdir(parents=True)
+    (tmp_path / "theirs" / "mine").chmod(0o700)
+    (tmp_path / "theirs").chmod(0o755)
+    (tmp_path / "link").symlink_to("theirs")
+    os.chown(tmp_path / "link", NOBODY, -1, follow_symlinks=False)
+    assert is_private(tmp_path / "theirs" / "mine")
+    assert not is_private(tmp_path / "link" / "mine")
+    os.chown(tmp_path / "theirs", NOBODY, -1)
+    assert not is_private(tmp_path / "theirs" / "mine")
+
+
+@POSIX
+def test_folders_are_made_for_this_user_alone_whatever_the_mask(place: Path) -> None:
+    before = os.umask(0o002)
+    try:
+        found = private_folder("new")
+    finally:
+        os.umask(before)
+    assert found == place / "packwork" / "new"
+    assert not any(one.stat().st_mode & 0o077 for one in (found, found.parent, place))
 
 
 @POSIX

@@ -1,7 +1,8 @@
 """Folders of our own for what may be lost: private, bounded, never the current one.
 
 What lies in them is trusted when it is read, so no other user may have written it: a folder that
-other users can write to, or could replace by theirs, is not used.
+other users can write to, or could replace by theirs because they or their group may write to one
+above it, is not used.
 """
 
 from __future__ import annotations
@@ -34,6 +35,11 @@ DIGEST_BYTES = 32
 PUTS_BETWEEN = 256
 """Entries written between two looks at the size of all. Larger overshoots, smaller spends time
 on looking. Chosen."""
+
+MOST_ON_THE_WAY = 200
+"""Folders and links through which a path may lead: more go round in a circle. Derived."""
+
+_BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
 HALF_WRITTEN_SECONDS = 3600.0
 """Age at which an unfinished entry is what a process left that was killed. Chosen."""
@@ -157,7 +163,9 @@ def _private_folder(
     for parent in _candidates(asked):
         folder = parent / name
         with contextlib.suppress(OSError):
-            folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+            for made in (*reversed(folder.parents), folder):
+                # Parents too: whatever the mask of the user, a group may not write there.
+                made.mkdir(mode=0o700, exist_ok=True)
             if is_private(folder) and _takes_files(folder):
                 return folder
     return _temporary(name)
@@ -215,14 +223,38 @@ def is_private(folder: Path) -> bool:
     status = folder.lstat()
     if not stat.S_ISDIR(status.st_mode) or status.st_uid != os.geteuid():
         return False
-    if status.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
+    if status.st_mode & _BY_OTHERS:
         return False
-    for above in Path(os.path.realpath(folder)).parents:
-        status = above.stat()
-        is_shared = status.st_mode & stat.S_IWOTH and not status.st_mode & stat.S_ISVTX
-        if is_shared or status.st_uid not in {0, os.geteuid()}:
-            return False
-    return True
+    try:
+        return all(map(_is_safe, _on_the_way(folder.absolute())))
+    except OSError:
+        return False
+
+
+def _on_the_way(folder: Path) -> Iterator[os.stat_result]:
+    """Status of each folder and link through which a path leads, without the last."""
+    here, ahead = Path(folder.anchor), list(reversed(folder.parts[1:]))
+    for _ in range(MOST_ON_THE_WAY):
+        yield here.lstat()
+        if not ahead:
+            return
+        part = ahead.pop()
+        there = here.parent if part == ".." else here / part
+        if there.is_symlink():
+            yield there.lstat()
+            target = here / there.readlink()
+            here, ahead = Path(target.anchor), ahead + list(reversed(target.parts[1:]))
+        elif ahead:
+            here = there
+    raise OSError(f"{folder} leads through too many links")
+
+
+def _is_safe(status: os.stat_result) -> bool:
+    """Whether only this user and the system may change a folder, or where a link leads."""
+    if status.st_uid not in {0, os.geteuid()}:
+        return False
+    is_sticky = status.st_mode & stat.S_ISVTX
+    return stat.S_ISLNK(status.st_mode) or bool(is_sticky) or not status.st_mode & _BY_OTHERS
 
 
 def _takes_files(folder: Path) -> bool:
