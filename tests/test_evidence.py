@@ -6,6 +6,7 @@ import copy
 import hashlib
 import re
 import sys
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,34 @@ RENDERED = pages.rendered()
 @pytest.mark.parametrize("name", RENDERED)
 def test_a_page_is_what_its_manifest_says(name: str) -> None:
     assert (ROOT / "docs" / name).read_text(encoding="utf-8") == RENDERED[name]
+
+
+def empty_places(text: str) -> list[str]:
+    """Tables without a figure, parts without a line, and punctuation alone on its line."""
+    found = []
+    for block in manifests.blocks_of(text):
+        if isinstance(block, dict) and "<img" not in block["columns"][0]:
+            figures = {cell for row in block["rows"] for cell in row[1:]}
+            found += [f"table of {block['columns']}"] * (figures <= {"", "-"})
+    lines = [line for line in text.split("\n") if line]
+    for line, after in pairwise([*lines, "# end"]):
+        depth, next_depth = (len(one) - len(one.lstrip("#")) for one in (line, after))
+        found += [line] * (line in ".,:;" or 0 < next_depth <= depth)
+    return found
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["# a\n\n.\n", "# a\n\n## b\n\n## c\n\ntext\n", "text\n\n## b\n"]
+    + [manifests.markdown_table(["a", "b"], rows) for rows in ([], [["here", "-"], ["there", ""]])],
+)
+def test_what_is_empty_on_a_page_is_found(text: str) -> None:
+    assert empty_places(text)
+
+
+@pytest.mark.parametrize("name", RENDERED)
+def test_no_part_of_a_page_is_empty(name: str) -> None:
+    assert empty_places(RENDERED[name]) == []
 
 
 def test_every_page_of_figures_has_its_manifest() -> None:

@@ -9,13 +9,16 @@ import numpy as np
 from benchmarks.kit.manifests import Manifest
 from benchmarks.kit.measuring import markdown_table, ranged
 
-PAGE = """# Speed, beside an earlier version
+HEAD = """# Speed, beside an earlier version
 
-Made by `packwork bench speed --against PATH`, row by row; the table of circumstances says when and
-with which load. Two checkouts run the same command in turn, A B A B ..., a process each: `here` is
-{here}, `before` is {before}, by the last commit that changed the package.
-Medians; the clock with its least and most. Kernels are compiled before, but for `first`.
-{machine}.
+Made by `packwork bench speed --against PATH`: two checkouts, by the last commit that changed the
+package, `here` {here}, `before` {before}."""
+
+WHOLE_RUNS = """
+
+Row by row; the table of circumstances says when and with which load. Two checkouts run the same
+command in turn, A B A B ..., a process each. Medians; the clock with its least and most. Kernels
+are compiled before, but for `first`. {machine}.
 
 {table}
 
@@ -32,19 +35,25 @@ Medians; the clock with its least and most. Kernels are compiled before, but for
 Seconds by the clock, medians. LC: share of the container that is covered. L-nU: mean squared
 distance of what is bare to the nearest item; both of the one seed that is timed here.
 
-{stages}
+{stages}"""
+
+FLOOR = """
 
 ## An epoch beside the bytes that it moves
 
 100 icons, {px} px, no evenness, processor; the floor is a copy of as many bytes, in turn.
 
-{floors}
+{floors}"""
+
+FUNCTIONS = """
 
 ## Where the time goes
 
 `packwork fill builtin:bear -n 100 -q` by one thread under Python's profiler (`packwork bench
 profiled`): seconds in each function alone, with imports; a kernel counts as one function. The
-profiler makes Python's own functions slower, kernels not. {profile}
+profiler makes Python's own functions slower, kernels not. {profile}"""
+
+CIRCUMSTANCES = """
 
 ## Circumstances
 
@@ -52,8 +61,7 @@ Where the load at a row's beginning is well above 0, others used the machine: th
 seconds of the processor compare, seconds by the clock are longer than on a calm one, and threads
 find no free core.
 
-{circumstances}
-"""
+{circumstances}"""
 
 HEADER = [
     "row", "code", "clock", "processor", "peak", "start-up", "read", "start", "levels", "finish",
@@ -78,21 +86,22 @@ def cells_of(name: str, taken: Sequence[Sequence[Manifest]]) -> list[list[str]]:
 
 
 def page(manifest: Manifest) -> str:
-    """Text of the page."""
+    """Text of the page: the parts that were measured; empty where none was."""
     rows = manifest["sections"]
     timed = {name: row["runs"] for name, row in rows.items() if name != "floor"}
+    parts = []
+    if timed:
+        machine = " ".join({row["machine"].replace("; one thread", "") for row in rows.values()})
+        runs = {"table": _table(timed), "stages": _stages(timed)}
+        parts.append(WHOLE_RUNS.format(machine=machine, **runs))
+    if "floor" in rows:
+        parts.append(FLOOR.format(px=FLOOR_PX, floors=_floors(rows["floor"]["runs"])))
+    if manifest.get("profile"):
+        parts.append(FUNCTIONS.format(profile=_profile(manifest["profile"])))
+    if rows:
+        parts.append(CIRCUMSTANCES.format(circumstances=_circumstances(rows)))
     here, before = manifest["sources"]
-    return PAGE.format(
-        here=here,
-        before=before,
-        machine=" ".join({row["machine"].replace("; one thread", "") for row in rows.values()}),
-        table=_table(timed),
-        stages=_stages(timed),
-        px=FLOOR_PX,
-        floors=_floors(rows.get("floor", {"runs": [[], []]})["runs"]),
-        profile=_profile(manifest.get("profile", {})),
-        circumstances=_circumstances(rows),
-    )
+    return HEAD.format(here=here, before=before) + "".join(parts) + "\n" if parts else ""
 
 
 def _middle(samples: Sequence[Manifest], key: str, form: str = ".2f") -> str:
@@ -143,8 +152,6 @@ def _floors(runs: list[list[Manifest]]) -> str:
 
 
 def _profile(profile: Manifest) -> str:
-    if not profile:
-        return "Not measured yet."
     tables = [
         f"{code.capitalize()}:\n\n{markdown_table(['function', 's'], rows)}"
         for code, rows in zip(CODES, profile["runs"], strict=True)

@@ -56,11 +56,12 @@ FILES = {"words-pairs": pairs_page.FILE}
 
 
 def rendered() -> dict[str, str]:
-    """Every page whose manifest is there, by its file's name; the overview last."""
+    """Every page of which something was measured, by its file's name; the overview last."""
     manifests = known()
     found = {
-        FILES.get(name, f"benchmarks-{name}.md"): PAGES[name](one)
+        FILES.get(name, f"benchmarks-{name}.md"): text
         for name, one in manifests.items()
+        if (text := PAGES[name](one))
     }
     return {**found, "benchmarks.md": overview.page(manifests)}
 

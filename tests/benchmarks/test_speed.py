@@ -51,3 +51,18 @@ def test_what_a_checkout_does_not_know_has_a_dash() -> None:
     (line, other) = speed_page.cells_of("one", [[ONE], []])
     assert line[:3] == ["one", "here", "3.00"]
     assert set(other[2:]) == {"-"}
+
+
+@pytest.mark.parametrize("parts", [[], ["profile"], ["draft"], ["floor"], ["profile", "floor"]])
+def test_a_page_has_the_parts_that_were_measured_and_no_other(parts: list[str]) -> None:
+    runs = {"draft": [[ONE], [OTHER]], "floor": [[{"epoch_ms": 2.0, "floor_ms": 1.0}], []]}
+    sections = {name: {**AT, "runs": runs[name]} for name in parts if name in runs}
+    manifest: dict[str, Any] = {"sources": ["a", "b"], "sections": sections}
+    if "profile" in parts:
+        manifest["profile"] = {"load": [0.1], "runs": [[["f", "1.0"]], [["g", "2.0"]]]}
+    text = speed_page.page(manifest)
+    assert ("## Where the time goes" in text) == ("profile" in parts)
+    assert ("## By stage" in text) == ("draft" in parts)
+    assert ("## An epoch" in text) == ("floor" in parts)
+    assert ("## Circumstances" in text) == bool(sections)
+    assert bool(text) == bool(parts)

@@ -110,7 +110,7 @@ def test_a_word_in_a_font_file_is_the_container(open_desk: Callable[..., Desk]) 
 def test_words_that_no_font_has_are_listed_on_the_badge(open_desk: Callable[..., Desk]) -> None:
     desk = open_desk()
     desk.page.locator("#tab-words").click()
-    desk.page.locator("textarea").fill("hello, 3\n\U00012000, 2\nworld, 2")
+    desk.page.locator("textarea").fill("hello, 3\n\U0010fffd, 2\nworld, 2")
     desk.page.get_by_text("Fill with words").click()
     desk.until("studio.collage.state.unplaced.length === 1")
     desk.settled()

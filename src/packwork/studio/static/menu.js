@@ -13,9 +13,16 @@ export class Menu {
   /** @param {Map<string, Action>} actions */
   constructor(actions) {
     this.actions = actions;
-    this.element = h("div", { class: "menu", role: "menu", popover: "auto", "aria-label": "What can be done",
+    // Closed by itself: an "auto" popover that opens at a press is closed by the letting go.
+    this.element = h("div", { class: "menu", role: "menu", popover: "manual", "aria-label": "What can be done",
       onkeydown: (/** @type {KeyboardEvent} */ event) => this.key(event) });
     document.body.append(this.element);
+    /** What has the focus again when the menu closes. @type {Element | null} */
+    this.before = null;
+    this.element.addEventListener("beforetoggle", () => this.passFocus());
+    addEventListener("pointerdown", (event) => {
+      if (!event.composedPath().includes(this.element)) this.element.hidePopover();
+    }, true);
   }
 
   /**
@@ -39,8 +46,16 @@ export class Menu {
       h("span", {}, action.label), h("kbd", {}, shownKey(action.keys[0])));
   }
 
+  /** Keep what has the focus as the menu opens, and give it back as it closes. */
+  passFocus() {
+    const focused = document.activeElement;
+    if (!this.element.contains(focused)) this.before = focused;
+    else if (this.before instanceof HTMLElement) this.before.focus();
+  }
+
   /** @param {KeyboardEvent} event */
   key(event) {
+    if (event.key === "Escape" || event.key === "Tab") this.element.hidePopover();
     const step = { ArrowDown: 1, ArrowUp: -1 }[event.key];
     if (!step) return;
     event.preventDefault();
