@@ -8,6 +8,8 @@ import numpy as np
 import pytest
 
 import packwork as pw
+from packwork.live.face.opening import opening_of
+from packwork.writers import svg_text
 
 TABLE = {"name": ["fig", "kiwi", "plum", "pear"], "kg": [4, 2, 5, 3]}
 
@@ -44,3 +46,16 @@ def test_a_label_goes_with_the_item_that_is_taken_away(chart: pw.Layout) -> None
     assert len([note for note in session.layout.notes if note.is_on_item]) == len(labels) - 1
     assert session.undo()
     assert len([note for note in session.layout.notes if note.is_on_item]) == len(labels)
+
+
+def test_an_svg_of_ours_is_opened_as_a_layout_and_no_other(tmp_path: Path) -> None:
+    layout = pw.fill("circle", "owl", count=3, effort="draft", levels="50")
+    ours, other = tmp_path / "ours.svg", tmp_path / "other.svg"
+    layout.save(ours)
+    other.write_text('<svg viewBox="0 0 9 9"><circle cx="4" cy="4" r="4"/></svg>')
+    document = opening_of([str(ours)]).document
+    assert document is not None
+    assert svg_text(document.layout) == layout.to_svg()
+    recipe = opening_of([str(other)]).recipe
+    assert recipe is not None
+    assert recipe.container == str(other)

@@ -17,6 +17,7 @@ from packwork.api.frozen import ReadOnly, checked_poses, frozen, frozen_poses, m
 from packwork.api.history import History
 from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.placement import Placement, Pose
+from packwork.api.saved import keep_session, read_saved
 from packwork.api.signatures import of_model
 from packwork.display.axes import drawn_on
 from packwork.display.bar import bar_for, shown
@@ -27,7 +28,7 @@ from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.exact import exact_metrics
 from packwork.metrics.measure import Metrics, measure
 from packwork.pipeline import tell_coarse
-from packwork.readers.layouts.read import read_written
+from packwork.readers.layouts.read import is_session
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import refusal
 from packwork.scene import item as scene_item
@@ -115,11 +116,10 @@ class Layout(scene.Layout):
 
     @classmethod
     def load(cls, path: str | Path, items: Iterable[scene_item.Item] = ()) -> Layout:
-        """Layout from a file that was saved as ``.geojson``; also from an SVG or a DXF of ours.
+        """Layout from a file that was saved, as ``.geojson``, ``.svg``, ``.packwork`` or ``.dxf``.
 
-        An SVG holds everything that is seen. Of the others items come back as flat shapes, of
-        GeoJSON in their mean colour: pictures and drawings stay in their files. DXF holds shapes in
-        place, and no poses.
+        A session (``.packwork``) and an SVG hold all that is seen, GeoJSON flat shapes in the mean
+        colour of what they show, DXF shapes in place, and no poses.
 
         Parameters
         ----------
@@ -144,9 +144,8 @@ class Layout(scene.Layout):
         >>> bool(abs(again.poses.angle - layout.poses.angle).max() < 1e-9)
         True
         """
-        found = read_written(path)
-        drawings = list(items)
-        if drawings:
+        found = read_saved(path)
+        if drawings := list(items):
             from packwork.pipeline.registration import drawn_by
 
             found = drawn_by(found, drawings)
@@ -159,7 +158,7 @@ class Layout(scene.Layout):
         format: str | None = None,
         **options: Unpack[SaveKeywords],
     ) -> None:
-        """Write the layout; the ending (.svg, .png, .jpg, .pdf, .dxf, .geojson) picks the format.
+        """Write the layout as its ending says: .svg, .png, .jpg, .pdf, .dxf, .geojson, .packwork.
 
         Parameters
         ----------
@@ -187,7 +186,9 @@ class Layout(scene.Layout):
         ...     layout.save(f"{folder}/stars.png", pixels=200, background="ivory")
         """
         if isinstance(path, str | Path):
-            if format is None:
+            if format is None and is_session(path):
+                keep_session(self.edit(), path, options)
+            elif format is None:
                 writers.write(self, path, _drawing(options))
             else:
                 writers.write_atomic(path, self._encoded(format, options))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Mapping
 from pathlib import Path
@@ -12,6 +13,7 @@ from packwork.api.layout import Layout
 from packwork.api.verbs import run_recipe
 from packwork.errors import RecipeError
 from packwork.progress import Listener, Stop, never
+from packwork.readers.layouts.read import is_session
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
 from packwork.uses.overriding import overridden
@@ -33,7 +35,8 @@ def run(
     Parameters
     ----------
     recipe
-        A recipe file (TOML), its options as a dict, or what ``layout.manifest["recipe"]`` holds.
+        A recipe file (TOML), its options as a dict, what ``layout.manifest["recipe"]`` holds, or
+        a session's file (.packwork), from which the run goes on.
     allow_code
         Run code that a recipe file names, as losses ``module:function``: only if you trust
         whoever wrote both.
@@ -56,13 +59,17 @@ def run(
     >>> len(layout), run(layout.manifest["recipe"]).metrics == layout.metrics
     (3, True)
     """
-    with handed_over() as handed:
+    with handed_over() as handed, contextlib.ExitStack() as stack:
         if not isinstance(recipe, Mapping | str | os.PathLike):
             raise RecipeError(
                 "recipe", f"is {type(recipe).__name__}; give a recipe file, or options as a dict"
             )
         if isinstance(recipe, Mapping):
             plain = with_names(_said(recipe), handed)
+        elif is_session(recipe):
+            from packwork.live.file.recipe import recipe_of_session
+
+            plain = read_recipe(stack.enter_context(recipe_of_session(recipe)))
         else:
             plain = read_recipe(recipe, allow_code=allow_code)
         asked = make_recipe(**overridden(plain, with_names(options, handed)))

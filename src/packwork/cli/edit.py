@@ -17,6 +17,7 @@ from packwork.cli.terminal import printable, say
 from packwork.errors import RecipeError
 from packwork.options import offered
 from packwork.recipe import Recipe
+from packwork.writers.options import GONE_ON_WITH
 
 if TYPE_CHECKING:
     from packwork.live.document import Property
@@ -43,9 +44,6 @@ Specs: TypeAlias = list[str]
 
 NEARLY = 0.005
 """Share of the container by which less than was asked for may be covered. Chosen."""
-
-KEPT_OPTIONS = ("flatten", "show_container", "cut", "kiss_cut")
-"""Ways of drawing that a file tells of, and that an edit of it goes on with."""
 
 DEFAULT_OUTPUT = Path("edited.svg")
 """File to write where none is named."""
@@ -147,10 +145,11 @@ def edit(
         from packwork.inputs import check_no_input
         from packwork.live.composed import words_of
         from packwork.readers.container import read_container
+        from packwork.readers.layouts.read import is_session
 
         outputs = list(output or [DEFAULT_OUTPUT])
-        sides = [path for path in outputs if _is_session(path)]
-        outputs = [path for path in outputs if not _is_session(path)]
+        sides = [path for path in outputs if is_session(path)]
+        outputs = [path for path in outputs if not is_session(path)]
         sides += [] if report is None else [report]
         for path in outputs:
             writers.check_output(path)
@@ -221,19 +220,15 @@ def _covers(session: NamedSession, cover: str) -> bool:
     return False
 
 
-def _is_session(path: Path) -> bool:
-    return path.suffix.lower() == ".packwork"
-
-
 def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
     """A session that begins with a file, and the file if it is a session's own."""
     from packwork.live.document import Document
     from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
     from packwork.pipeline.registration import drawn_by
-    from packwork.readers.layouts.read import is_drawn, read_written
+    from packwork.readers.layouts.read import is_drawn, is_session, read_written
 
-    if not _is_session(path):
+    if not is_session(path):
         found = read_written(path)
         made = drawn_by(found, _read(items)) if items else found
         not_kept = found.manifest.get("not_kept", ())
@@ -260,6 +255,7 @@ def _written(
     from packwork.live.file.disk import Disk
     from packwork.metrics.measure import measure
     from packwork.pipeline import tell_coarse
+    from packwork.readers.layouts.read import is_session
 
     done = session.finish()
     made = session.layout
@@ -268,7 +264,7 @@ def _written(
     files = [
         (path, writers.encoded(made, path, drawing))
         for path in outputs
-        if path != report and not _is_session(path)
+        if path != report and not is_session(path)
     ]
     metrics = measure(made).as_dict()
     said = {
@@ -282,7 +278,7 @@ def _written(
     if report is not None:
         files.append((report, writers.json_bytes(said)))
     with contextlib.ExitStack() as saved:
-        for path in filter(_is_session, outputs):
+        for path in filter(is_session, outputs):
             own = disk if disk and disk.is_at(path) else Disk(path, is_journaled=False)
             files.append((path, saved.enter_context(own.replacing(session))))
         writers.write_all(files)
@@ -302,7 +298,7 @@ def _drawing_of(layout: Layout) -> dict[str, Any]:
     """Options by which the file was drawn that a layout came from."""
     found = layout.manifest.get("drawing")
     known = found if isinstance(found, Mapping) else {}
-    return {key: known[key] for key in KEPT_OPTIONS if key in known}
+    return {key: known[key] for key in GONE_ON_WITH if key in known}
 
 
 def _planned(session: NamedSession, flag: str, spec: str) -> Callable[[], None]:

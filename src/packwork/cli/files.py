@@ -17,8 +17,8 @@ class LayoutFiles(Options):
     offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
 
     output: Annotated[tuple[Path, ...], Offer(flags="-o --output")] = ()
-    """File to write; the ending (.svg, .png, .jpg, .webp, .tif, .pdf, .dxf, .geojson) picks the
-    format. May be given several times."""
+    """File to write; the ending (.svg, .png, .jpg, .webp, .tif, .pdf, .dxf, .geojson, or
+    .packwork, a session to go on from) picks the format. May be given several times."""
 
     film: Annotated[tuple[Path, ...], Offer(group=Group.FILMED)] = ()
     """Film of the run to write; the ending (.svg, .gif, .apng, .webp, .mp4, .webm, .json for

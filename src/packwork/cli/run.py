@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -11,6 +12,7 @@ from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
 from packwork.cli.fill import DEFAULT_OUTPUT
 from packwork.cli.terminal import say
+from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.recipe import make_recipe
 from packwork.recipe_paths import files_outside
@@ -25,7 +27,11 @@ ABOUT_CONTAINERS = frozenset({"show_saliency"})
 @shared.of_any_recipe(without=ABOUT_CONTAINERS)
 def run(
     recipe: Annotated[
-        Path, typer.Argument(metavar="RECIPE.toml", help="Options as a file, count = 100 a line.")
+        Path,
+        typer.Argument(
+            metavar="RECIPE.toml",
+            help="Options as a file, count = 100 a line; or a session (.packwork), to go on from.",
+        ),
     ],
     allow_code: Annotated[
         bool,
@@ -44,14 +50,26 @@ def run(
     [bold]packwork run bear.toml -o bear.svg[/]  repeats the run, from any folder
 
     [bold]packwork run bear.toml --seed 6 -n 80[/]  the same, but for what is given here
+
+    [bold]packwork run work.packwork -o more.svg[/]  goes on from a session
     """
-    with clear_errors(recipe):
+    with clear_errors(recipe), contextlib.ExitStack() as stack:
         from packwork.cli.running import carry_out
+        from packwork.readers.layouts.read import is_session
         from packwork.readers.recipe import read_recipe
         from packwork.uses.overriding import overridden
 
-        options = read_recipe(recipe, allow_code=allow_code)
-        outside = files_outside(options, [recipe.parent, Path.cwd()])
+        file = recipe
+        if is_session(recipe):
+            from packwork.live.file.recipe import recipe_of_session
+
+            if asked["save_recipe"] is not None:
+                raise RecipeError(
+                    "save_recipe", "a session holds its drawings itself; run a recipe to save one"
+                )
+            file = stack.enter_context(recipe_of_session(recipe))
+        options = read_recipe(file, allow_code=allow_code)
+        outside = files_outside(options, [file.parent, Path.cwd()])
         if outside:
             named = ", ".join(outside[:MOST_NAMED]) + (" ..." if outside[MOST_NAMED:] else "")
             say(f"{recipe} reads files outside its folder: {named}")

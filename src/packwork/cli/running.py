@@ -22,20 +22,19 @@ from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.files import Choosing
 from packwork.cli.notices import NOTICES, joined
-from packwork.cli.show import (
-    Paper,
-    printing,
-    show_results,
-)
+from packwork.cli.sessions import saving, told
+from packwork.cli.show import Paper, printing, show_results
 from packwork.cli.start_up import START_UP
 from packwork.cli.terminal import printable, say
 from packwork.cli.watch import WATCH
 from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
+from packwork.readers.layouts.read import is_session
 from packwork.recipe import Recipe
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import validated
+from packwork.scene.layout import Layout
 from packwork.uses.room import NO_CONTAINER
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
@@ -66,6 +65,8 @@ class Outputs:
         Whether what is there already stays.
     choosing
         How many seeds are tried, and by what the best is kept.
+    drawing
+        The options of these as they were asked for, by name.
     """
 
     files: Sequence[Path]
@@ -78,6 +79,7 @@ class Outputs:
     saliency: Path | None = None
     keeps_files: bool = False
     choosing: Choosing = field(default_factory=Choosing)
+    drawing: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def kiss(self) -> str | None:
@@ -106,7 +108,7 @@ class Outputs:
             Before anything has been run or written.
         """
         for path in self.files:
-            writers.check_output(path)
+            (writers.check_writable if is_session(path) else writers.check_output)(path)
         for path in self.films:
             writers.check_film(path)
         for side in self.sides:
@@ -116,6 +118,10 @@ class Outputs:
         check_bleed(self.files, self.options.bleed)
         if self.keeps_files:
             writers.check_new(self.every)
+
+    def told(self, layout: Layout) -> Layout:
+        """The layout, its manifest saying how it is drawn."""
+        return told(layout, self.options.svg.background, self.drawing)
 
     def saved_recipe(self, recipe: Recipe) -> list[tuple[Path, bytes]]:
         """The recipe's file, if one is asked for, and its bytes."""
@@ -184,6 +190,7 @@ def outputs_asked(
         saliency=asked.get("show_saliency"),
         keeps_files=asked["no_clobber"],
         choosing=validated(Choosing, {name: asked[name] for name in Choosing.model_fields}),
+        drawing=drawing,
     )
 
 
@@ -239,8 +246,10 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         )
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
-        replaced = {path for path, _ in written if os.path.lexists(path)}
-        writers.write_all(written)
+        with saving(outputs.told(run.layout), outputs.files) as sessions:
+            written += sessions
+            replaced = {path for path, _ in written if os.path.lexists(path)}
+            writers.write_all(written)
         interrupt.is_over = True
         WATCH.finish()
         _warn(run, was_cut_short)
@@ -324,9 +333,11 @@ def _drawn(
 
     One format that fails takes none of the others with it.
     """
-    layout, options = run.layout, outputs.options
+    layout, options = outputs.told(run.layout), outputs.options
     makers: list[tuple[Path, Callable[[], bytes]]] = [
-        (path, partial(writers.encoded, layout, path, options)) for path in outputs.files
+        (path, partial(writers.encoded, layout, path, options))
+        for path in outputs.files
+        if not is_session(path)
     ]
     if outputs.diagnose is not None:
         makers.append(

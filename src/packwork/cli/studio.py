@@ -22,7 +22,7 @@ Inputs = Annotated[
     typer.Argument(
         metavar="[INPUT]...",
         help="A container, then items, as for fill; or one recipe (.toml), layout (.geojson, "
-        ".dxf) or session (.packwork).",
+        ".dxf, .svg of ours) or session (.packwork).",
         show_default="the bundled icons in a heart",
     ),
 ]

@@ -17,6 +17,10 @@ TextChoice: TypeAlias = Literal["outlines", "live"]
 """Words as curves or as text."""
 
 
+GONE_ON_WITH = ("flatten", "show_container", "cut", "kiss_cut")
+"""Ways of drawing that an edit of a file goes on with, as its manifest tells them."""
+
+
 class DrawingOptions(Options):
     """How a layout is drawn; each format heeds its own of these."""
 

@@ -12,7 +12,7 @@ from packwork.live.document import Document
 from packwork.live.face.keeping import Keeper
 from packwork.live.file.disk import ENDING, Disk
 from packwork.live.named import NamedSession
-from packwork.readers.layouts.read import read_written
+from packwork.readers.layouts.read import holds_layout, read_written
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import Recipe, make_recipe
 
@@ -55,7 +55,7 @@ def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) 
     ----------
     inputs
         None: the bundled icons in a heart. One file: a recipe, a layout or a session by its
-        ending. Else the container, then the items.
+        ending, an SVG that this program wrote too. Else the container, then the items.
     count
         Items in all.
     options
@@ -74,7 +74,8 @@ def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) 
     ('heart', 9)
     """
     ending = Path(inputs[0]).suffix.lower() if len(inputs) == 1 else ""
-    if ending in {ENDING, ".toml", *LAYOUTS}:
+    is_ours = ending == ".svg" and Path(inputs[0]).is_file() and holds_layout(inputs[0])
+    if is_ours or ending in {ENDING, ".toml", *LAYOUTS}:
         if count is not None and ending != ".toml":
             raise RecipeError("count", f"a {ending} file has its items; leave it out")
         return _of_file(Path(inputs[0]), ending, count, options)

@@ -20,6 +20,7 @@ from filelock import FileLock, Timeout
 
 from packwork.errors import ReadError, RecipeError, WriteError
 from packwork.inputs import forget_input
+from packwork.live.document import Document
 from packwork.live.file.archive import MOST_BYTES
 from packwork.live.file.session_file import read_session, session_bytes
 from packwork.live.file.things import Things
@@ -28,9 +29,11 @@ from packwork.live.log import Entry, Log, read_entries
 from packwork.live.session import Session
 from packwork.phrasing import number_of
 from packwork.readers.files import exists, read_bytes, read_lines
+from packwork.readers.layouts.read import SESSION
+from packwork.scene.layout import Layout
 from packwork.writers.atomic import write_atomic
 
-ENDING = ".packwork"
+ENDING = SESSION
 """Of session files."""
 
 LONGEST_LINE = 256_000_000
@@ -42,6 +45,36 @@ LONGEST_GESTURE = 500_000
 _LOG = logging.getLogger("packwork")
 
 _Session = TypeVar("_Session", bound=Session)
+
+
+def layout_in(path: str | Path) -> Layout:
+    """Layout of a session's file, as the session stands there.
+
+    Raises
+    ------
+    ReadError
+        If it is no session file, or a spoilt one.
+    """
+    return Disk(path, is_journaled=False).opened(Session).layout
+
+
+@contextlib.contextmanager
+def saving(layout: Layout, paths: Iterable[Path]) -> Iterator[list[tuple[Path, bytes]]]:
+    """Session files that begin with a layout, for the block to write; nobody else does meanwhile.
+
+    Raises
+    ------
+    WriteError
+        If somebody else has one of them open.
+    """
+    with contextlib.ExitStack() as stack:
+        disks = [Disk(path, is_journaled=False) for path in paths]
+        session = Session(Document.of(layout)) if disks else None
+        yield [
+            (disk.path, stack.enter_context(disk.replacing(session)))
+            for disk in disks
+            if session is not None
+        ]
 
 
 def lock_beside(path: Path) -> Path:

@@ -6,10 +6,12 @@ any way has a drawing with a name of its own, so that rules speak of it alone.
 
 from __future__ import annotations
 
+import contextlib
 import re
 import shlex
+import tempfile
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -17,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from packwork.live.document import Document
+from packwork.live.file.disk import Disk
 from packwork.live.pins import pin_of
 from packwork.live.session import Session
 from packwork.readers.charts.part import markup_of
@@ -89,6 +92,20 @@ def write_recipe(session: Session, folder: str | Path) -> SessionRecipe:
     command = shlex.join(["packwork", "run", str(file), "-o", out])
     python = f"packwork.run({str(file)!r}).save({out!r})"
     return SessionRecipe(file, command, python)
+
+
+@contextlib.contextmanager
+def recipe_of_session(path: str | Path) -> Iterator[Path]:
+    """A recipe that goes on from a session's file, there for the block.
+
+    Raises
+    ------
+    ReadError
+        If it is no session file, or a spoilt one.
+    """
+    with tempfile.TemporaryDirectory(prefix="packwork-session-") as folder:
+        session = Disk(path, is_journaled=False).opened(Session)
+        yield write_recipe(session, folder).file
 
 
 def _options(document: Document, names: list[str]) -> dict[str, Any]:

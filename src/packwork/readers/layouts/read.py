@@ -8,14 +8,20 @@ from pathlib import Path
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.layouts.dxf import layout_of_dxf
 from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, read_layout
+from packwork.readers.layouts.strangers import group_named
 from packwork.readers.layouts.svg import layout_of_svg
-from packwork.readers.unfit import naming
+from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.layout import Layout
 
 ENDINGS = (".geojson", ".json", ".svg", ".dxf")
 """What can be measured. A PNG has no outlines, and a PDF is read by no part of ours."""
+
+
+SESSION = ".packwork"
+"""Ending of session files: layouts with all that undo leads to."""
 
 
 def is_drawn(path: str | Path) -> bool:
@@ -27,6 +33,41 @@ def is_drawn(path: str | Path) -> bool:
     (True, False)
     """
     return Path(path).suffix.lower() in {".svg", ".dxf"}
+
+
+def is_session(path: str | Path) -> bool:
+    """Whether a file of that name holds a session, which :mod:`packwork.live.file` reads.
+
+    Examples
+    --------
+    >>> is_session("work.packwork"), is_session("layout.geojson")
+    (True, False)
+    """
+    return Path(path).suffix.lower() == SESSION
+
+
+def holds_layout(path: str | Path) -> bool:
+    """Whether an SVG is one of ours, a layout, and no drawing to be packed.
+
+    Raises
+    ------
+    ReadError
+        If there is no such file.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     file = Path(folder, "a.svg")
+    ...     _ = file.write_text('<svg><g id="container"/><g id="items"/></svg>')
+    ...     holds_layout(file)
+    True
+    """
+    try:
+        root = parse_xml(read_bytes(path, MAX_BYTES))
+    except UnfitError:
+        return False
+    return all(group_named(root, name) is not None for name in ("container", "items"))
 
 
 def read_written(path: str | Path) -> Layout:
