@@ -13,6 +13,7 @@ import pytest
 from defusedxml import ElementTree
 from PIL import Image, ImageColor
 
+from packwork.readers.layouts.read import read_written
 from packwork.readers.words.items import EM_PX
 from packwork.scene.contrast import contrast, oklab
 from packwork.wordcloud import (
@@ -367,3 +368,39 @@ def test_half_of_a_wide_margin_lies_along_the_edge() -> None:
     rows, columns = np.nonzero(shown)
     nearest = min(rows.min(), columns.min(), 99 - rows.max(), 199 - columns.max())
     assert 9 <= nearest <= 12
+
+
+@pytest.mark.parametrize(
+    "state",
+    [np.random.RandomState, np.random.default_rng, np.int64, Random],
+)
+def test_any_generator_says_what_is_random(state: Any) -> None:
+    entries = [
+        WordCloud(width=160, height=100, random_state=state(seed)).fit_words(WEIGHTS).layout_
+        for seed in (3, 3, 4)
+    ]
+    assert entries[0] == entries[1]
+    assert [entry[4] for entry in entries[0]] != [entry[4] for entry in entries[2]]
+    clouds = [WordCloud(width=60, height=40).fit_words({"ox": 1}) for _ in "ab"]
+    again = [cloud.recolor(random_state=state(5)).layout_[0][4] for cloud in clouds]
+    assert again[0] == again[1]
+
+
+def test_what_says_nothing_random_is_refused() -> None:
+    with pytest.raises(TypeError, match="random_state is str; give a whole number"):
+        WordCloud(random_state="3")  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("scale", [1, 2.5])
+def test_vectors_are_as_large_as_pictures(scale: float, tmp_path: Path) -> None:
+    mask = np.full((60, 90), 255, np.uint8)
+    mask[5:55, 5:85] = 0
+    made = WordCloud(mask=mask, scale=scale, random_state=0).fit_words(WEIGHTS)
+    plain = WordCloud(mask=mask, random_state=0).fit_words(WEIGHTS).layout
+    width, height = made.to_image().size
+    assert f'width="{width}" height="{height}" viewBox="0 0 {width} {height}"' in made.to_svg()
+    for ending in ("svg", "geojson"):
+        made.to_file(tmp_path / f"a.{ending}")
+        read = read_written(tmp_path / f"a.{ending}")
+        assert (read.container.width, read.container.height) == (width, height)
+        assert read.areas == pytest.approx(plain.areas * scale**2, rel=1e-4)

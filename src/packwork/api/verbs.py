@@ -52,9 +52,10 @@ def fill(
     ----------
     container
         A mask (PNG, JPEG), an SVG, ``"text:HELLO"``, ``"around:IMAGE"``, a built-in name such
-        as ``"heart"``, or a :class:`Container`. Also what is in memory: an array (of bools or
-        shares True, or 1, is inside; of whole numbers dark is), a picture, bytes or an open file
-        of one, the text of an SVG, a Shapely geometry, GeoJSON, a frame of geometries.
+        as ``"heart"``, or a :class:`Container`. Also what is in memory: an array (of bools,
+        shares or zeros and ones True, or 1, is inside; of whole numbers to 255 dark is), a
+        picture, bytes or an open file of one, the text of an SVG, a Shapely geometry, GeoJSON, a
+        frame of geometries.
     items
         SVGs, pictures, folders, built-in names, values in memory as for the container, or what
         :func:`read_items` returned; one, several, or a dict by name. Each row of a frame is one

@@ -8,6 +8,7 @@ import os
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
+from numbers import Integral
 from pathlib import Path
 from random import Random
 from typing import Any, Literal, Self
@@ -18,6 +19,7 @@ from PIL import Image, ImageDraw
 
 from packwork import writers
 from packwork.fonts import bundled_file
+from packwork.geometry.affine import similarity
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.words.items import EM_PX
 from packwork.scene.layout import Layout
@@ -52,6 +54,9 @@ _LOG = logging.getLogger("packwork")
 
 Entry = tuple[tuple[str, float], int, tuple[int, int], Any, Any]
 """Word and frequency, font size, place (row, column), orientation, colour."""
+
+Chance = int | Random | np.random.RandomState | np.random.Generator | None
+"""What random choices may come from."""
 
 FONT_PATH = os.environ.get("FONT_PATH", bundled_file())
 """Font where none is given."""
@@ -90,7 +95,7 @@ class WordCloud:
         max_words: int = 200,
         min_font_size: int = 4,
         stopwords: Any = None,
-        random_state: int | Random | None = None,
+        random_state: Chance = None,
         background_color: Any = "black",
         max_font_size: int | None = None,
         font_step: int = 1,
@@ -198,7 +203,7 @@ class WordCloud:
 
     def recolor(
         self,
-        random_state: int | Random | None = None,
+        random_state: Chance = None,
         color_func: ColourFunction | None = None,
         colormap: Any = None,
     ) -> Self:
@@ -232,7 +237,7 @@ class WordCloud:
         self._check_generated()
         if Path(filename).suffix.lower() in {".svg", ".pdf", ".dxf", ".geojson"}:
             options = writers.write_options(background=self._css_background())
-            writers.write(self.layout, str(filename), options)
+            writers.write(self._at_scale(), str(filename), options)
         else:
             write_atomic(str(filename), self._encoded(filename))
         return self
@@ -271,7 +276,7 @@ class WordCloud:
         if not optimize_embedded_font:
             _warn_once("optimize_embedded_font has no effect: only letters in use are embedded")
         text: TextChoice = "live" if embed_font else "outlines"
-        return svg_text(self.layout, SvgOptions(background=self._css_background(), text=text))
+        return svg_text(self._at_scale(), SvgOptions(background=self._css_background(), text=text))
 
     def to_html(self) -> str:
         """Not there, as in the other package; ``to_svg`` is."""
@@ -290,6 +295,19 @@ class WordCloud:
             replace(item, name=entry[0][0]) for item, entry in zip(items, self.layout_, strict=True)
         ]
         return replace(layout, items=tuple(named))
+
+    def _at_scale(self) -> Layout:
+        """The layout, ``scale`` times as large."""
+        layout, scale = self.layout, float(self.scale)
+        canvas, poses = layout.container, layout.poses
+        larger = replace(
+            canvas,
+            outline=canvas.outline.mapped(similarity(0.0, 0.0, 0.0, scale)),
+            width=canvas.width * scale,
+            height=canvas.height * scale,
+        )
+        moved = replace(poses, x=poses.x * scale, y=poses.y * scale, scale=poses.scale * scale)
+        return replace(layout, container=larger, poses=moved)
 
     def _repeated(self, shares: list[tuple[str, float]]) -> list[tuple[str, float]]:
         """Words, again and again and each time rarer, in whole rounds to ``max_words`` or more."""
@@ -374,8 +392,26 @@ def _without_traces(image: Image.Image) -> Image.Image:
     return image
 
 
-def _random(state: int | Random | None) -> Random | None:
-    return Random(state) if isinstance(state, int) else state
+def _random(state: Chance) -> Random | None:
+    """The generator itself, or one that begins with a whole number or one of NumPy's.
+
+    Raises
+    ------
+    TypeError
+        If it is nothing of the kind.
+    """
+    if state is None or isinstance(state, Random):
+        return state
+    if isinstance(state, np.random.RandomState):
+        state = state.randint(2**31)
+    elif isinstance(state, np.random.Generator):
+        state = int(state.integers(2**31))
+    if not isinstance(state, Integral):
+        raise TypeError(
+            f"random_state is {type(state).__name__}; give a whole number, a random.Random or a "
+            "generator of NumPy"
+        )
+    return Random(int(state))
 
 
 _warned: set[str] = set()

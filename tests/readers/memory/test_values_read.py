@@ -306,3 +306,18 @@ def test_there_are_bounds() -> None:
 def test_a_recipe_of_another_program_is_told_so() -> None:
     with pytest.raises(pw.ReadError, match="was in the memory of the program that wrote"):
         pw.fill("circle", "memory:bear.svg")
+
+
+@pytest.mark.parametrize("kind", [bool, np.uint8, np.int64, float])
+def test_ones_are_inside_whatever_their_kind(kind: type) -> None:
+    """What the page says of arrays: zeros and ones are no greys, whole or not."""
+    array = np.zeros((40, 60), kind)
+    array[5:20, 10:30] = 1
+    container = pw.read_container(array, canvas=60)
+    assert container.outline.region.covers(shapely.Point(20, 12))
+    assert not container.outline.region.covers(shapely.Point(50, 30))
+    assert container.outline.area == pytest.approx(15 * 20, rel=0.01)
+    # Of greys the dark ones are.
+    greys = pw.read_container(array.astype(np.uint8) * 200, canvas=60)
+    assert greys.outline.region.covers(shapely.Point(50, 30))
+    assert not greys.outline.region.covers(shapely.Point(20, 12))
