@@ -75,7 +75,7 @@ LIMITS = {
     "lines of code": 53_500,
     "lines of docstrings": 23_300,
     "files": 745,
-    "functions of the road in one plain fill": 180,
+    "functions of the road in one plain fill": 183,
     "files of the road in one plain fill": 45,
     "calls of id()": 100,
     "context variables": 5,

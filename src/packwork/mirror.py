@@ -57,12 +57,16 @@ def place_in(folder: Path, path: str | PurePath) -> Path:
 
 
 def names_like(pattern: str) -> list[str]:
-    """Names of the files that a pattern names, of those that are mirrored where some are."""
+    """Names of the files that a pattern names, of those that are mirrored where some are.
+
+    ``**`` stands for any number of folders.
+    """
     folder = _MIRROR.get()
     if folder is None:
-        return glob.glob(pattern)  # noqa: PTH207
+        return glob.glob(pattern, recursive=True)  # noqa: PTH207
     place = place_in(Path(glob.escape(str(folder))), pattern)
-    return [_name_in(folder, Path(one)) for one in glob.glob(str(place))]  # noqa: PTH207
+    found = glob.glob(str(place), recursive=True)  # noqa: PTH207
+    return [_name_in(folder, Path(one)) for one in found]
 
 
 def _name_in(folder: Path, copy: Path) -> str:

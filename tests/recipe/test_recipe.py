@@ -75,6 +75,7 @@ BAD: dict[str, list[Any]] = {
     "keep_page": ["perhaps", 7],
     "close_gaps": ["wide", "-1", "", None],
     "stroke_width": ["thin", 2],
+    "items_from": ["last", 3, None],
     "alpha_threshold": [0, 1, -1, NAN, "half"],
     "start": ["anywhere", "", 3],
     "effort": ["lazy", 1],

@@ -92,6 +92,11 @@ class _FillPhotosPile(TypedDict, total=False):
     strict: bool
     """Refuse a folder with an unusable file instead of leaving that file out. Default: False."""
 
+    items_from: Literal["seed", "first"]
+    """Where folders hold more items than the count: seed draws from all of them, first takes the
+    first by name. No others are read, unless weights, vectors or a picture speak of all. Default:
+    'seed'."""
+
 
 class _Every(TypedDict, total=False):
     """Options of fill, words, photos, chart, pile."""

@@ -10,6 +10,7 @@ import numpy as np
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.pipeline.arranging import check_arranged
 from packwork.pipeline.job import Clock, Job
+from packwork.pipeline.plan.asked import voices
 from packwork.pipeline.plan.cast import Cast
 from packwork.pipeline.plan.own_losses import check_ablations, losses_with_a_say
 from packwork.pipeline.plan.plan import Plan
@@ -20,7 +21,8 @@ from packwork.pipeline.region_labels import labelled
 from packwork.pipeline.registration import registered
 from packwork.pipeline.use import Use
 from packwork.readers.container import read_container
-from packwork.readers.items import read_items
+from packwork.readers.folders import Sample
+from packwork.readers.items import is_several, read_items
 from packwork.readers.layouts.read import is_drawn, read_written
 from packwork.readers.photos.read import read_photos
 from packwork.readers.regions import MAX_POINTS
@@ -107,13 +109,42 @@ def _bounded(container: Container) -> Container:
     return container
 
 
+def sample_of(recipe: Recipe) -> Sample | None:
+    """Which of more items than are needed are taken; None where all are."""
+    if recipe.words is not None or not isinstance(recipe.count, int):
+        return None
+    wanted = tuple(pattern for _, rule in voices(recipe) for pattern in rule.items)
+    return Sample(recipe.count, recipe.seed if recipe.items_from == "seed" else None, wanted)
+
+
+def _speaks_of_all(recipe: Recipe) -> bool:
+    """Whether it has to be known of all items, not of those that are taken alone."""
+    keeps_colours = recipe.photos is not None or recipe.tint is not None
+    is_chosen = recipe.picture is not None and keeps_colours
+    return is_chosen or recipe.embeddings is not None or recipe.weights is not None
+
+
+def drawn_first(recipe: Recipe, items: tuple[Item, ...]) -> tuple[Item, ...]:
+    """Items in the order in which they are taken: those that are drawn of too many come first."""
+    sample = sample_of(recipe)
+    if sample is None or len(items) <= sample.most or not any(map(is_several, recipe.items)):
+        return items
+    order = sample.order([item.name for item in items])
+    drawn, rest = sorted(order[: sample.most]), sorted(order[sample.most :])
+    sample.tell(recipe.items, len(items))
+    return tuple(items[k] for k in (*drawn, *rest))
+
+
 def read_named(recipe: Recipe, given: Sequence[Item] | None) -> Named:
     """Photos and items of a recipe; items that were given are in place of its names."""
     items: tuple[Item, ...] = ()
     skipped: tuple[PackworkError, ...] = ()
+    sample = None if _speaks_of_all(recipe) else sample_of(recipe)
     if recipe.photos is not None:
         threshold = recipe.alpha_threshold
-        photos = read_photos(recipe.photos, strict=recipe.strict, threshold=threshold)
+        photos = read_photos(
+            recipe.photos, strict=recipe.strict, threshold=threshold, sample=sample
+        )
         items, skipped = photos.items, photos.skipped
     if given is not None:
         return Named((*items, *given), skipped)
@@ -121,7 +152,11 @@ def read_named(recipe: Recipe, given: Sequence[Item] | None) -> Named:
     is_alone = recipe.words is None and recipe.photos is None
     if is_alone or ("items" in recipe.model_fields_set and recipe.items):
         found = read_items(
-            recipe.items, holes=recipe.holes, strict=recipe.strict, reading=recipe.read_options
+            recipe.items,
+            holes=recipe.holes,
+            strict=recipe.strict,
+            reading=recipe.read_options,
+            sample=sample,
         )
         items, skipped = (*items, *found.items), (*skipped, *found.skipped)
     return Named(items, skipped)

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import glob
 import logging
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
 
 from packwork.errors import ReadError
 from packwork.readers.builtin import ALL_ICONS, builtin_item, icon_names, item_names
-from packwork.readers.files import exists, is_folder
-from packwork.readers.folders import Listing, listed, matched
+from packwork.readers.files import exists, is_folder, stem
+from packwork.readers.folders import Listing, Sample, listed, matched
 from packwork.readers.memory.items import items_in_memory
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import Read, agreed
@@ -62,7 +61,17 @@ class _Asked:
         return _READERS[Path(file).suffix.lower()](file, self.holes, self.reading)
 
 
-_ReadAndRefused: TypeAlias = tuple[list[Read], list[ReadError]]
+@dataclass(frozen=True)
+class _Source:
+    """What a source stands for: items at once, or files that are yet to be read.
+
+    ``listing`` is that of a folder or a pattern; a file without one must be usable.
+    """
+
+    name: str
+    reads: tuple[Read, ...] = ()
+    files: tuple[str, ...] = ()
+    listing: Listing | None = None
 
 
 def read_items(
@@ -71,8 +80,11 @@ def read_items(
     holes: Holes = "fill",
     strict: bool = False,
     reading: ReadOptions | None = None,
+    sample: Sample | None = None,
 ) -> ItemsRead:
-    """Items of files, folders (not the folders inside), patterns and built-in names.
+    """Items of files, folders, patterns and built-in names.
+
+    Of a folder without such files those in the folders inside are read.
 
     A path that exists wins over a built-in name; ``builtin:star`` is never a path. A file
     named by itself must be usable; one among many of a folder or a pattern is skipped
@@ -88,6 +100,9 @@ def read_items(
         Whether an unusable file among many is an error too.
     reading
         How files are understood; by themselves if None.
+    sample
+        Which are taken where there are more files than are needed; no others are read. Of files
+        named by themselves all are, unless these alone are too many.
 
     Raises
     ------
@@ -101,62 +116,110 @@ def read_items(
     """
     many = [sources] if isinstance(sources, str | Path) else list(sources)
     asked = _Asked(holes, reading or ReadOptions(), strict)
-    reads: list[Read] = []
-    skipped: list[ReadError] = []
-    for source in many:
-        found, left_out = _read_source(str(source), asked)
-        reads += found
-        skipped += left_out
+    found = [_found(str(source), asked) for source in many]
+    listings = [one.listing for one in found if one.listing is not None]
+    unread = [error for listing in listings for error in listing.unread]
+    if strict and unread:
+        raise unread[0]
+    reads, skipped = _read_all(found, asked, sample)
+    for listing, source in ((one.listing, one.name) for one in found if one.listing is not None):
+        listing.tell(source)
     if not reads:
         raise ReadError("items", "none were given; give a file, a folder or a built-in name")
-    return ItemsRead(tuple(agreed(reads)), tuple(skipped))
+    return ItemsRead(tuple(agreed(reads)), (*skipped, *unread))
 
 
-def _read_source(source: str, asked: _Asked) -> _ReadAndRefused:
+def is_several(source: str) -> bool:
+    """Whether a source is a folder or a pattern.
+
+    Examples
+    --------
+    >>> is_several("icons/*.svg"), is_several("star")
+    (True, False)
+    """
+    return is_folder(source) or (glob.has_magic(source) and not exists(source))
+
+
+def _found(source: str, asked: _Asked) -> _Source:
     if not source.strip():
         # As a path it would stand for the whole of the working folder.
         raise ReadError("items", "an empty name stands for nothing; give a file or a folder")
     if (made := items_in_memory(shelved(source), source, asked.holes)) is not None:
-        return [Read(item) for item in made], []
+        return _Source(source, tuple(Read(item) for item in made))
     if source.startswith(BUILTIN):
         return _built_in(source.removeprefix(BUILTIN), asked)
     path = Path(source)
     if is_folder(path):
         if source in {ALL_ICONS, *item_names()}:
             _LOG.warning("%s: the folder here is meant; %s%s is bundled", source, BUILTIN, source)
-        return _read_many(source, listed(path, _READERS), asked)
+        return _several(source, listed(path, _READERS))
     if path.suffix.lower() in _READERS and (exists(path) or not glob.has_magic(source)):
-        return [asked.read(source)], []
+        return _Source(source, files=(source,))
     if glob.has_magic(source):
-        return _read_many(source, matched(source, _READERS), asked)
+        return _several(source, matched(source, _READERS))
     if exists(path) or len(path.parts) > 1:
         raise ReadError(source, _why_not(path))
     return _built_in(source, asked)
 
 
-def _built_in(name: str, asked: _Asked) -> _ReadAndRefused:
+def _built_in(name: str, asked: _Asked) -> _Source:
     names = icon_names() if name == ALL_ICONS else [name]
-    return [Read(builtin_item(n, asked.holes)) for n in names], []
+    return _Source(name, tuple(Read(builtin_item(n, asked.holes)) for n in names))
 
 
-def _read_many(source: str, listing: Listing, asked: _Asked) -> _ReadAndRefused:
-    if asked.strict and listing.unread:
-        raise listing.unread[0]
-    reads: list[Read] = []
-    skipped: list[ReadError] = []
-    for file in listing.files:
+def _several(source: str, listing: Listing) -> _Source:
+    if not listing.files:
+        raise ReadError(source, _why_none(listing.unread))
+    return _Source(source, files=tuple(listing.files), listing=listing)
+
+
+def _read_all(
+    sources: Sequence[_Source], asked: _Asked, sample: Sample | None
+) -> tuple[list[Read], list[ReadError]]:
+    """Items of all sources in their order, and files among many that are no items."""
+    files = [(k, file) for k, source in enumerate(sources) for file in source.files]
+    at_once = sum(len(source.reads) for source in sources)
+    order, most = list(range(len(files))), len(files)
+    if sample is not None and at_once + len(files) > sample.most:
+        most = max(sample.most - at_once, 0)
+        order = _taken_first(sources, files, sample, most)
+    reads: dict[int, Read] = {}
+    refused: dict[int, ReadError] = {}
+    for k in order:
+        if len(reads) == most:
+            break
+        number, file = files[k]
         try:
-            reads.append(asked.read(file))
+            reads[k] = asked.read(file)
         except ReadError as error:
-            if asked.strict:
+            if asked.strict or sources[number].listing is None:
                 raise
-            skipped.append(error)
-    if not reads:
-        raise ReadError(source, _why_none([*skipped, *listing.unread]))
+            refused[k] = error
+    for number, source in enumerate(sources):
+        own = [k for k, (of, _) in enumerate(files) if of == number]
+        if own and source.listing is not None and all(k in refused for k in own):
+            why = _why_none([*(refused[k] for k in own), *source.listing.unread])
+            raise ReadError(source.name, why)
+    skipped = [refused[k] for k in sorted(refused)]
     for refusal in skipped:
         _LOG.warning("left out %s", refusal)
-    listing.tell(source)
-    return reads, [*skipped, *listing.unread]
+    if sample is not None and len(reads) + len(refused) < len(files):
+        sample.tell([one.name for one in sources if one.files], at_once + len(files))
+    made = [
+        read
+        for number, source in enumerate(sources)
+        for read in (*source.reads, *(reads[k] for k in sorted(reads) if files[k][0] == number))
+    ]
+    return made, skipped
+
+
+def _taken_first(
+    sources: Sequence[_Source], files: Sequence[tuple[int, str]], sample: Sample, most: int
+) -> list[int]:
+    """Indices of files in the order in which they are taken."""
+    alone = [k for k, (number, _) in enumerate(files) if sources[number].listing is None]
+    drawn = sample.order([stem(file) for _, file in files])
+    return list(dict.fromkeys([*(alone if len(alone) <= most else ()), *drawn]))
 
 
 def _why_not(path: Path) -> str:

@@ -36,6 +36,12 @@ class Interpreted(Options):
     """Opacity from which the paint of a picture belongs to its outline, as a share of its most
     opaque pixel: smaller takes soft shadows in, larger leaves more of soft edges out."""
 
+    items_from: Annotated[
+        Literal["seed", "first"], Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE)
+    ] = "seed"
+    """Where folders hold more items than the count: seed draws from all of them, first takes the
+    first by name. No others are read, unless weights, vectors or a picture speak of all."""
+
     stroke_width: Annotated[
         Literal["scaled", "even"], Offer(verbs=Verbs.FILL | Verbs.WORDS | Verbs.PILE)
     ] = "scaled"

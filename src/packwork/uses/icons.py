@@ -8,7 +8,7 @@ from typing import final
 from packwork.pipeline.job import Job
 from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.cast import cast
-from packwork.pipeline.read import Material, read_named
+from packwork.pipeline.read import Material, drawn_first, read_named
 from packwork.pipeline.result import Run
 from packwork.pipeline.run import along
 from packwork.pipeline.use import Use
@@ -41,6 +41,8 @@ def material_of(use: Use, recipe: Recipe, room: Room, given: Sequence[Item] | No
         from packwork.uses.suited import suited_first
 
         items = suited_first(recipe, room.known, items)
+    if given is None and items is named.items:
+        items = drawn_first(recipe, items)
     chosen = cast(recipe, items, room.counted(recipe, items))
     return Material(
         use=use,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import glob
 import logging
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextvars import copy_context
 from dataclasses import dataclass
@@ -15,8 +15,8 @@ from typing import ParamSpec, TypeVar
 from packwork.errors import ReadError
 from packwork.geometry.polygon import Region
 from packwork.readers.container import read_container
-from packwork.readers.files import exists, is_folder
-from packwork.readers.folders import LOOK_LIKE_PICTURES, Listing, listed, matched
+from packwork.readers.files import exists, is_folder, stem
+from packwork.readers.folders import LOOK_LIKE_PICTURES, Listing, Sample, listed, matched
 from packwork.readers.items import ItemsRead
 from packwork.readers.options import AS_DRAWN, HALF
 from packwork.readers.photos.options import PhotoOptions
@@ -46,7 +46,11 @@ class _Named:
 
 
 def read_photos(
-    options: PhotoOptions, *, strict: bool = False, threshold: float = HALF
+    options: PhotoOptions,
+    *,
+    strict: bool = False,
+    threshold: float = HALF,
+    sample: Sample | None = None,
 ) -> ItemsRead:
     """Items of all photos, in the order of the sources, files of a folder by name.
 
@@ -59,6 +63,9 @@ def read_photos(
         Whether an unusable file among many is an error too.
     threshold
         Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
+    sample
+        Which are taken where there are more than are needed; few others are read. Of those named
+        by themselves all are, unless these alone are too many.
 
     Raises
     ------
@@ -80,10 +87,17 @@ def read_photos(
     with warnings.catch_warnings(), ThreadPoolExecutor(_threads()) as threads:
         warnings.simplefilter("ignore")
         read = _here(_reading(options, threshold, shape_of(options)))
-        results = list(threads.map(read, named, range(1, len(named) + 1)))
+        results: dict[int, Item | ReadError] = {}
+        order = list(range(len(named))) if sample is None else _taken_first(named, sample)
+        most = len(named) if sample is None else sample.most
+        while order and (missing := most - _well(results.values())) > 0:
+            now, order = order[:missing], order[missing:]
+            made = threads.map(read, (named[k] for k in now), (k + 1 for k in now))
+            results |= dict(zip(now, made, strict=True))
     items: list[Item] = []
     skipped: list[ReadError] = []
-    for one, result in zip(named, results, strict=True):
+    for k in sorted(results):
+        one, result = named[k], results[k]
         if isinstance(result, Item):
             items.append(result)
         elif one.by_itself or strict:
@@ -94,7 +108,21 @@ def read_photos(
         raise skipped[0]
     for refusal in skipped:
         _LOG.warning("left out %s", refusal)
+    if sample is not None and len(results) < len(named):
+        sample.tell(options.sources, len(named))
     return ItemsRead(tuple(items), (*skipped, *unread))
+
+
+def _well(results: Iterable[Item | ReadError]) -> int:
+    """How many could be read."""
+    return sum(isinstance(result, Item) for result in results)
+
+
+def _taken_first(named: Sequence[_Named], sample: Sample) -> list[int]:
+    """Indices of photos in the order in which they are taken."""
+    alone = [k for k, one in enumerate(named) if one.by_itself]
+    drawn = sample.order([stem(one.file) for one in named])
+    return list(dict.fromkeys([*(alone if len(alone) <= sample.most else ()), *drawn]))
 
 
 def shape_of(options: PhotoOptions) -> Region | None:
