@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Callable
 from dataclasses import fields, replace
 
@@ -21,6 +22,7 @@ from packwork.scene.item import Item, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.units import canvas_size
+from packwork.writers.cutting import CutOptions
 from packwork.writers.pdf import pdf_bytes, without_text
 from packwork.writers.picturing import MAX_PICTURE_PX
 from packwork.writers.png import png_bytes
@@ -71,6 +73,17 @@ def ink_of(picture: np.ndarray) -> np.ndarray:
 def shared(one: np.ndarray, other: np.ndarray) -> float:
     """Intersection over union of the inked pixels."""
     return float((one & other).sum() / (one | other).sum())
+
+
+@pytest.mark.parametrize("cut", [None, CutOptions(line="outlines")])
+def test_no_suspects_are_written(sheet: Callable[..., Layout], cut: CutOptions | None) -> None:
+    # Poppler: "Suspects object is wrong type (boolean)", of the boolean that the format asks for.
+    data = pdf_bytes(sheet(builtin_item("star")), SvgOptions(cut=cut))
+    assert data.count(b"/MarkInfo") == 1
+    assert re.search(rb"/MarkInfo<</Marked true *>>", data)
+    assert b"/Suspects" not in data
+    table = int(data[data.rindex(b"startxref") :].split()[1])
+    assert data[table : table + 4] == b"xref"
 
 
 @pytest.mark.parametrize(

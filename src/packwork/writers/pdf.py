@@ -22,6 +22,10 @@ from packwork.writers.picturing import pictured
 from packwork.writers.spot import Press, prepared
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
 
+_MARKED = b"/MarkInfo<</Marked true"
+_SUSPECTS = b"/Suspects false"
+"""What is so where nothing is said; programs made with Poppler call it an error where it is."""
+
 PICTURE_DPI = 600
 """Pixels to the inch of a drawing that becomes a picture. More: larger files. Chosen."""
 
@@ -86,6 +90,8 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | No
     except RuntimeError as error:
         reason = " ".join(str(error).split())
         raise WriteError("PDF", f"an item's drawing cannot be rendered ({reason})") from error
+    # As many bytes, so that all objects stay where the file's table says.
+    page = page.replace(_MARKED + _SUSPECTS, _MARKED + b" " * len(_SUSPECTS))
     is_cut = options.cut is not None and options.cut.is_asked
     if not (is_cut or beyond):
         return page
