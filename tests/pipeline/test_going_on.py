@@ -20,6 +20,12 @@ def before() -> pw.Layout:
     return pw.fill("heart", ITEMS, **ASKED)
 
 
+@pytest.fixture(scope="module")
+def anew() -> pw.Layout:
+    """The same from no layout, by another seed: what nothing holds in its place."""
+    return pw.fill("heart", ITEMS, **(ASKED | {"seed": 9}))
+
+
 def moved(before: pw.Layout, after: pw.Layout) -> float:
     """Longest way of an item, in canvases."""
     way = np.hypot(after.poses.x - before.poses.x, after.poses.y - before.poses.y)
@@ -35,11 +41,16 @@ def starts(layout: pw.Layout, folder: Path) -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("kind", ["layout", "poses", "path", "name"])
-def test_a_finished_layout_stays_as_it_is(kind: str, before: pw.Layout, tmp_path: Path) -> None:
+def test_a_finished_layout_stays_as_it_is(
+    kind: str, before: pw.Layout, anew: pw.Layout, tmp_path: Path
+) -> None:
     after = pw.fill("heart", ITEMS, start=starts(before, tmp_path)[kind], **ASKED)
-    assert moved(before, after) < 0.02
+    assert moved(before, after) < moved(before, anew) / 10
     assert after.metrics["LC"] > before.metrics["LC"] - 1e-3
-    assert np.abs(after.poses.scale / before.poses.scale - 1).max() < 0.1
+    grown, otherwise = (
+        np.abs(one.poses.scale / before.poses.scale - 1).max() for one in (after, anew)
+    )
+    assert grown < otherwise / 2
     assert after.certified
 
 
@@ -48,14 +59,15 @@ def test_other_seeds_change_nothing(sizes: str) -> None:
     before = pw.fill("circle", ITEMS, sizes=sizes, **ASKED)
     after = pw.fill("circle", ITEMS, sizes=sizes, start=before, **(ASKED | {"seed": 9}))
     assert len(after) == len(before)
-    assert moved(before, after) < 0.02
+    anew = pw.fill("circle", ITEMS, sizes=sizes, **(ASKED | {"seed": 9}))
+    assert moved(before, after) < moved(before, anew) / 10
 
 
-def test_a_little_disorder_is_put_right_where_it_is(before: pw.Layout) -> None:
+def test_a_little_disorder_is_put_right_where_it_is(before: pw.Layout, anew: pw.Layout) -> None:
     rng = np.random.default_rng(1)
     near = replace(before.poses, x=before.poses.x + rng.normal(0, 3, 12))
     after = pw.fill("heart", ITEMS, start=near, **ASKED)
-    assert moved(before, after) < 0.05
+    assert moved(before, after) < moved(before, anew) / 4
     assert after.certified
 
 
@@ -63,7 +75,7 @@ def test_a_heap_is_solved_anew(before: pw.Layout) -> None:
     heap = pw.Poses(np.full(12, 300.0), 300.0)
     after = pw.fill("heart", ITEMS, start=heap, **ASKED)
     assert after.certified
-    assert moved(before, replace(before, poses=heap)) > 0.1
+    assert len(np.unique(after.poses.x)) == 12
 
 
 def test_poses_need_as_many_items() -> None:

@@ -62,20 +62,28 @@ def test_without_a_container_items_gather_round_the_centre() -> None:
     assert run.report()["pile"]["compact"] == run.pile["compact"]
 
 
+BEST_OF_TEN = 0.6878
+"""Share of a disc that ten equal ones cover at most, as far as is known."""
+
+
+def _roundness(**options: object) -> float:
+    """Share of the enclosing disc that discs cover, the median of seeds; none is left out."""
+    found = []
+    for seed in range(3):
+        run = uses.fill(uses.pile_recipe("none", ["circle"], compact=True, seed=seed, **options))
+        assert not run.unplaced
+        assert run.certified
+        assert run.pile is not None
+        found.append(run.pile["compact"]["circle"])
+    return float(np.median(found))
+
+
 def test_a_few_equal_items_make_a_round_pack() -> None:
-    run = uses.fill(uses.pile_recipe("none", ["circle"], count=10, compact=True))
-    assert run.certified
-    assert run.pile is not None
-    assert run.pile["compact"]["circle"] > 0.68
+    assert _roundness(count=10) > 0.9 * BEST_OF_TEN
 
 
 def test_a_round_pack_leaves_nobody_out_where_the_sheet_is_narrow() -> None:
-    recipe = uses.pile_recipe("none", ["circle"], count=19, padding="3%", compact=True)
-    run = uses.fill(recipe)
-    assert not run.unplaced
-    assert run.certified
-    assert run.pile is not None
-    assert run.pile["compact"]["circle"] > 0.55
+    assert _roundness(count=19, padding="3%") > 1 / 2
 
 
 @pytest.mark.parametrize("count", [2, 3])
