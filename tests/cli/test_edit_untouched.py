@@ -6,10 +6,12 @@ import re
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PIL import Image
 from typer.testing import CliRunner
 
+import packwork as pw
 from packwork.cli import app
 
 COIN = """<svg viewBox="0 0 24 24" fill="none" stroke="currentColor" stroke-width="2">
@@ -185,3 +187,51 @@ def test_halos_come_back(tmp_path: Path) -> None:
     rims = re.findall(r'<path fill="(#\w+)" stroke="\1"', out.read_text())
     assert len(rims) == 5
     assert '<rect id="background" width="100%" height="100%" fill="#000080"/>' in out.read_text()
+
+
+@pytest.mark.parametrize("kind", ["drawings", "palette", "on a ground", "pictures", "photographs"])
+def test_drawings_and_colours_of_a_geojson_are_those_of_its_files(
+    sources: Path, tmp_path: Path, kind: str
+) -> None:
+    saved, svg, out = (tmp_path / name for name in ("a.geojson", "a.svg", "new.svg"))
+    assert packwork(*LAYOUTS[kind](sources), "-o", saved, "-o", svg)[0] == 0
+    name = _items(svg.read_text())[0][0]
+    code, said = packwork("edit", saved, "--hold", f"{name}#1", "-q", "-o", out)
+    assert code == 0, said
+    assert said == ""
+    assert _items(out.read_text()) == _items(svg.read_text())
+
+
+def test_drawings_that_are_gone_are_said(tmp_path: Path) -> None:
+    (tmp_path / "coin.svg").write_text(COIN)
+    saved, out = tmp_path / "a.geojson", tmp_path / "new.svg"
+    packwork("fill", "circle", tmp_path / "coin.svg", "star", "-n", 4, *QUICK, "-o", saved)
+    (tmp_path / "coin.svg").write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v2h-9z"/></svg>')
+    code, said = packwork("edit", saved, "--hold", "star#1", "-q", "-o", out)
+    assert code == 0
+    assert "2 of 4 items are plain shapes (coin): the files" in said
+
+
+def test_drawings_that_are_given_take_the_colours_and_poses_of_the_file(
+    sources: Path, tmp_path: Path
+) -> None:
+    saved, svg, out = (tmp_path / name for name in ("a.geojson", "a.svg", "new.svg"))
+    packwork(*LAYOUTS["palette"](sources), "-o", saved, "-o", svg)
+    for file in (saved, svg):
+        asked = ["--items", sources / "coin.svg", "--hold", "coin#1"]
+        code, said = packwork("edit", file, *asked, "-q", "-o", out)
+        assert code == 0, said
+        coins = [one for one in _items(svg.read_text()) if one[0] == "coin"]
+        assert [one for one in _items(out.read_text()) if one[0] == "coin"] == coins
+
+
+def test_round_items_keep_their_angles_when_a_run_goes_on(sources: Path, tmp_path: Path) -> None:
+    before, report = tmp_path / "a.svg", tmp_path / "b.geojson"
+    run = [*LAYOUTS["drawings"](sources)]
+    packwork(*run, "-o", before)
+    packwork(*run, "--start", before, "--stay", "-o", report)
+    old, new = pw.Layout.load(before), pw.Layout.load(report)
+    turned = np.abs(np.remainder(new.poses.angle - old.poses.angle + np.pi, 2 * np.pi) - np.pi)
+    coins = np.array([item.name == "coin" for item in old.items])
+    assert np.ptp(old.poses.angle[coins]) > 0.5
+    assert np.degrees(turned[coins]).max() < 10

@@ -226,15 +226,19 @@ def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
     from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
     from packwork.pipeline.registration import drawn_by
+    from packwork.pipeline.sources import with_drawings
     from packwork.readers.layouts.read import is_drawn, is_session, read_written
 
     if not is_session(path):
         found = read_written(path)
-        made = drawn_by(found, _read(items)) if items else found
-        not_kept = found.manifest.get("not_kept", ())
-        for line in not_kept if is_drawn(path) else ():
+        not_kept = found.manifest.get("not_kept", ()) if is_drawn(path) else ()
+        if items:
+            found = drawn_by(found, _read(items))
+        elif not is_drawn(path):
+            found, not_kept = with_drawings(found, path.parent)
+        for line in not_kept:
             say(f"{path}: {line}")
-        return NamedSession(Document.of(made)), None
+        return NamedSession(Document.of(found)), None
     if items:
         raise RecipeError("items", "are in a session file already; leave them out")
     disk = Disk(path, is_journaled=False)

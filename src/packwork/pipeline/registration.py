@@ -74,7 +74,7 @@ def registered(layout: Layout, items: Sequence[Item]) -> Layout:
     poses = layout.poses
     columns = {name: getattr(poses, name).copy() for name in ("x", "y", "angle", "scale")}
     for k, (item, shape) in enumerate(zip(own, layout.items, strict=True)):
-        if item is shape or _is_alike(item, shape):
+        if item is shape or is_alike(item, shape):
             continue
         columns["x"][k], columns["y"][k] = layout.outlines[k].centroid
         columns["angle"][k] += turn_of(item.outline, shape.outline)
@@ -114,7 +114,7 @@ def coloured_as(item: Item, shape: Item) -> Item:
     return recoloured(dressed, hex_colour(channels))
 
 
-def _is_alike(item: Item, shape: Item) -> bool:
+def is_alike(item: Item, shape: Item) -> bool:
     """Whether an item's outline is the shape's, in the same units."""
     own, other = np.array(item.outline.bounds), np.array(shape.outline.bounds)
     return bool(np.abs(own - other).max() <= ALIKE * item.outline.extent)
