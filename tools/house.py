@@ -72,16 +72,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 53_500,
-    "lines of docstrings": 23_300,
-    "files": 745,
-    "functions of the road in one plain fill": 183,
-    "files of the road in one plain fill": 45,
-    "calls of id()": 100,
-    "context variables": 5,
-    "docstrings that begin with a question word": 530,
-    "class names that occur twice": 26,
-    "constants chosen by hand": 700,
+    "lines of code": 54_500,
+    "lines of docstrings": 23_900,
+    "files": 755,
+    "functions of the road in one plain fill": 194,
+    "files of the road in one plain fill": 49,
+    "calls of id()": 104,
+    "context variables": 6,
+    "docstrings that begin with a question word": 535,
+    "class names that occur twice": 29,
+    "constants chosen by hand": 715,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

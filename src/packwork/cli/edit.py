@@ -258,7 +258,7 @@ def _written(
     from packwork.cli.show import Paper, certificate_line, metrics_table, printing
     from packwork.live.file.disk import Disk
     from packwork.metrics.measure import measure
-    from packwork.pipeline import tell_coarse
+    from packwork.pipeline import faults_in_file, tell_coarse
     from packwork.readers.layouts.read import is_session
 
     done = session.finish()
@@ -270,11 +270,18 @@ def _written(
         for path in outputs
         if path != report and not is_session(path)
     ]
+    faults = [
+        f"{path.name}: {fault}"
+        for path, data in files
+        if done.certified
+        for fault in faults_in_file(data, path, made)
+    ]
+    certified = done.certified and not faults
     metrics = measure(made).as_dict()
     said = {
         "metrics": metrics,
         "items": len(made.items),
-        "certified": done.certified,
+        "certified": certified,
         "in_the_way": done.in_the_way,
         "unmet": session.unmet,
         "moved": done.moved,
@@ -290,12 +297,12 @@ def _written(
     console = Paper(quiet=quiet, highlight=False)
     with printing():
         console.print(metrics_table(metrics, made.container.unit))
-        console.print(certificate_line(True, done.certified), soft_wrap=True)
+        console.print(certificate_line(True, certified), soft_wrap=True)
         names = ", ".join(printable(str(path)) for path, _ in files)
         console.print(f"wrote {names}", soft_wrap=True)
-    for line in done.in_the_way:
+    for line in (*done.in_the_way, *faults):
         say(line)
-    return done.certified
+    return certified
 
 
 def _drawing_of(layout: Layout) -> dict[str, Any]:

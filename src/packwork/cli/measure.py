@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from packwork.cli import options as shared
 from packwork.cli.failure import SHORTFALL, clear_errors
 from packwork.cli.terminal import say
+
+if TYPE_CHECKING:
+    from packwork.pipeline.painted import PaintedPixels
+    from packwork.scene.layout import Layout
 
 
 @shared.by_name
@@ -20,6 +25,12 @@ def measure(
             metavar="LAYOUT", help="A layout that was saved, as .geojson, .svg or .dxf."
         ),
     ],
+    painted: Annotated[
+        bool,
+        typer.Option(
+            "--painted", help="Paint an SVG, too: pixels outside, and in more than one item."
+        ),
+    ] = False,
     *,
     report: Path | None,
     diagnose: Path | None,
@@ -66,6 +77,7 @@ def measure(
         faults = () if promise is None else broken(promise, found, measured.exact)
         certified = promise is not None and not unclean(promise, found, measured.exact)
         picture = None if diagnose is None else writers.diagnose_png(found, pixels)
+        seen = _painted(layout, found) if painted else None
         if report is not None:
             writers.write_atomic(
                 report,
@@ -76,6 +88,7 @@ def measure(
                         "certified": certified,
                         "broken": faults,
                         "on_trust": on_trust,
+                        "painted": None if seen is None else asdict(seen),
                     }
                 ),
             )
@@ -84,6 +97,8 @@ def measure(
         console = Paper(quiet=quiet, highlight=False)
         with printing():
             console.print(metrics_table(metrics, found.container.unit))
+            if seen is not None:
+                console.print(f"{seen}", soft_wrap=True)
             console.print(certificate_line(promise is not None, certified), soft_wrap=True)
         for believed in on_trust:
             say(f"{layout}: {believed}")
@@ -91,3 +106,22 @@ def measure(
             say(f"{layout}: {fault}")
         if faults:
             raise typer.Exit(SHORTFALL)
+
+
+def _painted(path: Path, layout: Layout) -> PaintedPixels:
+    """What a file's picture shows.
+
+    Raises
+    ------
+    ReadError
+        If it is no SVG.
+    """
+    from packwork.pipeline import painted_pixels
+    from packwork.readers.files import read_bytes
+    from packwork.readers.gate.door import MAX_BYTES
+    from packwork.readers.unfit import UnfitError, naming
+
+    with naming(str(path)):
+        if path.suffix.lower() != ".svg":
+            raise UnfitError("is no SVG, which alone is painted; leave --painted out")
+        return painted_pixels(read_bytes(path, MAX_BYTES), layout)

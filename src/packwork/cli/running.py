@@ -17,6 +17,7 @@ import typer
 from rich.console import Console
 
 from packwork import pipeline, threads, uses, writers
+from packwork.cli.checking import held_against_files, painted_in
 from packwork.cli.choosing import check_choosing, run_chosen, seeded, sheet_of
 from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
@@ -234,6 +235,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             films = _filmed(run, outputs, bar, interrupt)
         was_stopped = was_cut_short or len(films) < len(outputs.films)
         drawn, undrawn = _drawn(run, outputs)
+        run = held_against_files(run, drawn)
         if tried:
             saved = outputs.saved_recipe(seeded(recipe, run))
         written = [*drawn, *saved, *films, *sheet_of(tried, outputs.choosing)]
@@ -244,6 +246,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         results["advice"] += pipeline.coarse_photos(
             run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
         )
+        results["painted"] = None if was_cut_short else painted_in(run, drawn, results["advice"])
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))
         with saving(outputs.told(run.layout), outputs.files) as sessions:

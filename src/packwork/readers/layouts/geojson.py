@@ -84,18 +84,29 @@ def read_layout(path: str | Path) -> Layout:
         )
     text = read_text(path, MAX_LAYOUT_BYTES)
     with naming(str(path)):
-        collection = _parsed(text)
-        containers, placed = _split_by_role(collection)
-        container = _container(containers, collection)
-        items = tuple(_item(feature, where) for where, feature in placed)
-        rows = [_pose(feature, where) for where, feature in placed]
-        columns = np.array(rows, dtype=np.float64).reshape(-1, 5).T.copy()
-        weights = np.array([_weight(feature, where) for where, feature in placed])
-        manifest = collection.get("manifest") or {}
-        if not isinstance(manifest, dict):
-            raise UnfitError("manifest: must be an object")
-        poses, ground = Poses(*columns), ground_in(manifest)
-        return Layout(container, items, poses, weights, manifest, ground=ground)
+        return layout_of_geojson(text)
+
+
+def layout_of_geojson(text: str) -> Layout:
+    """The same of a file's text.
+
+    Raises
+    ------
+    UnfitError
+        If it is no layout.
+    """
+    collection = _parsed(text)
+    containers, placed = _split_by_role(collection)
+    container = _container(containers, collection)
+    items = tuple(_item(feature, where) for where, feature in placed)
+    rows = [_pose(feature, where) for where, feature in placed]
+    columns = np.array(rows, dtype=np.float64).reshape(-1, 5).T.copy()
+    weights = np.array([_weight(feature, where) for where, feature in placed])
+    manifest = collection.get("manifest") or {}
+    if not isinstance(manifest, dict):
+        raise UnfitError("manifest: must be an object")
+    poses, ground = Poses(*columns), ground_in(manifest)
+    return Layout(container, items, poses, weights, manifest, ground=ground)
 
 
 def _parsed(text: str) -> Mapping[str, Any]:

@@ -10,7 +10,7 @@ from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.layouts.dxf import layout_of_dxf
-from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, read_layout
+from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, layout_of_geojson, read_layout
 from packwork.readers.layouts.strangers import group_named
 from packwork.readers.layouts.svg import layout_of_svg
 from packwork.readers.unfit import UnfitError, naming
@@ -90,15 +90,36 @@ def read_written(path: str | Path) -> Layout:
     if not isinstance(path, str | os.PathLike):
         raise RecipeError("layout", f"is {type(path).__name__}; give a layout or its file")
     ending = Path(path).suffix.lower()
-    if ending == ".svg":
-        data = read_bytes(path, MAX_BYTES)
-        with naming(str(path)):
-            return layout_of_svg(data, stem(path))
-    if ending == ".dxf":
-        # Only names may hold other letters than ASCII, and names are for showing.
-        text = read_bytes(path, MAX_LAYOUT_BYTES).decode("cp1252", errors="replace")
-        with naming(str(path)):
-            return layout_of_dxf(text, stem(path))
-    if ending in ENDINGS:
+    if ending not in ENDINGS:
+        raise ReadError(path, "has no outlines to measure; give a .geojson, .svg or .dxf")
+    if not is_drawn(path):
         return read_layout(path)
-    raise ReadError(path, "has no outlines to measure; give a .geojson, .svg or .dxf")
+    most = MAX_BYTES if ending == ".svg" else MAX_LAYOUT_BYTES
+    return read_content(read_bytes(path, most), path)
+
+
+def read_content(data: bytes, path: str | Path, *, outlines_only: bool = False) -> Layout:
+    """The same of what is, or is to be, such a file's content.
+
+    Parameters
+    ----------
+    data
+        The content.
+    path
+        Its ending says what that is.
+    outlines_only
+        Whether nothing but outlines is wanted, of plain items.
+
+    Raises
+    ------
+    ReadError
+        If it is not as we write it.
+    """
+    ending = Path(path).suffix.lower()
+    with naming(str(path)):
+        if ending == ".svg":
+            return layout_of_svg(data, stem(path), outlines_only=outlines_only)
+        if ending == ".dxf":
+            # Only names may hold other letters than ASCII, and names are for showing.
+            return layout_of_dxf(data.decode("cp1252", errors="replace"), stem(path))
+        return layout_of_geojson(data.decode())

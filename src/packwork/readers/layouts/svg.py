@@ -10,6 +10,8 @@ from __future__ import annotations
 import base64
 import binascii
 import copy
+import math
+import re
 import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from typing import final
@@ -19,8 +21,9 @@ import shapely
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import union
-from packwork.geometry.polygon import Region
+from packwork.geometry.polygon import Region, silhouette
 from packwork.phrasing import number_of
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.layouts.arts import LINK, Arts, labelled, place_and_art
@@ -52,11 +55,13 @@ from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
 from packwork.readers.regions import SPECK, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
+from packwork.readers.svg.kept import followed_once
 from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.svg_syntax.page import view_box
 from packwork.readers.svg_syntax.shapes import points_of
 from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.readers.unfit import UnfitError
+from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.units import Unit, convert
 
@@ -78,16 +83,28 @@ LOST_CONTAINER = "has no group named container any more: the page is taken for i
 _OWN = frozenset({"transform", "data-bays"})
 """Attributes of a drawing's element that are not its own."""
 
+_OF_POLYGONS = frozenset({"id", "d", "fill-rule", "data-name", "data-weight", "fill"})
+_RINGS = re.compile(r"(?:M-?\d++(?:\.\d++)?+(?: -?\d++(?:\.\d++)?+)++Z)++")
+_LEAST_NUMBERS = 6
 _SAME = 1e-9
 _SPACE = "{http://www.w3.org/2000/svg}"
 _NOT_OURS = "as packwork writes it; give an SVG of ours, or the layout saved as .geojson"
 
 
-def layout_of_svg(data: bytes, name: str) -> Layout:
+def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Layout:
     """Layout of an SVG's bytes, its outlines those of the drawings in it.
 
     Of drawings that only a rendering tells (text, masks) the file holds the outline that
     was placed; embedded pictures are followed as they were when they were read.
+
+    Parameters
+    ----------
+    data
+        The content.
+    name
+        Of the file.
+    outlines_only
+        Whether items are to be plain, as what they look like is not wanted.
 
     Raises
     ------
@@ -113,7 +130,8 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
     drawings = _Drawings(root, drawn, max(width, height) / scale)
     sources = [drawings.source(one) for one in drawn]
     backdrop = group_named(root, "backdrop")
-    arts = Arts(root, data, [*sources, *([] if backdrop is None else [backdrop])])
+    looked_at = [] if outlines_only else [*sources, *([] if backdrop is None else [backdrop])]
+    arts = Arts(root, data, looked_at)
     # Other programs move a whole group by a transform of its own.
     to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
     to_items = affine.compose(to_canvas, place)
@@ -121,7 +139,9 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
     said = items.attrib if items is not None and walls is not None else {}
     gap, is_kept = said.get("data-gap"), said.get("data-holes") == "keep"
     found = [
-        _found(drawings, arts, one, number, to_items, is_kept)
+        _outline_of(drawings, one, to_items, is_kept)
+        if outlines_only
+        else _found(drawings, arts, one, number, to_items, is_kept)
         for number, one in enumerate(zip(elements, drawn, sources, strict=True), start=1)
     ]
     unseen = [] if items is None else unmeasured(root)
@@ -143,7 +163,7 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
             *([LOST_CONTAINER] if walls is None else []),
         ),
         walls=None if walls is None else _walls(walls, affine.compose(to_canvas, _place(walls))),
-        backdrop=backdrop_of(root, arts, to_canvas),
+        backdrop=None if outlines_only else backdrop_of(root, arts, to_canvas),
         notes=notes_of(root, to_canvas),
         said={
             "ground": ground_of(root),
@@ -153,7 +173,8 @@ def layout_of_svg(data: bytes, name: str) -> Layout:
         },
     )
     known = None if walls is None else walls.get("data-name")
-    return with_halos(root, assembled(sheet, known or name))
+    layout = assembled(sheet, known or name)
+    return layout if outlines_only else with_halos(root, layout)
 
 
 @final
@@ -173,14 +194,14 @@ class _Drawings:
     def __init__(self, root: ET.Element, drawn: Sequence[ET.Element], side: float) -> None:
         self._by_id = {e.get("id"): e for e in root.iter() if e.get("id")}
         self._side = side
-        self._regions: dict[int, Region] = {}
-        self._largest: dict[int, float] = {}
+        self._regions: dict[ET.Element, Region] = {}
+        self._largest: dict[ET.Element, float] = {}
+        self._outlines: dict[ET.Element, Outline] = {}
         self._stated = 0
         for one in drawn:
             source = self.source(one)
-            key = id(source)
             size = _size(place_and_art(source, one)[0])
-            self._largest[key] = max(size, self._largest.get(key, 0.0))
+            self._largest[source] = max(size, self._largest.get(source, 0.0))
 
     def wall(self, group: ET.Element) -> Region:
         """Region of the container's paths, shown or not."""
@@ -202,11 +223,18 @@ class _Drawings:
     def item(self, drawn: ET.Element) -> Region:
         """What shows of one item, in its own units."""
         source = self.source(drawn)
-        key = id(source)
-        if key not in self._regions:
+        if source not in self._regions:
             own = place_and_art(source, drawn)[1]
-            self._regions[key] = self._ink(source, own, self._largest[key])
-        return self._regions[key]
+            self._regions[source] = self._ink(source, own, self._largest[source])
+        return self._regions[source]
+
+    def outline(self, drawn: ET.Element, keeps_holes: bool) -> Outline:
+        """The outline of one item, in its own units."""
+        source = self.source(drawn)
+        if source not in self._outlines:
+            ink = self.item(drawn)
+            self._outlines[source] = Outline.from_region(ink if keeps_holes else silhouette(ink))
+        return self._outlines[source]
 
     def source(self, drawn: ET.Element) -> ET.Element:
         """The element that draws an item: itself, or what it uses."""
@@ -239,12 +267,18 @@ class _Drawings:
         """What elements paint, in their own units, fine enough for a copy of that size."""
         if not size > 0:
             raise UnfitError(f"has an item without any size, {_NOT_OURS}")
+        polygon = _polygon(elements[0]) if len(elements) == 1 else None
+        if polygon is not None:
+            return polygon
         document = ET.Element(f"{_SPACE}svg")
         document.extend(elements)
-        drawing = read_drawing(
-            ET.tostring(document), tolerance=MEASURED_FLATTENING * self._side / size
+        # Powers of two, so that what is kept serves other layouts.
+        finest = 2.0 ** math.floor(math.log2(MEASURED_FLATTENING * self._side / size))
+        return followed_once(
+            ET.tostring(document),
+            finest,
+            lambda data: clean_union(read_drawing(data, tolerance=finest).ink.body, speck=_SPECK),
         )
-        return clean_union(drawing.ink.body, speck=_SPECK)
 
 
 def _found(
@@ -256,6 +290,19 @@ def _found(
     item = arts.item(number, drawn, source, label, ink, keeps_holes=keeps_holes)
     place = affine.compose(to_canvas, place_and_art(source, drawn)[0])
     return FoundItem(item.name, item, sound_weight(drawn.get("data-weight", "1")), place)
+
+
+def _outline_of(
+    drawings: _Drawings, element: tuple[ET.Element, ET.Element, ET.Element],
+    to_canvas: FloatArray, keeps_holes: bool,
+) -> FoundItem:  # fmt: skip
+    """An item of which nothing but its outline is known."""
+    _, drawn, source = element
+    name = drawn.get("data-name", "item")
+    outline = drawings.outline(drawn, keeps_holes)
+    place = affine.compose(to_canvas, place_and_art(source, drawn)[0])
+    weight = sound_weight(drawn.get("data-weight", "1"))
+    return FoundItem(name, Item(name, name, outline, outline, FlatArt()), weight, place)
 
 
 def _turned_to_curves(count: int) -> list[str]:
@@ -326,6 +373,21 @@ def _picture(image: ET.Element) -> Region:
 
 def _path(data: str, rule: str = "evenodd") -> ET.Element:
     return ET.Element(f"{_SPACE}path", {"d": data, "fill-rule": rule})
+
+
+def _polygon(element: ET.Element) -> Region | None:
+    """Region of a plain path that is nothing but rings of absolute points; None of all others."""
+    is_plain = tag(element) == "path" and element.attrib.keys() <= _OF_POLYGONS
+    if not (is_plain and element.get("fill-rule") == "evenodd"):
+        return None
+    data = element.get("d", "")
+    if not _RINGS.fullmatch(data):
+        return None
+    rings = [np.array(ring.split(), dtype=np.float64) for ring in data[1:-1].split("ZM")]
+    if any(len(ring) < _LEAST_NUMBERS or len(ring) % 2 for ring in rings):
+        return None
+    region = Outline.from_rings([ring.reshape(-1, 2) for ring in rings]).region
+    return clean_union(region, speck=_SPECK) if region.is_valid else None
 
 
 def _placed(region: Region, matrix: FloatArray) -> Region:

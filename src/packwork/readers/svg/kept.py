@@ -14,10 +14,12 @@ from dataclasses import fields
 from typing import Any
 
 import numpy as np
+import shapely
 
 from packwork.errors import ShapeError
 from packwork.folders import Store
 from packwork.geometry.outline import Outline
+from packwork.geometry.polygon import Region
 from packwork.readers.pages import PageFate, Read
 from packwork.readers.version import reader_version
 from packwork.scene.item import Item, VectorArt
@@ -66,6 +68,29 @@ def read_once(
         if bytes_ is not None:
             STORE.put(key, bytes_)
     return fresh
+
+
+def followed_once(data: bytes, tolerance: float, follow: Callable[[bytes], Region]) -> Region:
+    """Region that a drawing of ours paints, now or at an earlier time.
+
+    Parameters
+    ----------
+    data
+        The document.
+    tolerance
+        Largest distance of a curve from its chords, in the document's units.
+    follow
+        Follows it anew.
+    """
+    if any(mark in data for mark in NOT_KEPT):
+        return follow(data)
+    key = f"{reader_version()} followed {tolerance!r} {hashlib.sha256(data).hexdigest()}"
+    kept = STORE.get(key)
+    if kept is not None:
+        return shapely.from_wkb(kept)
+    region = follow(data)
+    STORE.put(key, shapely.to_wkb(region))
+    return region
 
 
 def packed(read: Read) -> bytes | None:

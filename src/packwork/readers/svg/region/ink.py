@@ -85,7 +85,16 @@ def painted_ink(shapes: Sequence[Painted], tolerance: float | None = None) -> In
         return TracedInk(Polygon(), is_cut=False)
     flattening = FLATTENING if tolerance is None else min(FLATTENING, tolerance / extent)
     _check_detail(shapes, flattening * extent)
-    return PaintedInk(shapes, extent, flattening)
+    ink = PaintedInk(shapes, extent, flattening)
+    if tolerance is not None or ink.body.is_empty:
+        return ink
+    # Of shapes that reach far beyond what shows of them, that is followed as finely.
+    left, top, right, bottom = ink.body.bounds
+    shown = max(right - left, bottom - top)
+    if shown > extent / 2:
+        return ink
+    _check_detail(shapes, FLATTENING * shown)
+    return PaintedInk(shapes, extent, FLATTENING * shown / extent)
 
 
 @final

@@ -1,0 +1,34 @@
+"""Runs held against the files that are about to be written of them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, replace
+from pathlib import Path
+
+from packwork import pipeline
+
+
+def held_against_files(run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]]) -> pipeline.Run:
+    """A run that is certified if the texts of its files are, measured by themselves."""
+    if not run.certified:
+        return run
+    faults = [
+        f"{path.name}: {fault}"
+        for path, data in drawn
+        for fault in pipeline.faults_in_file(data, path, run.layout)
+    ]
+    return replace(run, certified=False, broken=(*run.broken, *faults)) if faults else run
+
+
+def painted_in(
+    run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], advice: list[str]
+) -> dict[str, int] | None:
+    """Pixels that the first SVG paints outside or twice, and a line where a certified one does."""
+    data = next((data for path, data in drawn if path.suffix.lower() == ".svg"), None)
+    if data is None or len(data) > pipeline.PAINTED_BYTES:
+        return None
+    painted = pipeline.painted_pixels(data, run.layout, is_own=True)
+    if run.certified and (painted.outside or painted.double):
+        advice.append(f"{painted}")
+    return asdict(painted)
