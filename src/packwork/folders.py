@@ -7,13 +7,12 @@ above it, is not used.
 
 from __future__ import annotations
 
-import atexit
 import contextlib
 import functools
 import hashlib
 import os
+import re
 import secrets
-import shutil
 import stat
 import sys
 import tempfile
@@ -21,6 +20,8 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import final
+
+from packwork.temporary import TemporaryFolder
 
 VARIABLE = "PACKWORK_CACHE_DIR"
 """Environment variable that names the folder; ``off`` keeps nothing beyond a run."""
@@ -38,6 +39,8 @@ on looking. Chosen."""
 
 MOST_ON_THE_WAY = 200
 """Folders and links through which a path may lead: more go round in a circle. Derived."""
+
+_FOR_THIS_PROCESS: list[TemporaryFolder] = []
 
 _BY_OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
@@ -265,15 +268,15 @@ def _takes_files(folder: Path) -> bool:
 
 def _temporary(name: str) -> Path | None:
     """A folder for this process alone, removed at its end."""
+    # Without a usable temporary folder Python takes the current one.
+    if Path(tempfile.gettempdir()) == Path.cwd():
+        return None
     try:
-        folder = Path(tempfile.mkdtemp(prefix=f"{NAME}-{name}-"))
+        made = TemporaryFolder(re.sub("[^a-z]", "", name))
     except OSError:
         return None
-    if folder.parent == Path.cwd():
-        shutil.rmtree(folder, ignore_errors=True)
-        return None
-    atexit.register(shutil.rmtree, folder, ignore_errors=True)
-    return folder
+    _FOR_THIS_PROCESS.append(made)
+    return made.path
 
 
 def _remove(path: Path) -> None:

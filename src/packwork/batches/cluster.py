@@ -11,7 +11,6 @@ from __future__ import annotations
 import glob
 import logging
 import math
-import tempfile
 import threading
 import time
 from collections.abc import Iterator, Sequence
@@ -29,6 +28,7 @@ from packwork.installed import installed_version
 from packwork.mirror import mirrored, place_in
 from packwork.progress import Stop, never
 from packwork.recipe_paths import named_files
+from packwork.temporary import TemporaryFolder
 
 AHEAD = 2
 """Tasks for each thread of a worker that are there at a time. Fewer leave workers waiting, more are
@@ -264,8 +264,8 @@ def _read(name: str, *_: int) -> bytes:
 def draw_there(parcel: Parcel) -> Drawn | Outcome:
     """Run a task on a worker, its files laid in a folder of the worker's own."""
     _check_version(parcel.version)
-    with _ONE_AT_A_TIME, tempfile.TemporaryDirectory(prefix="packwork-") as folder:
-        mirror = Path(folder)
+    with _ONE_AT_A_TIME, TemporaryFolder("cluster") as folder:
+        mirror = folder.path
         for name in parcel.folders:
             place_in(mirror, name).mkdir(parents=True, exist_ok=True)
         for name, content in parcel.files.items():

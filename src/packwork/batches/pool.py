@@ -19,6 +19,7 @@ from typing import Generic, TypeVar
 
 from packwork import pipeline, threads
 from packwork.errors import PackworkError
+from packwork.offspring import end_with_parent
 from packwork.progress import Stop, never
 
 AHEAD = 3
@@ -130,15 +131,16 @@ class _Pool(Generic[Task, Result]):
 def _begin(stopped: Event) -> None:
     """Prepare a worker: Ctrl-C is heard by the process that it works for."""
     global _stopped
+    end_with_parent()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _stopped = stopped
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    threading.Thread(target=_follow_parent, daemon=True).start()
     with threads.using(1):
         pipeline.warm_up_once()
 
 
-def _end_with_parent() -> None:
-    """End this process when the one that it works for has ended, however that was."""
+def _follow_parent() -> None:
+    """End this process when the one that it works for has ended, on systems that do not do so."""
     parent = multiprocessing.parent_process()
     if parent is not None:
         parent.join()

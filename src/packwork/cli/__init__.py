@@ -41,3 +41,6 @@ def _main(
     ),
 ) -> None:
     logging.getLogger("packwork").addHandler(NOTICES)
+    from packwork.temporary import clear_away
+
+    clear_away()

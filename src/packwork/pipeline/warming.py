@@ -14,7 +14,6 @@ import os
 import signal
 import subprocess
 import sys
-import tempfile
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -34,6 +33,7 @@ from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance
 from packwork.geometry.outline import Outline, joined
 from packwork.losses.evenness import Windows
+from packwork.offspring import END_WITH_PARENT
 from packwork.pipeline.result import find_unplaced
 from packwork.raster.membership import centre_count
 from packwork.scene.container import Container
@@ -42,6 +42,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
+from packwork.temporary import TemporaryFolder
 
 KERNELS = 32
 """Kernels that all parts compile; a test counts them."""
@@ -74,7 +75,7 @@ Counted = Callable[[int], None]
 """Told how many kernels are compiled or loaded."""
 
 _HELPER = (
-    "import json, sys; sys.path[:] = json.loads(sys.argv[1]); "
+    END_WITH_PARENT + "import json; sys.path[:] = json.loads(sys.argv[1])\n"
     "from packwork.pipeline.warming import help_out; help_out(sys.argv[2])"
 )
 
@@ -155,9 +156,10 @@ def help_out(claims: str) -> None:
 @contextlib.contextmanager
 def helped(one_more: Callable[[], None]) -> Iterator[tuple[Path, Any]]:
     """A second process, which is ended with the block, and where parts are claimed."""
-    with tempfile.TemporaryDirectory(prefix="packwork-claims-") as claims:
+    with TemporaryFolder("claims") as folder:
+        claims = folder.path
         # Not ``-m``, which would look for modules in the current folder.
-        command = [sys.executable, "-P", "-c", _HELPER, json.dumps(sys.path), claims]
+        command = [sys.executable, "-P", "-c", _HELPER, json.dumps(sys.path), str(claims)]
         with subprocess.Popen(  # noqa: S603 - ourselves
             command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL
         ) as helper:
@@ -169,7 +171,7 @@ def helped(one_more: Callable[[], None]) -> Iterator[tuple[Path, Any]]:
             counter = threading.Thread(target=count, daemon=True)
             counter.start()
             try:
-                yield Path(claims), helper
+                yield claims, helper
             finally:
                 helper.kill()
                 counter.join()

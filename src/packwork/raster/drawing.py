@@ -13,6 +13,7 @@ import sys
 from typing import Any
 
 from packwork.fonts import FontChoice, fonts_of
+from packwork.offspring import END_WITH_PARENT
 
 _DPI = 96
 _LONGEST_REASON = 160
@@ -22,8 +23,8 @@ LONG = 100_000
 for them, more for longer ones, and a process 0.03 s to start. Larger leaves Ctrl-C unheard,
 smaller starts processes for icons. Measured on one core: 1.6 s for a path of 1.6 million."""
 
-_WORK = """
-import json, sys
+_WORK = f"""{END_WITH_PARENT}
+import json
 asked = json.loads(sys.stdin.buffer.read())
 sys.path[:] = asked["path"]
 import resvg_py

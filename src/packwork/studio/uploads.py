@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 import secrets
-import tempfile
 from pathlib import Path
 
 from packwork.errors import ReadError
+from packwork.temporary import TemporaryFolder
 
 MOST_BYTES = 64_000_000
 """Size of one file at most. Chosen: more than readers take of drawings."""
@@ -29,12 +29,12 @@ class Uploads:
     """Files in folders of their own, gone when the studio closes."""
 
     def __init__(self) -> None:
-        self._folder = tempfile.TemporaryDirectory(prefix="packwork-studio-")
+        self._folder = TemporaryFolder("studio")
         self._files, self._bytes = 0, 0
 
     def close(self) -> None:
         """Remove all files."""
-        self._folder.cleanup()
+        self._folder.close()
 
     def new_batch(self) -> str:
         """Name of an empty batch, which nobody can guess."""
@@ -45,7 +45,7 @@ class Uploads:
     @property
     def root(self) -> Path:
         """Where batches lie."""
-        return Path(self._folder.name)
+        return self._folder.path
 
     def folder(self, batch: str) -> Path:
         """Folder of a batch.

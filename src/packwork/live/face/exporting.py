@@ -5,8 +5,6 @@ from __future__ import annotations
 import zipfile
 from collections.abc import Mapping
 from io import BytesIO
-from pathlib import Path
-from tempfile import TemporaryDirectory
 from typing import Any
 
 from pydantic import ValidationError
@@ -21,6 +19,7 @@ from packwork.live.kept import Kept
 from packwork.live.session import Session
 from packwork.recipe.film import film_options
 from packwork.scene.layout import Layout
+from packwork.temporary import TemporaryFolder
 from packwork.writers import Film, WriteOptions, encoded, film_bytes, write_options
 
 FORMATS: Mapping[str, str] = {
@@ -127,12 +126,15 @@ def recipe_zip(document: Document, name: str) -> bytes:
         If the file of a photograph is no longer there.
     """
     made, known = BytesIO(), "".join(c for c in name if c.isalnum() or c in " -_")[:60].strip()
-    with TemporaryDirectory() as place, zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as packed:
-        folder = Path(place) / (known or "collage")
+    with (
+        TemporaryFolder("recipe") as place,
+        zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as packed,
+    ):
+        folder = place.path / (known or "collage")
         write_recipe(Session(document), folder)
         for file in sorted(folder.rglob("*")):
             if file.is_file():
-                packed.write(file, file.relative_to(place))
+                packed.write(file, file.relative_to(place.path))
         packed.writestr(f"{folder.name}/README.txt", "\n".join((*LINES, "")))
     return made.getvalue()
 

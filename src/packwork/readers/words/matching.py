@@ -15,13 +15,20 @@ from collections.abc import Sequence
 from typing import Any
 
 from packwork.errors import RecipeError
+from packwork.offspring import END_WITH_PARENT
 
 MOST_SECONDS = 20.0
 """After which a match is given up. A plain pattern goes through a long novel in a tenth of one.
 Chosen: what a person waits for before they think that it hangs."""
 
-_WORK = """
-import json, re, sys
+_WORK = f"""{END_WITH_PARENT}
+import json, re
+try:
+    import resource
+    # Elsewhere than on Linux too, a match that takes long is not left behind.
+    resource.setrlimit(resource.RLIMIT_CPU, (2 * {MOST_SECONDS:.0f}, 2 * {MOST_SECONDS:.0f}))
+except (ImportError, ValueError, OSError):
+    pass
 asked = json.loads(sys.stdin.buffer.read())
 known = re.compile(asked["pattern"])
 found = [known.findall(text) if asked["groups"] else [m.group() for m in known.finditer(text)]
