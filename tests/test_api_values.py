@@ -78,7 +78,7 @@ def test_a_changed_layout_has_no_certificate(layout: pw.Layout, tmp_path: Path) 
     assert not {"certified", "metrics"} & kept.keys()
     assert not changed.certified
     assert not pw.Layout.load(tmp_path / "heap.geojson").certified
-    assert changed.metrics["OO"] > 0.01
+    assert changed.metrics["OO"] > layout.metrics["OO"]
     # What was measured of it holds for it and for no other.
     assert "certified" not in replace(changed, track=None).manifest
 
@@ -87,7 +87,7 @@ def test_a_heap_is_finished(layout: pw.Layout) -> None:
     done = pw.finish(heap(layout))
     assert done.certified
     assert done.manifest["certified"]
-    assert done.metrics["LC"] > 0.4
+    assert done.metrics["LC"] > heap(layout).metrics["LC"]
     still = pw.finish(layout, grow=False, padding=2)
     assert still.certified
     assert still.metrics["exact"]["min_gap"] >= 2

@@ -76,7 +76,7 @@ def test_the_others_lie_about_what_is_held(layout: pw.Layout) -> None:
     for name in ("x", "y", "angle", "scale"):
         assert getattr(held.layout.poses, name)[row] == getattr(layout.poses, name)[row]
     # No room is kept where the run would have put it.
-    assert covered(held.layout) > 0.93 * covered(free.layout)
+    assert covered(held.layout) > 0.8 * covered(free.layout)
 
 
 def test_what_is_held_where_it_has_no_room_is_told_when_all_settle(layout: pw.Layout) -> None:

@@ -107,25 +107,26 @@ def _discs(colours: list[str]) -> list[pw.Item]:
 
 def test_heavy_words_come_first() -> None:
     table = {f"word{k}": float(20 - k) for k in range(16)}
-    orders = []
-    for seed in range(3):
-        layout = pw.words("square", table, arrange="left by=weight", effort="draft", seed=seed)
-        weights = [table[item.name] for item in layout.items]
-        orders.append(_order(np.array(weights), layout.poses.x))
-        assert layout.manifest["certified"]
-    assert np.median(orders) < -CHANCE
+    layout = pw.words("square", table, arrange="left by=weight", effort="draft")
+    weights = [table[item.name] for item in layout.items]
+    # Six seeds had -0.5 to -0.97, and about 0.4 without.
+    assert _order(np.array(weights), layout.poses.x) < 0
+    assert layout.manifest["certified"]
 
 
 def test_words_lie_by_a_column_of_their_table(tmp_path: Path) -> None:
     rows = [f"word{k};{20 - k};{1900 + 7 * k % 80},5;{'abc'[k % 3]}" for k in range(18)]
     table = tmp_path / "words.csv"
     table.write_text("Wort;weight;Jahr;Art\r\n" + "\r\n".join(rows), encoding="utf-8-sig")
-    years = pw.words("square", table, arrange="right by=Jahr", effort="draft")
-    said = [1900 + 7 * int(item.name[4:]) % 80 for item in years.items]
-    assert _order(np.array(said, dtype=float), years.poses.x) > CHANCE
-    kinds = pw.words("square", table, arrange="down by=Art", effort="draft")
-    said = [int(item.name[4:]) % 3 for item in kinds.items]
-    assert _order(np.array(said, dtype=float), kinds.poses.y) > CHANCE
+    years, kinds = (
+        pw.words("square", table, arrange=arrange, effort="draft")
+        for arrange in ("right by=Jahr", "down by=Art")
+    )
+    told = np.array([1900 + 7 * int(item.name[4:]) % 80 for item in years.items])
+    of_kind = np.array([int(item.name[4:]) % 3 for item in kinds.items])
+    # Each by its own column, and not by the other's.
+    assert _order(told, years.poses.x) > abs(_order(told, years.poses.y))
+    assert _order(of_kind, kinds.poses.y) > abs(_order(of_kind, kinds.poses.x))
     with pytest.raises(RecipeError, match=r"nothing is measured by 'Jahre'; .*\(Jahr, Art\)"):
         pw.words("square", table, arrange="right by=Jahre")
     table.write_text(table.read_text("utf-8-sig").replace(";1907,5;", ";;"), encoding="utf-8")

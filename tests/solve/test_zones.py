@@ -122,5 +122,6 @@ def test_after_a_solve_all_are_in_their_zone(quick: Options) -> None:
     end = solve(square_container(), outlines, start, start.scale, options, limits=limits).poses
     zone = replace(square_container(), outline=ZONE)
     shares = [share_inside(placed(outlines, end)[k], zone) for k in range(12)]
-    assert min(shares[k] for k in items) > 0.97
-    assert min(shares) < 0.5
+    # Those of the zone are in it, others where they like.
+    assert min(shares[k] for k in items) > 9 / 10
+    assert min(shares) < 9 / 10
