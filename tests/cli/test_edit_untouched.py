@@ -235,3 +235,11 @@ def test_round_items_keep_their_angles_when_a_run_goes_on(sources: Path, tmp_pat
     coins = np.array([item.name == "coin" for item in old.items])
     assert np.ptp(old.poses.angle[coins]) > 0.5
     assert np.degrees(turned[coins]).max() < 10
+
+
+def test_words_of_an_svg_are_known_for_words(sources: Path, tmp_path: Path) -> None:
+    before, other, out = (tmp_path / name for name in ("a.svg", "other.csv", "new.svg"))
+    packwork(*LAYOUTS["words"](sources), "-o", before)
+    other.write_text("alpha,9\nbeta,7\nzeta,6\n")
+    packwork("edit", before, "--words", other, "-q", "-o", out)
+    assert sorted(name for name, _, _ in _items(out.read_text())) == ["alpha", "beta", "zeta"]

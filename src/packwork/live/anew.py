@@ -88,7 +88,7 @@ def _vectors_by_text(document: Document, asked: Mapping[str, Any]) -> ItemVector
     """Vectors of words, by the text that the run had which made the layout."""
     recipe = document.manifest.get("recipe")
     known = recipe.get("words") if isinstance(recipe, Mapping) else None
-    if not isinstance(known, Mapping):
+    if not isinstance(known, Mapping) or not known.get("source"):
         raise RecipeError(
             "embeddings", f"{BY_TEXT} is for words of a text; give a file of vectors here"
         )

@@ -7,7 +7,7 @@ now, stays a shape.
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,7 @@ from packwork.pipeline.registration import is_alike
 from packwork.readers.items import read_items
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.read import read_photos
+from packwork.recipe_paths import files_outside
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout
 from packwork.scene.palette import palette_colours
@@ -64,7 +65,7 @@ def with_drawings(layout: Layout, folder: Path) -> tuple[Layout, tuple[str, ...]
             made[drawing, fill] = _coloured(drawing, fill, asked)
         art = made[drawing, fill].art
         items[k] = replace(drawing, name=shape.name, art=art, label=shape.label, datum=shape.datum)
-    told = _told(missing, len(items))
+    told = (*_told_outside(drawings, folder), *_told(missing, len(items)))
     beside = _TOLD_BESIDE if asked.get("chart") or asked.get("label_regions") else ()
     return replace(layout, items=tuple(items)), (*told, *beside)
 
@@ -72,6 +73,13 @@ def with_drawings(layout: Layout, folder: Path) -> tuple[Layout, tuple[str, ...]
 _TOLD_BESIDE = (
     "titles, keys and labels are not in a GeoJSON; edit the SVG or the session to keep them",
 )
+
+
+def _told_outside(sources: Iterable[str], folder: Path) -> tuple[str, ...]:
+    """A sentence about files that lie neither here nor beside the layout."""
+    outside = files_outside({"items": list(sources)}, [folder, Path.cwd()])
+    names = enumerated(outside, MOST_NAMED)
+    return (f"names drawings outside its folder, which are read: {names}",) if outside else ()
 
 
 def _told(missing: Sequence[str], count: int) -> tuple[str, ...]:

@@ -5,6 +5,7 @@ A measure of the file alone can then say whether the promise holds.
 
 from __future__ import annotations
 
+import json
 from collections.abc import Mapping
 
 from packwork.scene.layout import Layout
@@ -47,6 +48,8 @@ def stated_weights(layout: Layout) -> list[str]:
 def stated_limits(layout: Layout) -> dict[str, str]:
     """Attributes that say how far items may turn and how sizes vary, where that is not free.
 
+    And how words were set, where items are words.
+
     Examples
     --------
     >>> from dataclasses import replace
@@ -62,8 +65,14 @@ def stated_limits(layout: Layout) -> dict[str, str]:
     if promised(layout)[1]:
         # Shares leave sizes no freedom.
         found.pop("sizes", None)
+    recipe = layout.manifest.get("recipe")
+    words = recipe.get("words") if isinstance(recipe, Mapping) else None
+    if isinstance(words, Mapping):
+        # So that an edit knows them for words, and sets others alike.
+        known = {k: v for k, v in words.items() if k != "source" and v not in (None, [], ())}
+        found["words"] = json.dumps(known, separators=(",", ":"), default=str)
     return {
         f"data-{key.replace('_', '-')}": value
         for key, value in found.items()
-        if value not in _USUAL[key]
+        if value not in _USUAL.get(key, ())
     }

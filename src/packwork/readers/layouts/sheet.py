@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 import re
 import xml.etree.ElementTree as ET
@@ -54,12 +55,27 @@ def drawing_of(root: ET.Element, is_in_full: bool) -> dict[str, Any]:
 
 
 def limits_of(said: Mapping[str, str]) -> dict[str, Any]:
-    """Limits of turns and sizes that a run had, as its recipe states them."""
+    """Limits of turns and sizes that a run had, and how its words were set, as its recipe says it.
+
+    Raises
+    ------
+    UnfitError
+        If they are of another form.
+
+    Examples
+    --------
+    >>> limits_of({"data-rotate": "none", "data-words": '{"case":"upper"}'})
+    {'rotate': 'none', 'words': {'case': 'upper'}}
+    """
     found: dict[str, Any] = {key: said[name] for key, name in _LIMITS.items() if name in said}
     try:
-        return found | ({"size_ratio": float(found["size_ratio"])} if "size_ratio" in found else {})
-    except ValueError:
-        raise UnfitError(f"states the ratio of sizes {found['size_ratio'][:20]!r}") from None
+        if "size_ratio" in found:
+            found["size_ratio"] = float(found["size_ratio"])
+        if "data-words" in said:
+            found["words"] = dict(json.loads(said["data-words"]))
+    except (ValueError, TypeError, RecursionError):
+        raise UnfitError("states limits of sizes, or words, in another form than ours") from None
+    return found
 
 
 def ground_of(root: ET.Element) -> str:
