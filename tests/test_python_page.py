@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+from collections.abc import Callable
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import packwork
@@ -74,3 +76,50 @@ def test_the_page_runs_with_pytorch(names: dict[str, Any]) -> None:
     exec(blocks("python", "python torch"), names)  # noqa: S102
     assert names["points"].grad.shape == (4, 2)
     assert names["image"].requires_grad
+
+
+def _to_left(layout: packwork.Layout) -> float:
+    """How far items lie to the left of the canvas' middle, in the mean."""
+    return layout.container.width / 2 - float(layout.poses.x.mean())
+
+
+def _to_top(layout: packwork.Layout) -> float:
+    return layout.container.height / 2 - float(layout.poses.y.mean())
+
+
+def _parted(layout: packwork.Layout) -> float:
+    """How far hearts lie to the left of stars, in the mean."""
+    is_heart = np.array([item.name == "heart" for item in layout.items])
+    return float(layout.poses.x[~is_heart].mean() - layout.poses.x[is_heart].mean())
+
+
+@pytest.mark.parametrize(
+    ("page", "loss", "moved"),
+    [
+        ("README.md", "lean_left", _to_left),
+        ("docs/python.md", "top_heavy", _to_top),
+        ("docs/python.md", "part_ways", _parted),
+        ("docs/python.md", "warm_left", _parted),
+    ],
+)
+def test_losses_of_the_pages_move_items_where_they_say(
+    page: str, loss: str, moved: Callable[[packwork.Layout], float], monkeypatch: Any
+) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    found = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    (block,) = (block for block in found if f"def {loss}(" in block)
+    made: list[float] = []
+    plain: list[float] = []
+
+    def drawn(*given: Any, seed: int, losses: Any, **options: Any) -> packwork.Layout:
+        asked = {**options, "effort": "draft", "seed": seed}
+        plain.append(moved(fill(*given, **asked)))
+        layout = fill(*given, losses=losses, **asked)
+        made.append(moved(layout))
+        return layout
+
+    for seed in range(5):
+        monkeypatch.setattr(packwork, "fill", partial(drawn, seed=seed), raising=False)
+        exec(block, {"np": np, "pw": packwork})  # noqa: S102
+    assert len(made) == 5
+    assert np.median(made) > max(np.median(plain), 0.0)
