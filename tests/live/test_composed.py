@@ -225,3 +225,45 @@ def test_words_of_a_file_of_shapes_are_replaced(spoken: pw.Layout, tmp_path: Pat
     session.words({"alpha": 2, "omega": 1})
     session.finish()
     assert sorted(areas_by_name(session)) == ["alpha", "omega"]
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_cloud_fills_as_before_when_a_word_weighs_otherwise(seed: int) -> None:
+    names = ["bear", "fox", "owl", "snail", "ant", "tiger", "panther", "crow", "elk", "bee"]
+    weights = {f"{name}{end}": 1 / (k + 2) for k, name in enumerate(names) for end in ("", "s")}
+    session = pw.words("heart", weights, sizes="shared", padding=0, seed=seed).edit()
+    before = covered(session)
+    session.weigh("bees", 2 * float(session.document.weights.max()))
+    assert session.finish().certified
+    assert covered(session) > before - 0.05
+    said = " ".join(session.advice)
+    where = session.document.poses.x
+    session.undo()
+    assert covered(session) == before
+    assert "poured anew" in said or np.median(np.abs(where - session.document.poses.x)) < 20
+
+
+def test_other_letters_are_set_at_once_and_kept_for_the_next_words() -> None:
+    weights = {"bear": 4, "fox": 3, "owl": 2, "snail": 1, "ant": 1}
+    session = pw.words("heart", weights, sizes="shared", padding=0).edit()
+    session.words(weights, font="DejaVu Serif")
+    assert session.finish().certified
+    session.words({**weights, "elk": 2})
+    names = {run.font.name for item in session.document.items for run in item.text.runs}
+    assert len(names) == 1
+    assert "Serif" in names.pop()
+    assert len({item.name for item in session.document.items}) == len(session.document) == 6
+
+
+def test_recoloured_words_stay_where_they_are(cloud: pw.Layout) -> None:
+    session = cloud.edit()
+    session.recolor("*", "teal")
+    assert session.finish().moved == 0
+    assert not any("poured" in line for line in session.advice)
+
+
+def test_what_is_poor_is_told_as_of_a_run() -> None:
+    session = pw.fill("heart", "star", count=6, sizes="free", **QUICK).edit()
+    session.cover("10%")
+    session.finish()
+    assert any("would show it" in line for line in session.advice)

@@ -11,7 +11,6 @@ from packwork.api.handing import handed_over
 from packwork.api.layout import Layout, public
 from packwork.api.verbs import read_container, read_items
 from packwork.errors import RecipeError, WriteError
-from packwork.live.composed import words_of
 from packwork.live.document import Document
 from packwork.live.file.disk import ENDING, Disk
 from packwork.live.file.recipe import SessionRecipe, write_recipe
@@ -163,9 +162,9 @@ class Session(NamedSession):
             As for :func:`words`.
         options
             What words there are and how they are set, as for :func:`words`; unless given, as in the
-            run that made the layout.
+            run that made the layout, or for the words before. Other fonts set all words anew.
         """
-        self.set_words(words_of(self.document, source, options))
+        self.set_words(source, options)
 
     def picture(self, source: Value) -> None:
         """Show a picture, from afar: each item takes on its colour there; photographs keep theirs.

@@ -143,7 +143,6 @@ def edit(
     with clear_errors():
         from packwork import writers
         from packwork.inputs import check_no_input
-        from packwork.live.composed import words_of
         from packwork.readers.container import read_container
         from packwork.readers.layouts.read import is_session
 
@@ -177,7 +176,7 @@ def edit(
             with _about("add"):
                 _added(session, spec)
         if words is not None:
-            session.set_words(words_of(session.document, words, {}))
+            session.set_words(words)
         if count is not None:
             session.count(count)
         if cover is not None:
@@ -284,6 +283,7 @@ def _written(
         "certified": certified,
         "in_the_way": done.in_the_way,
         "unmet": session.unmet,
+        "advice": session.advice,
         "moved": done.moved,
     }
     if report is not None:
@@ -300,7 +300,7 @@ def _written(
         console.print(certificate_line(True, certified), soft_wrap=True)
         names = ", ".join(printable(str(path)) for path, _ in files)
         console.print(f"wrote {names}", soft_wrap=True)
-    for line in (*done.in_the_way, *faults):
+    for line in (*done.in_the_way, *faults, *session.advice):
         say(line)
     return certified
 

@@ -60,8 +60,7 @@ def poured_again(
         If that has no meaning for these items.
     """
     is_by_text = asked.get("embeddings") == BY_TEXT
-    recipe = _recipe(document, seed, {} if is_by_text else asked)
-    job = uses.read(recipe, _weighed(document), document.container)
+    job = job_again(document, seed, {} if is_by_text else asked)
     if is_by_text:
         job = replace(job, vectors=_vectors_by_text(document, asked))
     try:
@@ -71,6 +70,12 @@ def poured_again(
             raise
         layout, kept = run_shown(job, shown, stop)
     return arranged(document.ids[kept].tolist(), layout.poses)
+
+
+def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
+    """A run of the items of a document in its container."""
+    recipe = _recipe(document, seed, asked)
+    return uses.read(recipe, _weighed(document), document.container)
 
 
 def _asked(document: Document) -> tuple[Asked, ...]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
@@ -11,7 +12,7 @@ import numpy as np
 from packwork.errors import RecipeError
 from packwork.live.assets import named_item
 from packwork.live.commands.command import Command, Library, made
-from packwork.live.commands.items import Add, Remove, Weigh
+from packwork.live.commands.items import Add, Remove, Replace, Weigh
 from packwork.live.document import Document
 from packwork.live.neighbourhood.shapes import Shapes
 from packwork.live.neighbourhood.voids import widest_places
@@ -24,6 +25,9 @@ from packwork.uses.words.recipe import words_recipe
 
 SAME = 1e-6
 """By how much, relatively, a weight may differ and be the same. Derived: rounding."""
+
+ALIKE = 0.003
+"""By how much a word's figure may differ where its letters are the same: files round. Chosen."""
 
 
 def brought(
@@ -111,6 +115,9 @@ def words_of(document: Document, source: object, options: Mapping[str, Any]) -> 
     before = recipe.get("words") if isinstance(recipe, Mapping) else None
     known = before if isinstance(before, Mapping) else {}
     given = {k: v for k, v in known.items() if v is not None and k != "source"}
+    if "font" in options:
+        # A session has no container that letters are read from.
+        options = {"fonts": options["font"], **{k: v for k, v in options.items() if k != "font"}}
     asked = words_recipe(document.container.name, source, **{**given, **options}).words
     if asked is None:
         raise RecipeError("words", "none were given")
@@ -118,14 +125,19 @@ def words_of(document: Document, source: object, options: Mapping[str, Any]) -> 
 
 
 def worded(
-    document: Document, library: Library, shapes: Shapes, read: WordsRead
+    document: Document, library: Library, shapes: Shapes, read: WordsRead, *, is_lettered: bool
 ) -> Iterator[Command]:
     """Commands after which the words are those of another list, with its weights.
 
     Words that stay are the same items; new ones come in the colours of the others, in turn.
+
+    Parameters
+    ----------
+    is_lettered
+        Whether how words are set was asked for: those that stay then take on the new letters.
     """
     now = {item.name: share for item, share in zip(read.items, read.areas, strict=True)}
-    words = [k for k in range(len(document)) if _is_word(document, k)]
+    words = [k for k in range(len(document)) if is_word(document, k)]
     rows: dict[str, int] = {}
     # Of copies the heaviest stays.
     for k in sorted(words, key=lambda k: -document.weights[k]):
@@ -137,6 +149,13 @@ def worded(
     kept = list(rows.values()) or words
     asked = sum(now[name] for name in rows) or sum(now.values())
     unit = float(document.weights[kept].sum()) / asked if kept and asked else 1.0
+    letters = {item.name: item for item in read.items} if is_lettered else {}
+    for name, k in rows.items():
+        if name in letters and _is_set_otherwise(document.items[k], letters[name]):
+            item, colour = letters[name], one_colour(document.items[k].art)
+            item = item if colour is None else recoloured(item, hex_colour(colour))
+            asset = named_item(library, item)
+            yield made(Replace, item=int(document.ids[k]), asset=asset)
     for name, k in rows.items():
         weight = unit * now[name]
         if abs(weight - document.weights[k]) > SAME * weight:
@@ -151,12 +170,24 @@ def worded(
         yield made(Remove, items=tuple(int(document.ids[k]) for k in gone))
 
 
-def _is_word(document: Document, k: int) -> bool:
+def is_word(document: Document, k: int) -> bool:
     """Whether an item is one of a cloud's words; files of shapes say so of all alone."""
     if any(item.text is not None for item in document.items):
         return document.items[k].text is not None
     recipe = document.manifest.get("recipe")
     return isinstance(recipe, Mapping) and recipe.get("words") is not None
+
+
+def _is_set_otherwise(before: Item, now: Item) -> bool:
+    """Whether a word's letters are others, whatever their size."""
+    return bool(np.abs(np.subtract(_figure(before), _figure(now))).max() > ALIKE)
+
+
+def _figure(item: Item) -> tuple[float, float]:
+    """Logarithms of a word's length over its height, and of the share of its box that it inks."""
+    left, top, right, bottom = item.outline.bounds
+    wide, high = right - left, bottom - top
+    return math.log(wide / high), math.log(item.outline.area / (wide * high))
 
 
 def _check_free(document: Document, rows: Iterable[int]) -> None:

@@ -5,10 +5,10 @@ from __future__ import annotations
 import contextlib
 import fnmatch
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from numbers import Integral
-from types import TracebackType
-from typing import Self, TypeAlias
+from types import MappingProxyType, TracebackType
+from typing import Any, Self, TypeAlias
 
 import numpy as np
 
@@ -22,11 +22,10 @@ from packwork.live.commands.holding import Hold, Release
 from packwork.live.commands.items import Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
 from packwork.live.commands.together import Together
-from packwork.live.composed import brought, counted, worded
+from packwork.live.composed import brought, counted, worded, words_of
 from packwork.live.document import PROPERTIES, Property
 from packwork.live.picturing import showing
 from packwork.live.session import Session
-from packwork.readers.words.items import WordsRead
 from packwork.recipe.refusals import length_asked
 from packwork.recipe.rules import MAX_COUNT
 from packwork.scene.container import Container
@@ -42,12 +41,17 @@ Coordinate: TypeAlias = str | float
 
 _COPY = re.compile(r"(?P<name>.+)#(?P<copy>[1-9][0-9]{0,5})")
 
+NOTHING: Mapping[str, Any] = MappingProxyType({})
+
 TRIALS = 4
 """Turns tried for each item that was touched, when a block ends. Chosen."""
 
 
 class NamedSession(Session):
     """A session with a verb for each command."""
+
+    _letters: Mapping[str, Any] = NOTHING
+    """How words were asked to be set, last."""
 
     def __enter__(self) -> Self:
         return self
@@ -263,9 +267,21 @@ class NamedSession(Session):
         """Put all anew, like items side by side, by a file of vectors or ``auto``."""
         self.apply(poured_again(self.document, seed, embeddings=source, anchors=anchors))
 
-    def set_words(self, read: WordsRead) -> None:
-        """Have these words with these weights: those that stay are the same items."""
-        self._together(list(worded(self.document, self.library, self.shapes, read)))
+    def set_words(self, source: object, options: Mapping[str, Any] = NOTHING) -> None:
+        """Have the words of a text or a table, with its weights.
+
+        Parameters
+        ----------
+        options
+            How they are set, in place of what was asked before; kept for the next words.
+        """
+        letters = {**self._letters, **options}
+        read = words_of(self.document, source, letters)
+        is_lettered = bool(letters)
+        self._together(
+            list(worded(self.document, self.library, self.shapes, read, is_lettered=is_lettered))
+        )
+        self._letters = letters
 
     def _together(self, commands: Sequence[Command]) -> None:
         """Do commands as one gesture."""

@@ -6,7 +6,7 @@ import math
 import time
 from collections.abc import Iterable
 from dataclasses import asdict, replace
-from itertools import pairwise
+from itertools import groupby, pairwise
 from numbers import Integral
 
 from packwork.errors import RecipeError
@@ -23,6 +23,7 @@ from packwork.live.log import MOST_TRIALS, Entry, Log
 from packwork.live.neighbourhood.flow import Flow
 from packwork.live.neighbourhood.settle import polish
 from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.refilling import advice_of, is_other_cloud, refilled
 from packwork.live.requests import Requests
 from packwork.progress import Stop, never
 from packwork.scene.layout import Layout
@@ -81,6 +82,7 @@ class Session(Following):
         self.log = log or Log()
         self.history = History()
         self._before: Document | None = None
+        self._poured: tuple[str, ...] = ()
         self._requests = Requests()
 
     @property
@@ -100,8 +102,11 @@ class Session(Following):
             raise RecipeError("grab", "something is held already; drop it first")
         before = self._document
         documents = [before]
-        for step in command.steps:
-            documents.append(step.applied(documents[-1], self.library))
+        # What follows a change takes as long for one item as for all that change alike.
+        for _, steps in groupby(command.steps, type):
+            documents.append(documents[-1])
+            for step in steps:
+                documents[-1] = step.applied(documents[-1], self.library)
         change = Change.between(before, documents[-1])
         self.log.bring(command.assets, self.library)
         self.log.note("do", command)
@@ -189,15 +194,32 @@ class Session(Following):
         self.marks.touched |= beyond(wrong, near)
         if self.marks.touched and not stop():
             self._flow = self._flow or Flow(self._document, self._sights)
-            flowed = self._document
-            self._settle(self._flow, near, stop)
-            if len(self.violations) > len(wrong):
-                # Nothing is better than something worse.
-                self._document = flowed
-                self._flow.turn_to(flowed)
+            self._poured = ()
+            if not is_other_cloud(self._base, before) or not self._refill(self._flow, stop):
+                flowed = self._document
+                self._settle(self._flow, near, stop)
+                if len(self.violations) > len(wrong):
+                    # Nothing is better than something worse.
+                    self._document = flowed
+                    self._flow.turn_to(flowed)
+                self._refill(self._flow, stop)
         moved = differing(before.poses, self._document.poses)
         self.marks.rough |= set(self._document.ids[moved].tolist())
         return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
+
+    def _refill(self, flow: Flow, stop: Stop) -> bool:
+        """Pour a cloud anew that its new words or weights have left emptier; whether it was."""
+        given = self._rows(self.marks.given)
+        found = None if stop() else refilled(self._base, self._document, given, stop)
+        if found is not None:
+            self._document, self._poured = found.document, (found.said,)
+            flow.turn_to(found.document)
+        return found is not None
+
+    @property
+    def advice(self) -> tuple[str, ...]:
+        """What is poor as it lies, and what would do; that words were poured anew."""
+        return (*self._poured, *advice_of(self._document))
 
     def _settled(self) -> None:
         """Note that all that was touched is finished."""

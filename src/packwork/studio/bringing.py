@@ -15,7 +15,7 @@ from packwork.live.commands.command import Command, made
 from packwork.live.commands.container import SetContainer
 from packwork.live.commands.items import Replace
 from packwork.live.commands.together import Together
-from packwork.live.composed import brought, words_of
+from packwork.live.composed import brought
 from packwork.live.face.asking import questions
 from packwork.live.face.bringing import (
     container_of,
@@ -151,7 +151,7 @@ class Bringer:
             options = {} if font is None else {"fonts": [font]}
 
             def act(session: NamedSession) -> None:
-                session.set_words(words_of(session.document, dict(message.words), options))
+                session.set_words(dict(message.words), options)
 
             self._desk.change(act)
 
