@@ -9,6 +9,7 @@ import numpy as np
 
 from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.pipeline.arranging import check_arranged
+from packwork.pipeline.hero import placed_hero
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.plan.asked import voices
 from packwork.pipeline.plan.cast import Cast
@@ -197,7 +198,7 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         skipped=(*material.skipped, *fillers.skipped, *told),
         clock=clock,
     )
-    job = labelled(job)
+    job = placed_hero(labelled(job))
     job.check_forces()
     check_arranged(job)
     if job.vectors is not None and recipe.arrange is not None:

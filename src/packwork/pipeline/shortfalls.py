@@ -10,7 +10,9 @@ from packwork.arrays import FloatArray
 from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.finish.finished import Finished
 from packwork.phrasing import enumerated, number_of
+from packwork.pipeline.hero import HERO
 from packwork.pipeline.job import Job
+from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.plan.limits import pinned_scales
 from packwork.pipeline.widest import lines_width, widest_cu
 from packwork.scene.layout import Layout
@@ -47,7 +49,7 @@ def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...
             sizes = scales[k] * item.outline.extent / side, pinned[k] * item.outline.extent / side
             said.append(
                 f"{item.name} (item {k + 1}) came out at {_percent(sizes[0])}, "
-                f"{_percent(sizes[1])} asked; {widest}"
+                f"{_percent(sizes[1])} asked; {_no_place(one)}{widest}"
             )
         elif "scale" in one.values and "size" not in one.pin:
             least, ratio = one.values["scale"][0], float(scales[k] / nominal[k])
@@ -59,6 +61,12 @@ def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...
         elif k in exact.undersized:
             dwarfs.append(k)
     return (*said, *_dwarfs(job, dwarfs, nominal, scales))
+
+
+def _no_place(one: Asked) -> str:
+    """Whether it has been looked for a place at that size, and none was found."""
+    is_free_hero = one.voices.get("pin.size") == HERO and not one.is_put
+    return "it has no place at that size, however it is turned; " if is_free_hero else ""
 
 
 def _dwarfs(
