@@ -314,3 +314,14 @@ def test_nothing_is_called_certified_that_the_page_does_not_show(play) -> None:
         assert poses_of(page.frames[-1])[0, 0] == pytest.approx(300.0)
 
     play(scenario)
+
+
+def test_pages_are_told_what_is_poor_though_it_is_certified(play) -> None:
+    async def scenario(desk: Desk, open_page: Callable) -> None:
+        page = open_page()
+        await page.until(lambda: page.is_certified and page.frames)
+        desk.change(lambda session: session.cover("8%"))
+        await page.until(lambda: page.is_certified and page.last("state")["advice"])
+        assert "would show it" in page.last("state")["advice"][0]
+
+    play(scenario)

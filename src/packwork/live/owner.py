@@ -93,6 +93,8 @@ class Frame:
         Numbers of the items that are in conflict, where ``in_the_way`` is known.
     can_undo, can_redo
         Whether the history leads anywhere.
+    advice
+        What is poor, and what would do, where it is certified.
     """
 
     number: int
@@ -103,6 +105,7 @@ class Frame:
     entangled: tuple[int, ...] = ()
     can_undo: bool = False
     can_redo: bool = False
+    advice: tuple[str, ...] = ()
 
 
 class Owner(Generic[AnySession]):
@@ -312,6 +315,7 @@ class Owner(Generic[AnySession]):
             tuple(sorted({k for one in wrong for k in (one.item, one.other) if k is not None})),
             session.history.can_undo,
             session.history.can_redo,
+            session.advice if in_the_way == () else (),
         )
 
 

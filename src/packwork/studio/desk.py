@@ -172,6 +172,7 @@ class Desk:
             in_the_way=in_the_way[:20],
             entangled=() if frame is None or is_moving else frame.entangled,
             unplaced=self._left_out(view),
+            advice=() if frame is None or is_moving else frame.advice,
             can_undo=frame is not None and frame.can_undo,
             can_redo=frame is not None and frame.can_redo,
             busy=self._busy,

@@ -247,6 +247,8 @@ class State(Message):
     entangled: tuple[int, ...]
     unplaced: tuple[LeftOut, ...]
     """What the run that brought the items could not place."""
+    advice: tuple[str, ...]
+    """What is poor where it is certified, and what would do."""
     can_undo: bool
     can_redo: bool
     busy: str

@@ -36,14 +36,14 @@ export class Badge {
     this.stop.hidden = !state.busy;
     if (!state.moving && word !== this.told) say(`${this.share.textContent} covered, ${word}`);
     this.told = word;
-    if (state.certified && !state.unplaced.length) this.why.hidePopover?.();
+    if (state.certified && !state.unplaced.length && !state.advice.length) this.why.hidePopover?.();
   }
 
   /** @param {State} state */
   wordOf(state) {
     if (state.busy) return `${state.busy.toLowerCase()} …`;
     if (state.moving) return "settling …";
-    const without = state.unplaced.length ? ` · ${state.unplaced.length} left out` : "";
+    const without = state.unplaced.length ? ` · ${state.unplaced.length} left out` : state.advice.length ? " · a hint" : "";
     if (state.certified) return `covered · certified${without}`;
     const count = state.in_the_way.length;
     return count ? `${count} in the way` : "nothing there";
@@ -59,6 +59,7 @@ export class Badge {
         : [h("p", {}, "What is in the way:"), h("ul", {}, ...state.in_the_way.map((line) => h("li", {}, line)))];
     const shows = state.entangled.length && h("button", { type: "button", onclick: () => this.hears.show(state.entangled) }, "Show them");
     if (state.unplaced.length) lines.push(h("p", {}, "Left out:"), h("ul", {}, ...state.unplaced.map(({ name, reason }) => h("li", {}, `${name}: ${reason}`))));
+    lines.push(...state.advice.map((line) => h("p", {}, line)));
     this.why.replaceChildren(...lines, shows || "");
     this.why.togglePopover?.();
   }

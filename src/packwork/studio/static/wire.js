@@ -42,7 +42,7 @@
  * @typedef {{kind: "set_option", name: string, value: (number | string | string[])}} SetOption
  * @typedef {{key: string, outline: string, box: [number, number, number, number], fill: string, ink: string, svg: string}} Shape
  * @typedef {{type: "shapes", shapes: Shape[]}} Shapes
- * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, saved: boolean}} State
+ * @typedef {{type: "state", covered: number, moving: boolean, certified: boolean, in_the_way: string[], entangled: number[], unplaced: LeftOut[], advice: string[], can_undo: boolean, can_redo: boolean, busy: string, progress: number, saved: boolean}} State
  * @typedef {{type: "stop"}} Stop
  * @typedef {{type: "swap", items: number[], source: string}} Swap
  * @typedef {{id: number, shape: string, name: string, weight: number, stretch: number, is_word: boolean, held: [boolean, boolean, boolean]}} Thing
