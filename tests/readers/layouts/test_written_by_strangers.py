@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import packwork as pw
@@ -14,6 +15,7 @@ from packwork.readers import json_text
 from packwork.readers.layouts import assembly, dxf_tags
 from packwork.readers.layouts import geojson as saved
 from packwork.readers.layouts.read import read_written
+from packwork.scene.item import FlatArt, VectorArt
 
 WALL = '<g id="container" display="none"><path d="M0 0h9v9h-9z"/></g>'
 TILES = (
@@ -110,3 +112,58 @@ def test_a_dxf_of_millions_of_lines_is_refused(
     monkeypatch.setattr(dxf_tags, "MOST_LINES", 40)
     with pytest.raises(ReadError, match="has more than 40 lines"):
         read_written(file)
+
+
+@pytest.mark.parametrize(
+    ("paint", "art"),
+    [
+        ('fill="#ff0000"', FlatArt),
+        ('style="fill:#ff0000"', FlatArt),
+        ('fill="[1"', VectorArt),
+        ('fill="none"', VectorArt),
+        ('fill="#ff0000" stroke="blue"', VectorArt),
+    ],
+)
+def test_copies_of_one_path_in_paints_of_all_kinds(
+    tmp_path: Path, paint: str, art: type[FlatArt | VectorArt]
+) -> None:
+    defined = '<defs><path id="s" d="M0 0h2v2h-2z"/></defs>'
+    copies = '<use href="#s" fill="teal"/>' + f'<use href="#s" {paint} transform="translate(4)"/>'
+    items = f'{defined}{WALL}<g id="items" data-gap="0">{copies}</g>'
+    found = read_written(_svg(tmp_path, items))
+    assert isinstance(found.items[0].art, FlatArt)
+    assert isinstance(found.items[1].art, art)
+
+
+def test_mirrored_and_skewed_items_lie_where_they_are_seen(tmp_path: Path) -> None:
+    shape = 'd="M0 0h3v1h-2v1h-1z"'
+    bent = "".join(
+        f'<path {shape} transform="{how}"/>'
+        for how in ("matrix(-1 0 0 1 4 1)", "matrix(1 0 .5 1 4 4)", "rotate(30 5 5)")
+    )
+    found = read_written(_svg(tmp_path, f'{WALL}<g id="items" data-gap="0">{bent}</g>'))
+    assert found.outlines[0].bounds == pytest.approx((1, 1, 4, 3))
+    assert found.outlines[1].bounds == pytest.approx((4, 4, 7.5, 6))
+    assert found.poses.angle[:2].tolist() == [0.0, 0.0]
+    assert np.degrees(found.poses.angle[2]) == pytest.approx(30)
+    assert [item.outline.area for item in found.items] == pytest.approx([4.0] * 3)
+
+
+@pytest.mark.parametrize(
+    ("inside", "said"),
+    [
+        ('<g id="labels"><path d="M0 0&quot;" fill="red"/></g>', "a label that is no path"),
+        ('<g id="halos"><path d="M1 1h2v2h-2z" fill="url(#a)"/></g>', "a halo of the colour"),
+    ],
+)
+def test_what_would_be_written_as_it_is_must_be_as_we_write_it(
+    tmp_path: Path, inside: str, said: str
+) -> None:
+    with pytest.raises(ReadError, match=said):
+        read_written(_svg(tmp_path, f'{WALL}<g id="items" data-gap="0">{TILES}</g>{inside}'))
+
+
+@pytest.mark.parametrize("limit", ['data-words="[1"', 'data-words="7"', 'data-size-ratio="much"'])
+def test_limits_in_another_form_are_refused_in_a_line(tmp_path: Path, limit: str) -> None:
+    with pytest.raises(ReadError, match="in another form than ours"):
+        read_written(_svg(tmp_path, f"{WALL}<g id='items' {limit}>{TILES}</g>"))

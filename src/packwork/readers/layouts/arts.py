@@ -201,7 +201,7 @@ class Arts:
             seen = outline
         others = {k for k in source.attrib if not k.startswith("data-")}
         is_text = tag(source) == "g" and any(tag(child) == "text" for child in source)
-        if tag(source) == "path" and others <= _PLAIN and _is_filled(drawn, source):
+        if _is_flat(drawn, source):
             flat = outline_of_path(source.get("d", ""), ink)
             same = flat is not None and np.allclose(matrix, affine.identity(), rtol=0, atol=0)
             return _Drawing(outline, flat if same and flat is not None else seen, None)
@@ -263,8 +263,8 @@ def _renamed(text: str, count: int) -> str:
 
 def _look(source: ET.Element, drawn: ET.Element) -> str:
     """Paint that a stranger's element adds to a drawing; empty for ours."""
-    if tag(source) == "path" and source.attrib.keys() <= _PLAIN | {"data-bays", "data-outline"}:
-        return ""
+    if _is_flat(drawn, source):
+        return "flat"
     own = {k: v for k, v in drawn.attrib.items() if k not in _NOT_DRAWN and k[:5] != "data-"}
     return repr(sorted(own.items())) if source is not drawn else str(own.get("style", ""))
 
@@ -277,8 +277,10 @@ def _paint(drawn: ET.Element, source: ET.Element) -> Mapping[str, str]:
     return found
 
 
-def _is_filled(drawn: ET.Element, source: ET.Element) -> bool:
-    """True for an element that is filled with one colour, and no more."""
+def _is_flat(drawn: ET.Element, source: ET.Element) -> bool:
+    """True for a path that is filled with one colour, and no more."""
+    if tag(source) != "path" or {k for k in source.attrib if k[:5] != "data-"} - _PLAIN:
+        return False
     said = {part.partition(":")[0].strip() for one in (drawn, source)
             for part in one.get("style", "").split(";") if part.strip()}  # fmt: skip
     own = {k for k in drawn.attrib if not k.startswith("data-")} - _PLAIN - {LINK, "href"}
