@@ -145,7 +145,8 @@ def files_outside(options: Mapping[str, Any], folders: Iterable[Path]) -> list[s
     ['/']
     """
     homes = [folder.resolve() for folder in folders]
-    there = [Path(name) for name in named_files(options) if name and _is_there(Path(name))]
+    named = dict.fromkeys(named_files(options))
+    there = [Path(name) for name in named if name and _is_there(Path(name))]
     found = [path for path in there if not any(path.resolve().is_relative_to(h) for h in homes)]
     return list(dict.fromkeys(map(str, found)))
 
@@ -236,7 +237,7 @@ def _within(text: str, rename: Rename) -> str:
     """A force or an emitter, its drawn curve or region renamed."""
     words = split_words(text)
     renamed = [
-        rename(word) if _is_curve(word) or words[:k] == ["in"] else word
+        rename(word) if _is_curve(word) or (k == 1 and words[0] == "in") else word
         for k, word in enumerate(words)
     ]
     return text if renamed == words else " ".join(map(_quoted, renamed))

@@ -39,6 +39,9 @@ PALETTES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 )  # fmt: skip
 """Palettes by name; most can be told apart by readers who are colour blind."""
 
+LONGEST = 20_000
+"""Characters of a palette at most: to part the colours takes time by their square. Chosen."""
+
 _COMMA = re.compile(r",(?![^(]*\))")
 """Between two colours, not between the channels of one."""
 
@@ -62,10 +65,16 @@ def palette_colours(value: object) -> tuple[str, ...]:
         return tuple((colours_by_name(value) or {}).values())
     if isinstance(value, str):
         named = PALETTES.get(value.strip().lower())
-        return named or tuple(_colour(part) for part in _COMMA.split(value))
+        return named or tuple(_colour(part) for part in _parts_of(value))
     if isinstance(value, list | tuple) and value and all(isinstance(c, str) for c in value):
         return tuple(_colour(part) for part in value)
     raise ValueError(f"use colours such as '#e63946,teal' or a palette's name, not {value!r}")
+
+
+def _parts_of(text: str) -> list[str]:
+    if len(text) > LONGEST:
+        raise ValueError(f"takes {LONGEST:,} characters at most, not {len(text):,}")
+    return _COMMA.split(text)
 
 
 def colours_by_name(value: object) -> dict[str, str] | None:
@@ -82,7 +91,7 @@ def colours_by_name(value: object) -> dict[str, str] | None:
     ({'bear': '#ff6347', 'fox': '#0000ff'}, None)
     """
     if isinstance(value, str) and "=" in value:
-        parts = [part.rpartition("=") for part in _COMMA.split(value)]
+        parts = [part.rpartition("=") for part in _parts_of(value)]
         value = {name.strip(): colour for name, _, colour in parts}
     if not isinstance(value, Mapping):
         return None

@@ -25,7 +25,7 @@ SHORTEST, LONGEST = 1e-6, 1e2
 
 Number: TypeAlias = Annotated[float, Field(allow_inf_nan=False)]
 
-ItemId: TypeAlias = Annotated[int, Field(ge=0)]
+ItemId: TypeAlias = Annotated[int, Field(ge=0, le=2**53)]
 """Number by which an item is called, :attr:`Document.ids`."""
 
 ItemIds: TypeAlias = Annotated[tuple[ItemId, ...], Field(min_length=1)]
