@@ -28,7 +28,7 @@ from benchmarks.kit.measuring import markdown_table
 from packwork import pipeline, uses, writers
 from packwork.arrays import FloatArray, IntArray
 from packwork.raster.coverage import coverage
-from packwork.readers.pictures.target import read_target
+from packwork.readers.target import read_target
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.layout import Layout

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,7 @@ import packwork as pw
 from packwork.errors import ReadError, RecipeError
 from packwork.pipeline.dress.likeness import best_ground
 from packwork.readers.builtin import builtin_container
-from packwork.readers.pictures.target import read_target
+from packwork.readers.target import read_target
 from packwork.recipe import make_recipe
 from packwork.scene.light import channels_of
 from packwork.scene.swatch import mean_lights
@@ -271,3 +272,26 @@ def test_a_session_keeps_the_ground(halves: str) -> None:
     assert layout.ground == "#fffff0"
     with layout.edit() as session:
         assert session.layout.ground == layout.ground
+
+
+@pytest.mark.parametrize("ending", [".svg", ".svgz", ".xml"])
+def test_a_drawing_may_be_the_picture(halves: str, ending: str, tmp_path: Path) -> None:
+    text = (
+        b'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 80 60">'
+        b'<path d="M10 10h30v40h-30z" fill="#c81e1e"/><path d="M40 10h30v40h-30z" fill="#1e1ec8"/>'
+        b"</svg>"
+    )
+    file = tmp_path / f"logo{ending}"
+    file.write_bytes(gzip.compress(text) if ending == ".svgz" else text)
+    square = builtin_container("square")
+    drawn, painted = (read_target(path, square).light for path in (file, halves))
+    assert np.abs(drawn - painted).max(axis=2).mean() < 0.01
+    layout = pw.fill("square", ["star", "owl"], count=24, picture=str(file), **QUICK)
+    left, right = _sides(layout)
+    assert left.min() > 0 > right.max()
+
+
+def test_a_broken_drawing_is_one_line(tmp_path: Path) -> None:
+    (tmp_path / "cut.svg").write_text("<svg", encoding="utf-8")
+    with pytest.raises(ReadError, match=r"cut\.svg: "):
+        pw.fill("square", "star", count=4, picture=str(tmp_path / "cut.svg"), **QUICK)

@@ -7,7 +7,7 @@ from packwork.live.commands.items import Recolour
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.pipeline.dress.likeness import colours_under
-from packwork.readers.pictures.target import read_target
+from packwork.readers.target import read_target
 from packwork.scene.item import PhotoArt
 
 

@@ -235,7 +235,7 @@ def _target(recipe: Recipe, container: Container) -> TargetPicture | None:
     if container.backdrop is not None:
         raise RecipeError("picture", "has no meaning round a picture, which is seen behind all")
     # Only what is asked for loads the picture library.
-    from packwork.readers.pictures.target import read_target
+    from packwork.readers.target import read_target
 
     return read_target(recipe.picture, container)
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.raster.coverage import coverage
-from packwork.readers.pictures.target import read_target
+from packwork.readers.target import read_target
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.contrast import oklabs_of_light

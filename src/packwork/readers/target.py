@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import cast
 
 import numpy as np
 from PIL import Image
 
 from packwork.arrays import FloatArray
 from packwork.errors import ReadError
-from packwork.readers.files import read_bytes
+from packwork.raster.drawing import drawn_png
+from packwork.readers.files import read_bytes, stem
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
+from packwork.readers.svg.item import item_of_svg
 from packwork.readers.unfit import naming
 from packwork.scene.container import Container
+from packwork.scene.item import VectorArt
 from packwork.scene.light import light_of
+from packwork.scene.notation import matrix_text
 from packwork.scene.target import TargetPicture
 
 LONGEST_PX = 320
@@ -26,14 +31,19 @@ DECODED_PX = 1_600
 PLAIN = 0.005
 """Standard deviation of light below which a picture shows nothing. Chosen."""
 
+DRAWINGS = (".svg", ".svgz")
+
 SOLID = 128
 """Opacity of 255 from which a cut-out's pixel is a part of it."""
+
+_BLANK = b"\xef\xbb\xbf \t\r\n"
+_SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 
 
 def read_target(source: str | Path, container: Container) -> TargetPicture:
     """Picture of a file, laid so that it covers the container's box, on white where it is clear.
 
-    Of a cut-out that is what is seen of it, so that a container made of it lies on it.
+    Of a cut-out or an SVG that is what is seen of it, so that a container made of it lies on it.
 
     Raises
     ------
@@ -41,6 +51,8 @@ def read_target(source: str | Path, container: Container) -> TargetPicture:
         If it cannot be read, is clear, or has one colour only.
     """
     data = read_bytes(source, MAX_PICTURE_BYTES)
+    if Path(source).suffix.lower() in DRAWINGS or data.lstrip(_BLANK)[:1] == b"<":
+        data = _painted(data, str(source))
     with naming(str(source)):
         pixels = decode_picture(data, DECODED_PX).pixels
     if not (pixels[..., 3] >= SOLID).any():
@@ -52,6 +64,24 @@ def read_target(source: str | Path, container: Container) -> TargetPicture:
     if target.spread < PLAIN:
         raise ReadError(source, "has one colour only; a layout cannot show it: use --palette")
     return target
+
+
+def _painted(data: bytes, source: str) -> bytes:
+    """PNG of what an SVG's bytes draw, without its page."""
+    item = item_of_svg(data, stem(source), source)
+    left, top, right, bottom = item.ink.bounds
+    px = max(right - left, bottom - top) / DECODED_PX
+    size = [max(round((right - left) / px), 1), max(round((bottom - top) / px), 1)]
+    art = cast("VectorArt", item.art)
+    document = (
+        f'<svg {_SPACES} width="{size[0]}" height="{size[1]}" preserveAspectRatio="none"'
+        f' viewBox="{left!r} {top!r} {right - left!r} {bottom - top!r}">'
+        f'<g transform="{matrix_text(art.matrix)}">{art.markup}</g></svg>'
+    )
+    try:
+        return drawn_png(document)
+    except ValueError as error:
+        raise ReadError(source, f"cannot be drawn: {error}") from None
 
 
 def _seen(pixels: Pixels) -> Pixels:
