@@ -49,6 +49,17 @@ _GENERIC = {
     "sans-serif": ("Arial", "Helvetica", "Liberation Sans", "DejaVu Sans", "Noto Sans"),
     "monospace": ("Courier New", "Menlo", "Liberation Mono", "DejaVu Sans Mono", "Noto Sans Mono"),
 }
+_ALIKE = {
+    "monospace": re.compile("courier|consolas|menlo|monaco|lucida console|inconsolata|.*\\bmono"),
+    "sans-serif": re.compile(
+        "arial|helvetica|verdana|tahoma|trebuchet|calibri|segoe|roboto|lato|montserrat|futura|impact"
+        "|myriad|univers|frutiger|lucida grande|geneva|candara|corbel|swiss|poppins|raleway|ubuntu"
+        r"|cantarell|oswald|.*\b(sans|gothic|grotesk)\b"
+    ),
+}
+"""Families that are like a generic one, of which the letters of others are taken where they are not
+there: as fontconfig's aliases and stylesheets have it, whose lists name the generic one last."""
+
 _OTHER_GENERIC = frozenset(
     {"cursive", "fantasy", "system-ui", "ui-serif", "ui-sans-serif", "ui-monospace", "inherit"}
 )
@@ -64,7 +75,7 @@ class FontChoice:
         Font files to choose from.
     serif, sans_serif, monospace
         Families that the generic names stand for; ``serif`` also stands in for a family
-        that is not there.
+        that is not there and like no other.
     """
 
     files: tuple[str, ...]
@@ -126,6 +137,23 @@ def fonts_for(wishes: Iterable[str], letters: str) -> FontChoice:
         sans_serif=generic["sans-serif"],
         monospace=generic["monospace"],
     )
+
+
+def with_stand_ins(document: str) -> str:
+    """A document, families that are not there replaced by those that stand in for them.
+
+    Examples
+    --------
+    >>> with_stand_ins("<text font-family='Inter Display, Arial'>a</text>")
+    "<text font-family='Inter Display, Arial'>a</text>"
+    """
+
+    def named(wish: re.Match[str]) -> str:
+        names = family_names(html.unescape(wish[1][1:-1]))
+        is_there = any(name.lower() in installed_families() or _is_generic(name) for name in names)
+        return wish[0] if is_there or not names else f'font-family="{_stand_in(names)}"'
+
+    return _WISH.sub(named, document) if "<text" in document else document
 
 
 def replaced_families(wishes: Iterable[str]) -> dict[str, str]:
@@ -197,9 +225,14 @@ def _stand_in(names: Sequence[str]) -> str:
     """Family that a list of wishes comes to."""
     installed = installed_families()
     known = (name for name in names if name.lower() in installed or _is_generic(name))
-    found = next(known, "serif")
+    found = next(known, None) or next(filter(None, map(_like, names)), "serif")
     generic = _GENERIC.get(found.lower())
     return found if generic is None else _first(generic, installed)
+
+
+def _like(name: str) -> str | None:
+    """Generic family that one which is not there is like; None where that is not known."""
+    return next((kind for kind, names in _ALIKE.items() if names.match(name.lower())), None)
 
 
 def _is_generic(name: str) -> bool:

@@ -12,7 +12,7 @@ import subprocess
 import sys
 from typing import Any
 
-from packwork.fonts import FontChoice, fonts_of
+from packwork.fonts import FontChoice, fonts_of, with_stand_ins
 from packwork.offspring import END_WITH_PARENT
 
 _DPI = 96
@@ -61,6 +61,7 @@ def drawn_png(document: str) -> bytes:
     """
     # Fonts are looked up only where text is drawn: that takes longer than the rest.
     fonts = fonts_of(document)
+    document = with_stand_ins(document)
     options = {"svg_string": document, "dpi": _DPI, "skip_system_fonts": True}
     options |= font_options(fonts) if fonts else {}
     is_long = len(document) >= LONG and bool(sys.executable)

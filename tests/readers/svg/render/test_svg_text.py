@@ -194,3 +194,23 @@ def test_broken_fonts_are_passed_over(tmp_path, data):
     file = tmp_path / "a.ttf"
     file.write_bytes(data)
     assert fonts.family_of(str(file)) == set()
+
+
+@pytest.mark.parametrize(
+    ("wished", "generic"),
+    [
+        ("helvetica", "sans_serif"),
+        ("Arial Black", "sans_serif"),
+        ("'No Such Sans'", "sans_serif"),
+        ("Gill Nowhere, Courier", "monospace"),
+        ("'Helvetica Neue', serif", "serif"),
+        ("Gill Nowhere", "serif"),
+    ],
+)
+def test_a_font_of_the_same_kind_stands_in(monkeypatch, wished: str, generic: str) -> None:
+    known = dict.fromkeys(("dejavu sans", "dejavu serif", "dejavu sans mono"), ("f",))
+    monkeypatch.setattr(fonts, "installed_families", lambda: known)
+    there = getattr(fonts.fonts_for([], "a"), generic)
+    assert set(fonts.replaced_families([wished]).values()) == {there}
+    drawn = fonts.with_stand_ins(f'<svg><text font-family="{wished}">a</text></svg>')
+    assert there in drawn or generic in drawn
