@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import contextlib
-import math
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
 import typer
 
 from packwork.cli import options as shared
+from packwork.cli.edits import about, added, planned, read_drawings
 from packwork.cli.failure import SHORTFALL, clear_errors
 from packwork.cli.terminal import printable, say
 from packwork.errors import RecipeError
@@ -20,20 +19,9 @@ from packwork.recipe import Recipe
 from packwork.writers.options import GONE_ON_WITH
 
 if TYPE_CHECKING:
-    from packwork.live.document import Property
     from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
-    from packwork.scene.item import Item
     from packwork.scene.layout import Layout
-
-_FORMS = {
-    "remove": "ITEM", "hold": "ITEM or ITEM=place,angle,size", "replace": "ITEM=FILE",
-    "recolor": "ITEM=COLOR", "exchange": "ITEM=ITEM",
-    "turn": "ITEM=DEGREES", "scale": "ITEM=FACTOR", "move": "ITEM=X,Y such as owl=50%,120",
-}  # fmt: skip
-
-_OF_MANY = frozenset({"remove", "hold", "recolor"})
-"""Edits of all items of a name."""
 
 _HELP = {
     **{option.name: option.help for option in offered(Recipe)},
@@ -165,7 +153,7 @@ def edit(
             "turn": turn, "scale": scale, "move": move, "hold": hold,
         }  # fmt: skip
         # Names mean what they meant in the file, whatever is taken away before.
-        edits = [_planned(session, flag, spec) for flag, specs in asked.items() for spec in specs]
+        edits = [planned(session, flag, spec) for flag, specs in asked.items() for spec in specs]
         if container is not None:
             session.fill_container(read_container(container, session.canvas))
         asked_of_all = {"padding": padding, "sizes": sizes, "rotate": rotate, "force": tuple(force)}
@@ -173,8 +161,8 @@ def edit(
         for make in edits:
             make()
         for spec in add:
-            with _about("add"):
-                _added(session, spec)
+            with about("add"):
+                added(session, spec)
         if words is not None:
             session.set_words(words)
         if count is not None:
@@ -232,7 +220,7 @@ def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
         found = read_written(path)
         not_kept = found.manifest.get("not_kept", ()) if is_drawn(path) else ()
         if items:
-            found = drawn_by(found, _read(items))
+            found = drawn_by(found, read_drawings(items))
         elif not is_drawn(path):
             found, not_kept = with_drawings(found, path.parent)
         for line in not_kept:
@@ -310,95 +298,3 @@ def _drawing_of(layout: Layout) -> dict[str, Any]:
     found = layout.manifest.get("drawing")
     known = found if isinstance(found, Mapping) else {}
     return {key: known[key] for key in GONE_ON_WITH if key in known}
-
-
-def _planned(session: NamedSession, flag: str, spec: str) -> Callable[[], None]:
-    """What one option asks for, of items that are there now."""
-    which, sign, value = _parted(session, spec)
-    if flag not in {"remove", "hold"} and not (sign and which and value):
-        raise RecipeError(flag, f"must be {_FORMS[flag]}, not {spec[:60]!r}")
-    if sign and (flag == "remove" or not value):
-        raise RecipeError(flag, f"must be {_FORMS[flag]}, not {spec[:60]!r}")
-    with _about(flag):
-        numbers = session.find(which) if flag in _OF_MANY else (session.one(which),)
-        others = (session.one(value),) if flag == "exchange" else ()
-
-    def make() -> None:
-        with _about(flag):
-            _made(session, flag, numbers, value, others)
-
-    return make
-
-
-def _parted(session: NamedSession, spec: str) -> tuple[str, str, str]:
-    """An item's name, ``=`` and what is asked of it; names may hold such signs too."""
-    names = {item.name for item in session.document.items}
-    ends = [k for k, letter in enumerate(spec) if letter == "="]
-    for end in (len(spec), *reversed(ends)):
-        which = spec[:end].strip()
-        if re.sub("#[0-9]+$", "", which) in names:
-            return which, spec[end : end + 1], spec[end + 1 :].strip()
-    which, sign, value = spec.partition("=")
-    return which.strip(), sign, value.strip()
-
-
-def _made(
-    session: NamedSession, flag: str, items: tuple[int, ...], value: str, others: tuple[int, ...]
-) -> None:
-    """Make one edit, of one item but where several go."""
-    item = items[0]
-    if flag == "move":
-        x, comma, y = value.partition(",")
-        if not comma:
-            raise RecipeError(flag, f"must be {_FORMS[flag]}, not {value[:40]!r}")
-        session.move(item, x, y)
-    elif flag == "hold":
-        ends = [end.strip() for end in value.split(",") if end]
-        session.hold(items, *cast("list[Property]", ends))
-    elif flag == "exchange":
-        session.exchange(item, *others)
-    elif flag == "remove":
-        session.remove(items)
-    elif flag in {"turn", "scale"}:
-        getattr(session, flag)(item, _number(flag, value))
-    elif flag == "replace":
-        found = _read([value])
-        if len(found) != 1:
-            raise RecipeError(flag, f"takes one item, not {len(found)}")
-        session.replace_by(item, found[0])
-    else:
-        session.recolor(items, value)
-
-
-def _number(flag: str, text: str) -> float:
-    try:
-        number = float(text)
-    except ValueError:
-        number = math.nan
-    if not math.isfinite(number):
-        raise RecipeError(flag, f"must be a number, not {text[:40]!r}")
-    return number
-
-
-def _added(session: NamedSession, spec: str) -> None:
-    source, sign, place = spec.rpartition("@")
-    x, comma, y = place.partition(",")
-    if sign and source and comma and not Path(spec).exists():
-        session.add_items(_read([source]), x, y)
-    else:
-        session.add_items(_read([spec]))
-
-
-def _read(sources: Specs) -> Sequence[Item]:
-    from packwork.readers.items import read_items
-
-    return read_items(sources).items
-
-
-@contextlib.contextmanager
-def _about(flag: str) -> Iterator[None]:
-    """Have errors be about the flag that people have typed."""
-    try:
-        yield
-    except RecipeError as error:
-        raise RecipeError(flag, error.problem) from error
