@@ -77,11 +77,13 @@ def test_names_without_a_meaning_are_refused(options: Any, said: str) -> None:
         chart(ROWS, **options)
 
 
-def test_names_are_for_charts_alone(caplog: pytest.LogCaptureFixture) -> None:
-    with pytest.raises(pw.RecipeError, match=r"palette: gives colours to names.*of a chart"):
+def test_names_are_for_columns_alone(caplog: pytest.LogCaptureFixture) -> None:
+    said = "palette: gives colours to names, which the values of a column"
+    for options in ({}, {"color_by": "weight"}):
+        with pytest.raises(pw.RecipeError, match=said):
+            pw.words("circle", {"star": 1}, palette="star=red", **options)
+    with pytest.raises(pw.RecipeError, match=said):
         pw.fill("circle", "star", count=2, palette={"star": "red"})
-    with pytest.raises(pw.RecipeError, match=r"palette: gives colours to names.*of a chart"):
-        pw.words("circle", {"star": 1}, palette="star=red")
     chart(ROWS, palette={"fig": "red", "plum": "blue"})
     assert "palette gives a colour to 'plum'; kind has apple, fig" in caplog.text
 

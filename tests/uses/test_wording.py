@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections import Counter
 from importlib import resources
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,7 @@ from made_fonts import EMOJI, STRIKE_PX, emoji_font
 from packwork.readers.layouts.read import read_written
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
-from packwork.scene.contrast import contrast
+from packwork.scene.contrast import contrast, oklab
 from packwork.uses import fill, words_recipe
 from packwork.uses.words.cast import BOX_OVER_INK
 from packwork.writers.recipe import recipe_bytes
@@ -84,6 +85,37 @@ def test_colours_by_a_column_are_alike_for_alike_values(tmp_path: Path) -> None:
     assert fills(layout) == ["#000080", "#000080", "#800000"]
     with pytest.raises(pw.RecipeError, match=r"no column 'sort' .* there are kind"):
         pw.words("circle", table, color_by="sort", **QUICK)
+
+
+def test_values_of_a_column_keep_their_colours_whichever_words_are_set(tmp_path: Path) -> None:
+    table = tmp_path / "t.csv"
+    rows = ["bear,5,mammal", "owl,4,bird", "carp,3,fish", "fox,2,mammal", "ant,1,insect"]
+    table.write_text("word,weight,kind\n" + "\n".join(rows), encoding="utf-8")
+    found = [
+        dict(zip([item.name for item in layout.items], fills(layout), strict=True))
+        for layout in (
+            pw.words("circle", table, color_by="kind", count=count, **QUICK) for count in (5, 2)
+        )
+    ]
+    assert found[1] == {name: found[0][name] for name in ("bear", "owl")}
+    assert found[0]["bear"] == found[0]["fox"]
+    assert len(set(found[0].values())) == 4
+    # Unlike ones: no two steps of a ramp.
+    pairs = combinations(set(found[0].values()), 2)
+    assert min(np.linalg.norm(oklab(a) - oklab(b)) for a, b in pairs) > 0.1
+
+
+def test_values_of_a_column_are_given_colours_by_name(tmp_path: Path) -> None:
+    table = tmp_path / "t.csv"
+    table.write_text("word,weight,kind\nbear,2,a\nfox,1,b\nfir,1,c\n", encoding="utf-8")
+    own: dict[str, Any] = {"color_by": "kind", "palette": {"a": "navy", "C": "maroon"}}
+    layout = pw.words("circle", table, **own, **QUICK)
+    navy, other, maroon = fills(layout)
+    assert (navy, maroon) == ("#000080", "#800000")
+    assert other not in {navy, maroon}
+    assert fills(pw.run(layout.manifest["recipe"])) == [navy, other, maroon]
+    with pytest.raises(pw.RecipeError, match="palette: gives a colour to 'd'; kind has a, b, c"):
+        pw.words("circle", table, color_by="kind", palette="d=red", **QUICK)
 
 
 def test_colours_from_a_picture_are_those_under_the_words(tmp_path: Path) -> None:

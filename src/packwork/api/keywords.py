@@ -272,8 +272,8 @@ class _FillWordsChartPile(TypedDict, total=False):
 
     palette: str | Sequence[str] | Mapping[str, str] | None
     """New colours for items, neighbours unlike: #e63946,#457b9d or okabe-ito, tol-bright,
-    tol-vibrant, tol-muted, tol-high-contrast; of a chart's categories also by name, as
-    bear=red,fox=#457b9d. Photographs keep theirs."""
+    tol-vibrant, tol-muted, tol-high-contrast; of the values of a column (--color-by) also by name,
+    as bear=red,fox=#457b9d. Photographs keep theirs."""
 
     holes: Literal["fill", "keep"]
     """keep: the holes of items stay free, so that small items may sit in them. Default: 'fill'."""

@@ -71,12 +71,12 @@ def known_palette(value: object) -> object:
 
 
 def check_no_names(palette: object) -> None:
-    """Refuse a palette that gives colours to names, which only categories of a chart have."""
+    """Refuse a palette that gives colours to names, which only the values of a column have."""
     if isinstance(palette, Mapping):
         raise RecipeError(
             "palette",
-            "gives colours to names, which categories of a chart have (--color-by); give a list, "
-            "as red,#457b9d",
+            "gives colours to names, which the values of a column have (--color-by COL of charts "
+            "and words); give a list, as red,#457b9d",
         )
 
 

@@ -170,8 +170,8 @@ class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
         Offer(verbs=Verbs.EVERY & ~Verbs.PHOTOS),
     ] = None
     """New colours for items, neighbours unlike: #e63946,#457b9d or okabe-ito, tol-bright,
-    tol-vibrant, tol-muted, tol-high-contrast; of a chart's categories also by name, as
-    bear=red,fox=#457b9d. Photographs keep theirs."""
+    tol-vibrant, tol-muted, tol-high-contrast; of the values of a column (--color-by) also by
+    name, as bear=red,fox=#457b9d. Photographs keep theirs."""
 
     apart: Annotated[bool, Offer(verbs=Verbs.FILL | Verbs.PHOTOS)] = False
     """Keep copies of one item from lying side by side, as far as that goes."""
@@ -289,7 +289,8 @@ class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
 
     @model_validator(mode="after")
     def _colours_have_names(self) -> Recipe:
-        if self.chart is None:
+        by = None if self.words is None else self.words.color_by
+        if self.chart is None and (not isinstance(by, str) or by == "weight"):
             check_no_names(self.palette)
         return self
 

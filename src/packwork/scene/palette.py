@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import difflib
+import logging
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
+from packwork.errors import RecipeError
+from packwork.phrasing import enumerated
 from packwork.scene.colour import css_colour
 
 PALETTES: Mapping[str, tuple[str, ...]] = MappingProxyType(
@@ -41,6 +44,11 @@ PALETTES: Mapping[str, tuple[str, ...]] = MappingProxyType(
 
 LONGEST = 20_000
 """Characters of a palette at most: to part the colours takes time by their square. Chosen."""
+
+MOST_TOLD = 6
+"""Values that a message names. Chosen."""
+
+_LOG = logging.getLogger("packwork")
 
 _COMMA = re.compile(r",(?![^(]*\))")
 """Between two colours, not between the channels of one."""
@@ -98,6 +106,31 @@ def colours_by_name(value: object) -> dict[str, str] | None:
     if not value or not all(name and isinstance(colour, str) for name, colour in value.items()):
         raise ValueError(f"give each name its colour, as bear=red,fox=#457b9d, not {value!r:.60}")
     return {str(name): _colour(colour) for name, colour in value.items()}
+
+
+def own_colours(palette: object) -> dict[str, str]:
+    """Colours that a palette gives by name, in small letters; none if it is a list."""
+    named = colours_by_name(palette) or {}
+    return {name.casefold(): colour for name, colour in named.items()}
+
+
+def check_named(palette: Mapping[str, str], column: str, values: Iterable[str]) -> None:
+    """Tell of names that have a colour and that no value of a column has.
+
+    Raises
+    ------
+    RecipeError
+        If none has.
+    """
+    known = {value.casefold(): value for value in values}
+    vain = [name for name in palette if name.casefold() not in known]
+    if not vain:
+        return
+    told = enumerated([repr(name[:40]) for name in vain])
+    text = f"gives a colour to {told}; {column} has {enumerated(list(known.values()), MOST_TOLD)}"
+    if len(vain) == len(palette):
+        raise RecipeError("palette", text)
+    _LOG.warning("palette %s", text)
 
 
 def _colour(text: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import colorsys
 from collections.abc import Callable
 from functools import lru_cache
+from numbers import Integral
 from random import Random
 from typing import Any, TypeAlias
 
@@ -23,6 +24,32 @@ _SHARES = 257
 
 ColourFunction: TypeAlias = Callable[..., Any]
 """Of word, font_size, position, orientation, font_path and random_state, by name."""
+
+
+Chance: TypeAlias = int | Random | np.random.RandomState | np.random.Generator | None
+"""What random choices may come from."""
+
+
+def random_of(state: Chance) -> Random | None:
+    """The generator itself, or one that begins with a whole number or one of NumPy's.
+
+    Raises
+    ------
+    TypeError
+        If it is nothing of the kind.
+    """
+    if state is None or isinstance(state, Random):
+        return state
+    if isinstance(state, np.random.RandomState):
+        state = state.randint(2**31)
+    elif isinstance(state, np.random.Generator):
+        state = int(state.integers(2**31))
+    if not isinstance(state, Integral):
+        raise TypeError(
+            f"random_state is {type(state).__name__}; give a whole number, a random.Random or a "
+            "generator of NumPy"
+        )
+    return Random(int(state))
 
 
 def random_color_func(*_: Any, random_state: Random | None = None, **__: Any) -> str:

@@ -13,6 +13,7 @@ import numpy.typing as npt
 import shapely
 
 from packwork.arrays import FloatArray
+from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_shares
@@ -159,6 +160,19 @@ def container_of_mask(mask: npt.NDArray[Any] | None, width: int, height: int) ->
         raise no_room from None
     canvas = (0.0, 0.0, float(width), float(height))
     return placed_container("mask", "mask", traced.region, canvas, float(max(width, height)))
+
+
+def enlarged(layout: Layout, scale: float) -> Layout:
+    """The same layout on a canvas ``scale`` times as large."""
+    canvas, poses = layout.container, layout.poses
+    larger = replace(
+        canvas,
+        outline=canvas.outline.mapped(similarity(0.0, 0.0, 0.0, scale)),
+        width=canvas.width * scale,
+        height=canvas.height * scale,
+    )
+    moved = replace(poses, x=poses.x * scale, y=poses.y * scale, scale=poses.scale * scale)
+    return replace(layout, container=larger, poses=moved)
 
 
 def relative_steps(frequencies: Sequence[float], scaling: float) -> FloatArray:

@@ -8,7 +8,6 @@ import os
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import replace
-from numbers import Integral
 from pathlib import Path
 from random import Random
 from typing import Any, Literal, Self
@@ -19,18 +18,19 @@ from PIL import Image, ImageDraw
 
 from packwork import writers
 from packwork.fonts import bundled_file
-from packwork.geometry.affine import similarity
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.words.items import EM_PX
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
 from packwork.wordcloud.colours import (
+    Chance,
     ColourFunction,
     chances,
     colormap_color_func,
     get_single_color_func,
     own_color_func,
     random_color_func,
+    random_of,
     rgba,
 )
 from packwork.wordcloud.picture import FAINT, paint
@@ -38,6 +38,7 @@ from packwork.wordcloud.setting import (
     CloudSettings,
     PlacedWords,
     container_of_mask,
+    enlarged,
     placed,
     relative_steps,
 )
@@ -54,9 +55,6 @@ _LOG = logging.getLogger("packwork")
 
 Entry = tuple[tuple[str, float], int, tuple[int, int], Any, Any]
 """Word and frequency, font size, place (row, column), orientation, colour."""
-
-Chance = int | Random | np.random.RandomState | np.random.Generator | None
-"""What random choices may come from."""
 
 FONT_PATH = os.environ.get("FONT_PATH", bundled_file())
 """Font where none is given."""
@@ -132,7 +130,7 @@ class WordCloud:
         self.color_func = color_func or colormap_color_func(self.colormap)
         self.max_words, self.min_font_size, self.font_step = max_words, min_font_size, font_step
         self.stopwords = STOPWORDS if stopwords is None else stopwords
-        self.random_state = _random(random_state)
+        self.random_state = random_of(random_state)
         self.background_color, self.mode = background_color, mode
         self.max_font_size, self.relative_scaling = max_font_size, relative_scaling
         self.regexp, self.collocations = regexp, collocations
@@ -211,7 +209,7 @@ class WordCloud:
         self._check_generated()
         if color_func is None:
             color_func = self.color_func if colormap is None else colormap_color_func(colormap)
-        random = chances(color_func, _random(random_state))
+        random = chances(color_func, random_of(random_state))
         self.layout_ = [
             (*entry[:4], self._colour(entry[0][0], *entry[1:4], random, color_func))
             for entry in self.layout_
@@ -237,7 +235,7 @@ class WordCloud:
         self._check_generated()
         if Path(filename).suffix.lower() in {".svg", ".pdf", ".dxf", ".geojson"}:
             options = writers.write_options(background=self._css_background())
-            writers.write(self._at_scale(), str(filename), options)
+            writers.write(enlarged(self.layout, float(self.scale)), str(filename), options)
         else:
             write_atomic(str(filename), self._encoded(filename))
         return self
@@ -276,7 +274,10 @@ class WordCloud:
         if not optimize_embedded_font:
             _warn_once("optimize_embedded_font has no effect: only letters in use are embedded")
         text: TextChoice = "live" if embed_font else "outlines"
-        return svg_text(self._at_scale(), SvgOptions(background=self._css_background(), text=text))
+        return svg_text(
+            enlarged(self.layout, float(self.scale)),
+            SvgOptions(background=self._css_background(), text=text),
+        )
 
     def to_html(self) -> str:
         """Not there, as in the other package; ``to_svg`` is."""
@@ -295,19 +296,6 @@ class WordCloud:
             replace(item, name=entry[0][0]) for item, entry in zip(items, self.layout_, strict=True)
         ]
         return replace(layout, items=tuple(named))
-
-    def _at_scale(self) -> Layout:
-        """The layout, ``scale`` times as large."""
-        layout, scale = self.layout, float(self.scale)
-        canvas, poses = layout.container, layout.poses
-        larger = replace(
-            canvas,
-            outline=canvas.outline.mapped(similarity(0.0, 0.0, 0.0, scale)),
-            width=canvas.width * scale,
-            height=canvas.height * scale,
-        )
-        moved = replace(poses, x=poses.x * scale, y=poses.y * scale, scale=poses.scale * scale)
-        return replace(layout, container=larger, poses=moved)
 
     def _repeated(self, shares: list[tuple[str, float]]) -> list[tuple[str, float]]:
         """Words, again and again and each time rarer, in whole rounds to ``max_words`` or more."""
@@ -390,28 +378,6 @@ def _without_traces(image: Image.Image) -> Image.Image:
     alpha = image.getchannel("A").point(lambda value: value if value >= FAINT else 0)
     image.putalpha(alpha)
     return image
-
-
-def _random(state: Chance) -> Random | None:
-    """The generator itself, or one that begins with a whole number or one of NumPy's.
-
-    Raises
-    ------
-    TypeError
-        If it is nothing of the kind.
-    """
-    if state is None or isinstance(state, Random):
-        return state
-    if isinstance(state, np.random.RandomState):
-        state = state.randint(2**31)
-    elif isinstance(state, np.random.Generator):
-        state = int(state.integers(2**31))
-    if not isinstance(state, Integral):
-        raise TypeError(
-            f"random_state is {type(state).__name__}; give a whole number, a random.Random or a "
-            "generator of NumPy"
-        )
-    return Random(int(state))
 
 
 _warned: set[str] = set()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import base64
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import lru_cache
 
 import numpy as np
@@ -78,6 +78,8 @@ class WordsRead:
         ``(n, d)`` of the items, by which of them stand together; None unless asked for.
     order
         Names and texts of all rows of a table, as they stand there; None of a text.
+    values
+        What each column of a table holds, of words that are not set too, by the alphabet.
     """
 
     items: tuple[Item, ...]
@@ -89,6 +91,7 @@ class WordsRead:
     stopped: tuple[str, ...] = ()
     vectors: FloatArray | None = None
     order: tuple[tuple[str, str], ...] | None = None
+    values: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
 
 
 def read_word_items(
@@ -150,7 +153,16 @@ def read_word_items(
         ranked.stopped,
         related(ranked.sentences, words, options.phrases) if is_related else None,
         None if ranked.order is None else tuple(map(_named, ranked.order)),
+        _values(ranked.words),
     )
+
+
+def _values(words: Sequence[Word]) -> dict[str, tuple[str, ...]]:
+    columns = dict.fromkeys(column for word in words for column in word.columns)
+    return {
+        column: tuple(sorted({word.columns.get(column, "") for word in words}))
+        for column in columns
+    }
 
 
 def _named(text: str) -> tuple[str, str]:

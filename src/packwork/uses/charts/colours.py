@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from packwork.errors import RecipeError
-from packwork.phrasing import enumerated, number_of
+from packwork.phrasing import number_of
 from packwork.readers.charts.chart import ChartKeys, ChartRead
-from packwork.readers.charts.columns import MISSING, MOST_NAMED, as_number, is_missing
+from packwork.readers.charts.columns import MISSING, as_number, is_missing
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
-from packwork.scene.palette import palette_colours
+from packwork.scene.palette import check_named, own_colours, palette_colours
 
 CATEGORIES = "okabe-ito"
 """Colours of categories that are given none. Its black goes last: it reads as ink."""
@@ -22,8 +21,6 @@ RAMP = "viridis"
 
 UNKNOWN = "#9aa0a6"
 """Colour of what holds nothing: grey is in no palette of ours."""
-
-_LOG = logging.getLogger("packwork")
 
 LEAST_CONTRAST = 1.3
 """Of a mark and what is behind it, so that its form is seen. Larger darkens yellows until they
@@ -72,7 +69,7 @@ def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
 def _by_category(
     recipe: Recipe, names: Sequence[str], known: ChartKeys, paper: str
 ) -> ChartColours:
-    own = _own_colours(recipe)
+    own = own_colours(recipe.palette)
     there = [name for name in known.names if name in known.order]
     # Of the whole column, so that a value keeps its colour where others are left out.
     for order in (known.names, there):
@@ -95,14 +92,6 @@ def _by_category(
     return ChartColours(tuple(keys[name] for name in names), tuple(keys.items()))
 
 
-def _own_colours(recipe: Recipe) -> dict[str, str]:
-    """Colours that the palette gives by name, in small letters; none if it is a list."""
-    if not isinstance(recipe.palette, Mapping):
-        return {}
-    pairs = zip(recipe.palette, palette_colours(recipe.palette), strict=True)
-    return {name.casefold(): colour for name, colour in pairs}
-
-
 def check_palette(recipe: Recipe, chart: ChartRead) -> None:
     """Refuse a palette that does not fit the data; tell of names that it gives in vain.
 
@@ -112,21 +101,13 @@ def check_palette(recipe: Recipe, chart: ChartRead) -> None:
         If there are too few colours, or they are given to names and the marks have none.
     """
     chart_colours(recipe, chart)
-    known = {name.casefold(): name for name in (*chart.keys.names, *chart.keys.order)}
-    own = recipe.palette if isinstance(recipe.palette, Mapping) else {}
-    vain = [name for name in own if name.casefold() not in known]
-    if not vain:
+    if not isinstance(recipe.palette, Mapping):
         return
-    column = chart.options.color_by
+    known, column = (*chart.keys.names, *chart.keys.order), chart.options.color_by
     if not known:
         why = "its numbers run along a list of colours" if column else "which column's? --color-by"
-        raise RecipeError("palette", f"gives colours to names such as {vain[0][:40]!r}: {why}")
-    text = f"gives a colour to {enumerated([repr(name[:40]) for name in vain])}; " + (
-        f"{column} has {enumerated(list(known.values()), MOST_NAMED)}"
-    )
-    if len(vain) == len(own):
-        raise RecipeError("palette", text)
-    _LOG.warning("palette %s", text)
+        raise RecipeError("palette", f"gives colours to names: {why}")
+    check_named(recipe.palette, column or "", known)
 
 
 def _ramp(recipe: Recipe, chart: ChartRead, column: str) -> ChartColours:

@@ -23,8 +23,9 @@ from packwork.readers.words.word import Word
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout
-from packwork.scene.palette import palette_colours
+from packwork.scene.palette import check_named, own_colours, palette_colours
 from packwork.scene.recolour import has_one_colour
+from packwork.uses.words.recipe import WEIGHT, words_colours
 
 PICTURE_PX = 400
 """Longer side of the image in which a word's colour is looked up. Larger is slower and no
@@ -32,8 +33,6 @@ truer: it is one colour a word. Chosen."""
 
 PAPER = "white"
 """What words are read on where no background is given."""
-
-WEIGHT = "weight"
 
 
 def word_colours(recipe: Recipe, read: WordsRead, layout: Layout) -> list[str | None] | None:
@@ -67,10 +66,10 @@ def word_colours(recipe: Recipe, read: WordsRead, layout: Layout) -> list[str | 
         return _by_weight(words, _palette(recipe))
     if _is_picture(by):
         return _by_picture(words, layout, by, asked)
-    return _by_column(words, by, _palette(recipe))
+    return _by_column(words, asked, recipe.palette, read.values[by])
 
 
-def check_colours(recipe: Recipe, words: Sequence[Word]) -> None:
+def check_colours(recipe: Recipe, words: WordsRead) -> None:
     """Refuse pictures that cannot be read and columns that are not there, before a run.
 
     Raises
@@ -86,12 +85,13 @@ def check_colours(recipe: Recipe, words: Sequence[Word]) -> None:
     if _is_picture(by):
         _covering(by, (1, 1))
         return
-    columns = dict.fromkeys(key for word in words for key in word.columns)
-    if by not in columns:
-        there = ", ".join(columns) or "none but word and weight"
+    if by not in words.values:
+        there = ", ".join(words.values) or "none but word and weight"
         raise RecipeError(
             "color_by", f"there is no column {by[:40]!r} and no such picture; there are {there}"
         )
+    if isinstance(recipe.palette, Mapping):
+        check_named(recipe.palette, by, words.values[by])
 
 
 def _is_picture(by: str) -> bool:
@@ -140,14 +140,19 @@ def _by_function(
     return found
 
 
-def _by_column(words: list[Word | None], column: str, palette: tuple[str, ...]) -> list[str | None]:
-    """One colour for each value of a column, in the order of the palette."""
-    values = [word.columns.get(column, "") if word else None for word in words]
-    numbers: Mapping[str | None, int] = {
-        value: k for k, value in enumerate(sorted({v for v in values if v is not None}))
-    }
-    most = max(len(numbers) - 1, 1)
-    return [None if value is None else _nth(palette, numbers[value], most) for value in values]
+def _by_column(
+    words: list[Word | None], options: WordOptions, asked: object, values: Sequence[str]
+) -> list[str | None]:
+    """One colour for each value that a column has anywhere, in the order of the palette."""
+    column, own = str(options.color_by), own_colours(asked)
+    is_list = asked is not None and not own
+    free = palette_colours(asked) if is_list else words_colours(None, options, "")
+    free = tuple(colour for colour in free if colour not in own.values())
+    others = [value for value in values if value.casefold() not in own]
+    most = max(len(others) - 1, 1)
+    found = {value: _nth(free, k, most) for k, value in enumerate(others)}
+    found |= {value: own[value.casefold()] for value in values if value.casefold() in own}
+    return [None if word is None else found[word.columns.get(column, "")] for word in words]
 
 
 def _nth(palette: tuple[str, ...], number: int, most: int) -> str:

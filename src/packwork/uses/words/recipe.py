@@ -24,6 +24,11 @@ PALETTE = "ink"
 RAMP = "viridis"
 """Colours from small to large, where none are given."""
 
+CATEGORIES = "tol-muted"
+"""Colours of a column's values, where none are given: dark enough for words, and unlike."""
+
+WEIGHT = "weight"
+
 PAPER = "white"
 """What words are read on where no background is given."""
 
@@ -85,8 +90,12 @@ def _plain_source(source: object) -> object:
         ) from None
 
 
-def words_colours(palette: object, asked: WordOptions, container: str) -> tuple[str, ...]:
+def words_colours(
+    palette: object, asked: WordOptions, container: str
+) -> tuple[str, ...] | dict[str, str]:
     """Colours that can be read on the background; a picture is one word by word, later.
+
+    Those of the values of a column may be given by name.
 
     Raises
     ------
@@ -98,14 +107,21 @@ def words_colours(palette: object, asked: WordOptions, container: str) -> tuple[
     >>> words_colours("yellow", WordOptions(source={"bear": 2}), "heart")
     ('#999a1b',)
     """
-    default = PALETTE if asked.color_by is None else RAMP
-    check_no_names(known_palette(palette))
-    try:
-        colours = palette_colours(default if palette is None else palette)
-    except ValueError as error:
-        raise RecipeError("palette", str(error)) from None
-    if container.startswith(AROUND):
-        return tuple(dict.fromkeys(colours))
-    paper = asked.paper or PAPER
+    is_column = has_column(asked)
+    default = PALETTE if asked.color_by is None else CATEGORIES if is_column else RAMP
+    known = known_palette(default if palette is None else palette)
+    if not is_column:
+        check_no_names(known)
+    colours = palette_colours(known)
+    if not container.startswith(AROUND):
+        paper = asked.paper or PAPER
+        colours = tuple(readable(colour, paper, asked.contrast) for colour in colours)
+    if isinstance(known, Mapping):
+        return dict(zip(known, colours, strict=True))
     # A ramp of the same colour again and again would tell nothing: the ends stay unlike.
-    return tuple(dict.fromkeys(readable(colour, paper, asked.contrast) for colour in colours))
+    return tuple(dict.fromkeys(colours))
+
+
+def has_column(asked: WordOptions) -> bool:
+    """Whether a column of the table says colours, or a picture may."""
+    return isinstance(asked.color_by, str) and asked.color_by != WEIGHT

@@ -325,7 +325,7 @@ def read_cloud(
     is_related = recipe.embeddings == FROM_TEXT
     counted = words_counted(asked, room)
     words = read_word_items(counted, recipe.holes, recipe, is_related=is_related)
-    check_colours(recipe, words.words)
+    check_colours(recipe, words)
     named = read_named(recipe, given)
     chosen = cast_words(recipe, words, named.items)
     container = room.of(chosen)
