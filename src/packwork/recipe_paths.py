@@ -40,7 +40,7 @@ _IN_TABLES: Mapping[str, tuple[str, ...]] = {
         "container", "weights", "start", "font", "items", "keep_clear", "filler", "force",
         "picture", "arrange", "embeddings",
     ),
-    "words": ("source", "stopwords", "color_by", "fonts"),
+    "words": ("source", "stopwords", "color_by", "fonts", "container_font"),
     "chart": ("data", "mark"),
     "photos": ("sources", "shape"),
     "pile": ("emit",),

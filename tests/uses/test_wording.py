@@ -16,6 +16,7 @@ from PIL import Image
 
 import packwork as pw
 from made_fonts import EMOJI, STRIKE_PX, emoji_font
+from packwork.errors import RecipeError
 from packwork.readers.layouts.read import read_written
 from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
@@ -260,3 +261,16 @@ def test_words_that_turn_freely_never_stand_upside_down() -> None:
         turns = np.abs(np.angle(np.exp(1j * layout.poses.angle)))
         assert turns.max() <= np.pi / 2 + 1e-9
         assert turns.max() > 0.1
+
+
+def test_a_container_of_words_has_their_font_or_its_own() -> None:
+    def container(**fonts: object) -> str | None:
+        return words_recipe("text:ox", WEIGHTS, **fonts).font
+
+    assert container() is None
+    assert container(fonts=["DejaVu Serif", "DejaVu Sans"]) == "DejaVu Serif"
+    assert container(font="DejaVu Serif", container_font="DejaVu Sans") == "DejaVu Sans"
+    assert container(fonts="DejaVu Serif", font="DejaVu Sans") == "DejaVu Sans"
+    assert words_recipe("circle", WEIGHTS, fonts="DejaVu Serif").font is None
+    with pytest.raises(RecipeError, match="container_font: sets a container of words"):
+        words_recipe("circle", WEIGHTS, container_font="DejaVu Sans")

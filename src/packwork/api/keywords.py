@@ -418,6 +418,10 @@ class WordsKeywords(
     """Font file or installed family; the next ones set what the first cannot. Default: a bundled
     black sans, then whatever is installed and has the letters."""
 
+    container_font: str | Path | None
+    """Font file or installed family of a container text:WORD, where it is another than the words'
+    first."""
+
     font_weight: int
     """Weight of a family or a variable font: 400 is regular, 700 bold. Default: 700."""
 

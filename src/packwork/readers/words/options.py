@@ -33,6 +33,10 @@ MOST_BY_DEFAULT = 100
 _TYPE = Offer(group=Group.TYPE)
 
 
+def _path_text(font: Any) -> Any:
+    return str(font) if isinstance(font, Path) else font
+
+
 class WordOptions(Options):
     """Where words come from and how they are set."""
 
@@ -85,6 +89,12 @@ class WordOptions(Options):
     ] = ()
     """Font file or installed family; the next ones set what the first cannot. Default: a
     bundled black sans, then whatever is installed and has the letters."""
+
+    container_font: Annotated[
+        str | None, BeforeValidator(_path_text), Offer(group=Group.TYPE, takes=str | Path | None)
+    ] = None
+    """Font file or installed family of a container text:WORD, where it is another than the
+    words' first."""
 
     font_weight: Annotated[int, Field(ge=1, le=1_000), _TYPE] = 700
     """Weight of a family or a variable font: 400 is regular, 700 bold."""

@@ -9,6 +9,7 @@ from typing import Any
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.readers.tables.frames import is_frame, rows_of_frame
+from packwork.readers.text import PREFIX
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.pictures import check_no_names, known_palette
@@ -62,8 +63,21 @@ def words_recipe(
     own = {key: options.pop(key) for key in list(options) if key in WordOptions.model_fields}
     asked = _word_options({"source": _plain_source(source), **own})
     chosen = with_defaults(Verbs.WORDS, options)
+    if (font := _container_font(asked, container)) is not None and chosen.get("font") is None:
+        chosen["font"] = font
     chosen["palette"] = words_colours(chosen.get("palette"), asked, container)
     return make_recipe(container=container, items=list(add), words=asked, **chosen)
+
+
+def _container_font(asked: WordOptions, container: str) -> str | None:
+    """Font of a container of words: its own, or else the words' first."""
+    if container.startswith(PREFIX):
+        return asked.container_font or next(iter(asked.fonts), None)
+    if asked.container_font is not None:
+        raise RecipeError(
+            "container_font", f"sets a container of words, as in text:HELLO, not {container!r}"
+        )
+    return None
 
 
 def _word_options(values: Mapping[str, Any]) -> WordOptions:
