@@ -65,7 +65,7 @@ def test_items_and_names_may_be_mixed() -> None:
 
 def test_one_item_needs_no_list(tmp_path: Path) -> None:
     file = tmp_path / "tile.svg"
-    file.write_text('<svg viewBox="0 0 9 9"><rect width="4" height="4"/></svg>')
+    file.write_text('<svg viewBox="0 0 9 9"><rect width="4" height="4"/></svg>', encoding="utf-8")
     for one in ("star", file, flat_item("mine", square(9.0))):
         assert len(pw.fill("circle", one, count=2, **QUICK).items) == 2
 

@@ -74,7 +74,7 @@ def test_a_changed_layout_has_no_certificate(layout: pw.Layout, tmp_path: Path) 
     assert replace(layout, notes=()).manifest["certified"]
     changed = heap(layout)
     changed.save(tmp_path / "heap.geojson")
-    kept = json.loads((tmp_path / "heap.geojson").read_text())["manifest"]
+    kept = json.loads((tmp_path / "heap.geojson").read_text(encoding="utf-8"))["manifest"]
     assert not {"certified", "metrics"} & kept.keys()
     assert not changed.certified
     assert not pw.Layout.load(tmp_path / "heap.geojson").certified

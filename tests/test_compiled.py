@@ -35,8 +35,8 @@ def package(tmp_path: Path) -> Path:
     for folder in (package, package / "called", package / "calling"):
         folder.mkdir()
         (folder / "__init__.py").touch()
-    (package / "calling" / "_kernels.py").write_text(CALLING)
-    (package / "called" / "_kernels.py").write_text(CALLED.format(1))
+    (package / "calling" / "_kernels.py").write_text(CALLING, encoding="utf-8")
+    (package / "called" / "_kernels.py").write_text(CALLED.format(1), encoding="utf-8")
     return package
 
 
@@ -83,7 +83,7 @@ def test_with_a_numba_that_lacks_private_parts_its_own_cache_is_used(package: Pa
 @NEEDS_JIT
 def test_a_kernel_that_was_kept_calls_the_others_as_they_are_now(package: Path) -> None:
     assert call(package)[0] == "1"
-    (package / "called" / "_kernels.py").write_text(CALLED.format(2))
+    (package / "called" / "_kernels.py").write_text(CALLED.format(2), encoding="utf-8")
     assert call(package)[0] == "2"
 
 
@@ -91,7 +91,7 @@ def test_a_kernel_that_was_kept_calls_the_others_as_they_are_now(package: Path) 
 @pytest.mark.parametrize("kind", ["kernel", "shared"])
 def test_a_kernel_that_calls_another_is_kept_beside_it(package: Path, kind: str) -> None:
     called = package / "called" / "_kernels.py"
-    called.write_text(CALLED.replace("helper", kind).format("int(abs(-3))"))
+    called.write_text(CALLED.replace("helper", kind).format("int(abs(-3))"), encoding="utf-8")
     assert call(package)[0] == "3"
     both = kept(package)
     assert len(both) == 2
@@ -108,7 +108,7 @@ def test_a_kernel_that_calls_another_is_kept_beside_it(package: Path, kind: str)
 @NEEDS_JIT
 def test_a_kernel_that_was_kept_is_called_by_one_compiled_later(package: Path) -> None:
     alone = CALLED.replace("helper", "kernel").format("int(abs(-3))")
-    (package / "called" / "_kernels.py").write_text(alone)
+    (package / "called" / "_kernels.py").write_text(alone, encoding="utf-8")
     first = "from somekernels.called._kernels import called; print(called())"
     assert call(package, first)[0] == "3"
     both = f"{first}; {PROGRAM}"
@@ -119,7 +119,7 @@ def test_a_kernel_that_was_kept_is_called_by_one_compiled_later(package: Path) -
 @NEEDS_JIT
 @pytest.mark.parametrize("kind", ["helper", "shared"])
 def test_errors_come_through_what_a_kernel_calls(package: Path, kind: str) -> None:
-    (package / "called" / "_kernels.py").write_text(RAISING.format(kind))
+    (package / "called" / "_kernels.py").write_text(RAISING.format(kind), encoding="utf-8")
     program = PROGRAM.replace(
         "print(calling())", "\ntry: calling()\nexcept ValueError as e: print(e)"
     )
@@ -171,7 +171,7 @@ def test_a_kernel_knows_the_text_of_all_that_it_calls(package: Path) -> None:
     )
     first = call(package, program)[0]
     assert call(package, program)[0] == first
-    (package / "called" / "_kernels.py").write_text(CALLED.format(2))
+    (package / "called" / "_kernels.py").write_text(CALLED.format(2), encoding="utf-8")
     assert call(package, program)[0] != first
 
 
@@ -180,7 +180,8 @@ def test_a_kernel_that_was_kept_brings_no_modules_of_helpers_with_it(package: Pa
     (package / "called" / "_kernels.py").write_text(
         CALLED.replace("@helper\n", "import numpy as np\n\n\n@helper\n").format(
             "np.zeros((2, 3)).sum() + len(np.ones(4).reshape(2, 2))"
-        )
+        ),
+        encoding="utf-8",
     )
     heavy = "numba.np.arrayobj"
     program = f"import sys; {PROGRAM}; print({heavy!r} in sys.modules)"

@@ -14,6 +14,8 @@ from packwork.compiled import called_by, holds_kernels
 
 SOURCE = Path(packwork.__file__).parent
 MODULES = sorted(SOURCE.rglob("*.py"))
+TOP = Path(__file__).parents[1]
+OURS = ("src", "tests", "benchmarks", "tools", "examples")
 LONGEST_FUNCTION = 60
 LONGEST_KERNEL = 80
 LONGEST_FILE = 400
@@ -110,6 +112,29 @@ def test_files_and_functions_stay_short() -> None:
         longest = LONGEST_KERNEL if is_compiled(path) else LONGEST_FUNCTION
         too_long += [(path, name) for name, n in lengths(ast.parse(text)) if n > longest]
     assert not too_long
+
+
+def without_encoding(tree: ast.AST) -> list[int]:
+    """Lines of calls that read or write a file's text as the locale has it."""
+    most = {"read_text": 0, "write_text": 1}
+    return [
+        node.lineno
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Call)
+        and isinstance(node.func, ast.Attribute)
+        and len(node.args) <= most.get(node.func.attr, -1)
+        and "encoding" not in {word.arg for word in node.keywords}
+    ]
+
+
+def test_files_are_utf_8_in_any_locale() -> None:
+    assert without_encoding(ast.parse("a.read_text()\na.write_text(b)\na.read_text('utf-8')")) == [
+        1,
+        2,
+    ]
+    ours = [path for name in OURS for path in (TOP / name).rglob("*.py")]
+    found = {path: without_encoding(parse(path)) for path in ours}
+    assert not {path: lines for path, lines in found.items() if lines}
 
 
 def test_every_public_name_loads() -> None:

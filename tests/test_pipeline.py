@@ -246,8 +246,10 @@ def test_items_that_cannot_fit_are_named(finish: str, reason: str) -> None:
 
 
 def test_skipped_files_are_in_the_run_and_the_manifest(tmp_path: Path) -> None:
-    (tmp_path / "good.svg").write_text('<svg viewBox="0 0 9 9"><rect width="4" height="4"/></svg>')
-    (tmp_path / "bad.svg").write_text("<svg")
+    (tmp_path / "good.svg").write_text(
+        '<svg viewBox="0 0 9 9"><rect width="4" height="4"/></svg>', encoding="utf-8"
+    )
+    (tmp_path / "bad.svg").write_text("<svg", encoding="utf-8")
     met = run(items=[str(tmp_path)])
     assert [item.name for item in met.layout.items] == ["good"]
     assert "bad.svg" in str(met.skipped[0])

@@ -68,7 +68,7 @@ def test_a_folder_is_private_and_gone_when_it_is_closed_or_forgotten(place: Path
         assert made.path.parent == place
         if os.name == "posix":
             assert made.path.stat().st_mode & 0o077 == 0
-        (made.path / "a").write_text("b")
+        (made.path / "a").write_text("b", encoding="utf-8")
     made.close()
     forgotten = TemporaryFolder("some")
     del forgotten
@@ -136,7 +136,7 @@ def children(process: int) -> list[int]:
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             try:
-                parts = (entry / "stat").read_text().rpartition(")")[2].split()
+                parts = (entry / "stat").read_text(encoding="utf-8").rpartition(")")[2].split()
             except OSError:
                 continue
             if parts[0] != "Z":
@@ -159,7 +159,10 @@ def until(is_so: Callable[[], object]) -> None:
 
 def is_running(process: int) -> bool:
     try:
-        return Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+        return (
+            Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[0]
+            != "Z"
+        )
     except OSError:
         return False
 
@@ -187,7 +190,7 @@ def is_running(process: int) -> bool:
 )
 def test_helpers_end_with_a_process_that_is_killed(start: Start, tmp_path: Path, work: str) -> None:
     (tmp_path / "work.py").write_text(
-        f"if __name__ == '__main__':\n    {'    '.join(work.splitlines(True))}"
+        f"if __name__ == '__main__':\n    {'    '.join(work.splitlines(True))}", encoding="utf-8"
     )
     worker = start(str(tmp_path / "work.py"))
     until(lambda: children(worker.pid))
@@ -201,9 +204,11 @@ def test_helpers_end_with_a_process_that_is_killed(start: Start, tmp_path: Path,
 
 @LINUX
 def test_workers_of_a_batch_that_is_killed_end_with_it(start: Start, tmp_path: Path) -> None:
-    (tmp_path / "r.toml").write_text('container = "circle"\nitems = ["star"]\ncount = 300\n')
+    (tmp_path / "r.toml").write_text(
+        'container = "circle"\nitems = ["star"]\ncount = 300\n', encoding="utf-8"
+    )
     names = "\n".join(map(str, range(40)))
-    (tmp_path / "t.csv").write_text(f"name\n{names}\n")
+    (tmp_path / "t.csv").write_text(f"name\n{names}\n", encoding="utf-8")
     batch = start(
         "-m", "packwork", "batch", str(tmp_path / "r.toml"), "--table", str(tmp_path / "t.csv"),
         "-o", str(tmp_path / "out" / "{name}.svg"), "--workers", "2", "-q",

@@ -55,9 +55,11 @@ def masks(files: Sequence[Path], browser: str = "chromium") -> list[Mask]:
     )
     with tempfile.TemporaryDirectory() as folder:
         page, picture = Path(folder, "page.html"), Path(folder, "page.png")
-        page.write_text(f"<!DOCTYPE html><body style='margin:0'>{cells}")
+        page.write_text(f"<!DOCTYPE html><body style='margin:0'>{cells}", encoding="utf-8")
         fonts = Path(folder, "fonts.conf")
-        fonts.write_text(_FONTS.format(resources.files("packwork.bundled") / "fonts", folder))
+        fonts.write_text(
+            _FONTS.format(resources.files("packwork.bundled") / "fonts", folder), encoding="utf-8"
+        )
         options = ["--headless", "--no-sandbox", "--hide-scrollbars", f"--user-data-dir={folder}"]
         options += [f"--screenshot={picture}", "--default-background-color=00000000"]
         options += [f"--force-device-scale-factor={ZOOM}", "--virtual-time-budget=3000"]

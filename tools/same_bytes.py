@@ -216,10 +216,10 @@ def main() -> None:
     os.environ["COLUMNS"] = "100"
     path, names = Path(sys.argv[2]), sys.argv[3:] or list(RUNS)
     adds = sys.argv[1] == "keep" and sys.argv[3:] and path.exists()
-    kept = json.loads(path.read_text()) if sys.argv[1] == "compare" or adds else {}
+    kept = json.loads(path.read_text(encoding="utf-8")) if sys.argv[1] == "compare" or adds else {}
     found = hashes(names)
     if sys.argv[1] == "keep":
-        path.write_text(json.dumps(kept | found, indent=1))
+        path.write_text(json.dumps(kept | found, indent=1), encoding="utf-8")
         return
     unlike = [name for name in names if found[name] != kept.get(name)]
     for name in unlike:

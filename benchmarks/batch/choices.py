@@ -55,11 +55,11 @@ def best_of(home: Path) -> list[Row]:
     for seed in range(8):
         report = home / f"{seed}.json"
         run = made([*line, out, "--seed", str(seed), "--report", str(report), "--threads", "1"])
-        single.append(json.loads(report.read_text())["metrics"]["exact"]["LC"])
+        single.append(json.loads(report.read_text(encoding="utf-8"))["metrics"]["exact"]["LC"])
         alone.append(run.seconds)
     report = home / "best.json"
     best = made([*line, out, "--best-of", "8", "--report", str(report)])
-    found = json.loads(report.read_text())["metrics"]["exact"]["LC"]
+    found = json.loads(report.read_text(encoding="utf-8"))["metrics"]["exact"]["LC"]
     one = float(np.median(alone))
     return [
         [

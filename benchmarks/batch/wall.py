@@ -65,7 +65,7 @@ class Made:
 def wall(folder: Path, rows: int, count: int = 60) -> Path:
     """Recipe ``poster.toml`` and table ``wall.csv`` in a folder; the folder."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "poster.toml").write_text(POSTER % count)
+    (folder / "poster.toml").write_text(POSTER % count, encoding="utf-8")
     with (folder / "wall.csv").open("w", newline="") as stream:
         table = csv.writer(stream)
         table.writerow(["name", "shape", "seed"])
@@ -76,7 +76,7 @@ def wall(folder: Path, rows: int, count: int = 60) -> Path:
 def tiny(folder: Path, rows: int, bad_every: int = 0) -> Path:
     """The same with posters that take no time; every so many rows one that cannot be made."""
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "poster.toml").write_text(TINY)
+    (folder / "poster.toml").write_text(TINY, encoding="utf-8")
     with (folder / "wall.csv").open("w", newline="") as stream:
         table = csv.writer(stream)
         table.writerow(["name", "shape", "n"])
@@ -117,7 +117,7 @@ def made(command: Sequence[str], others: Sequence[int] = ()) -> Made:
 def children(process: int) -> list[int]:
     """Processes that a process has begun, and those that these have."""
     try:
-        text = Path(f"/proc/{process}/task/{process}/children").read_text()
+        text = Path(f"/proc/{process}/task/{process}/children").read_text(encoding="utf-8")
     except OSError:
         return []
     found = [int(word) for word in text.split()]
@@ -140,7 +140,7 @@ def workers(process: int) -> list[int]:
 def resident(process: int) -> float:
     """Megabytes that a process has in memory; 0 once it has ended."""
     try:
-        text = Path(f"/proc/{process}/status").read_text()
+        text = Path(f"/proc/{process}/status").read_text(encoding="utf-8")
     except OSError:
         return 0.0
     sizes = [row.split()[1] for row in text.splitlines() if row.startswith("VmRSS")]
@@ -149,7 +149,7 @@ def resident(process: int) -> float:
 
 def processor(process: int) -> float:
     """Seconds of the processor that a process has had."""
-    words = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
+    words = Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()
     return (int(words[11]) + int(words[12])) / os.sysconf("SC_CLK_TCK")
 
 

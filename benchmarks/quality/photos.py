@@ -103,7 +103,7 @@ def poster(folder: Path) -> list[str]:
                "-o", str(out), "--report", str(report)]  # fmt: skip
     subprocess.run(command, check=True)  # noqa: S603 - a command of our own
     peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 2**20
-    results = json.loads(report.read_text())
+    results = json.loads(report.read_text(encoding="utf-8"))
     seconds = results["seconds"]
     with Image.open(out) as image:
         size = "{} x {} px".format(*image.size)

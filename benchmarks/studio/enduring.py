@@ -209,7 +209,7 @@ def _listed(values: tuple[float, ...]) -> str:
 
 def _resident(process: int) -> float:
     """Megabytes that a process has in memory."""
-    for line in Path(f"/proc/{process}/status").read_text().splitlines():
+    for line in Path(f"/proc/{process}/status").read_text(encoding="utf-8").splitlines():
         if line.startswith("VmRSS"):
             return int(line.split()[1]) / 1e3
     return 0.0

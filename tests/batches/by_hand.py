@@ -18,7 +18,7 @@ class Cluster:
         where = ("--host", "127.0.0.1", "--port", "0", "--scheduler-file", str(self._file))
         self.scheduler = self._start("dask_scheduler", *where, "--no-dashboard")
         self._wait_for(self._file)
-        self.address = json.loads(self._file.read_text())["address"]
+        self.address = json.loads(self._file.read_text(encoding="utf-8"))["address"]
         self.workers = [self.add_worker() for _ in range(workers)]
 
     def add_worker(self) -> subprocess.Popen[bytes]:

@@ -54,7 +54,7 @@ def test_each_row_is_a_run_of_its_own(tmp_path: Path) -> None:
     assert [len(layout) for layout in layouts] == [4, 5, 6]
     alone = pw.run({**POSTER, "container": "heart", "items": ["star", "moon"], "count": 4})
     assert (alone.poses.x == layouts[0].poses.x).all()
-    record = json.loads((tmp_path / "Ann.batch.json").read_text())
+    record = json.loads((tmp_path / "Ann.batch.json").read_text(encoding="utf-8"))
     assert record["certified"]
     assert set(record["outputs"]) == {"Ann.svg", "x/Ann.geojson"}
 
@@ -80,7 +80,7 @@ def test_a_bad_row_is_named_and_all_others_are_made(tmp_path: Path) -> None:
 
 def test_what_is_made_is_kept_and_what_has_changed_is_made_anew(tmp_path: Path) -> None:
     drawing = tmp_path / "own.svg"
-    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v9z"/></svg>')
+    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v9z"/></svg>', encoding="utf-8")
     rows = [{**ROWS[0], "extra": str(drawing)}, ROWS[1], ROWS[2]]
     out = str(tmp_path / "{name}.svg")
     assert statuses(pw.batch(POSTER, rows, out)) == ["made"] * 3
@@ -88,9 +88,9 @@ def test_what_is_made_is_kept_and_what_has_changed_is_made_anew(tmp_path: Path) 
     again = pw.batch(POSTER, rows, out)
     assert statuses(again) == ["kept"] * 3
     assert again.outcomes[0].metrics["items"] == 4
-    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v5z"/></svg>')
-    (tmp_path / "Bärbel.svg").write_text("spoilt")
-    (tmp_path / "Zoë.batch.json").write_text("{")
+    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v5z"/></svg>', encoding="utf-8")
+    (tmp_path / "Bärbel.svg").write_text("spoilt", encoding="utf-8")
+    (tmp_path / "Zoë.batch.json").write_text("{", encoding="utf-8")
     assert statuses(pw.batch(POSTER, rows, out)) == ["made"] * 3
     now = contents(tmp_path)
     assert now["Bärbel.svg"] == first["Bärbel.svg"]
@@ -131,7 +131,8 @@ def test_a_batch_that_is_stopped_is_gone_on_with(tmp_path: Path) -> None:
 def test_a_folder_of_recipes_is_run_each(tmp_path: Path) -> None:
     for name, shape in (("one", "heart"), ("two", "circle")):
         (tmp_path / f"{name}.toml").write_text(
-            f'container = "{shape}"\nitems = ["star"]\ncount = 3\nepochs = 20\nlevels = "50"\n'
+            f'container = "{shape}"\nitems = ["star"]\ncount = 3\nepochs = 20\nlevels = "50"\n',
+            encoding="utf-8",
         )
     made = pw.batch(tmp_path, output=tmp_path / "out" / "{recipe}.svg")
     assert sorted(path.name for one in made for path in one.outputs) == ["one.svg", "two.svg"]
@@ -169,7 +170,7 @@ def test_no_cell_makes_code_of_a_recipe(tmp_path: Path) -> None:
 
 def test_no_row_is_written_over_what_it_reads(tmp_path: Path) -> None:
     drawing = tmp_path / "Ann.svg"
-    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v9z"/></svg>')
+    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v9z"/></svg>', encoding="utf-8")
     before = drawing.read_bytes()
     made = pw.batch(POSTER, [{**ROWS[0], "extra": str(drawing)}], tmp_path / "{name}.svg")
     assert statuses(made) == ["failed"]

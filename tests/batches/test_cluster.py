@@ -31,8 +31,8 @@ POSTER = {
 def home(tmp_path: Path) -> Path:
     (tmp_path / "drawn").mkdir()
     for k in range(2):
-        (tmp_path / "drawn" / f"{k}.svg").write_text(SVG.format(5 + k))
-    (tmp_path / "own.svg").write_text(SVG.format(9))
+        (tmp_path / "drawn" / f"{k}.svg").write_text(SVG.format(5 + k), encoding="utf-8")
+    (tmp_path / "own.svg").write_text(SVG.format(9), encoding="utf-8")
     return tmp_path
 
 
@@ -116,7 +116,7 @@ def test_a_row_that_ends_its_workers_fails_alone(
 ) -> None:
     code = "import os\n\n\ndef die(*_):\n    os._exit(9)\n"
     for folder in (home, cluster.folder):
-        (folder / "deadly.py").write_text(code)
+        (folder / "deadly.py").write_text(code, encoding="utf-8")
     monkeypatch.syspath_prepend(str(home))
     poster = {"container": "heart", "items": ["star"], "count": 3, "losses": {"{loss}": 1}}
     rows = [

@@ -177,7 +177,11 @@ def test_what_came_of_an_input(
 
 @pytest.mark.parametrize(
     "spoil",
-    [lambda p: p.write_text("changed"), Path.unlink, lambda p: p.with_name("more").touch()],
+    [
+        lambda p: p.write_text("changed", encoding="utf-8"),
+        Path.unlink,
+        lambda p: p.with_name("more").touch(),
+    ],
     ids=["changed", "gone", "beside"],
 )
 def test_lost_files_are_seen(spoil: Any, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -31,7 +31,7 @@ def test_layouts_lie_over_the_picture(
     out, shown = tmp_path / "out.svg", tmp_path / "saliency.png"
     line = f"{command.format(scene)} -o {out} --show-saliency {shown} {QUICK}"
     assert packwork(line).exit_code == 0
-    assert 'id="backdrop"' in out.read_text()
+    assert 'id="backdrop"' in out.read_text(encoding="utf-8")
     with Image.open(shown) as image:
         assert image.size == (1_000, 667)
     assert packwork(f"measure {out} -q").exit_code == 0
@@ -43,7 +43,7 @@ def test_a_saved_recipe_finds_the_picture_from_its_own_folder(
     recipe, first, second = (tmp_path / name for name in ("r.toml", "a.svg", "b.svg"))
     line = f"fill around:{scene} star -n 3 --quiet-share 0.5 --keep-clear 0,0,50,50"
     assert packwork(f"{line} -o {first} --save-recipe {recipe} {QUICK}").exit_code == 0
-    assert 'container = "around:scene.png"' in recipe.read_text()
+    assert 'container = "around:scene.png"' in recipe.read_text(encoding="utf-8")
     assert packwork(f"run {recipe} -o {second} -q").exit_code == 0
     assert first.read_bytes() == second.read_bytes()
 

@@ -17,8 +17,8 @@ TABLE = "name,shape\nAnn,heart\n=1+1,circle\nMax,nonesuch.svg\n<b>Li</b>,moon\n"
 
 @pytest.fixture(autouse=True)
 def files(folder: Path) -> None:
-    (folder / "poster.toml").write_text(RECIPE)
-    (folder / "people.csv").write_text(TABLE)
+    (folder / "poster.toml").write_text(RECIPE, encoding="utf-8")
+    (folder / "people.csv").write_text(TABLE, encoding="utf-8")
 
 
 def test_rows_are_made_and_told_of(packwork: Callable[..., Result], folder: Path) -> None:
@@ -35,7 +35,7 @@ def test_rows_are_made_and_told_of(packwork: Callable[..., Result], folder: Path
     with Image.open(folder / "out/sheet.png") as sheet:
         assert sheet.width > 400
         assert len(sheet.convert("RGB").getcolors(1 << 20) or []) > 2
-    page = (folder / "out/index.html").read_text()
+    page = (folder / "out/index.html").read_text(encoding="utf-8")
     assert page.count("<img") == 3
     assert "&lt;b&gt;Li" in page
     assert "<b>" not in page

@@ -20,14 +20,14 @@ def test_the_best_of_several_is_what_its_seed_gives_alone(
     for seed in (3, 4, 5):
         line = LINE.replace("--seed 3", f"--seed {seed}")
         assert packwork(f"{line} -o {seed}.svg --report {seed}.json -q").exit_code == 0
-        metrics = json.loads((folder / f"{seed}.json").read_text())["metrics"]
+        metrics = json.loads((folder / f"{seed}.json").read_text(encoding="utf-8"))["metrics"]
         covered[seed] = metrics["exact"]["LC"]
     best = max(covered, key=lambda seed: covered[seed])
     more = "-o best.svg --save-recipe best.toml --contact-sheet all.png --threads 2"
     done = packwork(f"{LINE} --best-of 3 {more}")
     assert done.exit_code == 0
     assert (folder / "best.svg").read_bytes() == (folder / f"{best}.svg").read_bytes()
-    assert f"seed = {best}" in (folder / "best.toml").read_text()
+    assert f"seed = {best}" in (folder / "best.toml").read_text(encoding="utf-8")
     with Image.open(folder / "all.png") as sheet:
         assert sheet.width > 2 * 240
     worst = min(covered, key=lambda seed: covered[seed])

@@ -53,7 +53,7 @@ def test_a_layout_is_changed_and_certified_again(saved: Path, tmp_path: Path, en
     assert sorted(set(names)) == ["circle", "heart", "hexagon", "square", "star"]
     assert abs(after.poses.x[names.index("star")] - x) < 1e-3
     assert abs(after.poses.x[names.index("heart")] - before.poses.x[held]) < 1e-3
-    assert json.loads(report.read_text())["certified"] is True
+    assert json.loads(report.read_text(encoding="utf-8"))["certified"] is True
 
 
 def test_what_cannot_be_certified_is_named_and_written_all_the_same(
@@ -120,10 +120,10 @@ def test_a_size_that_is_not_had_is_one_line_and_exit_1(saved: Path, tmp_path: Pa
     holds = [f"--hold={name}#{k}" for name in ("star", "heart") for k in range(1, 5)][1:]
     code, said = run(saved, *holds, "--scale", "star#1=2.5", "-o", out, "--report", report)
     assert code == 1
-    (told,) = json.loads(report.read_text())["unmet"]
+    (told,) = json.loads(report.read_text(encoding="utf-8"))["unmet"]
     assert told in said
     assert "not 2.5 times: there is no room for more" in told
-    assert json.loads(report.read_text())["certified"] is True
+    assert json.loads(report.read_text(encoding="utf-8"))["certified"] is True
 
 
 def test_a_session_is_edited_where_it_lies(saved: Path, tmp_path: Path) -> None:

@@ -32,16 +32,20 @@ def packwork(*arguments: object) -> tuple[int, str]:
 @pytest.fixture(scope="module")
 def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("sources")
-    (folder / "coin.svg").write_text(COIN)
-    (folder / "gift.svg").write_text(GIFT)
+    (folder / "coin.svg").write_text(COIN, encoding="utf-8")
+    (folder / "gift.svg").write_text(GIFT, encoding="utf-8")
     (folder / "photos").mkdir()
     for k, colour in enumerate(("teal", "tomato", "gold", "navy", "olive")):
         Image.new("RGB", (90, 60 + 10 * k), colour).save(folder / "photos" / f"p{k}.jpg")
     cut = Image.new("RGBA", (80, 80), (0, 0, 0, 0))
     cut.paste((200, 60, 30, 255), (10, 20, 70, 60))
     cut.save(folder / "blob.png")
-    (folder / "marks.csv").write_text("name,kg\nfig,4\nkiwi,2\nplum,5\npear,3\nlime,1\n")
-    (folder / "words.csv").write_text("alpha,9\nbeta,7\ngamma,6\ndelta,5\nomega,4\nsigma,3\n")
+    (folder / "marks.csv").write_text(
+        "name,kg\nfig,4\nkiwi,2\nplum,5\npear,3\nlime,1\n", encoding="utf-8"
+    )
+    (folder / "words.csv").write_text(
+        "alpha,9\nbeta,7\ngamma,6\ndelta,5\nomega,4\nsigma,3\n", encoding="utf-8"
+    )
     return folder
 
 
@@ -121,10 +125,10 @@ def test_an_edit_of_nothing_writes_the_same_file(
     written: Callable[[str], Path], tmp_path: Path, kind: str
 ) -> None:
     before, out = written(kind), tmp_path / "new.svg"
-    name = _items(before.read_text())[0][0]
+    name = _items(before.read_text(encoding="utf-8"))[0][0]
     code, said = packwork("edit", before, "--hold", f"{name}#1", "-q", "-o", out)
     assert code == 0, said
-    assert out.read_text() == before.read_text()
+    assert out.read_text(encoding="utf-8") == before.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("kind", LAYOUTS)
@@ -133,12 +137,12 @@ def test_what_lies_where_it_lay_is_the_same_to_the_byte(
     written: Callable[[str], Path], tmp_path: Path, kind: str, verb: str
 ) -> None:
     before, out = written(kind), tmp_path / "new.svg"
-    items = _items(before.read_text())
+    items = _items(before.read_text(encoding="utf-8"))
     first, second = f"{items[0][0]}#1", f"{items[1][0]}#1"
     asked = [part.format(first, second) for part in VERBS[verb]]
     code, said = packwork("edit", before, *asked, "-q", "-o", out)
     assert out.exists(), (code, said)
-    after = _items(out.read_text())
+    after = _items(out.read_text(encoding="utf-8"))
     assert len(after) == len(items) + (verb == "add") - (verb == "remove")
     known = {(name, _place(markup)): (markup, drawing) for name, markup, drawing in after}
     touched = {0} | ({1} if verb == "exchange" else set())
@@ -160,8 +164,8 @@ def test_what_cannot_be_kept_is_said(sources: Path, tmp_path: Path) -> None:
     code, said = packwork("edit", words, "--recolor", "alpha=teal", "-q", "-o", out)
     assert code == 0, said
     assert "6 words that are text there are curves from now on" in said
-    text = words.read_text().replace("</svg>", '<rect width="9" height="9"/></svg>')
-    words.write_text(text)
+    text = words.read_text(encoding="utf-8").replace("</svg>", '<rect width="9" height="9"/></svg>')
+    words.write_text(text, encoding="utf-8")
     _, said = packwork("edit", words, "--recolor", "alpha=teal", "-q", "-o", out)
     assert "1 drawing beside its items is not kept" in said
 
@@ -172,9 +176,9 @@ def test_lines_for_a_cutter_follow(sources: Path, tmp_path: Path, line: tuple[st
     packwork("fill", "circle", "star", "-n", 6, *QUICK, *line, "-o", before)
     code, said = packwork("edit", before, "--scale", "star#1=0.6", "-q", "-o", out)
     assert code == 0, said
-    head = re.search(r'<g id="cut".*', before.read_text())
+    head = re.search(r'<g id="cut".*', before.read_text(encoding="utf-8"))
     assert head
-    assert head[0] in out.read_text()
+    assert head[0] in out.read_text(encoding="utf-8")
 
 
 def test_halos_come_back(tmp_path: Path) -> None:
@@ -184,9 +188,11 @@ def test_halos_come_back(tmp_path: Path) -> None:
         "-o", before,
     )  # fmt: skip
     packwork("edit", before, "--remove", "star#1", "-q", "-o", out)
-    rims = re.findall(r'<path fill="(#\w+)" stroke="\1"', out.read_text())
+    rims = re.findall(r'<path fill="(#\w+)" stroke="\1"', out.read_text(encoding="utf-8"))
     assert len(rims) == 5
-    assert '<rect id="background" width="100%" height="100%" fill="#000080"/>' in out.read_text()
+    assert '<rect id="background" width="100%" height="100%" fill="#000080"/>' in out.read_text(
+        encoding="utf-8"
+    )
 
 
 @pytest.mark.parametrize("kind", ["drawings", "palette", "on a ground", "pictures", "photographs"])
@@ -195,19 +201,21 @@ def test_drawings_and_colours_of_a_geojson_are_those_of_its_files(
 ) -> None:
     saved, svg, out = (tmp_path / name for name in ("a.geojson", "a.svg", "new.svg"))
     assert packwork(*LAYOUTS[kind](sources), "-o", saved, "-o", svg)[0] == 0
-    name = _items(svg.read_text())[0][0]
+    name = _items(svg.read_text(encoding="utf-8"))[0][0]
     code, said = packwork("edit", saved, "--hold", f"{name}#1", "-q", "-o", out)
     assert code == 0, said
     assert "plain shapes" not in said
     assert "names drawings outside its folder, which are read" in said
-    assert _items(out.read_text()) == _items(svg.read_text())
+    assert _items(out.read_text(encoding="utf-8")) == _items(svg.read_text(encoding="utf-8"))
 
 
 def test_drawings_that_are_gone_are_said(tmp_path: Path) -> None:
-    (tmp_path / "coin.svg").write_text(COIN)
+    (tmp_path / "coin.svg").write_text(COIN, encoding="utf-8")
     saved, out = tmp_path / "a.geojson", tmp_path / "new.svg"
     packwork("fill", "circle", tmp_path / "coin.svg", "star", "-n", 4, *QUICK, "-o", saved)
-    (tmp_path / "coin.svg").write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v2h-9z"/></svg>')
+    (tmp_path / "coin.svg").write_text(
+        '<svg viewBox="0 0 9 9"><path d="M0 0h9v2h-9z"/></svg>', encoding="utf-8"
+    )
     code, said = packwork("edit", saved, "--hold", "star#1", "-q", "-o", out)
     assert code == 0
     assert "2 of 4 items are plain shapes (coin): the files" in said
@@ -222,8 +230,8 @@ def test_drawings_that_are_given_take_the_colours_and_poses_of_the_file(
         asked = ["--items", sources / "coin.svg", "--hold", "coin#1"]
         code, said = packwork("edit", file, *asked, "-q", "-o", out)
         assert code == 0, said
-        coins = [one for one in _items(svg.read_text()) if one[0] == "coin"]
-        assert [one for one in _items(out.read_text()) if one[0] == "coin"] == coins
+        coins = [one for one in _items(svg.read_text(encoding="utf-8")) if one[0] == "coin"]
+        assert [one for one in _items(out.read_text(encoding="utf-8")) if one[0] == "coin"] == coins
 
 
 def test_round_items_keep_their_angles_when_a_run_goes_on(sources: Path, tmp_path: Path) -> None:
@@ -241,6 +249,10 @@ def test_round_items_keep_their_angles_when_a_run_goes_on(sources: Path, tmp_pat
 def test_words_of_an_svg_are_known_for_words(sources: Path, tmp_path: Path) -> None:
     before, other, out = (tmp_path / name for name in ("a.svg", "other.csv", "new.svg"))
     packwork(*LAYOUTS["words"](sources), "-o", before)
-    other.write_text("alpha,9\nbeta,7\nzeta,6\n")
+    other.write_text("alpha,9\nbeta,7\nzeta,6\n", encoding="utf-8")
     packwork("edit", before, "--words", other, "-q", "-o", out)
-    assert sorted(name for name, _, _ in _items(out.read_text())) == ["alpha", "beta", "zeta"]
+    assert sorted(name for name, _, _ in _items(out.read_text(encoding="utf-8"))) == [
+        "alpha",
+        "beta",
+        "zeta",
+    ]

@@ -38,7 +38,7 @@ def test_photos_stay_within_15_degrees_unless_asked(
 ) -> None:
     out = tmp_path / "a.geojson"
     assert packwork(f"photos circle {album} -o {out} {QUICK}").exit_code == 0
-    features = json.loads(out.read_text())["features"]
+    features = json.loads(out.read_text(encoding="utf-8"))["features"]
     angles = [f["properties"]["angle"] for f in features if f["properties"]["role"] == "item"]
     assert len(angles) == 4
     assert max(abs((a + 180) % 360 - 180) for a in angles) <= 15.001
@@ -54,13 +54,13 @@ def test_a_written_svg_measures_as_it_was_certified(
 
 
 def test_weights_may_name_the_files(tmp_path: Path, album: Path, packwork: Command) -> None:
-    (tmp_path / "w.csv").write_text("teal.jpg,4\ncoral,1\n")
+    (tmp_path / "w.csv").write_text("teal.jpg,4\ncoral,1\n", encoding="utf-8")
     out = tmp_path / "a.geojson"
     line = f"photos circle {album} --sizes shared --weights {tmp_path}/w.csv -o {out} {QUICK}"
     assert packwork(line).exit_code in (0, 1)
     items = {
         f["properties"]["item"]: f["properties"]["weight"]
-        for f in json.loads(out.read_text())["features"]
+        for f in json.loads(out.read_text(encoding="utf-8"))["features"]
         if f["properties"]["role"] == "item"
     }
     assert items == {"teal": 4, "coral": 1, "gold": 1, "navy": 1}

@@ -48,7 +48,9 @@ def test_flags_reach_the_readers(command: str, packwork: Command, recipes: list[
 
 def test_a_small_drawing_is_told_on_the_terminal(tmp_path: Path, packwork: Command) -> None:
     drawing = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 900 900">{}</svg>'
-    (tmp_path / "small.svg").write_text(drawing.format('<path d="M9 9h50v40h-50z"/>'))
+    (tmp_path / "small.svg").write_text(
+        drawing.format('<path d="M9 9h50v40h-50z"/>'), encoding="utf-8"
+    )
     line = f"fill {tmp_path}/small.svg circle -n 2 --epochs 1 --finish none -o {tmp_path}/a.svg"
     assert "takes 6% of its page, which is left out; --no-trim keeps it" in packwork(line).output
     assert "of its page" not in packwork(f"{line} --trim").output

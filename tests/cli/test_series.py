@@ -24,7 +24,7 @@ TABLE = """year,word,count
 
 
 def write_table(folder: Path) -> None:
-    (folder / "t.csv").write_text(TABLE)
+    (folder / "t.csv").write_text(TABLE, encoding="utf-8")
 
 
 def test_the_command_writes_files_a_film_a_sheet_and_a_report(
@@ -41,7 +41,7 @@ def test_the_command_writes_files_a_film_a_sheet_and_a_report(
     assert sorted(path.name for path in (folder / "out").iterdir()) == [
         "1.png", "2.png", "2000.svg", "2001.svg", "2002.svg", "3.png",
     ]  # fmt: skip
-    report = json.loads((folder / "r.json").read_text())
+    report = json.loads((folder / "r.json").read_text(encoding="utf-8"))
     assert [step["step"] for step in report["steps"]] == ["2000", "2001", "2002"]
     with Image.open(folder / "f.gif") as film:
         assert film.n_frames > 2
@@ -90,7 +90,7 @@ HARVESTS = """year,land,t
 def test_a_chart_of_steps_is_written_as_files_a_sheet_and_a_report(
     packwork: Callable[..., Result], folder: Path
 ) -> None:
-    (folder / "t.csv").write_text(HARVESTS)
+    (folder / "t.csv").write_text(HARVESTS, encoding="utf-8")
     done = packwork(
         "chart circle t.csv --series year --size-by t --label-by land"
         " -o {year}.png --pixels 80 --contact-sheet s.png --report r.json"
@@ -101,9 +101,8 @@ def test_a_chart_of_steps_is_written_as_files_a_sheet_and_a_report(
     with Image.open(folder / "2001.png") as image:
         assert max(image.size) == 80
     assert (folder / "s.png").exists()
-    assert [one["step"] for one in json.loads((folder / "r.json").read_text())["steps"]] == [
-        "2000", "2001",
-    ]  # fmt: skip
+    report = json.loads((folder / "r.json").read_text(encoding="utf-8"))
+    assert [one["step"] for one in report["steps"]] == ["2000", "2001"]
     line = "chart circle t.csv --series year"
     assert "names not each step's file" in packwork(f"{line} -o a.svg").output
     assert "--best-of: is of one layout" in packwork(f"{line} --best-of 2").output

@@ -33,13 +33,13 @@ VERBS: dict[str, Sequence[str]] = {
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
-    Path("words.csv").write_text("alpha,9\nbeta,7\ngamma,6\n")
-    Path("marks.csv").write_text("name,kg\nfig,4\nkiwi,2\nplum,5\n")
+    Path("words.csv").write_text("alpha,9\nbeta,7\ngamma,6\n", encoding="utf-8")
+    Path("marks.csv").write_text("name,kg\nfig,4\nkiwi,2\nplum,5\n", encoding="utf-8")
     Path("photos").mkdir()
     for k, colour in enumerate(("teal", "tomato", "gold")):
         Image.new("RGB", (60, 40 + 5 * k), colour).save(f"photos/p{k}.jpg")
     recipe = 'container = "circle"\nitems = ["star"]\ncount = 4\neffort = "draft"\n'
-    Path("recipe.toml").write_text(recipe)
+    Path("recipe.toml").write_text(recipe, encoding="utf-8")
     return tmp_path
 
 
@@ -50,7 +50,7 @@ def test_a_verb_writes_a_session_and_all_read_it(folder: Path, verb: str) -> Non
     layout = pw.Layout.load("a.packwork")
     drawn = pw.Layout.load("a.geojson")
     assert layout.poses.x.tolist() == drawn.poses.x.tolist()
-    assert layout.to_svg() == Path("a.svg").read_text()
+    assert layout.to_svg() == Path("a.svg").read_text(encoding="utf-8")
     assert packwork("measure", "a.packwork", "-q")[0] == 0
     assert pw.measure("a.packwork")["LC"] == pytest.approx(layout.metrics["LC"])
     name = layout.items[0].name
@@ -65,10 +65,10 @@ def test_ways_of_drawing_go_with_a_session(folder: Path) -> None:
     given = (*VERBS["fill"], "--background", "navy", "--show-container", "--flatten")
     assert packwork("fill", *given, "-o", "a.packwork", "-o", "a.geojson", "-o", "a.svg")[0] == 0
     assert packwork("edit", "a.packwork", "--hold", "owl#1", "-q", "-o", "b.svg")[0] == 0
-    assert Path("b.svg").read_text() == Path("a.svg").read_text()
+    assert Path("b.svg").read_text(encoding="utf-8") == Path("a.svg").read_text(encoding="utf-8")
     assert packwork("edit", "a.geojson", "--hold", "owl#1", "-q", "-o", "c.svg")[0] == 0
     assert '<rect id="background" width="100%" height="100%" fill="#000080"' in (
-        Path("c.svg").read_text()
+        Path("c.svg").read_text(encoding="utf-8")
     )
 
 
@@ -82,7 +82,7 @@ def test_layouts_save_and_go_on_in_python(folder: Path) -> None:
 
 
 def test_what_is_no_session_is_one_line(folder: Path) -> None:
-    Path("bad.packwork").write_text("no zip")
+    Path("bad.packwork").write_text("no zip", encoding="utf-8")
     for verb in ("measure", "run"):
         code, said = packwork(verb, "bad.packwork")
         assert code == 2

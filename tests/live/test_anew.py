@@ -114,7 +114,7 @@ def test_words_come_together_by_their_text(tmp_path: Path) -> None:
     for seed in range(3):
         rng = np.random.default_rng(seed)
         told = [rng.choice(group, 400) for group in (SEA, KITCHEN)]
-        text.write_text(" ".join(np.concatenate(told)))
+        text.write_text(" ".join(np.concatenate(told)), encoding="utf-8")
         session = pw.words("circle", text, seed=seed, effort="draft").edit()
         plain.append(apartness(session.layout))
         session.embeddings("auto")

@@ -52,7 +52,7 @@ def test_an_svg_of_ours_is_opened_as_a_layout_and_no_other(tmp_path: Path) -> No
     layout = pw.fill("circle", "owl", count=3, effort="draft", levels="50")
     ours, other = tmp_path / "ours.svg", tmp_path / "other.svg"
     layout.save(ours)
-    other.write_text('<svg viewBox="0 0 9 9"><circle cx="4" cy="4" r="4"/></svg>')
+    other.write_text('<svg viewBox="0 0 9 9"><circle cx="4" cy="4" r="4"/></svg>', encoding="utf-8")
     document = opening_of([str(ours)]).document
     assert document is not None
     assert svg_text(document.layout) == layout.to_svg()

@@ -439,7 +439,7 @@ def test_a_polish_longer_than_a_log_takes_is_cut(tmp_path: Path, session: pw.Ses
     session.settle()
     session.polish(10_001, lambda: False)
     session.close()
-    assert '{"polish": 10000}' in (tmp_path / "a.packwork.log").read_text()
+    assert '{"polish": 10000}' in (tmp_path / "a.packwork.log").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -121,7 +121,7 @@ def test_what_is_saved_goes_on_as_what_is_opened(tmp_path: Path) -> None:
 
 def test_a_name_that_no_file_can_hold_is_kept_as_well_as_can_be(tmp_path: Path) -> None:
     drawing = tmp_path / "a\x07b.svg"
-    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v9z"/></svg>')
+    drawing.write_text('<svg viewBox="0 0 9 9"><path d="M0 0h9v9z"/></svg>', encoding="utf-8")
     session = pw.fill("circle", [str(drawing)], count=2, **QUICK).edit()
     session.save(tmp_path / "a.packwork")
     again = pw.Session.open(tmp_path / "a.packwork")

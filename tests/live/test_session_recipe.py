@@ -58,6 +58,6 @@ def test_words_go_on_as_drawings(tmp_path: Path) -> None:
 
 
 def test_nothing_is_written_where_that_cannot_be(tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("")
+    (tmp_path / "file").write_text("", encoding="utf-8")
     with pytest.raises(WriteError):
         icons().edit().recipe(tmp_path / "file")

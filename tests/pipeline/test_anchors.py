@@ -18,7 +18,9 @@ NAMES = ("star", "moon", "heart", "owl", "fish", "cloud")
 def kinds(tmp_path: Path) -> str:
     """Three icons that are warm and three that are cold; a row of what is none of them."""
     rows = [f"{name},{int(k < 3)},{int(k >= 3)}" for k, name in enumerate(NAMES)]
-    (tmp_path / "kinds.csv").write_text("\n".join(["name,warm,cold", *rows, "ice,0,1"]))
+    (tmp_path / "kinds.csv").write_text(
+        "\n".join(["name,warm,cold", *rows, "ice,0,1"]), encoding="utf-8"
+    )
     return str(tmp_path / "kinds.csv")
 
 

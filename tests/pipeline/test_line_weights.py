@@ -81,7 +81,7 @@ def test_what_is_filled_is_no_line_drawing() -> None:
 def files(tmp_path_factory: pytest.TempPathFactory) -> list[str]:
     folder = tmp_path_factory.mktemp("lines")
     for name in ("house", "ring", "spikes"):
-        (folder / f"{name}.svg").write_text(DRAWINGS[name])
+        (folder / f"{name}.svg").write_text(DRAWINGS[name], encoding="utf-8")
     return [str(path) for path in sorted(folder.iterdir())]
 
 
@@ -156,7 +156,7 @@ def test_it_is_told_where_nothing_is_drawn_in_lines(caplog: pytest.LogCaptureFix
 
 def test_marks_of_a_chart_keep_their_areas(tmp_path: Path) -> None:
     table = tmp_path / "a.csv"
-    table.write_text("name,value\na,1\nb,2\n")
+    table.write_text("name,value\na,1\nb,2\n", encoding="utf-8")
     with pytest.raises(RecipeError, match="stroke_width: even changes the areas of marks"):
         pw.chart("circle", table, size_by="value", stroke_width="even")
 
@@ -166,7 +166,7 @@ def test_drawings_that_are_traced_are_named(
 ) -> None:
     masked = ROUND + '<mask id="m"><path d="M0 0h24v24H0z" fill="#fff" stroke="none"/></mask>'
     masked += '<path mask="url(#m)" d="M3 3h18v18H3z"/></svg>'
-    (tmp_path / "masked.svg").write_text(masked)
+    (tmp_path / "masked.svg").write_text(masked, encoding="utf-8")
     with caplog.at_level(logging.WARNING):
         filled([*files, str(tmp_path / "masked.svg")], stroke_width="even")
     said = [text for text in caplog.messages if "traced from their pictures" in text]

@@ -40,7 +40,9 @@ def test_given_in_python() -> None:
 def test_drawn_in_an_svg(tmp_path: Path) -> None:
     file = tmp_path / "stairs.svg"
     path = "M0 0" + "h1v1" * (MANY // 2) + "z"
-    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg"><path d="{path}"/></svg>')
+    file.write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg"><path d="{path}"/></svg>', encoding="utf-8"
+    )
     with pytest.raises(pw.ReadError, match="more than 500,000 segments"):
         pw.fill(str(file), ["star"], count=3)
 
@@ -50,6 +52,8 @@ def test_of_a_layout_that_is_measured(tmp_path: Path) -> None:
     geometry = {"type": "Polygon", "coordinates": [corners]}
     feature = {"type": "Feature", "properties": {"role": "container"}, "geometry": geometry}
     file = tmp_path / "ring.geojson"
-    file.write_text(json.dumps({"type": "FeatureCollection", "features": [feature]}))
+    file.write_text(
+        json.dumps({"type": "FeatureCollection", "features": [feature]}), encoding="utf-8"
+    )
     with pytest.raises(pw.ReadError, match="has 501,001 points, more than 400,000"):
         pw.measure(file)

@@ -255,7 +255,7 @@ def test_a_background_that_is_asked_for_is_the_ground(tmp_path: Path, halves: st
     with pytest.raises(SystemExit) as ended:
         app(line)
     assert ended.value.code == 0
-    assert 'id="background"' in out.read_text()
+    assert 'id="background"' in out.read_text(encoding="utf-8")
 
 
 def test_a_chart_and_a_picture_behind_are_refused(halves: str, tmp_path: Path) -> None:

@@ -57,7 +57,7 @@ def test_words_are_refused_before_anything_is_placed(padding: str) -> None:
 def test_charts_are_refused_at_once(tmp_path: Path, by: str | None) -> None:
     table = tmp_path / "t.csv"
     rows = "".join(f"n{k},{k + 1},{'ab'[k % 2]}\n" for k in range(12))
-    table.write_text(f"name,n,kind\n{rows}")
+    table.write_text(f"name,n,kind\n{rows}", encoding="utf-8")
     with pytest.raises(RecipeError, match="padding: "):
         pw.chart("circle", str(table), size_by="n", by=by, padding="50%")
 

@@ -17,7 +17,7 @@ PAGE = '<svg xmlns="http://www.w3.org/2000/svg" {}>{}</svg>'
 def svg_file(tmp_path):
     def save(body: str, page: str = 'viewBox="0 0 40 20"') -> str:
         path = tmp_path / "shape.svg"
-        path.write_text(PAGE.format(page, body))
+        path.write_text(PAGE.format(page, body), encoding="utf-8")
         return str(path)
 
     return save
@@ -137,7 +137,7 @@ def test_folder_is_no_container(tmp_path):
 
 
 def test_unknown_ending(tmp_path):
-    (tmp_path / "shape.txt").write_text("x")
+    (tmp_path / "shape.txt").write_text("x", encoding="utf-8")
     with pytest.raises(ReadError, match=r"unknown ending '\.txt'"):
         read_container(tmp_path / "shape.txt")
 

@@ -40,7 +40,7 @@ def odd(folder):
     (folder / "night.jxl").write_bytes(b"\0")
     (folder / "layers.psd").write_bytes(b"\0")
     (folder / "gone.png").symlink_to(folder / "nowhere.png")
-    (folder / "README.md").write_text("icons")
+    (folder / "README.md").write_text("icons", encoding="utf-8")
     (folder / ".hidden.heic").write_bytes(b"\0")
     (folder / "inside.jp2").mkdir()
     return folder

@@ -22,12 +22,12 @@ TILE = (
 @pytest.fixture
 def folder(tmp_path):
     for k, name in enumerate(("b.svg", "a.svg", "c.SVG")):
-        (tmp_path / name).write_text(TILE.format(k + 2))
+        (tmp_path / name).write_text(TILE.format(k + 2), encoding="utf-8")
     Image.new("RGB", (30, 20), "red").save(tmp_path / "d.tiff")
-    (tmp_path / ".hidden.svg").write_text("broken")
-    (tmp_path / "notes.txt").write_text("none of ours")
+    (tmp_path / ".hidden.svg").write_text("broken", encoding="utf-8")
+    (tmp_path / "notes.txt").write_text("none of ours", encoding="utf-8")
     (tmp_path / "inner").mkdir()
-    (tmp_path / "inner" / "e.svg").write_text(TILE.format(1))
+    (tmp_path / "inner" / "e.svg").write_text(TILE.format(1), encoding="utf-8")
     (tmp_path / "d.tiff").unlink()
     return tmp_path
 
@@ -54,18 +54,18 @@ def test_several_sources_keep_their_order(folder):
 
 def test_existing_path_wins_over_a_name(folder, monkeypatch):
     (folder / "circle").mkdir()
-    (folder / "circle" / "mine.svg").write_text(TILE.format(3))
+    (folder / "circle" / "mine.svg").write_text(TILE.format(3), encoding="utf-8")
     monkeypatch.chdir(folder)
     assert names("circle") == ["mine"]
 
 
 def test_brackets_in_a_file_name(folder):
-    (folder / "x[1].svg").write_text(TILE.format(3))
+    (folder / "x[1].svg").write_text(TILE.format(3), encoding="utf-8")
     assert names(folder / "x[1].svg") == ["x[1]"]
 
 
 def test_unusable_file_among_many_is_skipped(folder, caplog):
-    (folder / "bad.svg").write_text("<svg>")
+    (folder / "bad.svg").write_text("<svg>", encoding="utf-8")
     with caplog.at_level(logging.WARNING, logger="packwork"):
         read = read_items(folder)
     assert [item.name for item in read.items] == ["a", "b", "c"]
@@ -74,7 +74,7 @@ def test_unusable_file_among_many_is_skipped(folder, caplog):
 
 
 def test_unusable_file_is_an_error_where_strict_or_named(folder):
-    (folder / "bad.svg").write_text("<svg>")
+    (folder / "bad.svg").write_text("<svg>", encoding="utf-8")
     with pytest.raises(ReadError, match=r"bad\.svg"):
         read_items(folder, strict=True)
     with pytest.raises(ReadError, match=r"bad\.svg"):
@@ -107,7 +107,7 @@ def test_empty_folder(tmp_path):
 
 
 def test_folder_of_unusable_files(tmp_path):
-    (tmp_path / "bad.svg").write_text("")
+    (tmp_path / "bad.svg").write_text("", encoding="utf-8")
     with pytest.raises(ReadError, match="its one file cannot be used"):
         read_items(tmp_path)
 
@@ -123,7 +123,7 @@ def test_no_sources():
 
 
 def test_text_renamed_to_a_picture(tmp_path):
-    (tmp_path / "a.png").write_text("not a picture")
+    (tmp_path / "a.png").write_text("not a picture", encoding="utf-8")
     with pytest.raises(ReadError, match="not a picture"):
         read_items(tmp_path / "a.png")
 

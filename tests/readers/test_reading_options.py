@@ -35,7 +35,7 @@ def drawn(tmp_path):
     def draw(body: str, name: str = "a.svg", page: str = 'viewBox="0 0 200 100"') -> str:
         path = tmp_path / name
         path.parent.mkdir(exist_ok=True)
-        path.write_text(SVG.format(page, body))
+        path.write_text(SVG.format(page, body), encoding="utf-8")
         return str(path)
 
     return draw
@@ -337,7 +337,7 @@ def test_what_was_taken_in_is_measured(shadowed, tmp_path):
     )  # fmt: skip
     run = uses.fill(recipe)
     assert run.certified
-    (tmp_path / "out.svg").write_text(svg_text(run.layout))
+    (tmp_path / "out.svg").write_text(svg_text(run.layout), encoding="utf-8")
     (measured,) = read_written(tmp_path / "out.svg").outlines
     assert measured.area == pytest.approx(run.layout.outlines[0].area, rel=1e-4)
 

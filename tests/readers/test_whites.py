@@ -25,7 +25,7 @@ def area(tmp_path):
 
     def areas(body: str) -> dict[str, float]:
         text = f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{body}</svg>'
-        (tmp_path / "a.svg").write_text(text)
+        (tmp_path / "a.svg").write_text(text, encoding="utf-8")
         data = bytes(resvg_py.svg_to_bytes(svg_string=text, width=400))
         clear = Image.open(BytesIO(data)).convert("RGBA")
         clear.save(tmp_path / "clear.png")

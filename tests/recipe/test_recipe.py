@@ -353,16 +353,16 @@ def test_verbs_refuse_names_of_nothing_too():
 def test_a_recipe_that_reads_files_elsewhere_names_them(tmp_path, caplog):
     own = tmp_path / "sets"
     own.mkdir()
-    (own / "text.txt").write_text("bears and bees")
-    (tmp_path / "private.txt").write_text("a secret")
+    (own / "text.txt").write_text("bears and bees", encoding="utf-8")
+    (tmp_path / "private.txt").write_text("a secret", encoding="utf-8")
     recipe = own / "r.toml"
     table = 'container = "heart"\n[words]\nsource = "{}"\n'
-    recipe.write_text(table.format("text.txt"))
+    recipe.write_text(table.format("text.txt"), encoding="utf-8")
     read_recipe(recipe)
     assert caplog.text == ""
     for name in ("../private.txt", (tmp_path / "private.txt").as_posix()):
         caplog.clear()
-        recipe.write_text(table.format(name))
+        recipe.write_text(table.format(name), encoding="utf-8")
         read_recipe(recipe)
         assert "private.txt, outside of its own folder" in caplog.text
 

@@ -249,7 +249,7 @@ def test_an_exported_recipe_runs(play, tmp_path: Path) -> None:
 
     play(scenario)
     (recipe,) = tmp_path.glob("*/recipe.toml")
-    assert "packwork run recipe.toml" in recipe.with_name("README.txt").read_text()
+    assert "packwork run recipe.toml" in recipe.with_name("README.txt").read_text(encoding="utf-8")
     assert len(pw.run(recipe).items) == 12
 
 

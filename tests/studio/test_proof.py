@@ -90,7 +90,7 @@ def test_the_browser_is_given_a_private_file_and_no_secret(
     secret = Secret(found[1], found[2])
     for known in (secret.text, secret.token):
         assert known not in opened[0]
-        assert known not in kept.place.read_text()  # type: ignore[union-attr]
+        assert known not in kept.place.read_text(encoding="utf-8")  # type: ignore[union-attr]
     assert opened[0].startswith("file://")
     assert f"url={found[0]}" in pages[0][0]
     if os.name == "posix":

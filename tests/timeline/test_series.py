@@ -94,7 +94,7 @@ def test_files_of_steps_are_written_and_named_by_their_column(
     with Image.open(tmp_path / "all.png") as sheet:
         assert sheet.height > 250
     made.film.save_film(tmp_path / "film.svg", fps=2, seconds=2, film_pixels=64)
-    assert (tmp_path / "film.svg").read_text().count("@keyframes") >= 8
+    assert (tmp_path / "film.svg").read_text(encoding="utf-8").count("@keyframes") >= 8
     with pytest.raises(RecipeError, match="names not each step's file"):
         made.save(tmp_path / "all.svg")
 
@@ -111,7 +111,7 @@ def test_rows_and_tables_of_steps_are_read(tmp_path: Path) -> None:
         for word, n in words.items()
     ]  # fmt: skip
     file = tmp_path / "t.json"
-    file.write_text(json.dumps(rows))
+    file.write_text(json.dumps(rows), encoding="utf-8")
     read = read_word_steps(str(file), "year")
     assert read.weights == years()
     assert len(pw.series("circle", rows[:16], "year")) == 2

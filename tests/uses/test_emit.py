@@ -103,7 +103,7 @@ def test_items_come_from_lines_curves_and_regions(
     emit: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    Path("curve.svg").write_text(CURVE)
+    Path("curve.svg").write_text(CURVE, encoding="utf-8")
     assert _film(emit=emit, release=2)[0].certified
 
 

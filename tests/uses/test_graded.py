@@ -44,7 +44,7 @@ def test_the_report_says_how_far_from_true_each_is() -> None:
 
 def test_a_thin_shape_is_filled_more_than_by_true_sizes(tmp_path: Path) -> None:
     ring = tmp_path / "ring.svg"
-    ring.write_text(RING)
+    ring.write_text(RING, encoding="utf-8")
     graded, true = words(str(ring)), words(str(ring), sizes="shared")
     assert graded.metrics["LC"] > true.metrics["LC"]
     assert (np.diff(graded.poses.scale) <= 1e-6).all()

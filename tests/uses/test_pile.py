@@ -119,7 +119,7 @@ def test_what_does_not_fit_is_named_and_left_out() -> None:
 
 def test_an_open_path_is_a_wall(tmp_path: Path) -> None:
     file = tmp_path / "jar.svg"
-    file.write_text(JAR)
+    file.write_text(JAR, encoding="utf-8")
     run = _run(str(file), count=10, size="12%")
     assert run.certified
     left, top, right, bottom = run.layout.container.outline.bounds
@@ -130,7 +130,7 @@ def test_an_open_path_is_a_wall(tmp_path: Path) -> None:
 @pytest.mark.parametrize("canvas", ["200mm", "200x100mm"])
 def test_an_opening_follows_its_container_to_other_canvases(tmp_path: Path, canvas: str) -> None:
     file = tmp_path / "jar.svg"
-    file.write_text(JAR)
+    file.write_text(JAR, encoding="utf-8")
     run = _run(str(file), count=4, size="10%", canvas=canvas)
     container = run.layout.container
     assert container.outline.bounds[1] == pytest.approx(0, abs=1e-9)
@@ -139,7 +139,7 @@ def test_an_opening_follows_its_container_to_other_canvases(tmp_path: Path, canv
 
 def test_paths_that_surround_nothing_are_no_container(tmp_path: Path) -> None:
     file = tmp_path / "line.svg"
-    file.write_text(JAR.replace("M20 30V90H80V30", "M20 30H90"))
+    file.write_text(JAR.replace("M20 30V90H80V30", "M20 30H90"), encoding="utf-8")
     with pytest.raises(ReadError, match="surround nothing"):
         _run(str(file), count=4)
 
@@ -206,7 +206,7 @@ def test_a_curve_that_is_no_file_is_refused() -> None:
 
 def test_items_gather_along_a_drawn_curve(tmp_path: Path) -> None:
     file = tmp_path / "curve.svg"
-    file.write_text(JAR.replace("M20 30V90H80V30", "M0 80L100 80"))
+    file.write_text(JAR.replace("M20 30V90H80V30", "M0 80L100 80"), encoding="utf-8")
     run = _run("none", count=8, size="6%", canvas=600, force=f"towards {file}")
     assert abs(run.layout.poses.y.mean() - 480) < 40
 
@@ -231,13 +231,13 @@ def test_a_jar_shows_its_mouth_open_and_is_measured_whole(tmp_path: Path) -> Non
     path, line = re.findall(r"<(?:path|polyline)[^>]*>", text.partition('id="container"')[2])[:2]
     assert 'stroke="none"' in path
     assert line.startswith("<polyline")
-    (tmp_path / "jar.svg").write_text(text)
+    (tmp_path / "jar.svg").write_text(text, encoding="utf-8")
     measured = read_written(tmp_path / "jar.svg").container
     assert measured.outline.area == pytest.approx(run.layout.container.outline.area, rel=1e-6)
 
 
 def test_a_drawn_jar_shows_its_own_walls(tmp_path: Path) -> None:
-    (tmp_path / "jar.svg").write_text(JAR)
+    (tmp_path / "jar.svg").write_text(JAR, encoding="utf-8")
     run = _run(str(tmp_path / "jar.svg"), count=4, size="10%")
     (wall,) = run.layout.container.walls or ()
     assert wall[[0, -1], 1] == pytest.approx([180, 180], abs=0.01)

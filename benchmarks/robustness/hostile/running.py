@@ -138,7 +138,7 @@ def _untrue(line: Line, folder: Path, said: Path) -> list[str]:
         said.unlink(missing_ok=True)
         code, _, _ = _forked(("measure", name, "-q"), "utf-8", folder, said)
         if code:
-            wrong.append(f"measure {name}: exit code {code}: {said.read_text(errors='replace')}")
+            wrong.append(f"measure {name}: exit code {code}: {said.read_text('utf-8', 'replace')}")
     return wrong
 
 

@@ -129,6 +129,10 @@ def _next(end: Connection) -> Any:
 
 
 def _bound_memory() -> None:
-    pages = int(Path("/proc/self/statm").read_text().split()[0]) if os.name == "posix" else 0
+    pages = (
+        int(Path("/proc/self/statm").read_text(encoding="utf-8").split()[0])
+        if os.name == "posix"
+        else 0
+    )
     most = pages * resource.getpagesize() + MEMORY_BYTES
     resource.setrlimit(resource.RLIMIT_AS, (most, most))

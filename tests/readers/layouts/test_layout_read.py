@@ -55,7 +55,9 @@ def saved(tmp_path_factory):
     path = tmp_path_factory.mktemp("layouts") / "a.geojson"
 
     def read(content: object) -> Layout:
-        path.write_text(content if isinstance(content, str) else json.dumps(content))
+        path.write_text(
+            content if isinstance(content, str) else json.dumps(content), encoding="utf-8"
+        )
         return read_layout(path)
 
     return read

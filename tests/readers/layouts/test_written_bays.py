@@ -113,10 +113,10 @@ def test_walls_that_are_none_are_refused(tmp_path: Path) -> None:
         opened(square_container(), ["top"], None, 50.0).container, (), poses([], []), np.ones(0)
     )
     write(layout, tmp_path / "a.geojson")
-    text = (tmp_path / "a.geojson").read_text()
+    text = (tmp_path / "a.geojson").read_text(encoding="utf-8")
     begin = text.index('"walls":') + len('"walls":')
     end = text.index("]]]", begin) + 3
     for bad in ("7", "[[1,2]]", "[[[1,2]]]", "[[[1,2],[3,null]]]", "[[[1,2],[3,1e99]]]"):
-        (tmp_path / "b.geojson").write_text(text[:begin] + bad + text[end:])
+        (tmp_path / "b.geojson").write_text(text[:begin] + bad + text[end:], encoding="utf-8")
         with pytest.raises(ReadError, match="walls: must be lines"):
             read_written(tmp_path / "b.geojson")

@@ -26,7 +26,10 @@ TILES = (
 
 def _svg(tmp_path: Path, inside: str) -> Path:
     file = tmp_path / "found.svg"
-    file.write_text(f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{inside}</svg>')
+    file.write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 9 9">{inside}</svg>',
+        encoding="utf-8",
+    )
     return file
 
 
@@ -74,7 +77,9 @@ def _geojson(tmp_path: Path, **properties: object) -> Path:
         {"type": "Feature", "properties": said, "geometry": tile},
     ]
     file = tmp_path / "found.geojson"
-    file.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    file.write_text(
+        json.dumps({"type": "FeatureCollection", "features": features}), encoding="utf-8"
+    )
     return file
 
 
@@ -108,7 +113,7 @@ def test_a_dxf_of_millions_of_lines_is_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     file = tmp_path / "found.dxf"
-    file.write_text("0\nEOF\n" * 30)
+    file.write_text("0\nEOF\n" * 30, encoding="utf-8")
     monkeypatch.setattr(dxf_tags, "MOST_LINES", 40)
     with pytest.raises(ReadError, match="has more than 40 lines"):
         read_written(file)

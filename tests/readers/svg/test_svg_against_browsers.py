@@ -79,7 +79,7 @@ def test_pictures_are_written_as_one_upright_frame(name):
     markup = item_of_svg((GOLDENS / f"{name}.svg").read_bytes(), name, name).art.markup
     assert "image/gif" not in markup
     assert b"Exif" not in markup.encode()
-    source = (GOLDENS / f"{name}.svg").read_text()
+    source = (GOLDENS / f"{name}.svg").read_text(encoding="utf-8")
     assert source[source.index("base64,") :][:60] not in markup
 
 

@@ -63,7 +63,7 @@ def test_what_was_read_comes_back_bit_for_bit(
     drawing: str, tmp_path: Path, readings: list[str]
 ) -> None:
     for name in ("one", "other"):
-        (tmp_path / f"{name}.svg").write_text(drawing)
+        (tmp_path / f"{name}.svg").write_text(drawing, encoding="utf-8")
     one, other = (read_svg(tmp_path / f"{name}.svg") for name in ("one", "other"))
     assert readings == ["one"]
     assert same(one.item, other.item)
@@ -74,12 +74,12 @@ def test_what_was_read_comes_back_bit_for_bit(
 
 def test_other_bytes_and_other_ways_to_read_are_read(tmp_path: Path, readings: list[str]) -> None:
     file = tmp_path / "a.svg"
-    file.write_text(PAGE)
+    file.write_text(PAGE, encoding="utf-8")
     read_svg(file)
     read_svg(file, "keep")
     kept_page = read_svg(file, "fill", ReadOptions(keep_page=True))
     assert kept_page.item.outline.area == pytest.approx(10_000)
-    file.write_text(PAGE.replace("r=", "r ="))
+    file.write_text(PAGE.replace("r=", "r ="), encoding="utf-8")
     read_svg(file)
     assert len(readings) == 4
 
@@ -87,7 +87,7 @@ def test_other_bytes_and_other_ways_to_read_are_read(tmp_path: Path, readings: l
 def test_other_code_reads_anew(
     tmp_path: Path, readings: list[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    (tmp_path / "a.svg").write_text(RING)
+    (tmp_path / "a.svg").write_text(RING, encoding="utf-8")
     read_svg(tmp_path / "a.svg")
     monkeypatch.setattr(kept, "reader_version", lambda: "another")
     read_svg(tmp_path / "a.svg")
@@ -96,7 +96,7 @@ def test_other_code_reads_anew(
 
 def test_letters_are_drawn_by_the_fonts_of_the_day(tmp_path: Path, readings: list[str]) -> None:
     text = '<svg viewBox="0 0 90 90"><text x="9" y="60" font-size="50">A</text></svg>'
-    (tmp_path / "a.svg").write_text(text)
+    (tmp_path / "a.svg").write_text(text, encoding="utf-8")
     for _ in range(2):
         read_svg(tmp_path / "a.svg")
     assert len(readings) == 2
@@ -112,7 +112,7 @@ def test_what_is_said_of_a_drawing_is_said_each_time(
         return noting(*asked, **how)  # type: ignore[arg-type]
 
     monkeypatch.setattr(svg_item, "_read_anew", saying)
-    (tmp_path / "a.svg").write_text(RING)
+    (tmp_path / "a.svg").write_text(RING, encoding="utf-8")
     for _ in range(2):
         read_svg(tmp_path / "a.svg")
     assert len(readings) == 2
@@ -134,7 +134,7 @@ def test_what_is_said_of_a_drawing_is_said_each_time(
 def test_what_is_no_reading_is_passed_over(
     spoil: object, tmp_path: Path, readings: list[str]
 ) -> None:
-    (tmp_path / "a.svg").write_text(RING)
+    (tmp_path / "a.svg").write_text(RING, encoding="utf-8")
     whole = kept.packed(read_svg(tmp_path / "a.svg"))
     # The way to read a page again is not of the file.
     assert whole is None

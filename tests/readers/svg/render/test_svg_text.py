@@ -168,7 +168,7 @@ def test_only_the_letters_of_texts_count():
 def test_fonts_are_found_in_folders(tmp_path, monkeypatch):
     (tmp_path / "inner").mkdir()
     (tmp_path / "inner" / "a.OTF").write_bytes(renamed_font("Inter Dingbat"))
-    (tmp_path / "notes.txt").write_text("none")
+    (tmp_path / "notes.txt").write_text("none", encoding="utf-8")
     monkeypatch.setenv(fonts.FOLDERS, os.pathsep.join([str(tmp_path), str(tmp_path / "nowhere")]))
     assert set(fonts.installed_families()) == {"inter dingbat", "inter display"}
     monkeypatch.delenv(fonts.FOLDERS)
