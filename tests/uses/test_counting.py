@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -168,3 +169,30 @@ def test_data_and_heaps_are_as_many_as_they_are() -> None:
         chart_recipe("tail", {"n": [3, 2, 1]}), with_tail(8)
     )
     assert advised(pile_recipe("square", ["circle"], size="9%"), square_container()) == ""
+
+
+def _guitar(neck: float) -> Container:
+    body = shapely.union_all(
+        [shapely.Point(150, 480).buffer(120), shapely.Point(150, 330).buffer(90)]
+    )
+    neck_and_head = shapely.union_all(
+        [
+            shapely.box(150 - neck / 2, 40, 150 + neck / 2, 330),
+            shapely.box(150 - neck, 0, 150 + neck, 60),
+        ]
+    )
+    return Container("guitar", outline=Outline.of(body.union(neck_and_head)))
+
+
+@pytest.mark.parametrize("neck", [50, 60, 70])
+def test_a_long_neck_is_more_than_one_column(neck: float) -> None:
+    container = _guitar(neck)
+    count = items_needed(container).count
+    mean_side = math.sqrt(container.outline.area / count)
+    assert neck / mean_side > 1.2
+    assert count <= 100
+
+
+def test_a_plain_shape_takes_no_more_for_it() -> None:
+    disc = Container("disc", outline=Outline.of(shapely.Point(300, 300).buffer(300)))
+    assert items_needed(disc).count == 20

@@ -51,6 +51,16 @@ class Thickness:
         near, far = self.radii_px[after - 1 : after + 1]
         return float(near * (far / near) ** share)
 
+    def missing_for(self, radius_px: float) -> float:
+        """Share of the region that discs of a radius leave unreached.
+
+        Examples
+        --------
+        >>> Thickness(np.array([1.0, 2.0, 4.0]), np.array([0.0, 0.0, 0.4])).missing_for(4.0)
+        0.4
+        """
+        return float(np.interp(np.log(radius_px), np.log(self.radii_px), self.missing))
+
 
 def thickness(mask: BoolArray, reach_px: float) -> Thickness:
     """Thickness of a mask ``(rows, columns)`` that holds at least one pixel; lengths in pixels.
