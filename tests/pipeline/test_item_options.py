@@ -252,7 +252,8 @@ def test_a_palette_recolours_what_has_one_colour_evenly_and_unlike_its_neighbour
         (colours[k],) = (c for c in ("#ff0000", "#457b9d", "#ffd700") if c in text)
     assert sorted(np.unique(list(colours.values()), return_counts=True)[1]) == [6, 7, 7]
     pairs = [(a, b) for a, b in beside(met.layout).tolist() if a in colours and b in colours]
-    assert sum(colours[a] == colours[b] for a, b in pairs) <= 0.15 * len(pairs)
+    # In no order it would be one in three.
+    assert sum(colours[a] == colours[b] for a, b in pairs) < len(pairs) / 4
 
 
 def test_a_colour_makes_a_silhouette_of_a_drawing_of_many() -> None:

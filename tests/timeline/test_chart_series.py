@@ -54,7 +54,8 @@ def test_areas_are_true_at_one_scale_and_each_step_is_certified(made: pw.Series)
 
 
 def test_marks_of_one_name_stay_and_keep_their_colours(made: pw.Series) -> None:
-    assert made.report["moved"]["median"] < 0.1
+    # Two places of a disc are 0.45 of its width apart on average.
+    assert made.report["moved"]["median"] < 0.45 / 3
     colours: dict[str, set[str]] = {}
     for layout in made:
         frame = layout.to_dataframe()

@@ -52,7 +52,8 @@ def test_each_step_is_certified_and_sizes_are_true_on_one_scale(made: pw.Series)
 
 
 def test_words_stay_about_where_they_are_and_keep_their_colour(made: pw.Series) -> None:
-    assert made.report["moved"]["median"] < 0.05
+    # Two places of a disc are 0.45 of its width apart on average.
+    assert made.report["moved"]["median"] < 0.45 / 3
     for before, after in pairwise(made):
         fills = [
             {item.name: re.findall(r'fill="(#\w+)"', item.art.markup) for item in one.items}

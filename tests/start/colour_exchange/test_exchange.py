@@ -82,8 +82,8 @@ def test_black_and_white_come_to_stand_in_turn_where_grey_is_wanted() -> None:
     order = _exchanged(_patches(lights), np.full((MANY**2, 3), 0.5), blur=0.7)
     grid = lights[order, 0].reshape(MANY, MANY)
     unlike = [(grid[1:] != grid[:-1]).mean(), (grid[:, 1:] != grid[:, :-1]).mean()]
-    # Of black above and white below it would be one in ten.
-    assert np.mean(unlike) > 0.55
+    # Of black above and white below it would be one in ten, in no order one in two.
+    assert np.mean(unlike) > 1 / 2
 
 
 def test_halves_are_seen_and_not_the_mean_alone() -> None:
