@@ -218,3 +218,13 @@ def test_many_copies_come_in_rows_and_many_bars_side_by_side() -> None:
     _, many = bars([str(k) for k in range(60)], 0.5, 0.03, "px")
     edges = np.array([cell.room.bounds for cell in many])
     assert (edges[1:, 0] > edges[:-1, 2]).all()
+
+
+def test_groups_tell_by_which_losses_they_were_filled_and_bars_have_none() -> None:
+    rows = {"kg": [4, 3, 2, 1, 2], "sort": list("aabbb")}
+    options: dict[str, Any] = {**QUICK, "size_by": "kg", "by": "sort", "losses": {"overlap": 9}}
+    layout = pw.chart("circle", rows, **options)
+    assert layout.manifest["solve"]["losses"]["overlap"] == 9
+    assert {level["resolution"] for level in layout.manifest["levels"]}
+    with pytest.raises(pw.RecipeError, match="losses: bars are heaps"):
+        pw.chart("none", rows, **options)

@@ -81,7 +81,8 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, watch: Watch) -> Gro
         unplaced += faults
     method = groups[0].placed.start.method
     all_marks = np.arange(len(job.items))
-    return Grouped(poses, all_marks, job.container, method, tuple(unplaced))
+    levels = [level for placed in known.values() for level in placed.outcome.levels]
+    return Grouped(poses, all_marks, job.container, method, tuple(unplaced), levels)
 
 
 def _filled(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from packwork.pipeline.result import Unplaced
 from packwork.progress import Observer, Step
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.solve.solver import LevelReport
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,6 +31,8 @@ class Grouped:
         How first places were found.
     unplaced
         Marks without a place, numbered as in the job.
+    levels
+        What was run of groups, one after another.
     """
 
     poses: Poses
@@ -37,6 +40,7 @@ class Grouped:
     container: Container
     method: str
     unplaced: tuple[Unplaced, ...]
+    levels: list[LevelReport] = field(default_factory=list)
 
 
 class GroupSteps:

@@ -44,7 +44,7 @@ def run_groups(job: Job, chart: Chart, watch: Watch) -> Run:
             job=smaller,
             poses=poses,
             method=done.method,
-            outcome=Outcome(poses, ending),
+            outcome=Outcome(poses, ending, done.levels),
             numbers=kept,
             asked_for=job,
             recorder=recorder,
@@ -62,6 +62,8 @@ def _check(job: Job, chart: Chart) -> None:
         raise RecipeError("start", "groups of --by begin anew; leave the layout out")
     if job.plan.forces:
         raise RecipeError("force", "groups of --by have their own; leave it out")
+    if chart.has_bars and job.plan.losses:
+        raise RecipeError("losses", "bars are heaps, which are made by no losses; leave them out")
     if chart.has_bars and not job.plan.is_exact:
         raise RecipeError("finish", "bars are settled in exact geometry; use exact")
     if job.plan.voids.fills:
