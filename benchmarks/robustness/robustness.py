@@ -5,13 +5,13 @@ recipes that ask for much, and names and terminals of every encoding; stops it a
 with Ctrl-C and with kill -9, lets it write to full and read-only disks, and runs it eight times at
 once. Prints counts; crashes, hangs, lost files and false certificates must be 0, else it says which
 they were and ends with code 1. ``only=inputs``, ``only=meaning``, ``only=fonts``, ``only=parquet``,
-``only=nested``, ``only=encodings``, ``only=stops`` or ``only=surroundings`` is one part of it (or
-some of them, with commas); ``fonts=60 parquet=60 nested=80 encodings=80`` are the numbers of these.
-Runs are kept in ``out/robustness`` as they are made: what is interrupted goes on, and what was a
-fault is run again. ``only=page`` writes ``docs/benchmarks-robustness.md`` of what is there; once
-there is every part, with 10,000 inputs and 2,000 lines or more, that happens by itself.
-``kinds=fonts,tables`` tries those kinds of input only; ``processes=2`` shares them out. Needs
-Linux and ``packwork[dev]``.
+``only=nested``, ``only=encodings``, ``only=drawings``, ``only=stops`` or ``only=surroundings`` is
+one part of it (or some of them, with commas); ``fonts=60 parquet=60 nested=80 encodings=80
+drawings=1000`` are the numbers of these. Runs are kept in ``out/robustness`` as they are made: what
+is interrupted goes on, and what was a fault is run again. ``only=page`` writes
+``docs/benchmarks-robustness.md`` of what is there; once there is every part, with 10,000 inputs and
+2,000 lines or more, that happens by itself. ``kinds=fonts,tables`` tries those kinds of input only;
+``processes=2`` shares them out. Needs Linux and ``packwork[dev]``.
 """
 
 from __future__ import annotations
@@ -25,7 +25,15 @@ from functools import partial
 from pathlib import Path
 
 from benchmarks.kit.measuring import markdown_table
-from benchmarks.robustness.hostile import encodings, fonts, meaning, nested, parquet, running
+from benchmarks.robustness.hostile import (
+    drawings,
+    encodings,
+    fonts,
+    meaning,
+    nested,
+    parquet,
+    running,
+)
 from benchmarks.robustness.hostile.inputs import KINDS, Input, inputs
 from benchmarks.robustness.hostile.kept import Kept, run_all
 from benchmarks.robustness.hostile.page import PAGE as PAGE
@@ -48,6 +56,7 @@ LINES = {
     "parquet": (parquet.lines, 60),
     "nested": (nested.lines, 80),
     "encodings": (encodings.lines, 80),
+    "drawings": (drawings.lines, 1_000),
 }
 """Parts that are runs of lines, and how many there are of them."""
 

@@ -21,7 +21,8 @@ from packwork.errors import ReadError
 
 INPUTS = 300
 LINES = 8
-DEMANDS = {"fonts": (4, 3), "parquet": (9, 39), "nested": (4, 3), "encodings": (4, 3)}
+DEMANDS = {"fonts": (4, 3), "parquet": (9, 39), "nested": (4, 3), "encodings": (4, 3),
+           "drawings": (6, 0)}  # fmt: skip
 """How many lines of each other part, by which seed: of the Parquet files one of each sort, two of
 them too large once they are read, and none that takes half a minute to make."""
 

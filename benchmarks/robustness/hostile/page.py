@@ -66,6 +66,14 @@ Drawings, tables, texts and recipes in twelve encodings, said rightly, wrongly o
 of other scripts; terminals in cp932, cp936, cp1251, ASCII, Latin-1 and UTF-8.
 {encodings}
 
+## Drawings
+
+Clips, viewports, symbols, patterns, filters, markers, shapes beside the page, texts, long corners
+and dashes, moved and turned anywhere, one to four in a drawing, on canvases in px and mm,
+stretched, cut, written in full. Each is filled into a shape, measured, and painted: a certificate
+is false also if its SVG paints a pixel outside, or one of two items.
+{drawings}
+
 ## Stops
 
 {stops}
@@ -101,7 +109,7 @@ def write(parts: Mapping[str, Part]) -> None:
     """Page and manifest of the parts that there are."""
     told = {
         "inputs": _inputs, "meaning": _runs, "fonts": _runs, "parquet": _runs, "nested": _runs,
-        "encodings": _runs, "stops": _stops, "surroundings": _surroundings,
+        "encodings": _runs, "drawings": _runs, "stops": _stops, "surroundings": _surroundings,
     }  # fmt: skip
     sections = {
         name: tell(parts[name]) if name in parts else NOT_YET.format(name=name)

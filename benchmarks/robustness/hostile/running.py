@@ -40,13 +40,17 @@ Content: TypeAlias = bytes | Callable[[Path], None]
 
 @dataclass(frozen=True)
 class Line:
-    """One run: what is typed, the files that lie there, and the terminal's encoding."""
+    """One run: what is typed, the files that lie there, and the terminal's encoding.
+
+    Of one that is painted what its SVG shows is held against its certificate, too.
+    """
 
     number: int
     kind: str
     words: tuple[str, ...]
     files: Mapping[str, Content] = field(default_factory=dict, repr=False)
     encoding: str = "utf-8"
+    is_painted: bool = False
 
     @property
     def key(self) -> str:
@@ -139,6 +143,9 @@ def _untrue(line: Line, folder: Path, said: Path) -> list[str]:
         code, _, _ = _forked(("measure", name, "-q"), "utf-8", folder, said)
         if code:
             wrong.append(f"measure {name}: exit code {code}: {said.read_text('utf-8', 'replace')}")
+    if line.is_painted:
+        painted = json.loads(report.read_bytes())["painted"]
+        wrong += [f"{painted[what]} px {what}" for what in ("outside", "double") if painted[what]]
     return wrong
 
 

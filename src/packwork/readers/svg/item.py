@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import copy
+import xml.etree.ElementTree as ET
 from dataclasses import replace
 from pathlib import Path
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.account import one_budget
+from packwork.readers.budget.filters import drop_filters
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import ReadOptions
@@ -17,11 +20,11 @@ from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import LARGESSE, Drawing, read_drawing
 from packwork.readers.svg.glow import without_glow
 from packwork.readers.svg.kept import read_once
-from packwork.readers.svg.overpaint import whole_reach, within_outline
+from packwork.readers.svg.overpaint import FILTERED, whole_reach, within_outline
 from packwork.readers.svg.region.ink import TracedInk
 from packwork.readers.svg.region.sheet import WHOLE_PAGE
 from packwork.readers.svg.rounds import with_short_arcs
-from packwork.readers.unfit import naming
+from packwork.readers.unfit import naming, notice
 from packwork.scene.item import Item, VectorArt
 
 
@@ -123,13 +126,22 @@ def _art(drawing: Drawing, outline: Outline, place: FloatArray, *, is_checked: b
     root = with_short_arcs(without_glow(drawing))
     is_traced = isinstance(drawing.ink, TracedInk)
 
-    def art(is_cut: bool) -> VectorArt:
-        made = vector_art(root, drawing.page, is_cut=is_cut, place=place)
+    def art(shown: ET.Element, is_cut: bool) -> VectorArt:
+        made = vector_art(shown, drawing.page, is_cut=is_cut, place=place)
         return replace(made, is_traced=is_traced)
 
     is_cut = drawing.ink.is_cut
+    first = art(root, is_cut)
     if not is_checked:
-        return art(is_cut)
-    # As it is, else as viewers show it by itself.
+        return first
+    # As it is, else as viewers show it by itself, else without its filters.
     ways = [is_cut] if is_cut or drawing.page is None else [False, True]
-    return within_outline(map(art, ways), outline, whole_reach(drawing.shapes, place), drawing.work)
+    arts = [first, *(art(root, way) for way in ways[1:])]
+    if FILTERED in first.markup:
+        plain = copy.deepcopy(root)
+        drop_filters(plain)
+        arts += [art(plain, way) for way in ways]
+    found = within_outline(arts, outline, whole_reach(drawing.shapes, place), drawing.work)
+    if FILTERED in first.markup and FILTERED not in found.markup:
+        notice("its filters were left out, for they paint beyond its outline")
+    return found

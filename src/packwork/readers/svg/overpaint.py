@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import math
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
@@ -18,6 +19,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
+from packwork.readers.budget.filters import FILTER
 from packwork.readers.budget.work import Work
 from packwork.readers.gate.door import link_declaration
 from packwork.readers.pictures.decode import decode_picture
@@ -42,6 +44,12 @@ longer side. Chosen."""
 SIDES_PX = (OUTLINE_PX * 3 // 4, OUTLINE_PX * 3 // 2)
 """Longer sides of pictures of it with what is around: where the first shows nothing, there is
 nothing."""
+
+FILTERED = f"{FILTER}="
+"""Mark of art with filters."""
+
+TURNS = (33.0, 143.0, 250.0)
+"""Angles at which art with filters is looked at too, in degrees. Chosen."""
 
 _FINEST = 1e-3
 """Of a pixel, to which the outline is written down."""
@@ -113,6 +121,22 @@ def paints_beyond(art: VectorArt, outline: Outline, reach: Box | None, work: Wor
     >>> [paints_beyond(art, square, None, work) for art in (inside, beside)]
     [False, True]
     """
+    if FILTERED in art.markup:
+        # Renderers apply filters to pixels, clips too: how depends on how the item is turned.
+        turns = [affine.similarity(0.0, 0.0, math.radians(angle), 1.0) for angle in TURNS]
+        return any(
+            _is_beyond(
+                replace(art, matrix=affine.compose(turn, art.matrix)),
+                outline.mapped(turn),
+                None,
+                work,
+            )
+            for turn in turns
+        ) or _is_beyond(art, outline, reach, work)
+    return _is_beyond(art, outline, reach, work)
+
+
+def _is_beyond(art: VectorArt, outline: Outline, reach: Box | None, work: Work) -> bool:
     left, top, right, bottom = outline.bounds
     margin = MARGIN * max(right - left, bottom - top)
     near = (left - margin, top - margin, right + margin, bottom + margin)
