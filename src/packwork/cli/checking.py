@@ -7,17 +7,23 @@ from dataclasses import asdict, replace
 from pathlib import Path
 
 from packwork import pipeline
+from packwork.scene.layout import Layout
+
+
+def faults_in(drawn: Sequence[tuple[Path, bytes]], layout: Layout) -> list[str]:
+    """Parts of a layout's promise that the text of a file breaks, a sentence each."""
+    return [
+        f"{path.name}: {fault}"
+        for path, data in drawn
+        for fault in pipeline.faults_in_file(data, path, layout)
+    ]
 
 
 def held_against_files(run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]]) -> pipeline.Run:
     """A run that is certified if the texts of its files are, measured by themselves."""
     if not run.certified:
         return run
-    faults = [
-        f"{path.name}: {fault}"
-        for path, data in drawn
-        for fault in pipeline.faults_in_file(data, path, run.layout)
-    ]
+    faults = faults_in(drawn, run.layout)
     return replace(run, certified=False, broken=(*run.broken, *faults)) if faults else run
 
 

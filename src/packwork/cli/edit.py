@@ -242,10 +242,11 @@ def _written(
 ) -> bool:
     """Settle, write and show a session's layout; whether it is certified."""
     from packwork import writers
+    from packwork.cli.checking import faults_in
     from packwork.cli.show import Paper, certificate_line, metrics_table, printing
     from packwork.live.file.disk import Disk
     from packwork.metrics.measure import measure
-    from packwork.pipeline import faults_in_file, tell_coarse
+    from packwork.pipeline import tell_coarse
     from packwork.readers.layouts.read import is_session
 
     done = session.finish()
@@ -257,12 +258,7 @@ def _written(
         for path in outputs
         if path != report and not is_session(path)
     ]
-    faults = [
-        f"{path.name}: {fault}"
-        for path, data in files
-        if done.certified
-        for fault in faults_in_file(data, path, made)
-    ]
+    faults = faults_in(files, made) if done.certified else []
     certified = done.certified and not faults
     metrics = measure(made).as_dict()
     said = {

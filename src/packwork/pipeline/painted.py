@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 import shapely
 
-from packwork.arrays import FloatArray, IntArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.errors import ReadError
 from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import admit, document
@@ -36,7 +36,8 @@ NEAR_PX = 2.0
 
 SEEN, DOUBLE = 0.5, 1.25
 """Opacity from which a pixel outside is paint, and sum of opacities from which it is that of two
-items: two that meet in a pixel come to one. Chosen."""
+items: two that meet in a pixel come to one. What is drawn from pixels, such as patterns, is
+softened by up to another: pixels count of which four are together. Chosen."""
 
 _NEVER = frozenset({"defs", "style", "symbol", "clipPath", "mask", "filter", "linearGradient",
                     "radialGradient", "pattern", "marker"})  # fmt: skip
@@ -113,11 +114,21 @@ def painted_pixels(data: bytes, layout: Layout, *, is_own: bool = False) -> Pain
         raise UnfitError(f"cannot be painted: {error}") from None
     inside = _room(layout, columns, rows)
     return PaintedPixels(
-        outside=int(np.count_nonzero((most > SEEN) & (inside == 0))),
-        double=int(np.count_nonzero(sums > DOUBLE)),
+        outside=_in_fours((most > SEEN) & (inside == 0)),
+        double=_in_fours(sums > DOUBLE),
         columns=columns,
         rows=rows,
     )
+
+
+def _in_fours(pixels: BoolArray) -> int:
+    """Number of pixels that are in some square of four."""
+    fours = pixels[1:, 1:] & pixels[:-1, 1:] & pixels[1:, :-1] & pixels[:-1, :-1]
+    met = np.zeros_like(pixels)
+    for rows in (slice(1, None), slice(None, -1)):
+        for columns in (slice(1, None), slice(None, -1)):
+            met[rows, columns] |= fours
+    return int(np.count_nonzero(met))
 
 
 def sets_apart(layout: Layout, distance: float) -> list[IntArray]:
