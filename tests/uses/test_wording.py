@@ -274,3 +274,18 @@ def test_a_container_of_words_has_their_font_or_its_own() -> None:
     assert words_recipe("circle", WEIGHTS, fonts="DejaVu Serif").font is None
     with pytest.raises(RecipeError, match="container_font: sets a container of words"):
         words_recipe("circle", WEIGHTS, container_font="DejaVu Sans")
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+@pytest.mark.parametrize("size", ["50%", "20%"])
+def test_no_word_is_larger_than_the_hero(size: str, seed: int) -> None:
+    weights = {"licence": 10, "copyright": 30, "software": 25, "work": 12, "terms": 7, "use": 4}
+    layout = pw.words("circle", weights, hero=f"licence={size}", seed=seed, effort="draft")
+    sizes = {
+        item.name: item.outline.extent * scale
+        for item, scale in zip(layout.items, layout.poses.scale, strict=True)
+    }
+    assert layout.certified
+    assert max(sizes, key=sizes.__getitem__) == "licence"
+    heights = dict(zip((i.name for i in layout.items), layout.poses.scale, strict=True))
+    assert heights["copyright"] >= heights["work"] * (1 - 1e-9) >= heights["use"] * (1 - 2e-9)

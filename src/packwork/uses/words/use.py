@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import final
 
 import numpy as np
@@ -42,6 +43,7 @@ from packwork.uses.words.colours import check_colours, word_colours
 from packwork.uses.words.columns import column_values, columns_there
 from packwork.uses.words.counts import words_counted, words_needed
 from packwork.uses.words.graded import Places, can_give_way, graded_places
+from packwork.uses.words.heroes import below_hero, led_by_hero
 from packwork.uses.words.letters import (
     Letters,
     heaviest,
@@ -76,16 +78,21 @@ class Words(Use):
         How large they may be.
     places
         Where they lie, if their sizes give way in turn; None until that is known, or else.
+    is_below_hero
+        Whether all become smaller where some came out larger than the hero.
     """
 
     read: WordsRead
     options: WordOptions
     letters: Letters
     places: Places | None = None
+    is_below_hero: bool = False
 
     def run(self, job: Job, watch: Watch) -> Run:
         """The common road; where many words in proportion leave the container bare, again."""
         found = self._set(job, watch)
+        if job.plan.sizes == "shared" and job.recipe.hero is not None:
+            return led_by_hero(job, partial(self._led, watch=watch), found, watch)
         is_bare = len(self.read.items) >= MANY and found.metrics.seen.bare > MOST_BARE
         is_ours = job.recipe.sizes == AUTO and job.plan.sizes == "shared" and can_give_way(job)
         if not (is_bare and is_ours) or watch.stop():
@@ -93,6 +100,11 @@ class Words(Use):
         graded = self._set(replace(job, plan=replace(job.plan, sizes="graded")), watch)
         is_fuller = graded.is_as_asked and graded.metrics.seen.bare < found.metrics.seen.bare
         return graded if is_fuller else found
+
+    def _led(self, job: Job, is_bounded: bool, watch: Watch) -> Run:
+        """A run in which all words are smaller than the hero, if that is asked for."""
+        use = replace(self, is_below_hero=is_bounded)
+        return use._set(replace(job, use=use), watch)
 
     def _set(self, job: Job, watch: Watch) -> Run:
         """The common road, and words set again in what is left."""
@@ -140,6 +152,8 @@ class Words(Use):
 
     def bounded(self, job: Job, start: Beginning, exact: Finished, watch: Watch) -> Finished:
         """Exact poses whose letters are no larger than asked."""
+        if self.is_below_hero:
+            exact = below_hero(job, start, exact, watch)
         count, largest = len(self.read.items), self.letters.largest
         return held_down(job, start, exact, count, largest, watch)
 
