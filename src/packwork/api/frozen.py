@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import ShapeError
 from packwork.scene.pose import Poses
 
-OF_PLACES = ("metrics", "certified", "filling", "beside", "pile")
+OF_PLACES = ("metrics", "certified", "changed", "filling", "beside", "pile")
 """Entries of a manifest that hold for the very poses that were measured."""
 
 

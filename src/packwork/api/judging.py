@@ -127,8 +127,10 @@ finish.__name__ = "packwork.finish"
 def _certified(layout: scene.Layout, promise: Promise) -> Layout:
     """The layout, measured, and what it promises."""
     found: LayoutMetrics = measure_layout(layout)
-    faults = unclean(promise, layout, found.exact)
-    said = dict(layout.manifest) | {
+    # It is no longer what stood in a file.
+    kept = {key: said for key, said in layout.manifest.items() if key != "changed"}
+    faults = unclean(promise, replace(layout, manifest=kept), found.exact)
+    said = kept | {
         "promised": asdict(promise),
         "certified": not faults and len(layout.items) > 0,
         "metrics": found.as_dict(),

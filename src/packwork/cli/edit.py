@@ -212,6 +212,7 @@ def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
     from packwork.live.document import Document
     from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
+    from packwork.metrics.certificate import changed_since
     from packwork.pipeline.registration import drawn_by
     from packwork.pipeline.sources import with_drawings
     from packwork.readers.layouts.read import is_drawn, is_session, read_written
@@ -223,7 +224,7 @@ def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
             found = drawn_by(found, read_drawings(items))
         elif not is_drawn(path):
             found, not_kept = with_drawings(found, path.parent)
-        for line in not_kept:
+        for line in (*changed_since(found.manifest), *not_kept):
             say(f"{path}: {line}")
         return NamedSession(Document.of(found)), None
     if items:

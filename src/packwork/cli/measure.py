@@ -51,7 +51,7 @@ def measure(
         from packwork import writers
         from packwork.cli.show import Paper, certificate_line, metrics_table, printing
         from packwork.inputs import check_no_input
-        from packwork.metrics.certificate import Promise, broken, taken_on_trust, unclean
+        from packwork.metrics import certificate
         from packwork.metrics.measure import measure as measure_layout
         from packwork.readers.layouts.read import is_session, read_written
 
@@ -72,10 +72,11 @@ def measure(
         measured = measure_layout(found)
         # A saved layout holds outlines, not what was drawn in them.
         metrics = {key: said for key, said in measured.as_dict().items() if key != "LC_ink"}
-        promise = Promise.of(found.manifest)
-        on_trust = taken_on_trust(found.manifest)
-        faults = () if promise is None else broken(promise, found, measured.exact)
-        certified = promise is not None and not unclean(promise, found, measured.exact)
+        promise = certificate.Promise.of(found.manifest)
+        on_trust = certificate.taken_on_trust(found.manifest)
+        faults = () if promise is None else certificate.broken(promise, found, measured.exact)
+        certified = promise is not None and not certificate.unclean(promise, found, measured.exact)
+        changed = bool(certificate.changed_since(found.manifest))
         picture = None if diagnose is None else writers.diagnose_png(found, pixels)
         seen = _painted(layout, found) if painted else None
         if report is not None:
@@ -99,11 +100,10 @@ def measure(
             console.print(metrics_table(metrics, found.container.unit))
             if seen is not None:
                 console.print(f"{seen}", soft_wrap=True)
-            console.print(certificate_line(promise is not None, certified), soft_wrap=True)
-        for believed in on_trust:
-            say(f"{layout}: {believed}")
-        for fault in faults:
-            say(f"{layout}: {fault}")
+            line = certificate_line(promise is not None, certified, changed=changed)
+            console.print(line, soft_wrap=True)
+        for sentence in (*on_trust, *faults):
+            say(f"{layout}: {sentence}")
         if faults:
             raise typer.Exit(SHORTFALL)
 

@@ -106,8 +106,8 @@ def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
     return table
 
 
-def certificate_line(was_promised: bool, certified: bool) -> str:
-    """Whether a layout is certified, on one line.
+def certificate_line(was_promised: bool, certified: bool, *, changed: bool = False) -> str:
+    """Whether a layout is certified, on one line; of a file that was changed, that it was.
 
     Examples
     --------
@@ -116,6 +116,8 @@ def certificate_line(was_promised: bool, certified: bool) -> str:
     """
     if not was_promised:
         return "not certified: there was no exact finish"
+    if changed:
+        return "not certified: the file was changed since it was written"
     if not certified:
         return "not certified: items overlap, stick out or lie nearer than asked"
     return "certified: nothing overlaps, nothing sticks out"

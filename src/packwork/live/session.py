@@ -34,7 +34,7 @@ ENOUGH = 6
 AT_ONCE = 2
 """Epochs between two looks at the clock. Chosen."""
 
-OF_PLACES = ("metrics", "certified", "filling", "beside", "pile")
+OF_PLACES = ("metrics", "certified", "changed", "filling", "beside", "pile")
 """What a manifest says of poses that are no more."""
 
 

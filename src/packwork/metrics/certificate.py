@@ -64,7 +64,22 @@ def taken_on_trust(manifest: Mapping[str, Any]) -> tuple[str, ...]:
     >>> taken_on_trust({"on_trust": ["the sizes"]}), taken_on_trust({"on_trust": 3})
     (('the sizes',), ())
     """
-    said = manifest.get("on_trust")
+    return _sentences(manifest, "on_trust")
+
+
+def changed_since(manifest: Mapping[str, Any]) -> tuple[str, ...]:
+    """What a reader met in a file that is drawn otherwise than it is measured, a sentence each.
+
+    Examples
+    --------
+    >>> changed_since({"changed": ["stroke of item 1"]}), changed_since({})
+    (('stroke of item 1',), ())
+    """
+    return _sentences(manifest, "changed")
+
+
+def _sentences(manifest: Mapping[str, Any], key: str) -> tuple[str, ...]:
+    said = manifest.get(key)
     return tuple(str(one) for one in said) if isinstance(said, list | tuple) else ()
 
 
@@ -110,7 +125,7 @@ def unclean(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str,
         found.append(f"items stick out by {exact.outside_area:.3g} {unit}² in all")
     if not found and exact.min_gap < least:
         found.append(f"the smallest gap is {exact.min_gap:.3g} instead of {least:.3g} or more")
-    return tuple(found)
+    return (*found, *changed_since(layout.manifest))
 
 
 def off_shares(promise: Promise, layout: Layout) -> tuple[str, ...]:

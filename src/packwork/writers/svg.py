@@ -323,6 +323,7 @@ def _said(layout: Layout) -> dict[str, str]:
     gap, shares = promised(layout)
     return {
         "data-gap": gap,
+        "data-count": str(len(layout.items)) if gap else "",
         "data-in-shares": "true" if shares else "",
         "data-holes": "keep" if any(item.outline.has_holes for item in layout.items) else "",
         **stated_limits(layout),

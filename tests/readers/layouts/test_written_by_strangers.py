@@ -35,7 +35,9 @@ def _svg(tmp_path: Path, inside: str) -> Path:
 
 def test_what_the_file_states_is_taken_on_trust_and_said(tmp_path: Path) -> None:
     small = '<path data-name="a" data-outline="M1 1h1v1h-1z" d="M1 1h7v7h-7z"/>'
-    found = read_written(_svg(tmp_path, f'{WALL}<g id="items" data-gap="0">{small}</g>'))
+    found = read_written(
+        _svg(tmp_path, f'{WALL}<g id="items" data-gap="0" data-count="1">{small}</g>')
+    )
     (said,) = taken_on_trust(found.manifest)
     assert "data-outline" in said
 
@@ -44,7 +46,8 @@ def test_what_the_file_states_is_taken_on_trust_and_said(tmp_path: Path) -> None
     "more", ['<g id="items"><path d="M0 0h9v9h-9z"/></g>', '<rect width="9" height="9"/>']
 )
 def test_paint_outside_the_items_is_said(tmp_path: Path, more: str) -> None:
-    found = read_written(_svg(tmp_path, f'{WALL}<g id="items" data-gap="0">{TILES}</g>{more}'))
+    items = f'<g id="items" data-gap="0" data-count="2">{TILES}</g>'
+    found = read_written(_svg(tmp_path, f"{WALL}{items}{more}"))
     assert taken_on_trust(found.manifest) == ("1 drawing outside the group items is not measured",)
 
 

@@ -24,6 +24,14 @@ OWN = frozenset({"background", "backdrop", "halos", "container", "items", "label
 """Names of what our files hold at their top."""
 
 
+LOST_ITEMS = (
+    "has no group named items any more: each drawing counts as an item, and what was promised is "
+    "not in the file"
+)
+LOST_CONTAINER = "has no group named container any more: the page is taken for it"
+"""What is said of files from which another program has taken our groups."""
+
+
 def tag(element: ET.Element) -> str:
     """Name of an element without its namespace.
 

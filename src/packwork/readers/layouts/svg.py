@@ -48,8 +48,8 @@ from packwork.readers.layouts.strangers import (
     loose_items,
     strange,
     tag,
-    unmeasured,
 )
+from packwork.readers.layouts.tampering import examined
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
 from packwork.readers.regions import SPECK, clean_union
@@ -72,13 +72,6 @@ the finest gap that a finish keeps."""
 _SPECK = 1.5 * SPECK
 """Specks that are passed over: somewhat larger ones than where items are read, as one that was
 left out there may seem larger when it is followed more finely."""
-
-LOST_ITEMS = (
-    "has no group named items any more: each drawing counts as an item, and what was promised is "
-    "not in the file"
-)
-LOST_CONTAINER = "has no group named container any more: the page is taken for it"
-"""What is said of files from which another program has taken our groups."""
 
 _OWN = frozenset({"transform", "data-bays"})
 """Attributes of a drawing's element that are not its own."""
@@ -135,7 +128,6 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
     # Other programs move a whole group by a transform of its own.
     to_canvas = affine.similarity(0.0, 0.0, 0.0, scale)
     to_items = affine.compose(to_canvas, place)
-    page = shapely.box(0, 0, width, height)
     said = items.attrib if items is not None and walls is not None else {}
     gap, is_kept = said.get("data-gap"), said.get("data-holes") == "keep"
     found = [
@@ -144,31 +136,32 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
         else _found(drawings, arts, one, number, to_items, is_kept)
         for number, one in enumerate(zip(elements, drawn, sources, strict=True), start=1)
     ]
-    unseen = [] if items is None else unmeasured(root)
+    page = shapely.box(0, 0, width, height)
+    walled = to_canvas if walls is None else affine.compose(to_canvas, _place(walls))
+    container = page if walls is None else _placed(drawings.wall(walls), walled)
+    changed, unseen = (
+        ([], [])
+        if outlines_only
+        else examined(root, data, drawn, sources, container, (width, height))
+    )
     is_in_full = all(source is one for source, one in zip(sources, drawn, strict=True))
     sheet = FoundSheet(
         width=width,
         height=height,
         unit=unit,
-        container=page
-        if walls is None
-        else (_placed(drawings.wall(walls), affine.compose(to_canvas, _place(walls)))),
+        container=container,
         gap=None if gap is None else sound_gap(gap),
         areas_in_shares=said.get("data-in-shares") == "true",
         items=found,
-        on_trust=(
-            *drawings.on_trust,
-            *unseen,
-            *([LOST_ITEMS] if items is None else []),
-            *([LOST_CONTAINER] if walls is None else []),
-        ),
-        walls=None if walls is None else _walls(walls, affine.compose(to_canvas, _place(walls))),
+        on_trust=(*drawings.on_trust, *unseen),
+        walls=None if walls is None else _walls(walls, walled),
         backdrop=None if outlines_only else backdrop_of(root, arts, to_canvas),
         notes=notes_of(root, to_canvas),
         said={
             "ground": ground_of(root),
             "recipe": limits_of(said),
             "drawing": drawing_of(root, is_in_full and arts.texts < len(drawn)),
+            "changed": changed,
             "not_kept": [*_not_kept(root, items), *_turned_to_curves(arts.texts)],
         },
     )
@@ -192,7 +185,8 @@ class _Drawings:
     """
 
     def __init__(self, root: ET.Element, drawn: Sequence[ET.Element], side: float) -> None:
-        self._by_id = {e.get("id"): e for e in root.iter() if e.get("id")}
+        # Of one id the first counts, as in browsers.
+        self._by_id = {e.get("id"): e for e in reversed([*root.iter()]) if e.get("id")}
         self._side = side
         self._regions: dict[ET.Element, Region] = {}
         self._largest: dict[ET.Element, float] = {}
@@ -240,7 +234,7 @@ class _Drawings:
         """The element that draws an item: itself, or what it uses."""
         if tag(drawn) != "use":
             return drawn
-        source = self._by_id.get((drawn.get(LINK) or drawn.get("href") or "").removeprefix("#"))
+        source = self._by_id.get((drawn.get("href") or drawn.get(LINK) or "").removeprefix("#"))
         if source is None or tag(source) == "use":
             raise UnfitError(f"has an item that shows nothing, {_NOT_OURS}")
         return source
