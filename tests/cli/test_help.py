@@ -8,6 +8,7 @@ import pkgutil
 import subprocess
 import sys
 from collections.abc import Callable
+from pathlib import Path
 from types import ModuleType
 
 import pytest
@@ -114,3 +115,27 @@ def test_a_run_waits_for_no_library_that_only_some_need() -> None:
         [sys.executable, "-c", script], capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_help_keeps_its_brackets(packwork: Command, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "500")
+    for name, command in Commands().items():
+        shown = " ".join(packwork(f"{name} --help").output.split())
+        said = [param.help for param in command.params if getattr(param, "help", None)]
+        said += [line.split("[/]")[-1] for line in (command.help or "").split("\n")]
+        plain = shown.replace("│ ", "").replace(" │", "")
+        lost = [text for text in said if "[" in text and " ".join(text.split()) not in plain]
+        assert not lost, name
+    assert "pip install '.[studio]'" in packwork("studio --help").output
+    assert r"[#@]\w+" in packwork("words --help").output
+
+
+def test_names_with_brackets_are_shown_whole(packwork: Command) -> None:
+    Path("[red]tile.svg").write_text(
+        '<svg viewBox="0 0 9 9"><rect width="4" height="4"/></svg>', encoding="utf-8"
+    )
+    line = "fill square [red]tile.svg -n 4 --effort draft --levels 50"
+    made = packwork(line, "-o", "[bold]a.geojson")
+    assert "wrote [bold]a.geojson" in made.output
+    edited = packwork("edit [bold]a.geojson --turn [red]tile#1=9 -o [dim]b.svg")
+    assert "wrote [dim]b.svg" in edited.output

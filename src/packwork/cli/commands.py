@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import copy
 import importlib
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any, Final
 
@@ -33,6 +34,8 @@ SUMMARIES: Mapping[str, str] = {
 """What stands in the help, in its order: for each command the first line of its docstring."""
 
 MARKUP: Final = "rich"
+
+_NO_MARKUP = re.compile(r"\[(?!/?(?:bold)?\])")
 
 
 class Commands(Mapping[str, Any]):
@@ -60,8 +63,24 @@ def _load(name: str) -> Any:
     function = getattr(importlib.import_module(f"packwork.cli.{name}"), name)
     alone = typer.Typer(add_completion=False, rich_markup_mode=MARKUP)
     # What a benchmark's script is given is its own.
-    alone.command(context_settings={"ignore_unknown_options": name == "bench"})(function)
+    settings = {"ignore_unknown_options": name == "bench"}
+    alone.command(cls=PlainCommand, context_settings=settings)(function)
     return typer.main.get_command(alone)
+
+
+class PlainCommand(TyperCommand):
+    """A command in whose help a bracket is a bracket; of markup it has ``[bold]`` and ``[/]``."""
+
+    def format_help(self, ctx: Any, formatter: Any) -> None:
+        """Write the help."""
+        from rich.markup import escape
+
+        shown = copy.copy(self)
+        shown.help = _NO_MARKUP.sub(r"\\[", self.help or "")
+        shown.params = [copy.copy(param) for param in self.params]
+        for param in (p for p in shown.params if getattr(p, "help", None)):
+            vars(param)["help"] = escape(vars(param)["help"])
+        super(PlainCommand, shown).format_help(ctx, formatter)
 
 
 class LazyGroup(OneLineGroup):

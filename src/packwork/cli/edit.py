@@ -279,7 +279,7 @@ def _written(
             files.append((path, saved.enter_context(own.replacing(session))))
         writers.write_all(files)
     tell_coarse(made, drawing.dpi)
-    console = Paper(quiet=quiet, highlight=False)
+    console = Paper(quiet)
     with printing():
         console.print(metrics_table(metrics, made.container.unit))
         console.print(certificate_line(True, certified), soft_wrap=True)

@@ -95,7 +95,7 @@ def measure(
             )
         if diagnose is not None and picture is not None:
             writers.write_atomic(diagnose, picture)
-        console = Paper(quiet=quiet, highlight=False)
+        console = Paper(quiet)
         with printing():
             console.print(metrics_table(metrics, found.container.unit))
             if seen is not None:

@@ -209,7 +209,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
     START_UP.end()
     outputs.check()
     recipe = on_background(with_room(recipe, outputs.kiss), outputs.options)
-    console = Paper(quiet=quiet, highlight=False)
+    console = Paper(quiet)
     with NOTICES.joining():
         job = uses.read(recipe)
     outputs.check_read(job)

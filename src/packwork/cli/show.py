@@ -16,7 +16,10 @@ from packwork.phrasing import number_of
 
 
 class Paper(Console):
-    """Standard output; a reader that went away is an error like any other there."""
+    """Standard output, brackets and all; a reader that went away is an error as any other there."""
+
+    def __init__(self, quiet: bool = False) -> None:
+        super().__init__(quiet=quiet, highlight=False, markup=False)
 
     def on_broken_pipe(self) -> None:
         """Leave it to :func:`printing`."""
@@ -76,7 +79,7 @@ def show_results(
     console.print(certificate_line(results["promised"], results["certified"]))
     for sentence in results["advice"]:
         console.print(f"but {sentence}", soft_wrap=True)
-    console.print(f"wrote {', '.join(written)}", soft_wrap=True, markup=False)
+    console.print(f"wrote {', '.join(written)}", soft_wrap=True)
 
 
 def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:

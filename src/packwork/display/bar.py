@@ -164,7 +164,7 @@ class TerminalBar:
         self._lines = None if is_quiet or console.is_terminal else console
         self._share, self._told = 0.0, time.monotonic()
         self._progress = Progress(
-            TextColumn("{task.description}"),
+            TextColumn("{task.description}", markup=False),
             BarColumn(),
             TextColumn("{task.percentage:.0f} %"),
             TimeElapsedColumn(),
