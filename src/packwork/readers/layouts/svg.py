@@ -381,7 +381,7 @@ def _polygon(element: ET.Element) -> Region | None:
     if any(len(ring) < _LEAST_NUMBERS or len(ring) % 2 for ring in rings):
         return None
     region = Outline.from_rings([ring.reshape(-1, 2) for ring in rings]).region
-    return clean_union(region, speck=_SPECK) if region.is_valid else None
+    return region if region.is_valid else None
 
 
 def _placed(region: Region, matrix: FloatArray) -> Region:
