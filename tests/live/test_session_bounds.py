@@ -88,6 +88,13 @@ def test_numbers_that_no_array_holds_are_refused(good: bytes) -> None:
     for number in (1e30, 10**40, -1, 2**63):
         starts: Change = lambda item, n=number: item["outline"].update(starts=[0, n])  # noqa: E731
         assert "outline: must be " in refusal(changed(good, "items/", starts))
+    for strange in ({"a": 1}, {"rows": [0], "values": [1.0], "a": 1}):
+        column: Change = lambda said, s=strange: said["documents"][1].update(columns={"x": s})  # noqa: E731
+        assert "there is no 'a'; there are rows, values" in refusal(
+            changed(good, "session.json", column)
+        )
+    tag: Change = lambda item: item["art"].update(kind=10**400)  # noqa: E731
+    assert len(refusal(changed(good, "items/", tag))) < 400
     row = {"x": {"rows": [10**400], "values": [1.0]}}
     rows: Change = lambda said: said["documents"][1].update(columns=row)  # noqa: E731
     assert "documents: must be " in refusal(changed(good, "session.json", rows))

@@ -94,7 +94,9 @@ def refusal(
     message = re.sub(r"^(Value error, |Input )", "", first["msg"])
     for said, meant in _PLAIN_WORDS.items():
         message = message.replace(said, meant)
-    met = "" if first["type"] == "value_error" else f", not {_said(first['input'])}"
+    met = ""
+    if first["type"] != "value_error":
+        message, met = message[:200], f", not {_said(first['input'])}"
     hint = _percent_meant(model, first)
     return RecipeError(key, f"{where}{message[0].lower()}{message[1:]}{met}{hint}")
 
@@ -144,7 +146,8 @@ def _where(within: Sequence[int | str]) -> str:
 def _keys_at(model: type[BaseModel], path: Sequence[int | str]) -> list[str]:
     """Keys of the table at a place in a model."""
     for part in path:
-        if isinstance(part, str):
+        # Keys of tables and names of kinds stand in a place too.
+        if isinstance(part, str) and part in model.model_fields:
             model = _model_in(model.model_fields[part].annotation) or model
     return list(model.model_fields)
 

@@ -238,7 +238,7 @@ def decoded(model: type[_Model], data: bytes) -> _Model:
     try:
         return model.model_validate_json(data)
     except ValidationError as error:
-        raise UnfitError(f"holds what cannot be read: {refusal(error, model)}") from None
+        raise UnfitError(f"holds what cannot be read: {str(refusal(error, model))[:300]}") from None
 
 
 def _word_record(text: LiveText, things: Things) -> WordRecord:
