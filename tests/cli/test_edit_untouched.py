@@ -256,3 +256,13 @@ def test_words_of_an_svg_are_known_for_words(sources: Path, tmp_path: Path) -> N
         "beta",
         "zeta",
     ]
+
+
+def test_a_cut_sheet_is_said_to_hold_lines_alone(tmp_path: Path) -> None:
+    before, out = tmp_path / "a.dxf", tmp_path / "new.dxf"
+    packwork("fill", "circle", "star", "-n", 3, *QUICK, "-o", before)
+    code, said = packwork("edit", before, "--scale", "star#1=0.8", "-q", "-o", out)
+    assert code == 0, said
+    assert "holds lines alone" in said
+    _, said = packwork("edit", before, "--items", "star", "--hold", "star#1", "-q", "-o", out)
+    assert "holds lines alone" not in said

@@ -215,6 +215,7 @@ def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
     from packwork.metrics.certificate import changed_since
     from packwork.pipeline.registration import drawn_by
     from packwork.pipeline.sources import with_drawings
+    from packwork.readers.layouts.dxf import LINES_ALONE
     from packwork.readers.layouts.read import is_drawn, is_session, read_written
 
     if not is_session(path):
@@ -222,6 +223,7 @@ def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
         not_kept = found.manifest.get("not_kept", ()) if is_drawn(path) else ()
         if items:
             found = drawn_by(found, read_drawings(items))
+            not_kept = [line for line in not_kept if line != LINES_ALONE]
         elif not is_drawn(path):
             found, not_kept = with_drawings(found, path.parent)
         for line in (*changed_since(found.manifest), *not_kept):

@@ -20,6 +20,9 @@ from packwork.readers.unfit import UnfitError
 from packwork.scene.layout import Layout
 from packwork.units import Unit
 
+LINES_ALONE = "holds lines alone: its items are plain shapes of one colour, their angles unknown"
+"""Sentence for edits of such a file."""
+
 _UNITS: dict[int, Unit] = {1: "in", 4: "mm", 5: "cm"}
 _NOT_OURS = "as packwork writes it; give a DXF that no other program saved again, or a .geojson"
 
@@ -57,6 +60,7 @@ def layout_of_dxf(text: str, name: str) -> Layout:
         areas_in_shares=shares,
         items=_items(_outlines(lines), height),
         walls=tuple(_down(line.points, height) for line in seen) if room else None,
+        said={"not_kept": [LINES_ALONE]},
     )
     return assembled(sheet, name)
 
