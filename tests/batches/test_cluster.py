@@ -179,17 +179,20 @@ def test_a_local_cluster_serves_too(home: Path) -> None:
     assert statuses(found) == ["made"] * 3
 
 
-def test_without_a_scheduler_or_dask_it_is_one_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_without_a_scheduler_or_dask_it_is_one_line(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    out = str(tmp_path / "{a}.svg")
     row = [{"a": 1}]
     poster = {"container": "heart", "items": ["star"], "count": 2}
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(PackworkError, match=r"needs distributed.*packwork\[cluster\]"):
-        pw.batch(poster, row, "{a}.svg", scheduler="tcp://127.0.0.1:1")
+        pw.batch(poster, row, out, scheduler="tcp://127.0.0.1:1")
     monkeypatch.undo()
     pytest.importorskip("distributed")
     monkeypatch.setattr("packwork.batches.cluster.CONNECT_SECONDS", 0.5)
     with pytest.raises(PackworkError, match=r"no scheduler at tcp://127\.0\.0\.1:1") as caught:
-        pw.batch(poster, row, "{a}.svg", scheduler="tcp://127.0.0.1:1")
+        pw.batch(poster, row, out, scheduler="tcp://127.0.0.1:1")
     assert "\n" not in str(caught.value)
 
 
