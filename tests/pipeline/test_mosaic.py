@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,13 +13,14 @@ from PIL import Image
 import packwork as pw
 from packwork.errors import ReadError, RecipeError
 from packwork.pipeline.dress.likeness import best_ground
+from packwork.pipeline.dress.recognised import LEAST, likeness
 from packwork.readers.builtin import builtin_container
 from packwork.readers.target import read_target
 from packwork.recipe import make_recipe
 from packwork.scene.light import channels_of
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture
-from packwork.uses import read
+from packwork.uses import fill, read
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft", "seed": 0}
 
@@ -295,3 +297,36 @@ def test_a_broken_drawing_is_one_line(tmp_path: Path) -> None:
     (tmp_path / "cut.svg").write_text("<svg", encoding="utf-8")
     with pytest.raises(ReadError, match=r"cut\.svg: "):
         pw.fill("square", "star", count=4, picture=str(tmp_path / "cut.svg"), **QUICK)
+
+
+@pytest.fixture
+def checks(tmp_path: Path) -> str:
+    """A picture of six by six squares in two colours."""
+    board = np.indices((6, 6)).sum(axis=0) % 2
+    pixels = np.where(board[..., None], (220, 180, 40), (20, 40, 140)).astype(np.uint8)
+    Image.fromarray(pixels).resize((240, 240), Image.Resampling.NEAREST).save(tmp_path / "c.png")
+    return str(tmp_path / "c.png")
+
+
+def _told(picture: str, count: int, seed: int) -> str:
+    options = {**QUICK, "seed": seed, "effort": "draft"}
+    run = fill(
+        make_recipe(container="square", items=["square"], count=count, picture=picture, **options)
+    )
+    return " ".join(run.advice)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_too_few_items_for_a_picture_are_told_of(checks: str, seed: int) -> None:
+    assert "the picture shows to" in _told(checks, 12, seed)
+    assert "would show it" in _told(checks, 12, seed)
+    assert "the picture shows to" not in _told(checks, 500, seed)
+
+
+def test_shuffled_items_are_like_no_picture(checks: str) -> None:
+    layout = pw.fill("square", "square", count=300, picture=checks, **QUICK)
+    target = read_target(checks, layout.container)
+    assert likeness(layout, target) > LEAST
+    for seed in range(4):
+        order = np.random.default_rng(seed).permutation(len(layout.items))
+        assert abs(likeness(replace(layout, poses=layout.poses.some(order)), target)) < 0.4

@@ -15,6 +15,7 @@ from packwork.pipeline.advice import advice
 from packwork.pipeline.dress.colours import dressed
 from packwork.pipeline.dress.line_weights import evened
 from packwork.pipeline.dress.neighbours import same_kind_beside
+from packwork.pipeline.dress.recognised import unrecognised
 from packwork.pipeline.film.recorder import Recorder
 from packwork.pipeline.film.with_track import with_track
 from packwork.pipeline.job import Job
@@ -196,5 +197,5 @@ def measured(found: Unmeasured) -> Run:
         left_out=found.left_out + total - len(job.items),
         pile=found.pile,
         remarks=job.use.remarks(job),
-        advice=advice(job, layout, metrics.seen),
+        advice=(*advice(job, layout, metrics.seen), *unrecognised(job, worn)),
     )

@@ -57,7 +57,7 @@ FINENESS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class _Window:
+class Window:
     """Share of each pixel that an item covers, in the rows and columns that it reaches."""
 
     rows: slice
@@ -80,7 +80,7 @@ def in_picture(job: Job, layout: Layout) -> Layout:
     if target is None or not layout.items:
         return layout
     tints = job.tints
-    windows = _windows(layout, target)
+    windows = windows_of(layout, target)
     ground = job.recipe.ground or best_ground(target, _covered(windows, target))
     own = mean_lights(layout.items)
     wanted = _wanted(target, windows, own, tints, light_of(_channels(ground)))
@@ -109,7 +109,7 @@ def colours_under(layout: Layout, target: TargetPicture) -> list[str]:
     >>> colours_under(layout, TargetPicture(np.zeros((10, 10, 3)), 1.0))
     ['#000000']
     """
-    return [_hex(one.mean(target.light)) for one in _windows(layout, target)]
+    return [_hex(one.mean(target.light)) for one in windows_of(layout, target)]
 
 
 def best_ground(target: TargetPicture, covered: float) -> str:
@@ -142,7 +142,8 @@ def best_ground(target: TargetPicture, covered: float) -> str:
     return _hex(light_of(min(grounds, key=missed)))
 
 
-def _windows(layout: Layout, target: TargetPicture) -> list[_Window]:
+def windows_of(layout: Layout, target: TargetPicture) -> list[Window]:
+    """Pixels of a picture that the items of a layout cover, one of each."""
     found = []
     shape = np.array(target.light.shape[1::-1])
     for ink in layout.inks:
@@ -152,11 +153,11 @@ def _windows(layout: Layout, target: TargetPicture) -> list[_Window]:
         (left, top), (right, bottom) = first, last
         size = (int(bottom - top), int(right - left))
         shares = coverage(points - first, ink.starts, size, np.float64)
-        found.append(_Window(slice(top, bottom), slice(left, right), np.clip(shares, 0, 1)))
+        found.append(Window(slice(top, bottom), slice(left, right), np.clip(shares, 0, 1)))
     return found
 
 
-def _covered(windows: Sequence[_Window], target: TargetPicture) -> float:
+def _covered(windows: Sequence[Window], target: TargetPicture) -> float:
     """Share of what lies about the items that they cover."""
     image = np.zeros((*target.light.shape[:2], 1))
     for one in windows:
@@ -167,7 +168,7 @@ def _covered(windows: Sequence[_Window], target: TargetPicture) -> float:
 
 def _wanted(
     target: TargetPicture,
-    windows: Sequence[_Window],
+    windows: Sequence[Window],
     own: FloatArray,
     tints: FloatArray,
     ground: FloatArray,
