@@ -66,7 +66,7 @@ def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...
 def _no_place(one: Asked) -> str:
     """Whether it has been looked for a place at that size, and none was found."""
     is_free_hero = one.voices.get("pin.size") == HERO and not one.is_put
-    return "it has no place at that size, however it is turned; " if is_free_hero else ""
+    return "it has no place at that size, turned as it may be; " if is_free_hero else ""
 
 
 def _dwarfs(

@@ -187,12 +187,13 @@ class LinePoints:
 
 
 def _promise(layout: Layout) -> tuple[str, ...]:
-    """Gap, in units of the paper, and whether shares are kept; nothing without a promise."""
+    """Gap, in units of the paper, whether shares are kept, and how many items; or nothing."""
     gap, shares = promised(layout)
     unit = layout.container.unit
     if not gap:
         return ()
-    return f"{convert(float(gap), unit, paper_unit(unit)):.12g}", "1" if shares else "0"
+    length = f"{convert(float(gap), unit, paper_unit(unit)):.12g}"
+    return length, "1" if shares else "0", str(len(layout.items))
 
 
 def _bare_rings(item: Item) -> list[FloatArray]:

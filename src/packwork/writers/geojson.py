@@ -48,6 +48,7 @@ def geojson_text(layout: Layout) -> str:
     collection = {
         "type": "FeatureCollection",
         "canvas": container.canvas,
+        "items": len(layout.items),
         "manifest": plain(untimed(layout.manifest)),
     }
     features = chain([_container_feature(layout, digits)], _item_features(layout, digits))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -168,3 +169,29 @@ def test_an_edit_goes_on_and_says_what_was_changed(
     assert ("\ncertified" in done.output) == (code == 0)
     assert ("changes what is drawn, and is not measured" in done.output) == is_said
     assert not changed_since(read_written(made).manifest)
+
+
+def test_a_dxf_that_lost_an_item_is_not_certified(tmp_path: Path) -> None:
+    file = tmp_path / "found.dxf"
+    pw.fill("circle", "star", count=3, effort="draft", canvas="90mm").save(file)
+    assert not changed_since(read_written(file).manifest)
+    text = file.read_bytes().decode("cp1252")
+    parts = re.split(r"(?=  0\r?\nLWPOLYLINE)", text)
+    lost = next(
+        k for k, part in enumerate(parts) if re.search(r"1000\r?\n2\r?\n1000\r?\nstar", part)
+    )
+    file.write_bytes("".join([*parts[:lost], *parts[lost + 1 :]]).encode("cp1252"))
+    assert changed_since(read_written(file).manifest) == ("2 of 3 items are in the file",)
+
+
+def test_a_geojson_that_lost_an_item_is_not_certified(tmp_path: Path) -> None:
+    file = tmp_path / "found.geojson"
+    layout = pw.fill("circle", "star", count=3, effort="draft")
+    layout.save(file)
+    assert not changed_since(read_written(file).manifest)
+    whole = json.loads(file.read_text(encoding="utf-8"))
+    del whole["features"][-1]
+    file.write_text(json.dumps(whole), encoding="utf-8")
+    found = read_written(file)
+    assert changed_since(found.manifest) == ("2 of 3 items are in the file",)
+    assert not pw.Layout.load(file).certified

@@ -51,6 +51,7 @@ def layout_of_dxf(text: str, name: str) -> Layout:
     if not walls:
         raise UnfitError(f"has no line on the layer container, {_NOT_OURS}")
     gap, shares = _promise(walls[0])
+    items = _items(_outlines(lines), height)
     sheet = FoundSheet(
         width=width,
         height=height,
@@ -58,9 +59,9 @@ def layout_of_dxf(text: str, name: str) -> Layout:
         container=_region(walls, height),
         gap=gap,
         areas_in_shares=shares,
-        items=_items(_outlines(lines), height),
+        items=items,
         walls=tuple(_down(line.points, height) for line in seen) if room else None,
-        said={"not_kept": [LINES_ALONE]},
+        said={"not_kept": [LINES_ALONE], "changed": _lost(walls[0], items)},
     )
     return assembled(sheet, name)
 
@@ -83,7 +84,15 @@ def _promise(wall: DxfLine) -> tuple[float | None, bool]:
     """Gap and whether areas are in shares, as the container's first line says them."""
     if not wall.said:
         return None, False
-    return sound_gap(wall.said[0]), wall.said[1:] == ("1",)
+    return sound_gap(wall.said[0]), wall.said[1:2] == ("1",)
+
+
+def _lost(wall: DxfLine, items: Sequence[FoundItem]) -> list[str]:
+    """That not as many items are in the file as it says, if it does."""
+    stated = wall.said[2] if len(wall.said) > 2 else ""
+    if stated in {"", str(len(items))}:
+        return []
+    return [f"{len(items)} of {stated[:9]} items are in the file"]
 
 
 def _items(lines: Sequence[DxfLine], height: float) -> list[FoundItem]:

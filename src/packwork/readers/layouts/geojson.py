@@ -105,6 +105,10 @@ def layout_of_geojson(text: str) -> Layout:
     manifest = collection.get("manifest") or {}
     if not isinstance(manifest, dict):
         raise UnfitError("manifest: must be an object")
+    stated = collection.get("items", len(items))
+    if stated != len(items):
+        lost = f"{len(items)} of {str(stated)[:9]} items are in the file"
+        manifest = {**manifest, "changed": [lost], "certified": False}
     poses, ground = Poses(*columns), ground_in(manifest)
     return Layout(container, items, poses, weights, manifest, ground=ground)
 
