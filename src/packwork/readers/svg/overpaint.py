@@ -45,11 +45,11 @@ SIDES_PX = (OUTLINE_PX * 3 // 4, OUTLINE_PX * 3 // 2)
 """Longer sides of pictures of it with what is around: where the first shows nothing, there is
 nothing."""
 
-FILTERED = f"{FILTER}="
-"""Mark of art with filters."""
+FILTERED, PATTERN = f"{FILTER}=", "<pattern"
+"""Marks of art with filters, and with patterns."""
 
 TURNS = (33.0, 143.0, 250.0)
-"""Angles at which art with filters is looked at too, in degrees. Chosen."""
+"""Angles at which art with filters or patterns is looked at too, in degrees. Chosen."""
 
 _FINEST = 1e-3
 """Of a pixel, to which the outline is written down."""
@@ -121,8 +121,8 @@ def paints_beyond(art: VectorArt, outline: Outline, reach: Box | None, work: Wor
     >>> [paints_beyond(art, square, None, work) for art in (inside, beside)]
     [False, True]
     """
-    if FILTERED in art.markup:
-        # Renderers apply filters to pixels, clips too: how depends on how the item is turned.
+    if any(mark in art.markup for mark in (FILTERED, PATTERN)):
+        # Renderers apply these to pixels, clips too: how depends on how the item is turned.
         turns = [affine.similarity(0.0, 0.0, math.radians(angle), 1.0) for angle in TURNS]
         return any(
             _is_beyond(
