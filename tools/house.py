@@ -72,15 +72,15 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 54_500,
-    "lines of docstrings": 23_900,
-    "files": 755,
+    "lines of code": 54_600,
+    "lines of docstrings": 23_550,
+    "files": 741,
     "functions of the road in one plain fill": 194,
-    "files of the road in one plain fill": 49,
-    "calls of id()": 104,
-    "context variables": 6,
+    "files of the road in one plain fill": 48,
+    "calls of id()": 98,
+    "context variables": 5,
     "docstrings that begin with a question word": 535,
-    "class names that occur twice": 29,
+    "class names that occur twice": 26,
     "constants chosen by hand": 715,
 }
 """Most of each count. They are what is so, not what is aimed at."""
