@@ -176,3 +176,14 @@ def test_sizes_give_way_where_one_word_would_leave_the_container_bare() -> None:
     assert found.manifest["words"]["of_true"]
     few = pw.words("heart", text, count=30, seed=0)
     assert not few.manifest["words"]["of_true"]
+
+
+@pytest.mark.parametrize("seed", [0, 1])
+def test_a_cloud_by_default_shows_its_shape_or_sizes_gave_way(seed: int) -> None:
+    """Where one word is far heavier than all others, the rest was specks at one side."""
+    text = _text(heavy=60, count=60)
+    found = pw.words("circle", text, count=60, seed=seed, effort="draft")
+    assert found.certified
+    assert found.metrics["shape"] >= 0.9 or found.manifest["words"]["of_true"]
+    true = pw.words("circle", text, count=60, seed=seed, effort="draft", sizes="shared")
+    assert found.metrics["shape"] >= true.metrics["shape"]

@@ -58,6 +58,13 @@ MANY = 40
 """Words of which a container is to look full. Fewer leave it bare whatever their sizes, and are
 compared with each other. Chosen."""
 
+LEAST_SHOWN = 0.9
+"""Share of a container's shape that a full cloud shows at least. Seen in clouds of running text:
+at .83 to .88 a part of a circle holds nothing but specks, whole ones come to .96. By eye."""
+
+DUST = 0.2
+"""Share of a container far from any word above which hardly anything of it is seen. By eye."""
+
 WORDS_REACH = 0.6
 """Share of a container that smaller copies of words come to cover. Larger is not always reached,
 and then counts as not met. Tried."""
@@ -93,13 +100,17 @@ class Words(Use):
         found = self._set(job, watch)
         if job.plan.sizes == "shared" and job.recipe.hero is not None:
             return led_by_hero(job, partial(self._led, watch=watch), found, watch)
-        is_bare = len(self.read.items) >= MANY and found.metrics.seen.bare > MOST_BARE
+        seen, many = found.metrics.seen, len(self.read.items) >= MANY
+        is_bare = many and (seen.bare > MOST_BARE or seen.shape < LEAST_SHOWN)
         is_ours = job.recipe.sizes == AUTO and job.plan.sizes == "shared" and can_give_way(job)
         if not (is_bare and is_ours) or watch.stop():
             return found
         graded = self._set(replace(job, plan=replace(job.plan, sizes="graded")), watch)
-        is_fuller = graded.is_as_asked and graded.metrics.seen.bare < found.metrics.seen.bare
-        return graded if is_fuller else found
+        fuller = graded.metrics.seen
+        is_fuller = fuller.bare <= seen.bare and fuller.shape > seen.shape
+        # Better a full cloud of the heavier words than dust of all.
+        is_kept = graded.is_as_asked or (graded.certified and seen.bare > DUST)
+        return graded if is_fuller and is_kept else found
 
     def _led(self, job: Job, is_bounded: bool, watch: Watch) -> Run:
         """A run in which all words are smaller than the hero, if that is asked for."""
