@@ -433,13 +433,17 @@ def test_evenness_stirs_what_it_is_asked_of(session: pw.Session) -> None:
     assert session.flow(epochs=4) == 4
 
 
-def test_a_polish_longer_than_a_log_takes_is_cut(tmp_path: Path, session: pw.Session) -> None:
+def test_a_polish_longer_than_a_log_takes_is_cut(
+    tmp_path: Path, session: pw.Session, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("packwork.live.session.MOST_TRIALS", 20)
+    monkeypatch.setattr("packwork.live.log.MOST_TRIALS", 20)
     session.save(tmp_path / "a.packwork", journal=True)
     session.move(0, "50%", "50%")
     session.settle()
-    session.polish(10_001, lambda: False)
+    session.polish(21, lambda: False)
     session.close()
-    assert '{"polish": 10000}' in (tmp_path / "a.packwork.log").read_text(encoding="utf-8")
+    assert '{"polish": 20}' in (tmp_path / "a.packwork.log").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(
