@@ -15,6 +15,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.pipeline.dress.likeness import best_ground
 from packwork.pipeline.dress.recognised import LEAST, likeness
 from packwork.readers.builtin import builtin_container
+from packwork.readers.options import ReadOptions
 from packwork.readers.target import read_target
 from packwork.recipe import make_recipe
 from packwork.scene.light import channels_of
@@ -291,6 +292,20 @@ def test_a_drawing_may_be_the_picture(halves: str, ending: str, tmp_path: Path) 
     layout = pw.fill("square", ["star", "owl"], count=24, picture=str(file), **QUICK)
     left, right = _sides(layout)
     assert left.min() > 0 > right.max()
+
+
+def test_a_page_of_a_drawing_is_shown_if_it_is_to_stay(tmp_path: Path) -> None:
+    file = tmp_path / "logo.svg"
+    file.write_text(
+        '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 80 60"><path d="M0 0h80v60h-80z" '
+        'fill="#fff"/><path d="M30 20h20v20h-10z" fill="#c81e1e"/><path d="M30 20v20h10z"/></svg>',
+        encoding="utf-8",
+    )
+    square = builtin_container("square")
+    bare, whole = (
+        read_target(file, square, ReadOptions(keep_page=keep)).light for keep in (None, True)
+    )
+    assert whole.mean() > bare.mean() + 0.1
 
 
 def test_a_broken_drawing_is_one_line(tmp_path: Path) -> None:

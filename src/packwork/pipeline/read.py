@@ -237,7 +237,7 @@ def _target(recipe: Recipe, container: Container) -> TargetPicture | None:
     # Only what is asked for loads the picture library.
     from packwork.readers.target import read_target
 
-    return read_target(recipe.picture, container)
+    return read_target(recipe.picture, container, recipe.read_options)
 
 
 def _earlier(recipe: Recipe, container: Container, items: tuple[Item, ...]) -> Layout | None:

@@ -12,6 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import ReadError
 from packwork.raster.drawing import drawn_png
 from packwork.readers.files import read_bytes, stem
+from packwork.readers.options import ReadOptions
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.unfit import naming
@@ -40,10 +41,21 @@ _BLANK = b"\xef\xbb\xbf \t\r\n"
 _SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 
 
-def read_target(source: str | Path, container: Container) -> TargetPicture:
+def read_target(
+    source: str | Path, container: Container, reading: ReadOptions | None = None
+) -> TargetPicture:
     """Picture of a file, laid so that it covers the container's box, on white where it is clear.
 
     Of a cut-out or an SVG that is what is seen of it, so that a container made of it lies on it.
+
+    Parameters
+    ----------
+    source
+        File, or a picture in memory.
+    container
+        What it is to cover.
+    reading
+        How an SVG is read: with its white page or without.
 
     Raises
     ------
@@ -52,7 +64,7 @@ def read_target(source: str | Path, container: Container) -> TargetPicture:
     """
     data = read_bytes(source, MAX_PICTURE_BYTES)
     if Path(source).suffix.lower() in DRAWINGS or data.lstrip(_BLANK)[:1] == b"<":
-        data = _painted(data, str(source))
+        data = _painted(data, str(source), reading)
     with naming(str(source)):
         pixels = decode_picture(data, DECODED_PX).pixels
     if not (pixels[..., 3] >= SOLID).any():
@@ -66,9 +78,9 @@ def read_target(source: str | Path, container: Container) -> TargetPicture:
     return target
 
 
-def _painted(data: bytes, source: str) -> bytes:
-    """PNG of what an SVG's bytes draw, without its page."""
-    item = item_of_svg(data, stem(source), source)
+def _painted(data: bytes, source: str, reading: ReadOptions | None) -> bytes:
+    """PNG of what an SVG's bytes draw, without its page unless that is to stay."""
+    item = item_of_svg(data, stem(source), source, reading=reading)
     left, top, right, bottom = item.ink.bounds
     px = max(right - left, bottom - top) / DECODED_PX
     size = [max(round((right - left) / px), 1), max(round((bottom - top) / px), 1)]

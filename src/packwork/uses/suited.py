@@ -29,7 +29,7 @@ def suited_first(recipe: Recipe, container: Container, items: tuple[Item, ...]) 
     keeps_none = tint == 1.0 or (tint is None and not are_photos)
     if recipe.picture is None or keeps_none or not isinstance(count, int) or count >= len(items):
         return items
-    target = read_target(recipe.picture, container)
+    target = read_target(recipe.picture, container, recipe.read_options)
     best = best_suited(mean_lights(items), _wanted(target, container, count))
     rest = np.setdiff1d(np.arange(len(items)), best)
     return tuple(items[k] for k in (*best, *rest))

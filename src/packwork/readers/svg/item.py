@@ -62,7 +62,13 @@ def read_svg(path: str | Path, holes: Holes = "fill", reading: ReadOptions | Non
 
 
 def item_of_svg(
-    data: bytes, name: str, source: str, holes: Holes = "fill", *, is_compared: bool = False
+    data: bytes,
+    name: str,
+    source: str,
+    holes: Holes = "fill",
+    reading: ReadOptions | None = None,
+    *,
+    is_compared: bool = False,
 ) -> Item:
     """Item of an SVG's bytes.
 
@@ -74,6 +80,8 @@ def item_of_svg(
         What the item is called and where it came from.
     holes
         Whether the outline is the silhouette or keeps its holes.
+    reading
+        How it is read.
     is_compared
         Whether the ink is held against a rendering, as strangers' files should be.
 
@@ -89,7 +97,8 @@ def item_of_svg(
     >>> len(item.outline.rings), len(item.ink.rings)
     (1, 2)
     """
-    return agreed([_read(data, name, source, holes, ReadOptions(), is_compared=is_compared)])[0]
+    options = reading or ReadOptions()
+    return agreed([_read(data, name, source, holes, options, is_compared=is_compared)])[0]
 
 
 def _read(
