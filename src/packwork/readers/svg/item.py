@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import xml.etree.ElementTree as ET
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -145,12 +146,16 @@ def _art(drawing: Drawing, outline: Outline, place: FloatArray, *, is_checked: b
         return first
     # As it is, else as viewers show it by itself, else without its filters.
     ways = [is_cut] if is_cut or drawing.page is None else [False, True]
-    arts = [first, *(art(root, way) for way in ways[1:])]
-    if FILTERED in first.markup:
-        plain = copy.deepcopy(root)
-        drop_filters(plain)
-        arts += [art(plain, way) for way in ways]
-    found = within_outline(arts, outline, whole_reach(drawing.shapes, place), drawing.work)
+
+    def arts() -> Iterator[VectorArt]:
+        yield first
+        yield from (art(root, way) for way in ways[1:])
+        if FILTERED in first.markup:
+            plain = copy.deepcopy(root)
+            drop_filters(plain)
+            yield from (art(plain, way) for way in ways)
+
+    found = within_outline(arts(), outline, whole_reach(drawing.shapes, place), drawing.work)
     if FILTERED in first.markup and FILTERED not in found.markup:
         notice("its filters were left out, for they paint beyond its outline")
     return found
