@@ -21,7 +21,7 @@ from PIL import Image
 import packwork as pw
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import machine, markdown_table, ranged, timed
-from packwork.pipeline.film.recorder import Recorder
+from packwork.pipeline.recorder import Recorder
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.writers.film.film import Film

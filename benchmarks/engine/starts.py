@@ -22,7 +22,6 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.metrics.pixel import pixel_metrics
-from packwork.pipeline.beginning import NOMINAL_COVERAGE
 from packwork.pipeline.plan.plan import Plan
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.recipe import make_recipe
@@ -38,6 +37,7 @@ from packwork.start.first_poses import first_poses
 from packwork.start.options import StartOptions
 from packwork.start.relocate_buried import relocated
 from packwork.start.sizes import nominal_scales, yielding_scales
+from packwork.steps.place import NOMINAL_COVERAGE
 
 METHODS = ("distance-field", "medial-axis", "auto", "scatter")
 SEEDS = (0, 1, 2)

@@ -28,12 +28,16 @@ from benchmarks.quality import many
 from packwork import pipeline, uses
 from packwork.metrics.exact import exact_metrics
 from packwork.pipeline.job import Clock
-from packwork.pipeline.run import along
+from packwork.pipeline.state import State
+from packwork.pipeline.step import run_steps
 from packwork.pipeline.watch import Watch
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.steps.finish import Finish
+from packwork.steps.starts import fits_first
+from packwork.uses.collage import placing
 
 MODES = ("free", "shared", "shared-1..4")
 EFFORTS = ("normal", "best")
@@ -135,13 +139,15 @@ def measured(kit: Kit, container: Container, mode: str, effort: str, seed: int) 
     recipe = make_recipe(container=kit.name, items=["-"], seed=seed, effort=effort, **options)
     clock = Clock(now=time.process_time)
     job = replace(uses.read(recipe, items, container), clock=clock)
-    placed = along(job, Watch())
-    result = placed.exact
+    steps = placing(job, suits_first_fit=fits_first(job))
+    finish = next(k for k, step in enumerate(steps) if isinstance(step, Finish))
+    levels = run_steps(steps[:finish], State.of(job), Watch())
+    result = run_steps(steps[finish:], levels, Watch())
     rough, exact = (
         exact_metrics(
             Layout(job.container, job.items, poses, job.weights).outlines, job.container.outline
         )
-        for poses in (placed.outcome.poses, result.poses)
+        for poses in (levels.poses, result.poses)
     )
     outlines = [item.outline for item in job.items]
     areas = np.array([outline.area for outline in outlines]) * result.poses.scale**2
@@ -149,7 +155,7 @@ def measured(kit: Kit, container: Container, mode: str, effort: str, seed: int) 
     return Result(
         rough.coverage - rough.overlap - rough.exceeding, exact.coverage, exact.overlap,
         exact.exceeding, exact.min_gap, 0.0 if mode == "free" else float(np.abs(shares - 1).max()),
-        result.clean and not result.undersized,
+        result.is_clean and not result.undersized,
         clock.seconds["start"] + clock.seconds["levels"], clock.seconds["finish"],
     )  # fmt: skip
 

@@ -53,7 +53,7 @@ def test_icons_of_one_size_are_put_so_too(rotate: str) -> None:
 def test_many_that_may_turn_any_way_are_left_to_the_levels(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr("packwork.pipeline.use.MOST_TURNING", 11)
+    monkeypatch.setattr("packwork.steps.starts.MOST_TURNING", 11)
     options = {"count": 12, "sizes": "shared", "effort": "draft"}
     assert _starts(pw.fill("heart", ["star", "cat"], **options)) == "distance-field"
     assert _starts(pw.fill("heart", ["star", "cat"], rotate="none", **options)) == "first-fit"

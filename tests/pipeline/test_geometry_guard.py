@@ -41,7 +41,7 @@ def test_an_error_of_geos_is_one_line_that_names_the_container(
     def fails(*_: object, **__: object) -> None:
         raise GEOSException("TopologyException: side location conflict at 1 2")
 
-    monkeypatch.setattr(importlib.import_module("packwork.pipeline.run"), "begin", fails)
+    monkeypatch.setattr(importlib.import_module("packwork.pipeline.run"), "run_steps", fails)
     with pytest.raises(ReadError, match=r"^square: cannot be resolved: Topology"):
         pw.fill("square", "star", count=2, effort="draft")
 

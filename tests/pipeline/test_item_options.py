@@ -14,12 +14,14 @@ import packwork as pw
 from packwork import pipeline, uses
 from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.errors import ReadError, RecipeError
-from packwork.pipeline.dress.neighbours import beside, same_kind_beside
 from packwork.pipeline.plan.limits import LEAD
-from packwork.progress import NOBODY, Step
+from packwork.pipeline.state import State
+from packwork.progress import NOBODY, Step, never
 from packwork.recipe import make_recipe
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
+from packwork.steps.dress.neighbours import beside, same_kind_beside
+from packwork.steps.place import Setting
 from scenes import disc, flat_item, square, square_container
 
 QUICK = {"container": "square", "epochs": 60, "levels": "40,120", "seed": 4}
@@ -104,10 +106,8 @@ def test_ranges_of_sizes_are_kept_and_used(finish: str) -> None:
     plain = run()
     stars, hearts = only(met.layout, "star"), only(met.layout, "heart")
     # The typical size is the same in both runs: that of unruled items.
-    from packwork.pipeline.beginning import begin
-
     job = uses.read(make_recipe(items=NAMES, count=15, **QUICK))
-    nominal = begin(job).nominal
+    nominal = Setting(State.of(job), never).nominal
     small = [one.index for one in met.unplaced]
     # The last steps of a finish end a little off their bounds.
     off = 1e-9 if finish == "none" else SIZE_TOLERANCE

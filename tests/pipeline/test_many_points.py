@@ -22,7 +22,7 @@ def no_stage(monkeypatch: pytest.MonkeyPatch) -> None:
     def refused(*_: object, **__: object) -> None:
         pytest.fail("a stage began")
 
-    monkeypatch.setattr(import_module("packwork.pipeline.run"), "begin", refused)
+    monkeypatch.setattr(import_module("packwork.pipeline.run"), "run_steps", refused)
     monkeypatch.setattr(import_module("packwork.metrics.measure"), "exact_metrics", refused)
 
 

@@ -12,8 +12,6 @@ from PIL import Image
 
 import packwork as pw
 from packwork.errors import ReadError, RecipeError
-from packwork.pipeline.dress.likeness import best_ground
-from packwork.pipeline.dress.recognised import LEAST, likeness
 from packwork.readers.builtin import builtin_container
 from packwork.readers.options import ReadOptions
 from packwork.readers.target import read_target
@@ -21,6 +19,8 @@ from packwork.recipe import make_recipe
 from packwork.scene.light import channels_of
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture
+from packwork.steps.dress.likeness import best_ground
+from packwork.steps.dress.recognised import LEAST, likeness
 from packwork.uses import fill, read
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft", "seed": 0}

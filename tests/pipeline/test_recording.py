@@ -7,7 +7,7 @@ import pytest
 
 import packwork as pw
 from packwork import uses
-from packwork.pipeline.film.recorder import MOST_KEYFRAMES, Recorder
+from packwork.pipeline.recorder import MOST_KEYFRAMES, Recorder
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
 from packwork.scene.track import SCALE

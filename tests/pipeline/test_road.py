@@ -46,9 +46,9 @@ def test_few_calls_lead_from_a_run_to_its_levels(monkeypatch: pytest.MonkeyPatch
         ways.append(names[: names.index("fill")][::-1])
         return solve(*given)
 
-    monkeypatch.setattr(importlib.import_module("packwork.pipeline.levels"), "solve", seen)
+    monkeypatch.setattr(importlib.import_module("packwork.steps.levels"), "solve", seen)
     uses.fill(make_recipe(container="circle", count=3, **QUICK))
-    assert ways == [["run", "run", "along", "run_levels"]]
+    assert ways == [["run", "run_steps", "run", "run_steps", "run"]]
 
 
 def test_several_that_are_tried_share_the_progress() -> None:

@@ -7,8 +7,8 @@ import pytest
 
 import packwork as pw
 from packwork import uses
-from packwork.pipeline import gaps
 from packwork.recipe import make_recipe
+from packwork.steps import voids
 from scenes import flat_item, round_container, star
 
 QUICK = {"epochs": 12, "levels": "24,48", "effort": "draft", "count": 6}
@@ -31,7 +31,7 @@ def test_tiny_and_huge_canvases_give_the_same_layout(canvas: str) -> None:
 
 
 def test_filling_gaps_ends_when_its_work_is_done(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(gaps, "MOST_WORK", {"draft": 2.5 * gaps.IMAGE_WORK})
+    monkeypatch.setattr(voids, "MOST_WORK", {"draft": 2.5 * voids.IMAGE_WORK})
     recipe = make_recipe(
         container="circle", items=["star"], target_coverage=0.99, smallest="0.1%", **QUICK
     )

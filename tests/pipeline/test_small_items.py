@@ -8,12 +8,13 @@ from importlib import import_module
 import numpy as np
 import pytest
 
-from packwork.finish.finish import Finished
-from packwork.pipeline.exact import DWARF, _without_dwarfs_that_may_be, tell_of_small
 from packwork.pipeline.job import Job
-from packwork.pipeline.shortfalls import SPECK, shortfalls
+from packwork.pipeline.state import State
+from packwork.pipeline.watch import Watch
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
+from packwork.steps.finish import DWARF, TellOfSmall, dwarfs_told_apart
+from packwork.steps.shortfalls import SPECK, shortfalls
 from packwork.uses import fill, read
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft"}
@@ -23,20 +24,28 @@ def job_of(count: int, **options: object) -> Job:
     return read(make_recipe(container="circle", items=["star"], count=count, **QUICK, **options))
 
 
-def finished(scales: list[float]) -> Finished:
+def sized(job: Job, scales: list[float]) -> State:
+    """Items that came out at such scales, all of them below their least."""
     count = len(scales)
     poses = Poses(np.zeros(count), np.zeros(count), np.zeros(count), np.array(scales))
-    return Finished(poses, True, (), tuple(range(count)), 0, 0.0)
+    state = replace(State.of(job), poses=poses, nominal=np.ones(count))
+    return replace(state, undersized=tuple(range(count)))
+
+
+def told_apart(state: State) -> State:
+    least = np.ones(len(state.poses))
+    real, small = dwarfs_told_apart(state.job, least, state.poses, state.undersized)
+    return replace(state, undersized=real, small=small)
 
 
 def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
     caplog: pytest.LogCaptureFixture,
 ) -> None:
-    found = _without_dwarfs_that_may_be(job_of(3), np.ones(3), finished([0.5, 0.8, 0.999]))
+    found = told_apart(sized(job_of(3), [0.5, 0.8, 0.999]))
     assert found.undersized == ()
     # Of several attempts that of the one that is kept is told alone.
     assert not caplog.records
-    tell_of_small(found)
+    TellOfSmall().run(found, Watch())
     assert [record.getMessage() for record in caplog.records] == [
         "2 items are smaller than --size-ratio 2 allows, star by 50 %"
     ]
@@ -44,7 +53,7 @@ def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
 
 def test_all_that_are_far_too_small_are_one_sentence() -> None:
     job = job_of(5)
-    assert shortfalls(job, np.ones(5), finished([0.1, 0.2, 0.1, 0.2, 0.05])) == (
+    assert shortfalls(sized(job, [0.1, 0.2, 0.1, 0.2, 0.05])) == (
         "5 items (star) came out up to 20 times smaller than the typical item, "
         "--size-ratio 2 allows less; use fewer items",
     )
@@ -52,11 +61,9 @@ def test_all_that_are_far_too_small_are_one_sentence() -> None:
 
 def test_specks_and_sizes_that_were_asked_for_count(caplog: pytest.LogCaptureFixture) -> None:
     speck = 0.9 / DWARF
-    assert _without_dwarfs_that_may_be(
-        job_of(2), np.ones(2), finished([speck, 1.0])
-    ).undersized == (0,)
+    assert told_apart(sized(job_of(2), [speck, 1.0])).undersized == (0,)
     asked = job_of(2, rules=[{"items": "star", "scale": [0.9, 1.1]}])
-    assert _without_dwarfs_that_may_be(asked, np.ones(2), finished([0.9, 1.0])).undersized == (0,)
+    assert told_apart(sized(asked, [0.9, 1.0])).undersized == (0,)
     assert not caplog.records
 
 
@@ -77,13 +84,11 @@ def test_one_line_tells_of_them_though_several_attempts_are_finished(
 ) -> None:
     calls: list[int] = []
 
-    def noted(job: Job, smallest: np.ndarray, result: Finished) -> Finished:
-        calls.append(len(result.poses))
-        return replace(result, undersized=(), small=f"attempt {len(calls)}")
+    def noted(*given: object) -> tuple[tuple[int, ...], str]:
+        calls.append(len(given))
+        return (), f"attempt {len(calls)}"
 
-    monkeypatch.setattr(
-        import_module("packwork.pipeline.exact"), "_without_dwarfs_that_may_be", noted
-    )
+    monkeypatch.setattr(import_module("packwork.steps.finish"), "dwarfs_told_apart", noted)
     fill(make_recipe(container="circle", items=["star"], count=1, **QUICK))
     told = [r.getMessage() for r in caplog.records if r.getMessage().startswith("attempt")]
     assert len(calls) > 1

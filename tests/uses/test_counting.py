@@ -13,16 +13,19 @@ from packwork import uses
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.metrics.shape import ShapeMetrics
-from packwork.pipeline.advice import advice
 from packwork.pipeline.plan.counts import LEAST, MOST, items_needed
+from packwork.pipeline.state import State
+from packwork.pipeline.watch import Watch
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
+from packwork.steps.advice import Advise, advice
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.piles.recipe import pile_recipe
 from packwork.uses.room import Room
 from packwork.uses.words.recipe import words_recipe
+from packwork.uses.words.report import RemarkWords
 from scenes import round_container, square_container
 
 TAILLESS = ShapeMetrics(bare=0.1, shape=0.7, parts=1, bare_parts=0)
@@ -47,7 +50,7 @@ def advised(recipe: Recipe, container: Container, seen: ShapeMetrics = TAILLESS)
     job = uses.read(recipe, container=container)
     one = np.ones(len(job.items))
     layout = Layout(container, job.items, Poses(one, one, one * 0, one), one)
-    return " ".join(advice(job, layout, seen))
+    return " ".join(advice(job, len(layout.items), seen))
 
 
 def test_thin_parts_take_more_items() -> None:
@@ -113,7 +116,7 @@ def test_auto_words_are_those_that_there_are() -> None:
     asked = words_recipe("heart", {"ox": 2, "bee": 1}, count="auto")
     job = uses.read(asked)
     assert [item.name for item in job.items] == ["ox", "bee"]
-    assert job.use.remarks(job) == ("auto chose 2 words",)
+    assert RemarkWords().run(State.of(job), Watch()).remarks == ("auto chose 2 words",)
 
 
 def test_a_good_result_gets_no_advice() -> None:
@@ -168,7 +171,8 @@ def test_data_and_heaps_are_as_many_as_they_are() -> None:
     assert "a container without thin parts" in advised(
         chart_recipe("tail", {"n": [3, 2, 1]}), with_tail(8)
     )
-    assert advised(pile_recipe("square", ["circle"], size="9%"), square_container()) == ""
+    heap = uses.read(pile_recipe("square", ["circle"], size="9%"), container=square_container())
+    assert not any(isinstance(step, Advise) for step in heap.use.steps(heap))
 
 
 def _guitar(neck: float) -> Container:

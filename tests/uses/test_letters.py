@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
 
 import packwork as pw
-from packwork.progress import never
 from packwork.readers.words.items import EM_PX
-from packwork.scene.pose import Poses
 from packwork.uses import fill, read, words_recipe
-from packwork.uses.words.letters import Letters
-from packwork.uses.words.use import Words
+from packwork.uses.words.letters import Letters, readable_count
+from packwork.uses.words.use import Words, heaviest_of
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft"}
 WEIGHTS = {f"word{k}": 1.0 / k for k in range(1, 13)}
@@ -65,8 +61,10 @@ def test_words_that_are_left_out_leave_the_shares_of_kinds() -> None:
     bounds = {"smallest": "20pt", "share": share}
     job = read(words_recipe("circle", WEIGHTS, add=["star", "moon"], **bounds, **QUICK))
     heights = np.sqrt(job.weights / np.array([item.outline.area for item in job.items]))
-    zero = np.zeros(len(job.items))
-    fewer = job.use.fewer(job, Poses(zero, zero, zero, heights / heights.max()), 1)
+    assert isinstance(job.use, Words)
+    sizes = EM_PX * heights / heights.max()
+    count = readable_count(job.use.read, 26.7, sizes[: len(WEIGHTS)], 1)
+    fewer = heaviest_of(job, count, sizes[: len(WEIGHTS)], 26.7)
     count = len(fewer.use.words)
     assert count < len(WEIGHTS)
     assert fewer.weights[:count].sum() == pytest.approx(0.8)
@@ -100,11 +98,10 @@ def test_each_attempt_keeps_fewer_words() -> None:
     tiny = type(poses)(poses.x, poses.y, poses.angle, 0.9 * poses.scale)
     least = 0.95 * float(poses.scale[-1]) * EM_PX
     assert isinstance(job.use, Words)
-    asked = replace(job, use=replace(job.use, letters=Letters(smallest=least)))
-    assert asked.use.before(asked, never) is asked
-    assert len(asked.use.fewer(asked, tiny, 1).items) == 11
-    assert len(asked.use.fewer(asked, tiny, 3).items) == 8
-    assert asked.use.fewer(asked, poses, 1) is asked
+    words = job.use.read
+    assert [readable_count(words, least, EM_PX * tiny.scale, k) for k in (1, 3)] == [11, 8]
+    assert readable_count(words, least, EM_PX * poses.scale, 1) == len(words.items)
+    assert heaviest_of(job, len(words.items), poses.scale, least) is job
 
 
 @pytest.mark.parametrize(

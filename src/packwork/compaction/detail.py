@@ -59,14 +59,14 @@ class Detail:
 
         Itself once ``stop``, asked before each, says so: hundreds of words take seconds.
         """
-        known: dict[int, Outline] = {}
+        known: dict[Outline, Outline] = {}
         covers = Covers()
         for outline in self._outlines:
-            if id(outline) not in known:
+            if outline not in known:
                 if stop():
                     return self
-                known[id(outline)] = covers.cover_of_shape(outline, tolerance)
-        outlines = [known[id(outline)] for outline in self._outlines]
+                known[outline] = covers.cover_of_shape(outline, tolerance)
+        outlines = [known[outline] for outline in self._outlines]
         sizes = [outline.extent for outline in self._outlines] * self._poses.scale
         slack = tolerance * float(np.median(sizes))
         container = Outline.from_region(inner_simplified(self._container.region, slack))

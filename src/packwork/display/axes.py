@@ -31,7 +31,7 @@ def drawn_on(layout: Layout, ax: Any = None) -> Any:
     if ax is None:
         _, ax = found("matplotlib.pyplot", INSTEAD).subplots(layout="constrained")
         ax.axis("off")
-    colours = {id(item.art): representative_colour(item) for item in layout.items}
+    colours = {item.art: representative_colour(item) for item in layout.items}
     told: set[str] = set()
     for item, ink in zip(layout.items, layout.inks, strict=True):
         category = "" if item.datum is None else item.datum.category
@@ -39,7 +39,7 @@ def drawn_on(layout: Layout, ax: Any = None) -> Any:
         label = "_" + item.name if category in told or not category else category
         told.add(category)
         patch = patches.PathPatch(
-            _path(ink), facecolor=colours[id(item.art)], edgecolor="none", label=label
+            _path(ink), facecolor=colours[item.art], edgecolor="none", label=label
         )
         ax.add_patch(patch)
     ax.set_xlim(0.0, layout.container.width)

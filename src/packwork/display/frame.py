@@ -116,7 +116,7 @@ def _ours(layout: Layout) -> dict[str, Any]:
         for key in ("category", "group"):
             if any(datum is not None and getattr(datum, key) for datum in data):
                 said[key] = [datum and (getattr(datum, key) or None) for datum in data]
-    colours = {id(item.art): representative_colour(item) for item in layout.items}
+    colours = {item.art: representative_colour(item) for item in layout.items}
     return said | {
         "item": [item.name for item in layout.items],
         "source": [item.source for item in layout.items],
@@ -127,5 +127,5 @@ def _ours(layout: Layout) -> dict[str, Any]:
         "stretch": poses.stretch,
         "area": layout.areas,
         "weight": layout.weights,
-        "color": [colours[id(item.art)] for item in layout.items],
+        "color": [colours[item.art] for item in layout.items],
     }

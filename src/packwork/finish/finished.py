@@ -26,8 +26,6 @@ class Finished:
         Linear programmes for each item.
     seconds
         Time taken.
-    small
-        What is said of items a little smaller than free sizes go; empty if none is.
     """
 
     poses: Poses
@@ -36,9 +34,3 @@ class Finished:
     undersized: tuple[int, ...]
     rounds: int
     seconds: float
-    small: str = ""
-
-    @classmethod
-    def as_is(cls, poses: Poses) -> Finished:
-        """Poses that no finish has seen: nothing is known of them."""
-        return cls(poses, False, (), (), 0, 0.0)

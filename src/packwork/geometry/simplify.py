@@ -110,8 +110,8 @@ def hull(outline: Outline) -> Outline:
 
 def hull_areas(outlines: Sequence[Outline]) -> FloatArray:
     """Area of each outline's convex hull; copies are measured once."""
-    known: dict[int, float] = {}
+    known: dict[Outline, float] = {}
     for outline in outlines:
-        if id(outline) not in known:
-            known[id(outline)] = shapely.convex_hull(shapely.linestrings(outline.points)).area
-    return np.array([known[id(outline)] for outline in outlines])
+        if outline not in known:
+            known[outline] = shapely.convex_hull(shapely.linestrings(outline.points)).area
+    return np.array([known[outline] for outline in outlines])

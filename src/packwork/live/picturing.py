@@ -6,9 +6,9 @@ from packwork.errors import RecipeError
 from packwork.live.commands.items import Recolour
 from packwork.live.commands.together import Together
 from packwork.live.document import Document
-from packwork.pipeline.dress.likeness import colours_under
 from packwork.readers.target import read_target
 from packwork.scene.item import PhotoArt
+from packwork.steps.dress.likeness import colours_under
 
 
 def showing(document: Document, source: str) -> Together:

@@ -14,8 +14,8 @@ from packwork.live.commands.command import Library
 from packwork.live.composed import is_word
 from packwork.live.document import PROPERTIES, Document
 from packwork.metrics.shape import shape_metrics
-from packwork.pipeline.advice import LEAST_SHAPE, MOST_BARE, advice
 from packwork.progress import Stop
+from packwork.steps.advice import LEAST_SHAPE, MOST_BARE, advice
 
 MOST_LOST = 0.02
 """Share of the container by which less may be covered after a change than before it, and by which
@@ -95,7 +95,7 @@ def advice_of(document: Document) -> tuple[str, ...]:
         # No job is read for nothing.
         return ()
     try:
-        return advice(job_again(document, 0, {}), layout, seen)
+        return advice(job_again(document, 0, {}), len(layout.items), seen)
     except PackworkError:
         return ()
 

@@ -8,6 +8,7 @@ from typing import Any, TypedDict
 
 import numpy as np
 
+from packwork.geometry.outline import Outline
 from packwork.metrics.exact import ExactMetrics, exact_coverage, exact_metrics
 from packwork.metrics.pixel import PixelMetrics, pixel_metrics
 from packwork.metrics.shape import ShapeMetrics, shape_metrics
@@ -131,12 +132,12 @@ def _ink_coverage(layout: Layout, exact: ExactMetrics) -> float:
     if all(item.ink is item.outline for item in layout.items):
         return exact.coverage
     container = layout.container.outline
-    known: dict[tuple[int, int], float | None] = {}
+    known: dict[tuple[Outline, Outline], float | None] = {}
     for item in layout.items:
-        key = id(item.ink), id(item.outline)
+        key = item.ink, item.outline
         if key not in known:
             known[key] = _area_inside(item)
-    areas = [known[id(item.ink), id(item.outline)] for item in layout.items]
+    areas = [known[item.ink, item.outline] for item in layout.items]
     if not exact.is_clean or None in areas or not container.region.is_valid:
         return exact_coverage(layout.inks, container)
     # Inside outlines that neither meet nor stick out, ink does not either.

@@ -152,10 +152,6 @@ class Job:
         """What items are taken for until they are measured."""
         return stand_ins([item.outline for item in self.items], self.plan.outline)
 
-    def check_forces(self) -> None:
-        """Refuse forces that name no item or have no meaning, before anything is run."""
-        _ = self.forces
-
     def some(self, kept: Sequence[int] | IntArray) -> Job:
         """The same job of some of its items, by their indices ``(m,)``."""
         rows = np.asarray(kept, dtype=np.int64)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from packwork.errors import PackworkError, ReadError, RecipeError
-from packwork.pipeline.arranging import check_arranged
 from packwork.pipeline.hero import placed_hero
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.plan.asked import voices
@@ -174,13 +173,16 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         If an option has no meaning for these items.
     """
     chosen, container = material.cast, material.container
-    weights = shared_out(chosen.items, chosen.weights, material.use.words, recipe.share)
+    weights = chosen.weights
+    if recipe.share is not None:
+        weights = shared_out(chosen.items, weights, material.use.words, recipe.share)
     plan = Plan.of(recipe, container)
-    fillers = _fillers(recipe, material.fillers)
-    check_ablations(plan, recipe.preset)
-    plan = replace(plan, losses=losses_with_a_say(plan.losses, container, chosen.items))
-    vectors = _vectors(recipe, material)
-    told = () if vectors is None else vectors.told
+    if plan.losses:
+        check_ablations(plan, recipe.preset)
+        plan = replace(plan, losses=losses_with_a_say(plan.losses, container, chosen.items))
+    fillers = _fillers(recipe, material.fillers) if recipe.fills_gaps else Named((), ())
+    vectors = None if recipe.embeddings is None else _vectors(recipe, recipe.embeddings, material)
+    file = recipe.layout_file
     job = Job(
         recipe=recipe,
         plan=plan,
@@ -191,16 +193,19 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
         weights=weights,
         regions=read_regions(chosen.asked, container),
         fillers=fillers.items,
-        earlier=_earlier(recipe, container, chosen.items),
-        target=_target(recipe, container),
+        earlier=_earlier(file, container, chosen.items) if file else None,
+        target=_target(recipe, recipe.picture, container) if recipe.picture else None,
         vectors=vectors,
         is_counted=recipe.count == AUTO,
-        skipped=(*material.skipped, *fillers.skipped, *told),
+        skipped=(*material.skipped, *fillers.skipped, *(vectors.told if vectors else ())),
         clock=clock,
     )
-    job = placed_hero(labelled(job))
-    job.check_forces()
-    check_arranged(job)
+    if recipe.label_regions:
+        job = labelled(job)
+    if recipe.hero is not None:
+        job = placed_hero(job)
+    # Refuses forces that name no item, before anything is run.
+    _ = job.forces
     if job.vectors is not None and recipe.arrange is not None:
         raise RecipeError("embeddings", "and --arrange both say where items lie; leave one out")
     if job.vectors is not None and len(job.seated):
@@ -212,24 +217,17 @@ def job_of(recipe: Recipe, material: Material, clock: Clock) -> Job:
     return job
 
 
-def _vectors(recipe: Recipe, material: Material) -> ItemVectors | None:
+def _vectors(recipe: Recipe, asked: str, material: Material) -> ItemVectors:
     """Vectors of the items, from a file or made by the use."""
-    if recipe.embeddings is None:
-        return None
     if recipe.chart is not None or recipe.pile is not None:
         raise RecipeError("embeddings", "puts like items together in a collage; this is none")
-    if recipe.embeddings == FROM_TEXT:
+    if asked == FROM_TEXT:
         return material.use.vectors(recipe)
-    return read_item_vectors(recipe, recipe.embeddings, material.cast.items, material.given)
+    return read_item_vectors(recipe, asked, material.cast.items, material.given)
 
 
-def _target(recipe: Recipe, container: Container) -> TargetPicture | None:
+def _target(recipe: Recipe, picture: str, container: Container) -> TargetPicture:
     """The picture that the layout is to show."""
-    if recipe.picture is None:
-        for key in ("tint", "detail", "ground"):
-            if getattr(recipe, key) is not None:
-                raise RecipeError(key, "is of --picture; say which picture is shown")
-        return None
     if recipe.chart is not None:
         raise RecipeError("picture", "has no meaning in a chart, whose colours say something")
     if container.backdrop is not None:
@@ -237,14 +235,12 @@ def _target(recipe: Recipe, container: Container) -> TargetPicture | None:
     # Only what is asked for loads the picture library.
     from packwork.readers.target import read_target
 
-    return read_target(recipe.picture, container, recipe.read_options)
+    return read_target(picture, container, recipe.read_options)
 
 
-def _earlier(recipe: Recipe, container: Container, items: tuple[Item, ...]) -> Layout | None:
-    """The earlier layout that a run begins from; None if it begins anew."""
-    if recipe.layout_file is None:
-        return None
-    made = shelved(recipe.layout_file)
+def _earlier(file: str, container: Container, items: tuple[Item, ...]) -> Layout:
+    """The earlier layout that a run begins from."""
+    made = shelved(file)
     if isinstance(made, Layout):
         # Arrays of a layout are read-only, which kernels would be compiled for anew.
         return replace(made, poses=made.poses.some(np.arange(len(made.items))))
@@ -254,15 +250,13 @@ def _earlier(recipe: Recipe, container: Container, items: tuple[Item, ...]) -> L
                 "start", f"has {len(made)} poses, this run {len(items)} items; give as many"
             )
         return Layout(container, items, made.some(np.arange(len(items))), np.ones(len(items)))
-    layout = read_written(recipe.layout_file)
+    layout = read_written(file)
     # GeoJSON holds poses; of drawings they are found from the shapes.
-    return registered(layout, items) if is_drawn(recipe.layout_file) else layout
+    return registered(layout, items) if is_drawn(file) else layout
 
 
 def _fillers(recipe: Recipe, items: tuple[Item, ...]) -> Named:
     """What voids are filled with, and files that were left out."""
-    if not recipe.fills_gaps:
-        return Named((), ())
     if not recipe.filler:
         return Named(items, ())
     found = read_items(

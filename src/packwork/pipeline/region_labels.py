@@ -76,8 +76,6 @@ def labelled(job: Job) -> Job:
     RecipeError
         If neither has names.
     """
-    if not job.recipe.label_regions:
-        return job
     if job.vectors is not None and job.vectors.groups:
         return _with_groups(job, job.vectors)
     parts = read_parts(job.container)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -13,15 +13,16 @@ from packwork.errors import PackworkError, RowsLostError
 from packwork.installed import installed_version
 from packwork.losses.registry import by_name
 from packwork.metrics.measure import LayoutMetrics
-from packwork.pipeline.job import Job
+from packwork.pipeline.findings import Filling, Unplaced, WordsFound, plain
 from packwork.pipeline.plan.resolution import photo_pixels
+from packwork.pipeline.state import State
 from packwork.scene.layout import Layout
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.solve.detail import seen_posed
 from packwork.solve.level import Level
 from packwork.solve.options import SolveOptions
 from packwork.solve.relocate_trapped import violation_shares
-from packwork.solve.solver import Ending, Outcome
+from packwork.solve.solver import Ending
 
 CHECK_RESOLUTION = 600
 """Pixels on the longer side of the image on which unplaced items are found. Chosen."""
@@ -32,58 +33,6 @@ A run that went well stays a hundred times below. Chosen."""
 
 UNPLACED_SHARE = 0.5
 """Share of an item that is overlapped or outside from which it counts as not placed."""
-
-
-@dataclass(frozen=True)
-class Unplaced:
-    """An item that found no place of its own, and why."""
-
-    item: str
-    index: int
-    reason: str
-
-
-@dataclass(frozen=True)
-class Filling:
-    """How the voids between items were filled.
-
-    Parameters
-    ----------
-    added
-        Items that were put into voids.
-    ending
-        Why no more were.
-    covered, target
-        Shares of the container that are covered, and that were to be; None if as much as
-        goes.
-    """
-
-    added: int
-    ending: str
-    covered: float
-    target: float | None
-
-    @property
-    def is_short(self) -> bool:
-        """Whether less is covered than was asked for."""
-        return self.target is not None and self.covered < self.target
-
-
-@dataclass(frozen=True)
-class WordsFound:
-    """How many different words a source holds, and how many of them were to be set.
-
-    Parameters
-    ----------
-    found, asked
-        As above.
-    of_true
-        Where sizes gave way, of each word its size as a share of its proportion to the heaviest.
-    """
-
-    found: int
-    asked: int
-    of_true: Mapping[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,6 +95,29 @@ class Run:
     remarks: tuple[str, ...] = ()
     advice: tuple[str, ...] = ()
 
+    @classmethod
+    def of(cls, state: State) -> Run:
+        """Result of a run that has been measured."""
+        job, (layout, metrics) = state.job, state.measured
+        return cls(
+            layout=replace(layout, manifest=manifest(state)),
+            metrics=metrics,
+            seconds=job.clock.seconds,
+            ending=state.ending,
+            unplaced=state.unplaced,
+            kept=state.kept,
+            skipped=job.skipped,
+            beside=state.beside,
+            certified=state.certified,
+            broken=state.faults,
+            filling=state.filling,
+            words=state.words,
+            left_out=state.left_out,
+            pile=state.pile,
+            remarks=state.remarks,
+            advice=state.advice,
+        )
+
     @property
     def is_as_asked(self) -> bool:
         """Whether all that was asked is met."""
@@ -202,11 +174,6 @@ class Run:
         }
 
 
-def plain(one: Filling | WordsFound | None) -> dict[str, Any] | None:
-    """Plain values of a part of a result, for JSON; None if there is no such part."""
-    return None if one is None else asdict(one)
-
-
 def find_unplaced(layout: Layout, limits: Limits = NO_LIMITS) -> tuple[Unplaced, ...]:
     """Items of which most is overlapped or outside the container or their zone."""
     outlines = [item.outline for item in layout.items]
@@ -232,26 +199,29 @@ def _solved(options: SolveOptions) -> dict[str, Any]:
     }
 
 
-def manifest(
-    job: Job,
-    method: str,
-    outcome: Outcome,
-    metrics: LayoutMetrics,
-    unplaced: Sequence[Unplaced],
-    beside: int | None,
-) -> dict[str, Any]:
-    """Manifest of a run: what repeats it, and what it measured."""
-    return {
+def manifest(state: State) -> dict[str, Any]:
+    """Manifest of a measured state: what repeats the run, and what it measured."""
+    job, (layout, metrics) = state.job, state.measured
+    said: dict[str, Any] = {
         "packwork": installed_version(),
         "recipe": job.recipe.plain(),
         "seed": job.recipe.seed,
-        "start": method,
-        "ending": outcome.ending.value,
-        "levels": [asdict(level) for level in outcome.levels],
-        "solve": _solved(job.plan.solve_options()) if outcome.levels else None,
+        "start": state.method,
+        "ending": state.ending.value,
+        "levels": [asdict(level) for level in state.levels],
+        "solve": _solved(job.plan.solve_options()) if state.levels else None,
         "metrics": metrics.as_dict(),
         "seconds": dict(job.clock.seconds),
-        "unplaced": [asdict(u) for u in unplaced],
-        "beside": beside,
+        "unplaced": [asdict(u) for u in state.unplaced],
+        "beside": state.beside,
         "skipped": [str(error) for error in job.skipped],
+        "certified": state.certified,
+        "promised": asdict(state.promise) if job.plan.is_exact else None,
+        "filling": plain(state.filling),
+        "words": plain(state.words),
     }
+    if state.pile:
+        said["pile"] = dict(state.pile)
+    if layout.ground:
+        said["ground"] = layout.ground
+    return said

@@ -6,15 +6,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
-from packwork.pipeline.film.recorder import Recorder
+from packwork.pipeline.recorder import Recorder
 from packwork.pipeline.result import Run
 from packwork.progress import NOBODY, Observer, Stage, Step, Stop, never, together
 
 LEVELS = 0.4
 """How far a run is when its levels are done, where an exact finish follows. Tried."""
-
-BEFORE_VOIDS = 0.5
-"""How far it is when voids begin to be filled. Tried."""
 
 NEARLY = 0.999
 """How far a run is at most before it is measured and done. Chosen."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import BeforeValidator, Field, field_validator
+from pydantic import BeforeValidator, Field, field_validator, model_validator
 
 from packwork.errors import RecipeError
 from packwork.offers import Group, Offer, Verbs
@@ -49,3 +49,10 @@ class Shown(Options):
             if parse_colour("ground", value)[3] < 255:
                 raise RecipeError("ground", f"{value!r} is clear; use a solid colour")
         return value
+
+    @model_validator(mode="after")
+    def _of_a_picture(self) -> Shown:
+        for key in ("tint", "detail", "ground"):
+            if self.picture is None and getattr(self, key) is not None:
+                raise RecipeError(key, "is of --picture; say which picture is shown")
+        return self

@@ -17,7 +17,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
 from packwork.scene.colour import ABSENT, css_colour, hex_colour
-from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
+from packwork.scene.item import Art, FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.light import light_of
 from packwork.scene.notation import attributes, matrix_text
 
@@ -89,11 +89,11 @@ def mean_light(item: Item) -> FloatArray:
 
 def mean_lights(items: Sequence[Item]) -> FloatArray:
     """``(n, 3)`` :func:`mean_light` of items, once of each drawing."""
-    known: dict[int, FloatArray] = {}
+    known: dict[Art, FloatArray] = {}
     for item in items:
-        if id(item.art) not in known:
-            known[id(item.art)] = mean_light(item)
-    return np.array([known[id(item.art)] for item in items])
+        if item.art not in known:
+            known[item.art] = mean_light(item)
+    return np.array([known[item.art] for item in items])
 
 
 def patch_of(item: Item, grid: int) -> FloatArray:

@@ -32,9 +32,9 @@ wrong by more than the 9 % that they may differ now; the exact finish keeps them
 class Seen:
     """Outlines that were simplified before, kept with those that they were made of."""
 
-    shaped: dict[tuple[int, float], Outline] = field(default_factory=dict)
-    made: dict[tuple[int, int], Outline] = field(default_factory=dict)
-    given_back: dict[tuple[int, float], Outline] = field(default_factory=dict)
+    shaped: dict[tuple[Outline, float], Outline] = field(default_factory=dict)
+    made: dict[tuple[Outline, int], Outline] = field(default_factory=dict)
+    given_back: dict[tuple[Outline, float], Outline] = field(default_factory=dict)
 
 
 def seen_posed(
@@ -86,7 +86,7 @@ def seen_at(
     scales: FloatArray,
     px_per_cu: float,
     margin_cu: float = 0.0,
-    known: dict[tuple[int, int], Outline] | None = None,
+    known: dict[tuple[Outline, int], Outline] | None = None,
 ) -> list[Outline]:
     """Outlines simplified to a level's pixels; copies of about one size are made once.
 
@@ -111,7 +111,7 @@ def seen_at(
         # is as wide on small items as on large ones, nearly.
         size = math.log2(1 / (px_per_cu * scale))
         rung = round(size)
-        key = (id(outline), rung if margin_cu == 0 else round(size * MARGIN_RUNGS))
+        key = (outline, rung if margin_cu == 0 else round(size * MARGIN_RUNGS))
         if key not in done:
             done[key] = _seen(outline, 2.0**rung, margin_cu / scale)
         seen.append(done[key])
@@ -126,12 +126,12 @@ def _seen(outline: Outline, pixel: float, margin: float) -> Outline:
 
 
 def _stretched_once(
-    outlines: Sequence[Outline], ratios: FloatArray, done: dict[tuple[int, float], Outline]
+    outlines: Sequence[Outline], ratios: FloatArray, done: dict[tuple[Outline, float], Outline]
 ) -> list[Outline]:
     """Stretched outlines; copies stretched alike are made once, others left as they are."""
     result = []
     for outline, ratio in zip(outlines, ratios.tolist(), strict=True):
-        key = (id(outline), ratio)
+        key = (outline, ratio)
         if key not in done:
             done[key] = outline if ratio == 1.0 else outline.mapped(stretched(ratio))
         result.append(done[key])

@@ -28,8 +28,8 @@ def stand_ins(outlines: Sequence[Outline], choice: OutlineChoice) -> list[Outlin
     """
     if choice == "exact":
         return list(outlines)
-    known: dict[int, Outline] = {}
+    known: dict[Outline, Outline] = {}
     for outline in outlines:
-        if id(outline) not in known:
-            known[id(outline)] = hull(outline)
-    return [known[id(outline)] for outline in outlines]
+        if outline not in known:
+            known[outline] = hull(outline)
+    return [known[outline] for outline in outlines]

@@ -114,8 +114,7 @@ class Scenes:
     """Scenes of views, each drawn once; not for several threads at once."""
 
     def __init__(self) -> None:
-        self._drawings: dict[int, tuple[Item, Drawing]] = {}
-        self._areas: dict[int, float] = {}
+        self._drawings: dict[Item, Drawing] = {}
         self._last: tuple[View, Scene] | None = None
         self._outline: tuple[Container, str] | None = None
         self.shapes: dict[str, Shape] = {}
@@ -159,13 +158,12 @@ class Scenes:
         )
 
     def _drawing(self, item: Item) -> Drawing:
-        # The item is kept beside: another one could have its place in memory.
-        if id(item) not in self._drawings:
+        if item not in self._drawings:
             drawing = drawing_of(item)
-            self._drawings[id(item)] = (item, drawing)
+            self._drawings[item] = drawing
             said = {name: getattr(drawing, name) for name in Shape.model_fields}
             self.shapes[drawing.key] = Shape(**said)
-        return self._drawings[id(item)][1]
+        return self._drawings[item]
 
     def _path(self, container: Container) -> str:
         if self._outline is None or self._outline[0] is not container:

@@ -18,9 +18,9 @@ from packwork.compaction.options import HAIR
 from packwork.finish.finish import finish
 from packwork.finish.finished import Finished
 from packwork.finish.options import FinishOptions
-from packwork.pipeline.exact import gap_with_bulge
 from packwork.progress import Stop, never
 from packwork.scene.pose import Poses
+from packwork.steps.finish import gap_with_bulge
 from packwork.timeline.board import Board
 from packwork.timeline.step import SeriesStep
 from packwork.uses.words.graded import angles_of

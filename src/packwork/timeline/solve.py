@@ -12,15 +12,13 @@ import numpy as np
 from packwork import pipeline, threads
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
-from packwork.finish.finished import Finished
-from packwork.pipeline.beginning import begin
-from packwork.pipeline.film.recorder import Recorder
-from packwork.pipeline.measure import Unmeasured, measured
-from packwork.pipeline.placed import Placed
+from packwork.pipeline.plan.limits import item_limits
 from packwork.pipeline.result import Run
+from packwork.pipeline.state import State
+from packwork.pipeline.step import run_steps
+from packwork.pipeline.watch import Watch
 from packwork.progress import NOBODY, Stop, never
 from packwork.scene.pose import Poses
-from packwork.solve.solver import Ending, Outcome
 from packwork.timeline.follow import followed, places_of
 from packwork.timeline.step import SeriesStep
 
@@ -147,11 +145,13 @@ def outwards(first: int, count: int) -> Iterator[tuple[int, int | None]]:
 
 def _measured(step: SeriesStep, poses: Poses) -> Run:
     """Run of a step whose poses are known, measured and certified as any."""
-    job = replace(step.job, items=step.job.items)
-    start = replace(begin(job), poses=poses)
-    placed = Placed.of(start, Outcome(poses, Ending.DONE), Recorder.off())
-    exact = Finished(poses, True, (), (), 0, 0.0)
-    return measured(Unmeasured.of(replace(placed, exact=exact)))
+    job = step.job
+    limits = item_limits(job, poses.scale, poses.scale, poses.angle) if job.is_limited else None
+    state = State.of(job)
+    state = replace(
+        state, poses=poses, nominal=poses.scale, method="layout", limits=limits or state.limits
+    )
+    return Run.of(run_steps(job.use.report(job), state, Watch()))
 
 
 def _between(before: tuple[SeriesStep, Run], after: tuple[SeriesStep, Run]) -> FloatArray:

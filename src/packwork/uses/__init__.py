@@ -21,6 +21,7 @@ from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
+from packwork.steps.arranging import check_arranged
 from packwork.uses.icons import read_icons
 from packwork.uses.room import NO_CONTAINER, Room
 
@@ -96,7 +97,9 @@ def read(
     """Read what a recipe names; the first half of :func:`fill`."""
     clock = Clock()
     with clock.time("read"), threads.using(recipe.threads):
-        return job_of(recipe, _material(recipe, items, container), clock)
+        job = job_of(recipe, _material(recipe, items, container), clock)
+        check_arranged(job)
+        return job
 
 
 def _material(
@@ -121,7 +124,7 @@ def _content(recipe: Recipe, room: Room, items: Sequence[Item] | None) -> Materi
 
         return read_marks(recipe, recipe.chart, room.container)
     if recipe.words is not None:
-        from packwork.uses.words.use import read_cloud
+        from packwork.uses.words.reading import read_cloud
 
         return read_cloud(recipe, recipe.words, room, items)
     if recipe.photos is not None:

@@ -1,4 +1,4 @@
-"""Icons and drawings: the plain use, which adds nothing to the road."""
+"""Icons and drawings: the plain use, whose items' files say all about them."""
 
 from __future__ import annotations
 
@@ -6,15 +6,14 @@ from collections.abc import Sequence
 from typing import final
 
 from packwork.pipeline.job import Job
-from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.cast import cast
 from packwork.pipeline.read import Material, drawn_first, read_named
-from packwork.pipeline.result import Run
-from packwork.pipeline.run import along
+from packwork.pipeline.step import RunStep
 from packwork.pipeline.use import Use
-from packwork.pipeline.watch import Watch
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
+from packwork.steps.starts import fits_first
+from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.room import Room
 
 
@@ -22,9 +21,14 @@ from packwork.uses.room import Room
 class Icons(Use):
     """Items whose files say all about them."""
 
-    def run(self, job: Job, watch: Watch) -> Run:
-        """The common road."""
-        return measured(Unmeasured.of(along(job, watch)))
+    def steps(self, job: Job) -> Sequence[RunStep]:
+        """Places, levels, finish; voids if asked; measures and looks."""
+        placed = placing(job, suits_first_fit=fits_first(job))
+        return [*placed, *filling(job), *self.report(job)]
+
+    def report(self, job: Job) -> Sequence[RunStep]:
+        """Measures and looks."""
+        return reporting(job, is_dressed=False)
 
 
 def read_icons(recipe: Recipe, room: Room, given: Sequence[Item] | None) -> Material:

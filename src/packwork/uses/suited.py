@@ -1,7 +1,7 @@
 """Which items a picture is shown by, where there are more than places: those whose colours suit it.
 
 An optimal assignment of items to places spread over the picture, as for seats on the road
-(:mod:`packwork.pipeline.seating`); some items are left over.
+(:mod:`packwork.steps.seating`); some items are left over.
 """
 
 from __future__ import annotations

@@ -152,7 +152,7 @@ def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
     layer = "container" if walls is None else "room"
     yield _Lot(layer, layout.container.outline.rings, _promise(layout))
     yield _Lot("container", list(walls or ()), is_open=True)
-    bare = {id(item): item for item in layout.items}
+    bare = {item: item for item in layout.items}
     details = {key: _bare_rings(item) for key, item in bare.items()}
     weights = stated_weights(layout)
     for k, item in enumerate(layout.items):
@@ -160,7 +160,7 @@ def _lots(layout: Layout, cut: CutOptions) -> Iterator[_Lot]:
         layer = "items" if is_other else "cut"
         yield _Lot(layer, layout.outlines[k].rings, (str(k + 1), name, weights[k] or "1"))
         matrix = layout.poses.matrix(k)
-        yield _Lot("engrave", [affine.apply(matrix, ring) for ring in details[id(item)]])
+        yield _Lot("engrave", [affine.apply(matrix, ring) for ring in details[item]])
     if is_other:
         yield _Lot("cut", cut_rings(layout, cut))
 

@@ -128,10 +128,10 @@ def _container_feature(layout: Layout, digits: int) -> dict[str, Any]:
 
 def _item_features(layout: Layout, digits: int) -> Iterable[dict[str, Any]]:
     # By identity: copies share an art, and a picture's colour is worth one look only.
-    first = {id(item.art): item for item in reversed(layout.items)}
+    first = {item.art: item for item in reversed(layout.items)}
     fills = {key: representative_colour(item) for key, item in first.items()}
     for k, (item, outline) in enumerate(zip(layout.items, layout.outlines, strict=True)):
-        properties = _item_properties(layout, k, item) | {"fill": fills[id(item.art)]}
+        properties = _item_properties(layout, k, item) | {"fill": fills[item.art]}
         yield _feature(properties, outline, digits)
 
 

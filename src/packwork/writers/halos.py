@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 import hashlib
 import io
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
 from dataclasses import replace
 from importlib.metadata import version
 from typing import TypeAlias
@@ -131,7 +131,7 @@ def _better_ground(layout: Layout, background: str | None) -> str | None:
 
 def _edges(layout: Layout) -> list[tuple[Item, FloatArray]]:
     """Each drawing once, the largest first, with the colours of its edge (Oklab)."""
-    found: dict[tuple[int, str], Item] = {}
+    found: dict[tuple[Hashable, str], Item] = {}
     order = np.argsort(-layout.areas, kind="stable")
     for item in (layout.items[k] for k in order):
         if item.text is None and not isinstance(item.art, PhotoArt) and not item.halo:
@@ -141,7 +141,7 @@ def _edges(layout: Layout) -> list[tuple[Item, FloatArray]]:
     return [(item, edge) for item, edge in edges if len(edge)]
 
 
-def _look(item: Item) -> tuple[int, str]:
+def _look(item: Item) -> tuple[Hashable, str]:
     """Same for items that are drawn alike, in one colour."""
     return shape_key(item), item.art.fill if isinstance(item.art, FlatArt) else ""
 

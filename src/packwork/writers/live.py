@@ -6,7 +6,7 @@ import logging
 from collections.abc import Mapping, Sequence
 
 from packwork.scene.colour import Colour, hex_colour
-from packwork.scene.item import Item, VectorArt
+from packwork.scene.item import Art, Item, VectorArt
 from packwork.scene.live_text import FontFile, LiveText, TextRun
 from packwork.scene.notation import attributes, matrix_text, xml_text
 from packwork.scene.recolour import one_colour
@@ -37,9 +37,9 @@ class LiveWords:
     """
 
     def __init__(self, items: Sequence[Item]) -> None:
-        texts = {id(item.text): item.text for item in items if item.text is not None}
-        self._fonts, refused = embedded_fonts(texts.values())
-        self._colours: dict[int, Colour | None] = {}
+        texts = dict.fromkeys(item.text for item in items if item.text is not None)
+        self._fonts, refused = embedded_fonts(texts)
+        self._colours: dict[Art, Colour | None] = {}
         for name, reason in refused.items():
             _LOG.warning("%s: its words are outlines, not text: %s", name, reason)
 
@@ -86,9 +86,9 @@ class LiveWords:
 
     def _colour(self, art: VectorArt) -> Colour | None:
         """Its one colour, read once; arts live as long as the items."""
-        if id(art) not in self._colours:
-            self._colours[id(art)] = one_colour(art)
-        return self._colours[id(art)]
+        if art not in self._colours:
+            self._colours[art] = one_colour(art)
+        return self._colours[art]
 
 
 def text_element(text: LiveText, fonts: Mapping[FontFile, Embedded]) -> str:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 import math
-from collections.abc import Mapping
+from collections.abc import Hashable, Mapping
 
 import numpy as np
 import shapely
@@ -22,8 +22,8 @@ LEAST_BAY = 1e-6
 smaller makes files longer for nothing. Chosen, as the specks of readers."""
 
 
-def shape_key(item: Item) -> int:
-    """Same number for items whose definition can be shared.
+def shape_key(item: Item) -> Hashable:
+    """Same key for items whose definition can be shared.
 
     Flat items share by ink alone, so that marks of many colours cost one path.
 
@@ -35,7 +35,7 @@ def shape_key(item: Item) -> int:
     >>> shape_key(red) == shape_key(blue)
     True
     """
-    return id(item.ink) if isinstance(item.art, FlatArt) else id(item.art)
+    return item.ink if isinstance(item.art, FlatArt) else item.art
 
 
 def paint(item: Item) -> dict[str, str]:

@@ -134,16 +134,16 @@ def _fill(background: str | None) -> str:
 def without_text(layout: Layout) -> Layout:
     """The same layout, drawings with text in it replaced by pictures of them."""
     px_per_cu = convert(1.0, layout.container.unit, "in") * PICTURE_DPI
-    largest: dict[int, float] = {}
+    largest: dict[Item, float] = {}
     scales = layout.poses.axis_scales.max(axis=1).tolist()
     for item, scale in zip(layout.items, scales, strict=True):
-        largest[id(item)] = max(largest.get(id(item), 0.0), scale)
+        largest[item] = max(largest.get(item, 0.0), scale)
     pictured = {
-        id(item): _pictured(item, largest[id(item)] * px_per_cu)
+        item: _pictured(item, largest[item] * px_per_cu)
         for item in layout.items
         if isinstance(item.art, VectorArt) and "<text" in item.art.markup
     }
-    items = tuple(pictured.get(id(item), item) for item in layout.items)
+    items = tuple(pictured.get(item, item) for item in layout.items)
     return replace(layout, items=items) if pictured else layout
 
 

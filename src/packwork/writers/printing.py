@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from packwork.scene.item import Item, PhotoArt, VectorArt
+from packwork.scene.item import Art, Item, PhotoArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.units import convert
 
@@ -30,22 +30,22 @@ def printed(layout: Layout, px_per_cu: float) -> Layout:
         If a photo is no longer there, or broken.
     """
     layout = _with_backdrop(layout, px_per_cu)
-    largest: dict[int, float] = {}
+    largest: dict[Art, float] = {}
     scales = layout.poses.axis_scales.max(axis=1).tolist()
     for item, scale in zip(layout.items, scales, strict=True):
         if isinstance(item.art, PhotoArt):
-            largest[id(item.art)] = max(largest.get(id(item.art), 0.0), scale)
+            largest[item.art] = max(largest.get(item.art, 0.0), scale)
     if not largest:
         return layout
-    arts: dict[int, VectorArt] = {}
-    known: dict[int, Item] = {}
+    arts: dict[Art, VectorArt] = {}
+    known: dict[Item, Item] = {}
     for item in layout.items:
-        if isinstance(item.art, PhotoArt) and id(item) not in known:
-            key = id(item.art)
+        if isinstance(item.art, PhotoArt) and item not in known:
+            key = item.art
             if key not in arts:
                 arts[key] = item.art.original.printed(largest[key] * px_per_cu)
-            known[id(item)] = replace(item, art=arts[key])
-    return replace(layout, items=tuple(known.get(id(item), item) for item in layout.items))
+            known[item] = replace(item, art=arts[key])
+    return replace(layout, items=tuple(known.get(item, item) for item in layout.items))
 
 
 def _with_backdrop(layout: Layout, px_per_cu: float) -> Layout:

@@ -11,7 +11,7 @@ older way, ``xlink:href``, which browsers and old cutters both understand.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass, replace
 
 from packwork.geometry import affine
@@ -202,11 +202,11 @@ class _Shape:
     turn_digits: int
 
 
-def _shapes(layout: Layout) -> dict[int, _Shape]:
+def _shapes(layout: Layout) -> dict[Hashable, _Shape]:
     """One definition for each distinct drawing, fine enough for its largest copy."""
     scales = layout.poses.axis_scales.max(axis=1).tolist()
-    largest: dict[int, float] = {}
-    items: dict[int, Item] = {}
+    largest: dict[Hashable, float] = {}
+    items: dict[Hashable, Item] = {}
     for item, scale in zip(layout.items, scales, strict=True):
         key = shape_key(item)
         items.setdefault(key, item)
@@ -331,7 +331,7 @@ def _said(layout: Layout) -> dict[str, str]:
 
 
 def _copies(
-    layout: Layout, shapes: dict[int, _Shape], digits: int, live: LiveWords, *, flatten: bool
+    layout: Layout, shapes: dict[Hashable, _Shape], digits: int, live: LiveWords, *, flatten: bool
 ) -> list[str]:
     copies = []
     scales, ids = layout.poses.axis_scales.tolist(), item_ids(layout.items)

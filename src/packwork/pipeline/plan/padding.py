@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
+from packwork.compaction.conflicts import Conflict
 from packwork.errors import RecipeError
-from packwork.finish.finished import Finished
 from packwork.geometry.simplify import grown
 from packwork.phrasing import number_of
 from packwork.scene.container import Container
@@ -69,7 +70,9 @@ def check_padding(container: Container, padding: float, count: int, whose: str =
         raise _too_much(container, padding, count, "even as points they would not find room")
 
 
-def check_found(container: Container, padding: float, exact: Finished) -> None:
+def check_found(
+    container: Container, padding: float, conflicts: Sequence[Conflict], count: int
+) -> None:
     """Refuse a padding with which most items found no room, however small they were made.
 
     Raises
@@ -77,7 +80,7 @@ def check_found(container: Container, padding: float, exact: Finished) -> None:
     RecipeError
         If that is so.
     """
-    stuck, count = len({found.item for found in exact.conflicts}), len(exact.poses)
+    stuck = len({found.item for found in conflicts})
     if padding > 0 and stuck > MOST_STUCK * count:
         why = f"{stuck} of {count} found no room, however small"
         raise _too_much(container, padding, count, why)

@@ -16,7 +16,7 @@ def shared_out(
     items: Sequence[Item],
     weights: FloatArray,
     words: Collection[Item],
-    share: Mapping[str, float] | None,
+    share: Mapping[str, float],
 ) -> FloatArray:
     """``(n,)`` weights whose sums over words, photos and other items are in the shares asked.
 
@@ -43,8 +43,6 @@ def shared_out(
     >>> shared_out(items, np.ones(3), items[:1], {"words": 3, "items": 1}).tolist()
     [0.75, 0.125, 0.125]
     """
-    if share is None:
-        return weights
     kinds = kinds_of(items, words)
     _check_kinds(set(kinds.tolist()), set(share))
     total = sum(share.values())

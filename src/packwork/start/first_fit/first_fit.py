@@ -31,7 +31,7 @@ from packwork.start.first_fit.occupancy import Occupancy
 from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut
 from packwork.start.first_poses import container_image
 
-Key: TypeAlias = tuple[int, float, float]
+Key: TypeAlias = tuple[Outline, float, float]
 """Which outline, its scale, its angle."""
 
 
@@ -387,7 +387,7 @@ class _Fitting:
         return found
 
     def _key(self, item: int, scale: float, turn: float) -> Key:
-        return id(self._outlines[item]), float(scale), float(turn)
+        return self._outlines[item], float(scale), float(turn)
 
 
 def _heights(

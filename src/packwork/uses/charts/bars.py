@@ -13,10 +13,8 @@ from packwork.errors import RecipeError
 from packwork.forces.direction import Direction
 from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
-from packwork.pipeline.beginning import first_angles
-from packwork.pipeline.exact import gap_with_bulge
+from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.result import Unplaced
 from packwork.pipeline.watch import Watch
 from packwork.progress import NOBODY, Observer, Stop
 from packwork.readers.charts.chart import ChartRead
@@ -25,6 +23,8 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
 from packwork.settle.pile import Arrival, pile
+from packwork.steps.finish import gap_with_bulge
+from packwork.steps.place import first_angles
 from packwork.uses.charts.cells import SNUG_SHARE, Cell, joined_rooms
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales

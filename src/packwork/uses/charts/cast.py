@@ -26,6 +26,6 @@ def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:
             key = untrue[0]
             voice = one.voices.get(key) or one.voices["pin.size"]
             raise voice.error(f"sets a {key}, but the data say how large marks are")
-    if [id(item) for item in chosen.items] != [id(item) for item in chart.items]:
+    if list(chosen.items) != list(chart.items):
         raise RecipeError("rules", "count marks, but the data say how many there are")
     return replace(chosen, weights=chart.areas)

@@ -11,19 +11,22 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.conflicts import find_conflicts
 from packwork.compaction.options import HAIR
 from packwork.geometry import affine
-from packwork.pipeline.exact import finished, unfinished
+from packwork.geometry.outline import Outline
+from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.placed import Placed
 from packwork.pipeline.plan.padding import check_padding
-from packwork.pipeline.result import Unplaced
-from packwork.pipeline.run import along
+from packwork.pipeline.state import State
+from packwork.pipeline.step import run_steps
 from packwork.pipeline.watch import Watch
 from packwork.progress import Step, Stop
 from packwork.recipe import Effort
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.steps.finish import finished, unfinished
+from packwork.steps.starts import fits_first
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
+from packwork.uses.collage import placing
 
 ALMOST = 0.999
 """Share of the least scale so far from which a group is not tried any harder. Larger tries groups
@@ -39,7 +42,7 @@ class _Filled:
 
     own: IntArray
     offset: FloatArray
-    placed: Placed
+    placed: State
     scale: float
 
 
@@ -55,7 +58,7 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, watch: Watch) -> Gro
     zero = np.zeros(len(job.items))
     poses, before = Poses(zero, zero, zero, zero), np.arange(0)
     groups: list[_Filled] = []
-    known: dict[tuple[tuple[int, float], ...], Placed] = {}
+    known: dict[tuple[tuple[Outline, float], ...], State] = {}
     found = zip(chart.cells, chart.members, strict=True)
     corner = np.array(single.outline.bounds[:2])
     pairs = [(np.array(cell.room.bounds[:2]) - corner, own) for cell, own in found if len(own)]
@@ -79,9 +82,9 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, watch: Watch) -> Gro
         at_scale, faults = _at_scale(group, common, watch.stop)
         poses = poses.with_some(group.own, moved(at_scale, group.offset))
         unplaced += faults
-    method = groups[0].placed.start.method
+    method = groups[0].placed.method
     all_marks = np.arange(len(job.items))
-    levels = [level for placed in known.values() for level in placed.outcome.levels]
+    levels = [level for placed in known.values() for level in placed.levels]
     return Grouped(poses, all_marks, job.container, method, tuple(unplaced), levels)
 
 
@@ -98,23 +101,25 @@ def _filled(
         efforts = ["draft", part.plan.effort]
     for effort in efforts:
         tried = replace(part, plan=replace(part.plan, effort=effort))
-        placed = along(tried, watch)
+        placed = run_steps(
+            placing(tried, suits_first_fit=fits_first(tried)), State.of(tried), watch
+        )
         scale = float(np.median(placed.poses.scale / unit_scales(part)))
-        is_clean = placed.exact.clean or not part.plan.is_exact
+        is_clean = placed.is_clean or not part.plan.is_exact
         least = ALMOST * min((one.scale for one in before), default=np.inf)
         if watch.stop() or (is_clean and scale >= least):
             break
     return _Filled(own, offset, placed, scale)
 
 
-def _alike(part: Job) -> tuple[tuple[int, float], ...]:
+def _alike(part: Job) -> tuple[tuple[Outline, float], ...]:
     """The same for groups of the same marks, all as large for each other."""
     shares = (part.weights / part.weights.max()).round(SHARE_DIGITS).tolist()
-    return tuple((id(i.outline), share) for i, share in zip(part.items, shares, strict=True))
+    return tuple((i.outline, share) for i, share in zip(part.items, shares, strict=True))
 
 
 def _as_before(
-    part: Job, own: IntArray, offset: FloatArray, before: Placed, steps: GroupSteps
+    part: Job, own: IntArray, offset: FloatArray, before: State, steps: GroupSteps
 ) -> _Filled:
     """A group whose marks lie as those of another, which are alike."""
     placed = replace(before, job=part)
@@ -157,15 +162,14 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
     """Poses at the common scale, and marks that are in conflict there."""
     placed, job = group.placed, group.placed.job
     poses = replace(placed.poses, scale=unit_scales(job) * common)
-    exact = placed.exact
     # What was in conflict at its own size is told, and not tried again.
-    if exact.clean:
+    if placed.is_clean:
         # Smaller ones stay clear of each other, but for those that lay in others' bays.
         outlines = job.solid_outlines
         gap = job.plan.gap
         if find_conflicts(job.container, outlines, poses, gap):
             fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
-            exact = finished(fixed, placed.start, poses, Watch(stop=stop))
-            poses = exact.poses
-    faults = [replace(one, index=int(group.own[one.index])) for one in unfinished(job, exact)]
+            placed = finished(replace(placed, job=fixed, poses=poses), Watch(stop=stop))
+            poses = placed.poses
+    faults = [replace(one, index=int(group.own[one.index])) for one in unfinished(placed)]
     return poses, faults

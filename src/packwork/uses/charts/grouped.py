@@ -7,8 +7,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.result import Unplaced
 from packwork.progress import Observer, Step
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses

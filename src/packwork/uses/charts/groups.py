@@ -3,61 +3,73 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import final
 
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
-from packwork.pipeline.measure import Unmeasured, measured
-from packwork.pipeline.result import Run
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
 from packwork.pipeline.watch import Watch
 from packwork.scene.limits import Limits
-from packwork.solve.solver import Ending, Outcome
+from packwork.solve.solver import Ending
 from packwork.uses.charts.bars import fill_bars
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.copies import fill_copies
 
 
-def run_groups(job: Job, chart: Chart, watch: Watch) -> Run:
-    """Fill all groups, and the way of their marks.
+@final
+class FillGroups(RunStep):
+    """All groups of a chart, one after another, then at one scale.
 
-    Raises
-    ------
-    RecipeError
-        If what is asked has no meaning for groups.
+    Parameters
+    ----------
+    chart
+        With its groups.
     """
-    _check(job, chart)
-    recorder = watch.recorder()
-    watch = watch.heard_by(recorder)
-    if chart.single is None:
-        with job.clock.time("finish"):
-            done = fill_bars(job, chart, watch)
-    else:
-        done = fill_copies(job, chart, chart.single, watch)
-    kept, total = done.kept, len(job.items)
-    smaller = replace(job.some(kept), container=done.container)
-    faults: tuple[str, ...] = ()
-    if len(kept) < total:
-        faults = (f"{len(kept)} of {total} marks have a place",)
-    poses = done.poses.some(kept)
-    ending = Ending.STOPPED if watch.stop() else Ending.DONE
-    return measured(
-        Unmeasured(
-            job=smaller,
-            poses=poses,
+
+    share = 1.0
+
+    def __init__(self, chart: Chart) -> None:
+        self._chart = chart
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State of the marks that have a place."""
+        job, chart = state.job, self._chart
+        recorder = watch.recorder()
+        watch = watch.heard_by(recorder)
+        if chart.single is None:
+            with job.clock.time("finish"):
+                done = fill_bars(job, chart, watch)
+        else:
+            done = fill_copies(job, chart, chart.single, watch)
+        kept, total = done.kept, len(job.items)
+        faults: tuple[str, ...] = ()
+        if len(kept) < total:
+            faults = (f"{len(kept)} of {total} marks have a place",)
+        return replace(
+            state,
+            job=replace(job.some(kept), container=done.container),
+            poses=done.poses.some(kept),
             method=done.method,
-            outcome=Outcome(poses, ending, done.levels),
+            ending=Ending.STOPPED if watch.stop() else Ending.DONE,
+            levels=tuple(done.levels),
             numbers=kept,
-            asked_for=job,
             recorder=recorder,
             limits=Limits.free(len(kept)),
             unplaced=done.unplaced,
             left_out=total - len(kept),
             faults=faults,
         )
-    )
 
 
-def _check(job: Job, chart: Chart) -> None:
-    """Refuse what groups cannot keep."""
+def check_groups(job: Job, chart: Chart) -> None:
+    """Refuse what groups cannot keep.
+
+    Raises
+    ------
+    RecipeError
+        If something asked has no meaning for groups.
+    """
     if job.earlier is not None:
         raise RecipeError("start", "groups of --by begin anew; leave the layout out")
     if job.plan.forces:

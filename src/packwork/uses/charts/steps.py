@@ -15,6 +15,7 @@ from packwork.pipeline.read import Material, job_of, read_room
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.charts.columns import MISSING
 from packwork.recipe import Recipe
+from packwork.steps.arranging import check_arranged
 from packwork.uses.charts.cast import cast_chart
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.colours import chart_colours, check_palette
@@ -80,6 +81,7 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
         skipped=read.told,
     )
     whole = job_of(recipe, material, Clock())
+    check_arranged(whole)
     return [
         _step(whole, chart, grouped.groups[k], asked.by, np.flatnonzero(grouped.group_of == k))
         for k in there

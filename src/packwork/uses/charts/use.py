@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import final
 
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
-from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.read import Material
-from packwork.pipeline.result import Run
-from packwork.pipeline.run import along
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
 from packwork.pipeline.use import Use
 from packwork.pipeline.watch import Watch
 from packwork.readers.charts.chart import read_chart
@@ -20,14 +19,15 @@ from packwork.readers.charts.options import ChartOptions
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
-from packwork.scene.note import Note
+from packwork.steps.starts import fits_first
 from packwork.uses.charts.cast import cast_chart
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.colours import chart_colours, check_palette
-from packwork.uses.charts.groups import run_groups
+from packwork.uses.charts.groups import FillGroups, check_groups
 from packwork.uses.charts.layout import spread_out
 from packwork.uses.charts.legend import legend_notes
 from packwork.uses.charts.mark_labels import mark_labels
+from packwork.uses.collage import filling, placing, reporting
 
 
 @final
@@ -37,11 +37,24 @@ class Marks(Use):
 
     chart: Chart
 
-    def run(self, job: Job, watch: Watch) -> Run:
-        """The common road, or that of groups placed one after another."""
+    # The palette gives marks their colours by data.
+    has_nearest = False
+
+    def steps(self, job: Job) -> Sequence[RunStep]:
+        """As icons; or groups one after another."""
         if self.chart.cells:
-            return run_groups(job, self.chart, watch)
-        return measured(Unmeasured.of(along(job, watch)))
+            check_groups(job, self.chart)
+            return [FillGroups(self.chart), *self.report(job)]
+        placed = placing(job, suits_first_fit=fits_first(job))
+        return [*placed, *filling(job), *self.report(job)]
+
+    def report(self, job: Job) -> Sequence[RunStep]:
+        """Measures, colours by data, titles, keys and labels.
+
+        A container that is there repeatedly is not to be told by its shape.
+        """
+        shows_shape = not self.chart.cells
+        return [*reporting(job, is_dressed=True, shows_shape=shows_shape), Annotate()]
 
     def some(self, kept: IntArray) -> Marks:
         """The same of some of the marks."""
@@ -53,24 +66,23 @@ class Marks(Use):
         colours = chart_colours(job.recipe, self.chart.read).marks
         return list(colours) if any(colours) else None
 
-    @property
-    def has_nearest(self) -> bool:
-        """Not of marks, whose colours the palette gives by data."""
-        return False
-
-    def notes(self, job: Job, layout: Layout, worn: Layout) -> tuple[Note, ...]:
-        """Labels on marks, title, names of groups and legend."""
-        return (*mark_labels(self.chart, worn), *legend_notes(job.recipe, self.chart, layout))
-
-    @property
-    def shows_shape(self) -> bool:
-        """Whether the marks are to show a container's shape: not where it is there repeatedly."""
-        return not self.chart.cells
-
     def remedy(self, job: Job) -> str:
         """Another container: the data say how many marks there are, and how large."""
         del job
         return "a container without thin parts, such as circle, would show"
+
+
+@final
+class Annotate(RunStep):
+    """Labels on marks, title, names of groups and legend."""
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State whose layout has these notes."""
+        use, (layout, _) = state.job.use.inner, state.measured
+        assert isinstance(use, Marks)  # noqa: S101 - it is on lists of charts alone
+        legend = legend_notes(state.job.recipe, use.chart, layout)
+        notes = (*mark_labels(use.chart, layout), *legend)
+        return replace(state, layout=replace(layout, notes=notes))
 
 
 def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> Material:

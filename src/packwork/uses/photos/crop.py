@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeAlias, final
 
 import numpy as np
 
@@ -12,19 +14,19 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.metrics.certificate import HAIR
-from packwork.pipeline.film.recorder import Recorder
+from packwork.pipeline.findings import Filling, Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.left_out import without_some
-from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.plan.padding import check_padding
 from packwork.pipeline.plan.plan import void_plan
-from packwork.pipeline.result import Filling, Run, Unplaced
-from packwork.pipeline.run import along
+from packwork.pipeline.recorder import Recorder
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep, run_steps, share_of
 from packwork.pipeline.watch import Watch
 from packwork.progress import Observer, Step
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
+from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.scene.track import SCALE, Track, numbers_of, poses_of
 from packwork.units import parse_length
@@ -202,7 +204,8 @@ def cropped(asked: Job, placed: Job, poses: Poses, largest: FloatArray, depth: f
         if found is not None and found.share >= LEAST_SEEN:
             cuts[k] = found
     gone = sorted(set(range(len(placed.items))) - cuts.keys())
-    job, kept = without_some(placed, gone)
+    kept = np.setdiff1d(np.arange(len(placed.items)), gone)
+    job = placed.some(kept)
     centres = np.reshape([cuts[int(k)].centre for k in kept], (-1, 2))
     job = replace(
         job,
@@ -234,58 +237,103 @@ def _recentred(numbers: FloatArray, centres: FloatArray) -> FloatArray:
     return moved
 
 
-def run_cropped(job: Job, watch: Watch) -> Run:
-    """Items that cover the container's edge, cut at its line; none is lost if that can be."""
-    tries = []
-    for number, share in enumerate(DEPTHS):
-        room, depth = with_room(job, share)
-        # The number of tries is not known beforehand.
-        turn = watch.part(1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
-        solved = along(room, replace(turn, observer=Back(turn.observer, depth)))
-        placed, given = solved.job, len(solved.asked_for.items)
-        # Photos were placed at more even sizes than they may have: the rest is for the edge.
-        is_bound = solved.start.limits.binds
-        spare = 1.0 if is_bound else job.plan.size_ratio / room.plan.size_ratio
-        found = cropped(job, placed, solved.poses, solved.largest * spare, depth)
-        tries.append((lost(found, placed, solved.numbers, given), solved, found, depth))
-        if not tries[-1][0] or watch.stop() or job.plan.seconds is not None:
-            break
-    gone, solved, found, depth = min(tries, key=lambda one: len(one[0]))
-    ids, recorder = solved.numbers, solved.recorder
-    done = measured(
-        replace(
-            Unmeasured.of(solved),
+Listed: TypeAlias = Callable[[Job], Sequence[RunStep]]
+"""Steps that place the items of a job."""
+
+
+@final
+class CropAtEdge(RunStep):
+    """Items that cover the container's edge, cut at its line; none is lost if that can be.
+
+    Parameters
+    ----------
+    job
+        In its own container.
+    listed
+        What places items in a grown one.
+    """
+
+    def __init__(self, job: Job, listed: Listed) -> None:
+        self._listed = listed
+        self.share = share_of(listed(job))
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State of those items of which enough is seen."""
+        job, tries = state.job, []
+        for number, share in enumerate(DEPTHS):
+            room, depth = with_room(job, share)
+            # The number of tries is not known beforehand.
+            turn = watch.part(1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
+            turn = replace(turn, observer=Back(turn.observer, depth))
+            solved = run_steps(self._listed(room), State.of(room), turn)
+            # Photos were placed at more even sizes than they may have: the rest is for the edge.
+            is_bound = solved.limits.binds
+            spare = 1.0 if is_bound else job.plan.size_ratio / room.plan.size_ratio
+            found = cropped(job, solved.job, solved.poses, solved.largest * spare, depth)
+            gone = lost(found, solved)
+            tries.append((gone, solved, found, depth))
+            if not gone or watch.stop() or job.plan.seconds is not None:
+                break
+        gone, solved, found, depth = min(tries, key=lambda one: len(one[0]))
+        recorder: Recorder = solved.recorder
+        if recorder.is_on:
+            recorder = CutRecorder(recorder, found, solved.numbers, depth)
+        return replace(
+            solved,
             job=found.job,
             poses=found.poses,
             unplaced=gone,
-            filling=refilled(solved.filling, found, len(solved.asked_for.items), ids),
+            filling=refilled(solved, found),
             left_out=len(gone),
-            numbers=ids[found.kept],
-            recorder=Recorder.off(),
+            numbers=solved.numbers[found.kept],
+            recorder=recorder,
         )
-    )
-    if not recorder.is_on:
-        return done
-    rows = found.kept[done.kept]
-    track = recorder.track(found.whole.some(rows), ids[rows], done.layout.items)
-    whole = replace(done.layout, track=followed(track, found, done.kept, depth))
-    return replace(done, layout=whole)
 
 
-def lost(found: Cropped, placed: Job, ids: IntArray, given: int) -> tuple[Unplaced, ...]:
+class CutRecorder(Recorder):
+    """Way of whole items as that of what is seen of them.
+
+    Parameters
+    ----------
+    whole
+        Recorded the whole items.
+    found
+        Those that are seen, cut.
+    numbers
+        ``(n,)`` what the whole ones are called by.
+    depth
+        By how much the canvas had been grown.
+    """
+
+    def __init__(self, whole: Recorder, found: Cropped, numbers: IntArray, depth: float) -> None:
+        super().__init__()
+        self._whole, self._found, self._numbers, self._depth = whole, found, numbers, depth
+
+    def track(
+        self, poses: Poses, ids: IntArray | None = None, items: Sequence[Item] | None = None
+    ) -> Track:
+        """The way of those that are in the layout, called ``ids``."""
+        found = self._found
+        called = self._numbers[found.kept]
+        which = np.arange(len(called)) if ids is None else np.flatnonzero(np.isin(called, ids))
+        rows = found.kept[which]
+        track = self._whole.track(found.whole.some(rows), self._numbers[rows], items)
+        return followed(track, found, which, self._depth)
+
+
+def lost(found: Cropped, placed: State) -> tuple[Unplaced, ...]:
     """Items, fillers not among them, of which too little would be seen."""
-    gone = np.setdiff1d(np.arange(len(placed.items)), found.kept)
+    items, ids, given = placed.job.items, placed.numbers, len(placed.asked_for.items)
+    gone = np.setdiff1d(np.arange(len(items)), found.kept)
     reason = "less than a third of it would lie in the container"
-    return tuple(
-        Unplaced(placed.items[k].name, int(ids[k]), reason) for k in gone if ids[k] < given
-    )
+    return tuple(Unplaced(items[k].name, int(ids[k]), reason) for k in gone if ids[k] < given)
 
 
-def refilled(filling: Filling | None, found: Cropped, given: int, ids: IntArray) -> Filling | None:
+def refilled(placed: State, found: Cropped) -> Filling | None:
     """How voids were filled, in the container that was asked for."""
-    if filling is None:
+    if placed.filling is None:
         return None
     areas = np.array([item.outline.area for item in found.job.items]) * found.poses.scale**2
     covered = float(areas.sum()) / found.job.container.outline.area
-    added = int((ids[found.kept] >= given).sum())
-    return replace(filling, added=added, covered=covered)
+    added = int((placed.numbers[found.kept] >= len(placed.asked_for.items)).sum())
+    return replace(placed.filling, added=added, covered=covered)

@@ -7,18 +7,21 @@ from dataclasses import dataclass
 from typing import final
 
 from packwork.pipeline.job import Job
-from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.read import Material
-from packwork.pipeline.result import Run
-from packwork.pipeline.run import along
+from packwork.pipeline.step import RunStep
 from packwork.pipeline.use import Use
-from packwork.pipeline.watch import Watch
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
+from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import material_of
-from packwork.uses.photos.crop import crops, run_cropped
-from packwork.uses.photos.starts import jobs_tried
+from packwork.uses.photos.crop import CropAtEdge, crops
 from packwork.uses.room import Room
+
+PHOTO_STARTS = ("distance-field", "medial-axis", "scatter")
+"""Starts that are tried of photos. Each takes 0.7 s of 60; what a short finish makes of its
+levels tells which ends best. Mean of seeds 0 to 5: fish 0.883, moon 0.922, heart 0.913 from the
+first alone with seven trials, in 4.3 s of processor time; 0.891, 0.922, 0.916 from the best of
+these with six, in 4.5 s. Measured."""
 
 
 @final
@@ -28,20 +31,31 @@ class Photos(Use):
 
     is_cut: bool
 
-    def run(self, job: Job, watch: Watch) -> Run:
-        """The common road, or that of photos cut at the container's line."""
+    def steps(self, job: Job) -> Sequence[RunStep]:
+        """The best of several starts; photos may be cut at the container's line."""
         if self.is_cut:
-            return run_cropped(job, watch)
-        return measured(Unmeasured.of(along(job, watch)))
+            return [CropAtEdge(job, _placed), *self.report(job)]
+        return [*_placed(job), *self.report(job)]
 
-    def suits_first_fit(self, count: int, is_turning: bool) -> bool:
-        """Never: photos by themselves fill more by the levels, three points."""
-        del count, is_turning
-        return False
+    def report(self, job: Job) -> Sequence[RunStep]:
+        """Measures and looks."""
+        return reporting(job, is_dressed=False)
 
-    def starts(self, job: Job) -> Sequence[Job]:
-        """One job for each of several starts, where none was asked for."""
-        return jobs_tried(job)
+
+def _placed(job: Job) -> list[RunStep]:
+    """Steps that place photos whole; first fit fills less than levels, by three points."""
+    return [*placing(job, suits_first_fit=False, methods=starts_tried(job)), *filling(job)]
+
+
+def starts_tried(job: Job) -> tuple[str, ...]:
+    """Starts of which the best is gone on with; none where one is given or there is no time.
+
+    Nor where sizes are not free, or a picture chooses places.
+    """
+    plan = job.plan
+    is_open = plan.method is None and not plan.is_from_layout and not plan.detail
+    is_patient = plan.seconds is None and plan.effort != "draft"
+    return PHOTO_STARTS if is_open and is_patient and plan.sizes == "free" and plan.is_exact else ()
 
 
 def read_collage(recipe: Recipe, room: Room, given: Sequence[Item] | None) -> Material:

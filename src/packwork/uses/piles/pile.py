@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, final
 
 import numpy as np
 import shapely
@@ -12,16 +12,13 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.metrics.compactness import compactness
-from packwork.pipeline.beginning import first_angles
-from packwork.pipeline.dress.line_weights import evened
 from packwork.pipeline.earlier import matched
-from packwork.pipeline.exact import gap_with_bulge
-from packwork.pipeline.film.recorder import Recorder
+from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.measure import Unmeasured, measured
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.sizes import given_scales
-from packwork.pipeline.result import Run, Unplaced
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
 from packwork.pipeline.watch import Watch
 from packwork.recipe.piles import PileOptions
 from packwork.scene.canvas import brought_over
@@ -30,8 +27,10 @@ from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
 from packwork.settle.pile import Arrival, Piled, pile
-from packwork.solve.solver import Ending, Outcome
 from packwork.start.angles import nearest_allowed
+from packwork.steps.dress.line_weights import evened
+from packwork.steps.finish import gap_with_bulge
+from packwork.steps.place import first_angles
 from packwork.uses.piles.emitters import source_of
 from packwork.uses.piles.opening import opened
 from packwork.uses.piles.sizes import SMALLER, TRIES, fitting_factor, is_size_open
@@ -65,12 +64,27 @@ class Heap:
     mouths: FloatArray | None = None
 
 
-def run_pile(job: Job, heap: Heap, watch: Watch) -> Run:
-    """Heap and measure what was read, and keep the way of those that found room."""
-    _check(job)
-    recorder = watch.recorder()
-    done, piled = _heaped_to_fit(job, heap, watch.heard_by(recorder))
-    return measured(_unmeasured(heap.options, done, piled, job, recorder))
+@final
+class HeapUp(RunStep):
+    """Items fall and settle; there are no levels.
+
+    Parameters
+    ----------
+    heap
+        What is asked of the pile.
+    """
+
+    share = 1.0
+
+    def __init__(self, heap: Heap) -> None:
+        self._heap = heap
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State of those items that found room."""
+        recorder = watch.recorder()
+        job, piled = _heaped_to_fit(state.job, self._heap, watch.heard_by(recorder))
+        found = replace(state, job=job, recorder=recorder)
+        return _without_those_left(self._heap.options, found, piled)
 
 
 def _heaped_to_fit(job: Job, heap: Heap, watch: Watch) -> tuple[Job, Piled]:
@@ -117,8 +131,14 @@ def _heaped(job: Job, heap: Heap, factor: float, watch: Watch) -> tuple[Job, Pil
     return job, piled
 
 
-def _check(job: Job) -> None:
-    """Refuse what a heap cannot do."""
+def check_pile(job: Job) -> None:
+    """Refuse what a heap cannot do.
+
+    Raises
+    ------
+    RecipeError
+        If something asked has no meaning in a pile.
+    """
     plan = job.plan
     if plan.sizes != "fixed":
         raise RecipeError("sizes", f"items of a pile keep their sizes; use fixed, not {plan.sizes}")
@@ -166,12 +186,9 @@ def _options(job: Job, poses: Poses) -> SettleOptions:
     )
 
 
-def _unmeasured(
-    asked: PileOptions, job: Job, heap: Piled, asked_for: Job, recorder: Recorder
-) -> Unmeasured:
-    """Those items that found room, and what is known of the others."""
-    kept = heap.placed
-    total = len(job.items)
+def _without_those_left(asked: PileOptions, state: State, heap: Piled) -> State:
+    """State of those items that found room, and the others named."""
+    job, kept, total = state.job, heap.placed, len(state.job.items)
     left = np.setdiff1d(np.arange(total), kept)
     if len(kept) == 0:
         none = "the item does not fit" if total == 1 else f"none of the {total} items fits"
@@ -189,14 +206,12 @@ def _unmeasured(
     if asked.compact:
         lies["compact"] = compactness(layout.outlines)
     _tell_who_is_held_by_the_edge(layout)
-    return Unmeasured(
+    return replace(
+        state,
         job=smaller,
         poses=poses,
         method="lowest" if job.earlier is None else "layout",
-        outcome=Outcome(poses, Ending.DONE),
         numbers=kept,
-        asked_for=asked_for,
-        recorder=recorder,
         limits=Limits.free(len(kept)),
         unplaced=unplaced,
         left_out=len(left),

@@ -9,13 +9,15 @@ from typing import final
 from packwork.arrays import IntArray
 from packwork.phrasing import number_of
 from packwork.pipeline.job import Job
-from packwork.pipeline.result import Run, Unplaced, WordsFound
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
 from packwork.pipeline.use import Use
 from packwork.pipeline.watch import Watch
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.scene.note import Note
-from packwork.uses.piles.pile import Heap, run_pile
+from packwork.steps.advice import Advise
+from packwork.steps.looks import RemarkCount
+from packwork.uses.piles.pile import Heap, HeapUp, check_pile
 
 
 @final
@@ -33,10 +35,22 @@ class Pile(Use):
 
     heap: Heap
     content: Use
+    goes_on = True
 
-    def run(self, job: Job, watch: Watch) -> Run:
-        """Items fall and settle; there are no levels."""
-        return run_pile(job, self.heap, watch)
+    def steps(self, job: Job) -> Sequence[RunStep]:
+        """Items fall and settle; the content dresses them."""
+        check_pile(job)
+        return [HeapUp(self.heap), *self.report(job)]
+
+    def report(self, job: Job) -> Sequence[RunStep]:
+        """As of the content, but for the shape, which a heap does not show."""
+        own = [step for step in self.content.report(job) if not isinstance(step, NOT_OF_PILES)]
+        return [*own, RemarkPile()] if job.is_counted else own
+
+    @property
+    def inner(self) -> Use:
+        """The use that read the items."""
+        return self.content
 
     @property
     def words(self) -> Sequence[Item]:
@@ -47,46 +61,34 @@ class Pile(Use):
         """The same of some of the items."""
         return replace(self, content=self.content.some(kept))
 
-    def missing(self, start: int) -> tuple[Unplaced, ...]:
-        """What the content could not draw."""
-        return self.content.missing(start)
-
-    def words_found(self, layout: Layout) -> WordsFound | None:
-        """How many words the content found."""
-        return self.content.words_found(layout)
-
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours that the content's data give."""
         return self.content.colours(job, layout)
 
     @property
-    def palette_tints(self) -> bool:
+    def palette_tints(self) -> bool:  # type: ignore[override]
         """As the content has it."""
         return self.content.palette_tints
 
     @property
-    def has_nearest(self) -> bool:
+    def has_nearest(self) -> bool:  # type: ignore[override]
         """As the content has it."""
         return self.content.has_nearest
-
-    def notes(self, job: Job, layout: Layout, worn: Layout) -> tuple[Note, ...]:
-        """What the content writes."""
-        return self.content.notes(job, layout, worn)
 
     def redrawn(self, job: Job, gone: Sequence[Item]) -> tuple[Item, ...]:
         """As the content draws them."""
         return self.content.redrawn(job, gone)
 
-    @property
-    def goes_on(self) -> bool:
-        """A pile goes on from an earlier one."""
-        return True
 
-    @property
-    def shows_shape(self) -> bool:
-        """A heap shows no shape."""
-        return False
+@final
+class RemarkPile(RunStep):
+    """A sentence about the number of items that the run chose."""
 
-    def remarks(self, job: Job) -> tuple[str, ...]:
-        """How many items the run chose."""
-        return (f"auto chose {number_of(len(job.items), 'item')}",) if job.is_counted else ()
+    def run(self, state: State, watch: Watch) -> State:
+        """State with the remark."""
+        said = f"auto chose {number_of(len(state.job.items), 'item')}"
+        return replace(state, remarks=(*state.remarks, said))
+
+
+NOT_OF_PILES = (Advise, RemarkCount)
+"""Steps of other uses' reports that speak of filling a container."""

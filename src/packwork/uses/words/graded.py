@@ -18,7 +18,6 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
 from packwork.geometry.affine import similarity
-from packwork.pipeline.first_places import needs_levels
 from packwork.pipeline.job import Job
 from packwork.pipeline.widest import lines_width
 from packwork.progress import Stop, never
@@ -29,6 +28,7 @@ from packwork.scene.pose import Poses
 from packwork.start.angles import spread_angles, start_angles
 from packwork.start.first_fit.graded import Graded, graded_fit
 from packwork.start.first_fit.grading import Candidate
+from packwork.steps.starts import needs_levels
 from packwork.uses.words.letters import Letters
 
 FULL = 0.62
@@ -125,7 +125,7 @@ def can_give_way(job: Job) -> bool:
     plan = job.plan
     is_told_where = job.earlier is not None or plan.method or plan.share or job.forces.acts
     is_told = is_told_where or job.keeps_order or job.is_limited
-    return not (is_told or needs_levels(job, job.forces))
+    return not (is_told or needs_levels(job))
 
 
 def _check(job: Job) -> None:
@@ -169,8 +169,8 @@ class _Ranked:
         """All items of a job."""
         areas = np.array([item.outline.area for item in job.items])
         inks = np.array([item.ink.area for item in job.items])
-        words = {id(item) for item in job.use.words}
-        is_word = np.array([id(item) in words for item in job.items])
+        words = set(job.use.words)
+        is_word = np.array([item in words for item in job.items])
         unit = np.where(is_word, 1.0, EM_PX / np.sqrt(areas))
         scales = np.sqrt(job.weights / areas)
         true = scales / unit

@@ -8,15 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import final
 
 import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
-from packwork.finish.finished import Finished
-from packwork.pipeline.beginning import Beginning
-from packwork.pipeline.exact import finished
-from packwork.pipeline.job import Job
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
 from packwork.pipeline.watch import Watch
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead
 from packwork.readers.words.options import WordOptions
@@ -24,6 +23,7 @@ from packwork.recipe import Sizes
 from packwork.recipe.refusals import length_asked
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
+from packwork.steps.finish import finished
 from packwork.units import Unit
 
 DENSEST = 0.6
@@ -112,32 +112,38 @@ def readable_count(words: WordsRead, smallest: float, sizes: FloatArray, attempt
     return min(count, int(FEWER * len(sizes))) if attempt >= HOPEFUL else count
 
 
-def held_down(
-    job: Job,
-    start: Beginning,
-    exact: Finished,
-    count: int,
-    largest: float | None,
-    watch: Watch,
-) -> Finished:
-    """Exact poses whose largest letters are as large as they may be, all others in proportion.
+@final
+class LettersAtMost(RunStep):
+    """The largest letters as large as they may be, all others in proportion.
 
     Parameters
     ----------
-    count
-        How many of the items are words; they come first.
     largest
-        Font size, canvas units; None for any.
+        Font size, canvas units.
     """
-    if largest is None:
-        return exact
-    most = float(letters_of(exact.poses, count).max())
-    if most <= largest:
-        return exact
-    smaller = replace(exact.poses, scale=exact.poses.scale * (largest / most))
-    # A smaller copy may meet others, where letters stand in each other's bays.
+
+    def __init__(self, largest: float) -> None:
+        self._largest = largest
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State with exact poses of such sizes."""
+        most = float(letters_of(state.poses, len(state.job.use.words)).max())
+        if most <= self._largest:
+            return state
+        return at_sizes(state, state.poses.scale * (self._largest / most), watch)
+
+
+def at_sizes(state: State, scale: FloatArray, watch: Watch) -> State:
+    """State with exact poses at smaller scales ``(n,)``.
+
+    A smaller copy may meet others, where letters stand in each other's bays.
+    """
+    job = state.job
     fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
-    return finished(fixed, start, smaller, watch)
+    with job.clock.time("finish"):
+        poses = replace(state.poses, scale=scale)
+        found = finished(replace(state, job=fixed, poses=poses), watch)
+    return replace(found, job=job)
 
 
 def letters_of(poses: Poses, count: int) -> FloatArray:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from typing import final
+
 import numpy as np
 
 from packwork.compaction.options import HAIR
-from packwork.pipeline.gaps import joined_by
-from packwork.pipeline.placed import Placed
+from packwork.pipeline.findings import Filling
 from packwork.pipeline.plan.asked import Asked
-from packwork.pipeline.result import Filling
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
+from packwork.pipeline.watch import Watch
 from packwork.progress import Stop
 from packwork.readers.words.items import EM_PX, INK
 from packwork.recipe.rules import OWN_COLOURS
@@ -17,6 +20,7 @@ from packwork.scene.item import Item
 from packwork.scene.recolour import recoloured
 from packwork.start.first_fit.graded import fit_between
 from packwork.start.first_fit.grading import Candidate
+from packwork.steps.voids import joined_by
 from packwork.uses.words.graded import LEGIBLE, angles_of
 from packwork.uses.words.letters import Letters
 
@@ -39,8 +43,31 @@ ENDING = "no gap holds another one of {least:.3g} {unit}"
 ENOUGH = "{most} are as many as there may be"
 
 
-def with_repeats(placed: Placed, words: int, letters: Letters, paper: str, stop: Stop) -> Placed:
-    """What was placed, with copies of its first items, the words, between them.
+@final
+class RepeatWords(RunStep):
+    """Copies of words, smaller and grey, where nothing else finds a place.
+
+    Parameters
+    ----------
+    letters
+        How large they may be.
+    paper
+        Colour behind them.
+    """
+
+    def __init__(self, letters: Letters, paper: str) -> None:
+        self._letters, self._paper = letters, paper
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State with the copies last among its items; as it is where that is not clean."""
+        if not state.is_clean:
+            return state
+        count = len(state.job.use.words)
+        return with_repeats(state, count, self._letters, self._paper, watch.stop)
+
+
+def with_repeats(state: State, words: int, letters: Letters, paper: str, stop: Stop) -> State:
+    """State with copies of its first items, the words, between them.
 
     Parameters
     ----------
@@ -51,17 +78,17 @@ def with_repeats(placed: Placed, words: int, letters: Letters, paper: str, stop:
     stop
         Asked before each copy.
     """
-    job = placed.job
+    job = state.job
     least = max(letters.smallest or 0.0, LEGIBLE * job.container.side)
     most = max(EACH * words, AT_LEAST)
-    own = placed.exact.poses.scale[:words]
+    own = state.poses.scale[:words]
     rng = np.random.default_rng(job.plan.seed)
     # Light words first: the heavy ones are seen as it is.
     order = np.argsort(own, kind="stable")
     fitting = [int(k) for k in order if REPEATED * own[k] * EM_PX >= least]
     found = fit_between(
         job.container,
-        [i.outline.mapped(placed.exact.poses.matrix(k)) for k, i in enumerate(job.items)],
+        [i.outline.mapped(state.poses.matrix(k)) for k, i in enumerate(job.items)],
         [
             Candidate(job.items[k].outline, REPEATED * own[k], angles_of(job.plan.rotation, rng))
             for k in fitting
@@ -78,15 +105,15 @@ def with_repeats(placed: Placed, words: int, letters: Letters, paper: str, stop:
     for k in map(int, np.unique(found.placed)):
         known[k] = recoloured(job.items[fitting[k]], grey)
     new = [known[int(k)] for k in found.placed]
-    numbers = placed.numbers
+    numbers = state.numbers
     after = int(numbers.max(initial=-1)) + 1
-    poses = placed.exact.poses.followed_by(found.poses)
+    poses = state.poses.followed_by(found.poses)
     areas = np.array([i.outline.area for i in (*job.items, *new)]) * poses.scale**2
     covered = float(areas.sum()) / job.container.outline.area
     said = ENOUGH if len(new) == most else ENDING
     ending = said.format(least=least, unit=job.container.unit, most=most)
     return joined_by(
-        placed,
+        state,
         new,
         [Asked(values={"color": OWN_COLOURS})] * len(new),
         poses,

@@ -2,57 +2,53 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import partial
-from typing import final
+from itertools import count
+from typing import TypeAlias, final
 
 import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
-from packwork.finish.finished import Finished
-from packwork.phrasing import enumerated, number_of
-from packwork.pipeline.advice import MOST_BARE, smaller_copies
-from packwork.pipeline.beginning import Beginning
 from packwork.pipeline.job import Job
-from packwork.pipeline.measure import Unmeasured, measured
-from packwork.pipeline.plan.plan import found_sizes
+from packwork.pipeline.plan.padding import check_padding
 from packwork.pipeline.plan.regions import read_regions
 from packwork.pipeline.plan.shares import shared_out
 from packwork.pipeline.plan.vectors import ItemVectors
-from packwork.pipeline.read import AUTO, Material, read_named
-from packwork.pipeline.result import Run, Unplaced, WordsFound
-from packwork.pipeline.run import along
-from packwork.pipeline.use import OwnPlaces, Use
+from packwork.pipeline.read import AUTO
+from packwork.pipeline.result import Run
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep, run_steps, share_of
+from packwork.pipeline.use import Use
 from packwork.pipeline.watch import Watch
-from packwork.progress import Stop
 from packwork.readers.vectors import Vectors
-from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
+from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 from packwork.recipe.arrangement import unknown_measure
-from packwork.recipe.meaning import FROM_TEXT, parse_anchor
+from packwork.recipe.meaning import parse_anchor
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
-from packwork.scene.pose import Poses
-from packwork.uses.photos.crop import crops
-from packwork.uses.room import Room
+from packwork.steps.advice import MOST_BARE, smaller_copies
+from packwork.steps.control import Replan, Retry
+from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.words.cast import cast_words
-from packwork.uses.words.colours import check_colours, word_colours
+from packwork.uses.words.colours import word_colours
 from packwork.uses.words.columns import column_values, columns_there
-from packwork.uses.words.counts import words_counted, words_needed
-from packwork.uses.words.graded import Places, can_give_way, graded_places
-from packwork.uses.words.heroes import below_hero, led_by_hero
+from packwork.uses.words.counts import words_needed
+from packwork.uses.words.graded import can_give_way, graded_places
+from packwork.uses.words.heroes import BelowHero, LedByHero
 from packwork.uses.words.letters import (
     Letters,
+    LettersAtMost,
     heaviest,
-    held_down,
     hopeful_sizes,
     letters_of,
     readable_count,
 )
-from packwork.uses.words.repeats import REPEATED, with_repeats
+from packwork.uses.words.repeats import REPEATED, RepeatWords
+from packwork.uses.words.report import RemarkWords, ReportWords, words_of
 
 MANY = 40
 """Words of which a container is to look full. Fewer leave it bare whatever their sizes, and are
@@ -83,114 +79,88 @@ class Words(Use):
         As asked.
     letters
         How large they may be.
-    places
-        Where they lie, if their sizes give way in turn; None until that is known, or else.
-    is_below_hero
-        Whether all become smaller where some came out larger than the hero.
+    gives_way
+        Whether each is as large as it found a place in its turn.
     """
 
     read: WordsRead
     options: WordOptions
     letters: Letters
-    places: Places | None = None
-    is_below_hero: bool = False
+    gives_way: bool = False
 
-    def run(self, job: Job, watch: Watch) -> Run:
-        """The common road; where many words in proportion leave the container bare, again."""
-        found = self._set(job, watch)
-        if job.plan.sizes == "shared" and job.recipe.hero is not None:
-            return led_by_hero(job, partial(self._led, watch=watch), found, watch)
-        seen, many = found.metrics.seen, len(self.read.items) >= MANY
-        is_bare = many and (seen.bare > MOST_BARE or seen.shape < LEAST_SHOWN)
-        is_ours = job.recipe.sizes == AUTO and job.plan.sizes == "shared" and can_give_way(job)
-        if not (is_bare and is_ours) or watch.stop():
-            return found
-        graded = self._set(replace(job, plan=replace(job.plan, sizes="graded")), watch)
-        fuller = graded.metrics.seen
-        is_fuller = fuller.bare <= seen.bare and fuller.shape > seen.shape
-        # Better a full cloud of the heavier words than dust of all.
-        is_kept = graded.is_as_asked or (graded.certified and seen.bare > DUST)
-        return graded if is_fuller and is_kept else found
+    # A palette of words is theirs: emoji and icons among them keep their colours.
+    palette_tints = has_nearest = False
 
-    def _led(self, job: Job, is_bounded: bool, watch: Watch) -> Run:
-        """A run in which all words are smaller than the hero, if that is asked for."""
-        use = replace(self, is_below_hero=is_bounded)
-        return use._set(replace(job, use=use), watch)
+    def steps(self, job: Job) -> Sequence[RunStep]:
+        """Sizes in proportion; where they leave the container bare, sizes that give way in turn."""
+        graded = [Replan(sizes="graded"), *self._graded(job)]
+        if job.plan.sizes == "graded" and (job.recipe.sizes != AUTO or can_give_way(job)):
+            return graded
+        first: list[RunStep] = []
+        if job.plan.sizes == "graded":
+            first = [Replan(sizes="shared")]
+            job = replace(job, plan=replace(job.plan, sizes="shared"))
+        is_shared = job.plan.sizes == "shared"
+        if is_shared and job.recipe.hero is not None:
+            return [*first, LedByHero(lambda is_bounded: self._placed(job, is_bounded))]
+        shared = self._placed(job)
+        if is_shared and job.recipe.sizes == AUTO and can_give_way(job):
+            return [*first, Retry(shared, graded, fills_container, fuller)]
+        return [*first, *shared]
 
-    def _set(self, job: Job, watch: Watch) -> Run:
-        """The common road, and words set again in what is left."""
-        placed = along(job, watch)
-        if self.options.repeat == "auto" and placed.exact.clean and placed.job.plan.is_exact:
-            use = placed.job.use
-            count, paper = len(use.words), self.options.paper or "white"
-            placed = with_repeats(placed, count, self.letters, paper, watch.stop)
-        return measured(Unmeasured.of(placed))
+    def report(self, job: Job) -> Sequence[RunStep]:
+        """Measures and looks, words that could not be drawn, what was left out."""
+        measured, *rest = reporting(job, is_dressed=True)
+        return [measured, ReportWords(), *rest, RemarkWords()]
+
+    def _placed(self, job: Job, is_below_hero: bool = False) -> list[RunStep]:
+        """Words whose sizes are not graded, measured."""
+        bounds: list[RunStep] = [BelowHero()] if is_below_hero else []
+        if self.letters.largest is not None:
+            bounds.append(LettersAtMost(self.letters.largest))
+
+        def listed(job: Job) -> list[RunStep]:
+            # However many: levels leave letters no room, and thousands of words become specks.
+            return placing(job, suits_first_fit=True, bounds=bounds)
+
+        smallest, steps = self.letters.smallest, listed(job)
+        if smallest is not None:
+            steps = [FewerWords(listed, job, smallest)]
+        return [*steps, *self._filled(job), *self.report(job)]
+
+    def _graded(self, job: Job) -> list[RunStep]:
+        """Words each as large as it finds a place in its turn, measured."""
+        bounds: list[RunStep] = []
+        if self.letters.largest is not None:
+            bounds.append(LettersAtMost(self.letters.largest))
+        places = GradedPlaces(self.letters)
+        placed = placing(job, suits_first_fit=True, bounds=bounds, place=places)
+        return [*placed, *self._filled(job), *self.report(job)]
+
+    def _filled(self, job: Job) -> list[RunStep]:
+        """Copies in voids, and words set again in what is left."""
+        steps = filling(job, self._filler_scales)
+        if self.options.repeat == "auto" and job.plan.is_exact:
+            steps.append(RepeatWords(self.letters, self.options.paper or "white"))
+        return steps
+
+    def _filler_scales(
+        self, state: State, smallest: FloatArray, largest: FloatArray
+    ) -> tuple[FloatArray, FloatArray]:
+        """Copies of words are to be read, and smaller than the words themselves."""
+        job = state.job
+        if job.plan.voids.has_own:
+            return smallest, largest
+        if self.letters.smallest:
+            smallest = np.full(len(smallest), self.letters.smallest / EM_PX)
+        known = dict(zip(job.items, state.poses.scale, strict=True))
+        own = np.array([known[item] for item in job.fillers])
+        return smallest, np.minimum(largest, REPEATED * own)
 
     @property
     def words(self) -> Sequence[Item]:
         """The words among the items."""
         return self.read.items
-
-    def suits_first_fit(self, count: int, is_turning: bool) -> bool:
-        """However many: levels leave letters no room, and thousands of words become specks."""
-        del count, is_turning
-        return True
-
-    def before(self, job: Job, stop: Stop) -> Job:
-        """Job without words that could not even be large enough in the fullest cloud.
-
-        Where sizes give way in turn, that of the words that find a place, and their places.
-        """
-        if job.plan.sizes == "graded" and job.recipe.sizes == AUTO and not can_give_way(job):
-            job = replace(job, plan=replace(job.plan, sizes="shared"))
-        if job.plan.sizes == "graded":
-            return self._with_places(job, stop)
-        smallest = self.letters.smallest
-        if smallest is None:
-            return job
-        sizes = hopeful_sizes(self.read, self.letters, job.container.outline.area)
-        count = int(np.count_nonzero(sizes >= smallest))
-        return self._with_heaviest(job, count, sizes, smallest)
-
-    def fewer(self, job: Job, poses: Poses, attempt: int) -> Job:
-        """The job itself if all letters are large enough; else one of fewer words."""
-        smallest = self.letters.smallest
-        if smallest is None or self.places is not None:
-            return job
-        sizes = letters_of(poses, len(self.read.items))
-        count = readable_count(self.read, smallest, sizes, attempt)
-        return self._with_heaviest(job, count, sizes, smallest)
-
-    def bounded(self, job: Job, start: Beginning, exact: Finished, watch: Watch) -> Finished:
-        """Exact poses whose letters are no larger than asked."""
-        if self.is_below_hero:
-            exact = below_hero(job, start, exact, watch)
-        count, largest = len(self.read.items), self.letters.largest
-        return held_down(job, start, exact, count, largest, watch)
-
-    def filler_scales(
-        self, job: Job, exact: Finished, smallest: FloatArray, largest: FloatArray
-    ) -> tuple[FloatArray, FloatArray]:
-        """Copies of words are to be read, and smaller than the words themselves."""
-        if job.plan.voids.has_own:
-            return smallest, largest
-        if self.letters.smallest:
-            smallest = np.full(len(smallest), self.letters.smallest / EM_PX)
-        known = dict(zip(job.items, exact.poses.scale, strict=True))
-        own = np.array([known[item] for item in job.fillers])
-        return smallest, np.minimum(largest, REPEATED * own)
-
-    def missing(self, start: int) -> tuple[Unplaced, ...]:
-        """Words that could not be drawn, numbered from ``start``: after the items."""
-        return tuple(
-            Unplaced(word[:MOST_SHOWN], index, reason)
-            for index, (word, reason) in enumerate(self.read.undrawn.items(), start=start)
-        )
-
-    def words_found(self, layout: Layout) -> WordsFound:
-        """How many words the source holds, how many were to be set, and which gave way."""
-        asked = len(self.read.items) + len(self.read.undrawn)
-        return WordsFound(self.read.found, asked, self._of_true(layout))
 
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours by weight, column, picture or function, if asked for."""
@@ -215,16 +185,6 @@ class Words(Use):
             raise unknown_measure(name, columns_there(self.read))
         return found
 
-    @property
-    def palette_tints(self) -> bool:
-        """Not among words, whose palette is theirs: emoji and icons keep their colours there."""
-        return False
-
-    @property
-    def has_nearest(self) -> bool:
-        """Not among words either."""
-        return False
-
     def redrawn(self, job: Job, gone: Sequence[Item]) -> tuple[Item, ...]:
         """Words that left, set as the run's own: a layout file has outlines only."""
         source = {item.source: 1.0 for item in gone}
@@ -234,22 +194,6 @@ class Words(Use):
         except PackworkError:
             # Pictures among words, or words that this run's fonts lack: their outlines serve.
             return ()
-
-    def remarks(self, job: Job) -> tuple[str, ...]:
-        """How many words the run chose, and how many it left out since they say little."""
-        stopped: tuple[str, ...] = ()
-        if words := self.read.stopped:
-            many = number_of(len(words), "function word is", "function words are")
-            names = enumerated(words)
-            stopped = (f"{many} left out ({names}); --language none keeps them",)
-        if self.places is not None and job.recipe.sizes == AUTO:
-            is_thin = found_sizes(job.recipe, job.container) == "graded"
-            why = "the container is thin" if is_thin else "in proportion they would leave it bare"
-            said = f"{why}, so sizes of words give way; --sizes shared keeps proportions"
-            stopped = (*stopped, said)
-        if self.options.count == AUTO:
-            return (f"auto chose {number_of(len(job.items), 'word')}", *stopped)
-        return (*super().remarks(job), *stopped)
 
     def remedy(self, job: Job) -> str:
         """More words, if there are more; and sizes that give way, or else smaller copies."""
@@ -264,101 +208,155 @@ class Words(Use):
             said.append(smaller_copies(job.plan.voids, WORDS_REACH))
         return "; ".join(said)
 
-    @property
-    def own_places(self) -> OwnPlaces | None:
-        """Places of words whose sizes give way in turn."""
-        return None if self.places is None else OwnPlaces(self.places.poses, self.places.limits)
-
-    def _of_true(self, layout: Layout) -> dict[str, float]:
+    def of_true(self, layout: Layout) -> dict[str, float]:
         """Sizes as shares of their proportion to the heaviest, of words that gave way in turn."""
-        if self.places is None:
+        if not self.gives_way:
             return {}
         # The words themselves come first, copies of them last.
         pairs = list(zip(layout.items, layout.poses.scale, strict=True))
-        scales = {id(item): scale for item, scale in reversed(pairs)}
+        scales = dict(reversed(pairs))
         own = np.array([item.outline.area for item in self.read.items])
         true = np.sqrt(self.read.areas / own)
-        first = scales.get(id(self.read.items[0]), np.nan) / true[0]
+        first = scales.get(self.read.items[0], np.nan) / true[0]
         return {
-            item.name: round(float(scales[id(item)] / height / first), 4)
+            item.name: round(float(scales[item] / height / first), 4)
             for item, height in zip(self.read.items, true, strict=True)
-            if id(item) in scales
+            if item in scales
         }
 
-    def _with_places(self, job: Job, stop: Stop) -> Job:
-        """Job of the words that find a place, each as large as it does."""
+
+def fills_container(state: State) -> bool:
+    """Whether words in proportion make a full cloud, or are too few to."""
+    _, metrics = state.measured
+    is_full = metrics.seen.bare <= MOST_BARE and metrics.seen.shape >= LEAST_SHOWN
+    return is_full or len(words_of(state.job).read.items) < MANY
+
+
+def fuller(tried: Sequence[State], watch: Watch) -> State:
+    """Of a cloud in proportion and one whose sizes give way, the second if it is plainly better."""
+    found, graded = tried
+    seen, more = found.measured[1].seen, graded.measured[1].seen
+    is_fuller = more.bare <= seen.bare and more.shape > seen.shape
+    # Better a full cloud of the heavier words than dust of all.
+    is_kept = Run.of(graded).is_as_asked or (graded.certified and seen.bare > DUST)
+    return graded if is_fuller and is_kept else found
+
+
+@final
+class GradedPlaces(RunStep):
+    """Words whose sizes give way: each as large as it finds a place in its turn.
+
+    Parameters
+    ----------
+    letters
+        How large they may be.
+    """
+
+    def __init__(self, letters: Letters) -> None:
+        self._letters = letters
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State of the words that find a place; the others count as not drawn."""
+        job, words = state.job, words_of(state.job)
         with job.clock.time("start"):
-            places = graded_places(job, self.letters, stop)
+            places = graded_places(job, self._letters, watch.stop)
         gone = np.setdiff1d(np.arange(len(job.items)), places.placed)
-        words = places.placed[places.placed < len(self.read.items)]
+        kept = places.placed[places.placed < len(words.read.items)]
         reason = "finds no place at a size that could be read; use fewer words or a larger canvas"
         undrawn = {job.items[k].name: reason for k in gone}
         read = replace(
-            self.read,
-            items=tuple(self.read.items[k] for k in words),
-            areas=self.read.areas[words],
-            words=tuple(self.read.words[k] for k in words),
-            undrawn={**undrawn, **self.read.undrawn},
+            words.read,
+            items=tuple(words.read.items[k] for k in kept),
+            areas=words.read.areas[kept],
+            words=tuple(words.read.words[k] for k in kept),
+            undrawn={**undrawn, **words.read.undrawn},
         )
-        return replace(
+        smaller = replace(
             job.some(places.placed),
-            use=replace(self, read=read, places=places),
+            use=replace(words, read=read, gives_way=True),
             fillers=without(job.fillers, [job.items[k] for k in gone]),
         )
-
-    def _with_heaviest(self, job: Job, count: int, sizes: FloatArray, smallest: float) -> Job:
-        """Job of fewer words, what rules ask of them, and what is mixed in."""
-        if count == len(self.read.items):
-            return job
-        words = heaviest(self.read, count, sizes, smallest, job.container.unit)
-        before = {id(item) for item in self.read.items}
-        others = {id(item): item for item in job.items if id(item) not in before}
-        chosen = cast_words(job.recipe, words, list(others.values()))
-        kept = {id(item) for item in words.items}
-        gone = [item for item in self.read.items if id(item) not in kept]
+        check_padding(job.container, job.plan.gap, len(smaller.items))
         return replace(
-            job,
-            use=replace(self, read=words),
-            items=chosen.items,
-            asked=chosen.asked,
-            weights=shared_out(chosen.items, chosen.weights, words.items, job.plan.share),
-            regions=read_regions(chosen.asked, job.container),
-            fillers=without(job.fillers, gone),
-        )
+            State.of(smaller), poses=places.poses, nominal=places.poses.scale,
+            limits=places.limits, method="first-fit", is_tight=True, is_only_refined=True,
+        )  # fmt: skip
+
+
+Listed: TypeAlias = Callable[[Job], Sequence[RunStep]]
+"""Steps that place the words of a job."""
+
+
+@final
+class FewerWords(RunStep):
+    """Fewer and fewer words, the heaviest, until all letters are as large as asked.
+
+    Parameters
+    ----------
+    listed
+        What places the words of a job.
+    job
+        Of all words.
+    smallest
+        Least font size, canvas units.
+    """
+
+    def __init__(self, listed: Listed, job: Job, smallest: float) -> None:
+        self._listed, self._smallest = listed, smallest
+        self.share = share_of(listed(job))
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State of the words whose letters are large enough; others count as not drawn."""
+        use = words_of(state.job)
+        # Some could not even be large enough in the fullest cloud.
+        sizes = hopeful_sizes(use.read, use.letters, state.job.container.outline.area)
+        hopeful = int(np.count_nonzero(sizes >= self._smallest))
+        job = heaviest_of(state.job, hopeful, sizes, self._smallest)
+        for attempt in count(1):
+            found = run_steps(self._listed(job), State.of(job), watch)
+            read = words_of(found.job).read
+            sizes = letters_of(found.poses, len(read.items))
+            enough = readable_count(read, self._smallest, sizes, attempt)
+            if watch.stop() or enough == len(read.items):
+                break
+            job = heaviest_of(job, enough, sizes, self._smallest)
+        return found
+
+
+def heaviest_of(job: Job, number: int, sizes: FloatArray, smallest: float) -> Job:
+    """Job of fewer words, what rules ask of them, and what is mixed in.
+
+    Parameters
+    ----------
+    number
+        Words that are kept, the heaviest.
+    sizes
+        ``(n,)`` what the letters of each would measure.
+    smallest
+        Least font size, canvas units.
+    """
+    use = words_of(job)
+    if number == len(use.read.items):
+        return job
+    words = heaviest(use.read, number, sizes, smallest, job.container.unit)
+    others = without(job.items, use.read.items)
+    chosen = cast_words(job.recipe, words, list(dict.fromkeys(others)))
+    gone = without(use.read.items, words.items)
+    weights = chosen.weights
+    if job.plan.share is not None:
+        weights = shared_out(chosen.items, weights, words.items, job.plan.share)
+    return replace(
+        job,
+        use=replace(use, read=words),
+        items=chosen.items,
+        asked=chosen.asked,
+        weights=weights,
+        regions=read_regions(chosen.asked, job.container),
+        fillers=without(job.fillers, gone),
+    )
 
 
 def without(items: Sequence[Item], gone: Sequence[Item]) -> tuple[Item, ...]:
     """Items but those that are gone: a word that is not there is not repeated either."""
-    known = {id(item) for item in gone}
-    return tuple(item for item in items if id(item) not in known)
-
-
-def nesting(asked: WordOptions, recipe: Recipe, room: Room) -> WordOptions:
-    """Options that say whether words stand in counters: unless asked, where sizes give way."""
-    if asked.nest is not None or room.container is None:
-        return asked
-    return asked.model_copy(update={"nest": found_sizes(recipe, room.container) == "graded"})
-
-
-def read_cloud(
-    recipe: Recipe, asked: WordOptions, room: Room, given: Sequence[Item] | None
-) -> Material:
-    """Words of a recipe, and the items and photographs among them."""
-    # Refuses cut photographs among words.
-    crops(recipe)
-    asked = nesting(asked, recipe, room)
-    is_related = recipe.embeddings == FROM_TEXT
-    counted = words_counted(asked, room)
-    words = read_word_items(counted, recipe.holes, recipe, is_related=is_related)
-    check_colours(recipe, words)
-    named = read_named(recipe, given)
-    chosen = cast_words(recipe, words, named.items)
-    container = room.of(chosen)
-    return Material(
-        use=Words(words, asked, Letters.of(asked, container, recipe.sizes)),
-        container=container,
-        cast=chosen,
-        fillers=words.items,
-        given=None if words.order is None else (*words.order, *named.keys),
-        skipped=(*named.skipped, *words.told),
-    )
+    known = set(gone)
+    return tuple(item for item in items if item not in known)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import base64
 import json
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -64,12 +64,12 @@ class _Scene:
     def __init__(self, film: Film, frame: Frame) -> None:
         self._film, self._frame = film, frame
         self._items = film.items
-        self._largest: dict[int, float] = {}
+        self._largest: dict[Hashable, float] = {}
         for item, scale in zip(self._items, film.frames[:, :, 3].max(axis=0), strict=True):
             key = shape_key(item)
             self._largest[key] = max(self._largest.get(key, 0.0), float(scale))
-        self._anchors: dict[int, tuple[list[float], float]] = {}
-        self.assets: dict[int, Json] = {}
+        self._anchors: dict[Hashable, tuple[list[float], float]] = {}
+        self.assets: dict[Hashable, Json] = {}
 
     def layer(self, k: int, tell: Tell) -> Json:
         """Layer of one item."""

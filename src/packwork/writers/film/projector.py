@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -72,10 +72,10 @@ class Projector:
                 self._textures[key].lay(image, affine.compose(to_px, poses.matrix(k)))
         return image if self._film.is_opaque else straight(image)
 
-    def _rendered(self) -> dict[tuple[int, str], Texture]:
+    def _rendered(self) -> dict[tuple[Hashable, str], Texture]:
         """Each drawing as fine as it is ever shown."""
-        largest: dict[tuple[int, str], float] = {}
-        drawings: dict[tuple[int, str], Item] = {}
+        largest: dict[tuple[Hashable, str], float] = {}
+        drawings: dict[tuple[Hashable, str], Item] = {}
         for key, item, scale in zip(self._keys, self._film.items, self._scales(), strict=True):
             drawings.setdefault(key, item)
             largest[key] = max(largest.get(key, 0.0), scale)
@@ -89,7 +89,7 @@ class Projector:
         return [float(scale) * self.frame.px_per_cu for scale in scales]
 
 
-def _key(item: Item) -> tuple[int, str]:
+def _key(item: Item) -> tuple[Hashable, str]:
     """Same for items that look the same."""
     return shape_key(item), " ".join(paint(item).values())
 

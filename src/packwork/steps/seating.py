@@ -12,21 +12,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import final
 
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.finish.finished import Finished
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
-from packwork.pipeline.placed import Placed
-from packwork.pipeline.places import exchanged, shapes
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
+from packwork.pipeline.watch import Watch
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights, patch_of
 from packwork.scene.target import TargetPicture, blurred
 from packwork.start.colour_exchange.exchange import GRID, exchanged_by_colour
+from packwork.steps.places import exchanged, shapes
 
 UNLIKE = 0.06
 """What the squared logarithm of a factor in shape weighs beside squared distances in Oklab. Larger
@@ -47,18 +49,29 @@ FEWEST = 2
 """Items that may change places at least."""
 
 
-def seated(solved: Placed) -> Placed:
-    """Items in those of their places in which their colours show the picture best.
+@final
+class AssignByColour(RunStep):
+    """Items in those of their places in which their colours show a picture best.
 
     Items that keep nothing of their colours, and those of which rules ask anything, stay.
+
+    Parameters
+    ----------
+    target
+        The picture.
     """
-    job, poses = solved.job, solved.poses
-    movable = job.seated
-    if job.target is None or len(movable) < FEWEST or job.plan.stays:
-        return solved
-    order = _order(job, poses.some(movable), movable, job.target)
-    changed = exchanged(job, poses, movable, movable[order])
-    return replace(solved, exact=Finished.as_is(changed))
+
+    def __init__(self, target: TargetPicture) -> None:
+        self._target = target
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State with places given out anew."""
+        job, poses = state.job, state.poses
+        movable = job.seated
+        if len(movable) < FEWEST:
+            return state
+        order = _order(job, poses.some(movable), movable, self._target)
+        return replace(state, poses=exchanged(job, poses, movable, movable[order]))
 
 
 def _order(job: Job, places: Poses, movable: IntArray, target: TargetPicture) -> IntArray:

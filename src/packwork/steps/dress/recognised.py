@@ -10,7 +10,6 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.pipeline.dress.likeness import windows_of
 from packwork.pipeline.job import Job
 from packwork.raster.coverage import coverage
 from packwork.scene.colour import css_colour
@@ -19,6 +18,7 @@ from packwork.scene.layout import Layout
 from packwork.scene.light import light_of
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture
+from packwork.steps.dress.likeness import windows_of
 
 SIDE_PX = 64
 """Longer side at which a thumbnail is looked at. Larger asks for details, smaller for blots alone.
@@ -35,11 +35,11 @@ HALF = "50%"
 """Tint that shows a picture by photographs of any colours. By eye."""
 
 
-def unrecognised(job: Job, layout: Layout) -> tuple[str, ...]:
+def unrecognised(job: Job, target: TargetPicture, layout: Layout) -> tuple[str, ...]:
     """Remedy for a picture that does not show, in a sentence; nothing where it shows or is none."""
-    if job.target is None or not layout.items:
+    if not layout.items:
         return ()
-    found = likeness(layout, job.target)
+    found = likeness(layout, target)
     if found >= LEAST:
         return ()
     needed = len(layout.items) * ((1 - found) / (1 - LEAST)) ** 2

@@ -1,10 +1,11 @@
-"""From the solver's layout to an exact one."""
+"""Exact finish of a run: items pinned in place first, then those of zones, then all others."""
 
 from __future__ import annotations
 
 import logging
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import final
 
 import numpy as np
 
@@ -20,20 +21,20 @@ from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import difference, union
 from packwork.phrasing import number_of
-from packwork.pipeline.beginning import Beginning
-from packwork.pipeline.dress.line_weights import evened
+from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.left_out import reason
-from packwork.pipeline.placed import Placed
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.padding import check_found
-from packwork.pipeline.result import Unplaced
-from packwork.pipeline.staying import needs_no_levels
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
+from packwork.pipeline.watch import LEVELS, Watch
 from packwork.progress import Observer, Step, until_over
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.solver import scale_bounds
+from packwork.steps.dress.line_weights import evened
+from packwork.steps.earlier_layout import needs_no_levels
+from packwork.steps.left_out import reason
 
 _LOG = logging.getLogger(__name__)
 
@@ -84,40 +85,65 @@ PRESSING = frozenset(
 """Losses that have no say in which room stays free."""
 
 
-def finish_exactly(solved: Placed, watch: Watch, *, may_fail: bool = False) -> Placed:
-    """Exact poses near those of the levels; what the levels found if no more is asked.
+@final
+class Finish(RunStep):
+    """Exact finish: separation, compaction and trials on the true outlines.
 
     Parameters
     ----------
     may_fail
         Whether a padding that most items find no room with is no error.
-
-    Raises
-    ------
-    RecipeError
-        If the padding is so large.
     """
-    job, start, stop = solved.job, solved.start, watch.stop
-    if not job.plan.is_exact:
-        return solved
-    watch = watch.heard_by(solved.recorder)
-    with job.clock.time("finish"):
-        exact = finished(job, start, solved.poses, watch)
-        if not (may_fail or job.plan.stays or stop()):
-            check_found(job.container, job.plan.gap, exact)
-        thinner = job if stop() else evened(job, exact.poses, tells=False)
-        if thinner is not job:
-            # Thinner lines leave room to grow into.
-            job = thinner
-            exact = finished(job, start, exact.poses, watch, grows=True)
-        exact = job.use.bounded(job, start, exact, watch)
-    return replace(solved, job=job, exact=exact, asked_for=job)
+
+    share = 1.0 - LEVELS
+
+    def __init__(self, *, may_fail: bool = False) -> None:
+        self._may_fail = may_fail
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State with exact poses near those of the levels.
+
+        Raises
+        ------
+        RecipeError
+            If the padding is so large that most items find no room.
+        """
+        job = state.job
+        with job.clock.time("finish"):
+            found = finished(state, watch)
+            if not (self._may_fail or job.plan.stays or watch.stop()):
+                check_found(job.container, job.plan.gap, found.conflicts, len(found.poses))
+            return found
 
 
-def finished(
-    job: Job, start: Beginning, poses: Poses, watch: Watch, *, grows: bool = False
-) -> Finished:
-    """Exact poses near the solver's, of the true outlines.
+@final
+class FinishThinner(RunStep):
+    """Line drawings with lines of one width, which leave room for all to grow into."""
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State whose drawings are thinner, grown; as it is where no line gets thinner."""
+        job = state.job
+        with job.clock.time("finish"):
+            thinner = job if watch.stop() else evened(job, state.poses, tells=False)
+            if thinner is job:
+                return state
+            state = replace(state, job=thinner, asked_for=thinner)
+            return finished(state, watch, grows=True)
+
+
+@final
+class TellOfSmall(RunStep):
+    """A notice of items a little smaller than free sizes go."""
+
+    def run(self, state: State, watch: Watch) -> State:
+        """The same state."""
+        if state.small:
+            _LOG.warning("%s", state.small)
+        return state
+
+
+def finished(state: State, watch: Watch, *, grows: bool = False) -> State:
+    """State with exact poses near those it has, of the true outlines.
 
     Items pinned in place stay as they are and count as wall. Those that a zone holds come
     first, in their zone; all others take what is left. Where a time was given, the rounds
@@ -128,14 +154,16 @@ def finished(
     grows
         Whether the poses are clean, and are to be larger: none gets much smaller then.
     """
-    outlines, limits, whole = job.solid_outlines, start.limits, job.container.outline
+    job, poses, watch = state.job, state.poses, watch.heard_by(state.recorder)
+    outlines, limits, whole = job.solid_outlines, state.limits, job.container.outline
     # What is to stay where it was is not pushed on.
-    forces = NO_FORCES if job.plan.stays else start.forces
+    forces = NO_FORCES if job.plan.stays else state.forces
     until = until_over(watch.stop, job.seconds_left(1.0))
     is_enough = until_over(watch.stop, job.seconds_left(TRIALS_SHARE))
-    allowed, largest = scale_ranges(job, start, poses)
+    allowed, largest = scale_ranges(state)
     smallest = np.maximum(allowed, LEAST_KEPT * poses.scale) if grows else allowed
-    results, before = [], poses
+    results: list[tuple[IntArray, Finished]] = []
+    before = poses
     done = np.flatnonzero(limits.groups < 0)
     if len(done):
         gap = gap_with_bulge(job, done, largest[done]) + HAIR * job.container.side
@@ -151,7 +179,7 @@ def finished(
             replace(job.container, outline=room),
             [outlines[k] for k in items],
             poses.some(items),
-            _options(job, start, items, smallest[items], largest[items]),
+            _options(state, items, smallest[items], largest[items]),
             Closing(watch.observer, poses, items),
             until,
             is_enough,
@@ -162,38 +190,36 @@ def finished(
         done = np.append(done, items)
     if limits.binds and job.plan.sizes == "shared":
         poses = _one_factor(before, poses, limits)
-    return _without_dwarfs_that_may_be(job, allowed, _together(poses, results))
+    conflicts = [one.numbered(items) for items, result in results for one in result.conflicts]
+    undersized = [int(items[k]) for items, result in results for k in result.undersized]
+    real, small = dwarfs_told_apart(job, allowed, poses, undersized)
+    return replace(state, poses=poses, conflicts=tuple(conflicts), undersized=real, small=small)
 
 
-def _without_dwarfs_that_may_be(job: Job, smallest: FloatArray, result: Finished) -> Finished:
-    """The result without items a little smaller than free sizes go, unless a rule sizes them.
+def dwarfs_told_apart(
+    job: Job, smallest: FloatArray, poses: Poses, undersized: Sequence[int]
+) -> tuple[tuple[int, ...], str]:
+    """Items that are really too small, and a sentence about those a little smaller than usual.
 
-    That range is a default, not an option that was given; a sentence names them, which is told
-    of the result that is kept alone (:func:`tell_of_small`).
+    The range of free sizes is a default, not an option that was given, unless a rule sizes an item.
     """
     real: list[int] = []
     small: list[int] = []
-    short = smallest / result.poses.scale
-    for k in result.undersized:
+    short = smallest / poses.scale
+    for k in undersized:
         is_asked = "scale" in job.asked[k].values or "size" in job.asked[k].pin
         if short[k] > 1 + ROUNDING:
             (real if is_asked or short[k] > DWARF else small).append(k)
     small = [k for k in small if short[k] > NOTED]
-    said = ""
-    if small:
-        worst = max(small, key=lambda k: short[k])
-        many = number_of(len(small), "item is", "items are")
-        said = (
-            f"{many} smaller than --size-ratio {job.plan.size_ratio:g} allows, "
-            f"{job.items[worst].name} by {100 * (1 - 1 / short[worst]):.0f} %"
-        )
-    return replace(result, undersized=tuple(real), small=said)
-
-
-def tell_of_small(result: Finished) -> None:
-    """Tell of items a little smaller than free sizes go."""
-    if result.small:
-        _LOG.warning("%s", result.small)
+    if not small:
+        return tuple(real), ""
+    worst = max(small, key=lambda k: short[k])
+    many = number_of(len(small), "item is", "items are")
+    said = (
+        f"{many} smaller than --size-ratio {job.plan.size_ratio:g} allows, "
+        f"{job.items[worst].name} by {100 * (1 - 1 / short[worst]):.0f} %"
+    )
+    return tuple(real), said
 
 
 def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:
@@ -203,34 +229,36 @@ def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:
     return replace(poses, scale=np.where(is_free, before.scale * common, poses.scale))
 
 
-def scale_ranges(job: Job, start: Beginning, poses: Poses) -> tuple[FloatArray, FloatArray]:
+def scale_ranges(state: State) -> tuple[FloatArray, FloatArray]:
     """Smallest and largest scale of each item, ``(n,)`` each."""
+    job, poses, limits = state.job, state.poses, state.limits
     options = job.plan.solve_options()
-    smallest, largest = scale_bounds(start.nominal, poses.scale, options, start.limits)
+    smallest, largest = scale_bounds(state.nominal, poses.scale, options, limits)
     if any(loss not in PRESSING for loss in job.plan.losses):
         # Room that a loss of one's own keeps free must not be grown into.
         largest = np.minimum(largest, poses.scale)
     # Items of a zone come first: they may not grow over those that come later.
-    early = start.limits.groups > 0
+    early = limits.groups > 0
     least = np.minimum(largest, np.maximum(poses.scale, smallest))
     return smallest, np.where(early, least, largest)
 
 
 def _options(
-    job: Job, start: Beginning, items: IntArray, smallest: FloatArray, largest: FloatArray
+    state: State, items: IntArray, smallest: FloatArray, largest: FloatArray
 ) -> FinishOptions:
+    job, limits = state.job, state.limits
     plan, rotation = job.plan, job.plan.rotation
     turning, limit = not rotation.is_still, rotation.limit
     leans = job_leanings(job)
-    if start.limits.binds:
+    if limits.binds:
         # One bound for all of a group: the narrowest that a rule gives.
-        turning = turning and bool(np.isnan(start.limits.angle[items]).all())
-        narrowest = float(start.limits.turn_limit[items].min())
+        turning = turning and bool(np.isnan(limits.angle[items]).all())
+        narrowest = float(limits.turn_limit[items].min())
         limit = narrowest if np.isfinite(narrowest) else None
     # Put together so closely, items have nowhere to go: a tenth of a point in twice the time.
-    is_settled = start.is_tight and plan.effort != "best"
+    is_settled = state.is_tight and plan.effort != "best"
     # What goes on from an earlier layout keeps its order, unless much effort is asked for.
-    keeps_order = plan.stays or (start.goes_on and plan.effort != "best")
+    keeps_order = plan.stays or (state.goes_on and plan.effort != "best")
     return FinishOptions(
         gap_cu=gap_with_bulge(job, items, largest),
         sizes=plan.size_mode,
@@ -241,8 +269,8 @@ def _options(
         leans=tuple(leans[items].tolist()) if turning and leans.any() else None,
         trials=0 if keeps_order or is_settled else trials_for(job, len(items)),
         relieving=not is_settled,
-        refining=needs_no_levels(job) or start.is_refined or start.is_clean,
-        staying=plan.stays or start.is_refined,
+        refining=needs_no_levels(job) or state.is_refined or state.is_only_refined,
+        staying=plan.stays or state.is_refined,
         exchanging=len(job.seated) == 0 and not job.keeps_order,
         keeps_order=job.keeps_order,
         seed=plan.seed,
@@ -274,22 +302,6 @@ def without(whole: Outline, walls: Sequence[Outline]) -> Outline:
         return whole
 
 
-def _together(poses: Poses, results: Sequence[tuple[IntArray, Finished]]) -> Finished:
-    """One result of all groups, items numbered as in the run."""
-    offenders = tuple(
-        found.numbered(items) for items, result in results for found in result.conflicts
-    )
-    undersized = tuple(int(items[k]) for items, result in results for k in result.undersized)
-    return Finished(
-        poses,
-        not offenders,
-        offenders,
-        undersized,
-        sum(result.rounds for _, result in results),
-        sum(result.seconds for _, result in results),
-    )
-
-
 def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
     """Gap between outlines that leaves the one asked for between curves.
 
@@ -307,12 +319,12 @@ def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
     return job.plan.gap + bulge
 
 
-def unfinished(job: Job, result: Finished) -> tuple[Unplaced, ...]:
+def unfinished(state: State) -> tuple[Unplaced, ...]:
     """Items that are still in conflict, or smaller than they may be, and why."""
-    found: dict[int, str] = {}
-    for conflict in result.conflicts:
+    job, found = state.job, dict[int, str]()
+    for conflict in state.conflicts:
         found.setdefault(conflict.item, reason(conflict, job.items, job.container.unit))
-    for k in result.undersized:
+    for k in state.undersized:
         found.setdefault(k, "is smaller than it may be: there was no room at its smallest size")
     return tuple(Unplaced(job.items[k].name, k, found[k]) for k in sorted(found))
 

@@ -9,8 +9,7 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.compaction.conflicts import Conflict
 from packwork.metrics.violations import Violation, violations
-from packwork.pipeline.job import Job
-from packwork.pipeline.result import Unplaced
+from packwork.pipeline.findings import Unplaced
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 
@@ -40,12 +39,6 @@ def left_out(layout: Layout, held: Sequence[bool], gap: float) -> dict[int, str]
         met_by = next(one for one in pairs if worst in (one.item, one.other))
         reasons[worst] = reason(met_by, layout.items, unit, worst)
     return reasons
-
-
-def without_some(job: Job, gone: Sequence[int]) -> tuple[Job, IntArray]:
-    """The job of all other items, and which those are."""
-    kept = np.setdiff1d(np.arange(len(job.items)), np.array(gone, dtype=np.int64))
-    return job.some(kept), kept
 
 
 def named(reasons: dict[int, str], layout: Layout, numbers: IntArray) -> tuple[Unplaced, ...]:

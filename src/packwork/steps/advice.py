@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import final
+
 import numpy as np
 
 from packwork.metrics.shape import ShapeMetrics
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.plan.plan import VoidPlan
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
+from packwork.pipeline.watch import Watch
 from packwork.pipeline.widest import lines_width
-from packwork.scene.layout import Layout
 
 MOST_BARE = 0.05
 """Share of the container far from any item from which its shape is said not to show. Larger
@@ -27,11 +32,22 @@ CLEARLY_MORE = 1.15
 """How many times as many items must be needed for more of them to be the advice. Chosen."""
 
 
-def advice(job: Job, layout: Layout, seen: ShapeMetrics) -> tuple[str, ...]:
-    """What is poor, and what would do, a sentence each."""
-    if not job.use.shows_shape or (seen.bare <= MOST_BARE and seen.shape >= LEAST_SHAPE):
+@final
+class Advise(RunStep):
+    """Advice on a layout that does not show the container's shape."""
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State with the advice."""
+        layout, metrics = state.measured
+        said = advice(state.job, len(layout.items), metrics.seen)
+        return replace(state, advice=(*state.advice, *said))
+
+
+def advice(job: Job, count: int, seen: ShapeMetrics) -> tuple[str, ...]:
+    """What is poor of a layout of ``count`` items, and what would do, in a sentence; or nothing."""
+    if seen.bare <= MOST_BARE and seen.shape >= LEAST_SHAPE:
         return ()
-    remedy = _wider(job) or job.use.remedy(job) or _remedy(job, len(layout.items))
+    remedy = _wider(job) or job.use.remedy(job) or _remedy(job, count)
     return (f"{_poor(seen)}; {remedy}",)
 
 

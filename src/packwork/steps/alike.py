@@ -19,7 +19,6 @@ from packwork.forces.forces import BondForce, Forces
 from packwork.forces.ties import Ties
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
-from packwork.pipeline.places import even_points
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
@@ -28,6 +27,7 @@ from packwork.start.first_poses import disc_radii
 from packwork.start.neighbour_embedding.assignment import assigned
 from packwork.start.neighbour_embedding.diffusion import likeness
 from packwork.start.neighbour_embedding.graph import NeighbourGraph, unit_rows
+from packwork.steps.places import even_points
 
 FACTOR, KEPT_FACTOR = 1.6, 1.3
 """Factor between the radii of an item and of its new place that costs as much as lying a spacing

@@ -1,7 +1,7 @@
 """Items in an order along a way: by weight, hue, lightness, name or the numbers of a file.
 
 First places are given out anew by an optimal assignment (Crouse 2016, as in
-``pipeline.seating``): each item has a share along the way, that of the area of all that come before
+``steps.seating``): each item has a share along the way, that of the area of all that come before
 it, and so has each place; their squared difference is least in sum. Levels and finish then keep
 every item about there.
 """
@@ -18,7 +18,6 @@ from packwork.errors import ReadError, RecipeError
 from packwork.fields.geodesic import lengthwise
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
-from packwork.pipeline.places import even_points, exchanged, shapes
 from packwork.readers.tables.pairs import read_pairs
 from packwork.recipe.arrangement import FILES, MEASURES, Arrangement, parse_arrangement
 from packwork.scene.container import Container
@@ -27,6 +26,7 @@ from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights
 from packwork.start.first_fit.homes import Homes
 from packwork.start.first_poses import container_image
+from packwork.steps.places import even_points, exchanged, shapes
 
 MOST_BYTES = 5_000_000
 """Size of a file of numbers. Chosen."""

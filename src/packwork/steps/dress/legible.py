@@ -42,7 +42,7 @@ PAPER = "white"
 
 
 def legible(job: Job, layout: Layout) -> Layout:
-    """Layout whose items stand out from the picture behind; the same if there is none.
+    """Layout whose items stand out from the picture behind.
 
     Photos stay as they are. What has one colour gets a lighter or darker one of that hue where
     it needs to; where none would do, and what has several colours, gets a halo.

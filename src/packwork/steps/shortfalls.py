@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
+from typing import final
 
 import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.compaction.objective import SIZE_TOLERANCE
-from packwork.finish.finished import Finished
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.hero import HERO
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.plan.limits import pinned_scales
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
+from packwork.pipeline.watch import Watch
 from packwork.pipeline.widest import lines_width, widest_cu
 from packwork.scene.layout import Layout
 
@@ -27,17 +31,19 @@ be seen: 0.3 mm on a poster of a metre. Larger blames the smallest of a hundred 
 passes letters that nobody can read. Chosen."""
 
 
-def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...]:
-    """What came of each size that was asked for and not met.
+@final
+class TellShortfalls(RunStep):
+    """Sentences about items that came out smaller than they were asked to be."""
 
-    Parameters
-    ----------
-    nominal
-        ``(n,)`` typical scale of each item.
-    exact
-        Of the finish.
-    """
-    side, scales = job.container.side, exact.poses.scale
+    def run(self, state: State, watch: Watch) -> State:
+        """State with these faults."""
+        return replace(state, faults=(*state.faults, *shortfalls(state)))
+
+
+def shortfalls(state: State) -> tuple[str, ...]:
+    """A sentence about each size that was asked for and not met."""
+    job, nominal = state.job, state.nominal
+    side, scales = job.container.side, state.poses.scale
     pinned = pinned_scales(job)
     said: list[str] = []
     dwarfs: list[int] = []
@@ -58,7 +64,7 @@ def shortfalls(job: Job, nominal: FloatArray, exact: Finished) -> tuple[str, ...
                     f"{item.name} (item {k + 1}) came out at {ratio:.2g} times the typical size, "
                     f"{least:g} asked at least"
                 )
-        elif k in exact.undersized:
+        elif k in state.undersized:
             dwarfs.append(k)
     return (*said, *_dwarfs(job, dwarfs, nominal, scales))
 

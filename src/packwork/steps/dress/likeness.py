@@ -17,7 +17,7 @@ from packwork.pipeline.job import Job
 from packwork.raster.coverage import coverage
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.contrast import between, oklabs_of_light, readable
-from packwork.scene.item import Item, PhotoArt
+from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.layout import Layout
 from packwork.scene.light import channels_of, light_of
 from packwork.scene.swatch import ShownLight, mean_lights, shown_light
@@ -71,13 +71,9 @@ class Window:
         return np.asarray(self.shares.ravel() @ seen.reshape(-1, seen.shape[2]) / whole)
 
 
-def in_picture(job: Job, layout: Layout) -> Layout:
-    """Layout whose items have the colours that show the job's picture, on the ground that suits it.
-
-    The layout itself where no picture is asked for.
-    """
-    target = job.target
-    if target is None or not layout.items:
+def in_picture(job: Job, target: TargetPicture, layout: Layout) -> Layout:
+    """Layout whose items have the colours that show a picture, on the ground that suits it."""
+    if not layout.items:
         return layout
     tints = job.tints
     windows = windows_of(layout, target)
@@ -196,13 +192,13 @@ class _Shown:
     """Light of what drawings show, found once of each."""
 
     def __init__(self) -> None:
-        self._known: dict[int, ShownLight | None] = {}
+        self._known: dict[Art, ShownLight | None] = {}
 
     def of(self, item: Item) -> ShownLight | None:
         """Of an item, which goes on being there."""
-        if id(item.art) not in self._known:
-            self._known[id(item.art)] = shown_light(item)
-        return self._known[id(item.art)]
+        if item.art not in self._known:
+            self._known[item.art] = shown_light(item)
+        return self._known[item.art]
 
 
 def _tinted(

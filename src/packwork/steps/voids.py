@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from enum import Enum
+from typing import TypeAlias, final
 
 import numpy as np
 import shapely
@@ -14,15 +15,10 @@ from packwork.finish.admission import admitted
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
-from packwork.pipeline.exact import (
-    Closing,
-    gap_with_bulge,
-    scale_ranges,
-    without,
-)
-from packwork.pipeline.placed import Placed
+from packwork.pipeline.findings import Filling
 from packwork.pipeline.plan.asked import Asked
-from packwork.pipeline.result import Filling
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
 from packwork.pipeline.watch import Watch
 from packwork.progress import Observer, Stop, until_over
 from packwork.scene.item import Item
@@ -31,6 +27,7 @@ from packwork.solve.stand_ins import stand_ins
 from packwork.start.angles import nearest_allowed
 from packwork.start.fitting import SECTORS
 from packwork.start.voids import copies_for_voids
+from packwork.steps.finish import Closing, gap_with_bulge, scale_ranges, without
 
 ROUNDS = {"draft": 4, "normal": 8, "best": 16}
 """Linear programmes of each item after each round of fillers, by effort. Measured in
@@ -72,50 +69,69 @@ class GapEnding(Enum):
     NO_VOID = "no void holds an item of {smallest:.3g} {unit}"
 
 
-def fill_gaps(placed: Placed, watch: Watch) -> Placed:
-    """Put smaller copies into voids until the coverage asked for is reached or nothing fits.
+FillerScales: TypeAlias = Callable[[State, FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
+"""Smallest and largest scale of each sort of filler, ``(m,)`` each, from those that the plan
+gives."""
 
-    What was placed stays as it is where voids are not to be filled, or nothing is exact.
+
+def as_planned(
+    state: State, smallest: FloatArray, largest: FloatArray
+) -> tuple[FloatArray, FloatArray]:
+    """The scales that the plan gives."""
+    del state
+    return smallest, largest
+
+
+@final
+class FillVoids(RunStep):
+    """Smaller copies put into voids until the coverage asked for is reached or nothing fits.
 
     Each round finds the voids in an image, puts copies where they fit, and lets all items
     that may yield grow and make room in exact geometry. Where sizes are data or rules
     hold items, only the fillers move.
+
+    Parameters
+    ----------
+    scales
+        Bounds the fillers' sizes.
     """
-    job = placed.job
-    if not (job.plan.voids.fills and job.plan.is_exact):
-        return placed
-    watch = watch.heard_by(placed.recorder)
-    with job.clock.time("gaps"):
-        stop = until_over(watch.stop, job.seconds_left(1.0))
-        filling = _Filling(placed, watch.observer, stop)
-        ending = filling.filled() if placed.exact.clean else GapEnding.NOT_CLEAN
-        return filling.result(ending)
+
+    share = 1.0
+
+    def __init__(self, scales: FillerScales = as_planned) -> None:
+        self._scales = scales
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State with fillers among its items; what was placed stays."""
+        job, watch = state.job, watch.part(0.0, 1.0, "gaps").heard_by(state.recorder)
+        with job.clock.time("gaps"):
+            stop = until_over(watch.stop, job.seconds_left(1.0))
+            filling = _Filling(state, self._scales, watch.observer, stop)
+            ending = filling.filled() if state.is_clean else GapEnding.NOT_CLEAN
+            return filling.result(ending)
 
 
 class _Filling:
     """State of one gap filling between its rounds."""
 
-    def __init__(self, placed: Placed, observer: Observer, stop: Stop) -> None:
-        job, start, exact, voids = placed.job, placed.start, placed.exact, placed.job.plan.voids
-        self._placed, self._voids = placed, voids
-        self._job, self._start, self._exact = job, start, exact
+    def __init__(self, state: State, scales: FillerScales, observer: Observer, stop: Stop) -> None:
+        job, voids = state.job, state.job.plan.voids
+        self._state, self._job, self._voids = state, job, voids
         self._observer, self._stop, self._rounds = observer, stop, 0
         self._sorts = job.fillers
         self._shapes = stand_ins([item.outline for item in self._sorts], job.plan.outline)
         self._rng = np.random.default_rng(job.plan.seed)
         self._first = len(job.items)
-        self.poses, self.added = exact.poses, list[int]()
+        self.poses, self.added = state.poses, list[int]()
         self._ids, self._tried = np.arange(self._first), self._first
         self._originals = job.solid_outlines
-        self._yields = job.plan.sizes == "free" and not start.limits.binds
-        self._ranges = scale_ranges(job, start, exact.poses)
+        self._yields = job.plan.sizes == "free" and not state.limits.binds
+        self._ranges = scale_ranges(state)
         own = np.array([outline.area for outline in self._shapes])
         extents = np.array([outline.extent for outline in self._shapes])
         # No filler outgrows what is a fair share for the items of before.
         fair = np.sqrt(job.container.outline.area / self._first / own)
-        self._smallest, self._largest = job.use.filler_scales(
-            job, exact, voids.smallest / extents, fair
-        )
+        self._smallest, self._largest = scales(state, voids.smallest / extents, fair)
         self._gap = gap_with_bulge(job, np.arange(self._first), self._ranges[1])
         self._work = 0.0
 
@@ -141,15 +157,15 @@ class _Filling:
         own = np.array([outline.area for outline in self._all_outlines()])
         return float((own * self.poses.scale**2).sum()) / self._job.container.outline.area
 
-    def result(self, ending: GapEnding) -> Placed:
+    def result(self, ending: GapEnding) -> State:
         """What was placed, with all that was put into voids."""
         job = self._job
-        own = {id(item): one for item, one in zip(job.items, job.asked, strict=True)}
+        own = dict(zip(job.items, job.asked, strict=True))
         by_name = dict(zip((item.name for item in job.items), job.asked, strict=True))
         new = [self._sorts[k] for k in self.added]
-        asked = [_styled(own.get(id(i)) or by_name.get(i.name, Asked())) for i in new]
+        asked = [_styled(own.get(i) or by_name.get(i.name, Asked())) for i in new]
         filling = Filling(len(new), self._said(ending), self.coverage(), self._voids.target)
-        return joined_by(self._placed, new, asked, self.poses, self._ids, filling)
+        return joined_by(self._state, new, asked, self.poses, self._ids, filling)
 
     def _said(self, ending: GapEnding) -> str:
         """The sentence of an ending, with the numbers of this run."""
@@ -241,14 +257,14 @@ class _Filling:
 
 
 def joined_by(
-    placed: Placed,
+    state: State,
     new: Sequence[Item],
     asked: Sequence[Asked],
     poses: Poses,
     numbers: IntArray,
     filling: Filling,
-) -> Placed:
-    """What was placed, with items that were put between: their poses come last.
+) -> State:
+    """State with items that were put between: their poses come last.
 
     Parameters
     ----------
@@ -257,22 +273,21 @@ def joined_by(
     poses
         Of all.
     numbers
-        As of what was placed, of all.
+        As of the state, of all.
     """
-    job, start = placed.job, placed.start
+    job = state.job
     grown = replace(
         job,
         items=(*job.items, *new),
         asked=(*job.asked, *asked),
         weights=np.append(job.weights, np.zeros(len(new))),
     )
-    nominal = np.append(start.nominal, poses.scale[len(job.items) :])
-    limits = start.limits.joined_by(len(new))
     return replace(
-        placed,
+        state,
         job=grown,
-        start=replace(start, nominal=nominal, limits=limits),
-        exact=replace(placed.exact, poses=poses),
+        nominal=np.append(state.nominal, poses.scale[len(job.items) :]),
+        limits=state.limits.joined_by(len(new)),
+        poses=poses,
         filling=filling,
         numbers=numbers,
     )

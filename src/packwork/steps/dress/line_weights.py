@@ -38,11 +38,11 @@ def evened(job: Job, poses: Poses, *, tells: bool = True) -> Job:
     """
     if not job.plan.has_even_lines:
         return job
-    known: dict[int, LineDrawing | None] = {}
+    known: dict[Item, LineDrawing | None] = {}
     for item in job.items:
-        if id(item) not in known:
-            known[id(item)] = line_drawing(item)
-    lines = [known[id(item)] for item in job.items]
+        if item not in known:
+            known[item] = line_drawing(item)
+    lines = [known[item] for item in job.items]
     widths = np.array([np.nan if line is None else line.width for line in lines]) * poses.scale
     if tells:
         _tell_of_traced(job.items)
@@ -53,13 +53,13 @@ def evened(job: Job, poses: Poses, *, tells: bool = True) -> Job:
             _LOG.warning("stroke_width: even changes nothing, for no item is drawn in lines")
         return job
     common = float(np.quantile(counted, THIN_ONES, method="lower"))
-    thinner: dict[tuple[int, float], Item] = {}
+    thinner: dict[tuple[Item, float], Item] = {}
     items = []
     for item, line, width in zip(job.items, lines, widths.tolist(), strict=True):
         if line is None or common > ALIKE * width:
             items.append(item)
             continue
-        key = (id(item), common / width)
+        key = (item, common / width)
         if key not in thinner:
             thinner[key] = line.thinner(common / width, job.plan.holes) or item
             if tells and thinner[key] is item:

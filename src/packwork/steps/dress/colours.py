@@ -8,9 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.pipeline.dress.legible import legible
-from packwork.pipeline.dress.likeness import in_picture
-from packwork.pipeline.dress.neighbours import beside
+from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.asked import Asked
 from packwork.pipeline.plan.own_losses import sees_colours
@@ -24,22 +22,18 @@ from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.scene.swatch import mean_lights
 from packwork.start.neighbour_embedding.clusters import clusters
+from packwork.steps.dress.neighbours import beside
 from packwork.writers.shading import in_palette, shaded
 
-_Arts: TypeAlias = dict[tuple[int, int, str, bool], Art]
-
-
-def dressed(job: Job, layout: Layout) -> Layout:
-    """Layout whose items look and are called as was asked, and can be told from what is behind."""
-    return legible(job, in_picture(job, _as_asked(job, layout)))
+_Arts: TypeAlias = dict[tuple[Art, Outline, str, bool], Art]
 
 
 def colours_seen(job: Job, layout: Layout) -> FloatArray:
     """``(n, 3)`` mean colours, sRGB 0 to 1, in which losses see items that lie as in a layout."""
-    return channels_of(mean_lights(_as_asked(job, layout).items))
+    return channels_of(mean_lights(as_asked(job, layout).items))
 
 
-def _as_asked(job: Job, layout: Layout) -> Layout:
+def as_asked(job: Job, layout: Layout) -> Layout:
     """Layout whose items look and are called as rules and palette ask.
 
     Colours of a palette are given out in the order of the items, as many of each; then
@@ -55,11 +49,11 @@ def _as_asked(job: Job, layout: Layout) -> Layout:
         return layout
     is_mixed = not sees_colours(job.plan.losses)
     colours = _colours(palettes, layout, is_mixed) if coloured is None else coloured
-    known: dict[tuple[int, str | None, Label | None, bool], Item] = {}
+    known: dict[tuple[Item, str | None, Label | None, bool], Item] = {}
     arts: _Arts = {}
     items = []
     for item, one, colour in zip(layout.items, job.asked, colours, strict=True):
-        key = (id(item), colour, _label(one), coloured is None and "color" not in one.values)
+        key = (item, colour, _label(one), coloured is None and "color" not in one.values)
         if key not in known:
             known[key] = _dressed(item, *key[1:], arts)
         items.append(known[key])
@@ -71,13 +65,13 @@ def _in_nearest(job: Job, layout: Layout) -> Layout:
     palette = job.plan.palette
     if not (palette and job.use.has_nearest):
         return layout
-    known: dict[int, Item] = {}
+    known: dict[Item, Item] = {}
     for item in layout.items:
-        if id(item) not in known:
+        if item not in known:
             stays = isinstance(item.art, PhotoArt) or has_one_colour(item.art)
-            known[id(item)] = item if stays else in_palette(item, palette)
+            known[item] = item if stays else in_palette(item, palette)
     pairs = zip(layout.items, job.asked, strict=True)
-    items = [item if "color" in one.values else known[id(item)] for item, one in pairs]
+    items = [item if "color" in one.values else known[item] for item, one in pairs]
     return replace(layout, items=tuple(items))
 
 
@@ -89,7 +83,7 @@ def _dressed(
     ``tinted`` lets a drawing of several colours have tints and shades of it.
     """
     if colour is not None:
-        key = (id(item.art), id(item.ink), colour, tinted)
+        key = (item.art, item.ink, colour, tinted)
         if key not in arts:
             arts[key] = (shaded if tinted else recoloured)(item, colour).art
         item = replace(item, art=arts[key])
@@ -104,16 +98,16 @@ def _label(one: Asked) -> Label | None:
 def _palettes(job: Job) -> list[tuple[str, ...]]:
     """Colours that each copy may have; none for those that keep theirs."""
     common = job.plan.palette
-    plain: dict[int, bool] = {}
+    plain: dict[Item, bool] = {}
     found = []
     for item, one in zip(job.items, job.asked, strict=True):
         if "color" in one.values:
             color = one.values["color"]
             found.append(() if color == OWN_COLOURS else palette_colours(color))
             continue
-        if common and id(item) not in plain:
-            plain[id(item)] = has_one_colour(item.art) or _is_tinted(job, item)
-        found.append(common if plain.get(id(item)) else ())
+        if common and item not in plain:
+            plain[item] = has_one_colour(item.art) or _is_tinted(job, item)
+        found.append(common if plain.get(item) else ())
     return found
 
 

@@ -1,1 +1,0 @@
-"""Recording of the items' motion, for films."""

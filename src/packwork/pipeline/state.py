@@ -1,0 +1,159 @@
+"""State of a run between two of its steps: items by number, their poses, what was found of them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.compaction.conflicts import Conflict
+from packwork.forces.forces import Forces
+from packwork.metrics.certificate import Promise
+from packwork.metrics.measure import LayoutMetrics
+from packwork.pipeline.findings import Filling, Unplaced, WordsFound
+from packwork.pipeline.job import Job
+from packwork.pipeline.recorder import Recorder
+from packwork.scene.layout import Layout
+from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
+from packwork.solve.solver import Ending, LevelReport
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class State:
+    """What a step takes and gives.
+
+    Parameters
+    ----------
+    job
+        Its items are those that are placed.
+    asked_for
+        The job of those that were asked for: without what was put into voids.
+    poses
+        Of the job's items.
+    nominal
+        ``(n,)`` scales that weights ask for.
+    limits
+        What rules ask of single items.
+    forces
+        What pulls items about, with what makes room for the heavy.
+    numbers
+        ``(n,)`` what items are called by in progress and in ``unplaced``.
+    method
+        How first places were found.
+    is_tight
+        Whether nothing overlaps, and the levels have nothing to add.
+    goes_on
+        Whether items keep their order, as those of an earlier layout that is no mere heap do.
+    is_only_refined
+        Whether nothing meets in exact geometry, gap included, but for pixels that are only grazed:
+        the finish only refines.
+    ending, levels
+        Of the levels.
+    conflicts, undersized
+        What the exact finish could not resolve, and items below the least size they may have.
+    small
+        Sentence about items a little smaller than free sizes go; empty if none is.
+    has_thinner_lines
+        Whether lines of drawings were made thinner, so areas are in shares no more.
+    filling
+        How voids were filled; None if they were not.
+    unplaced, left_out
+        Items without a place, and how many of them are no longer among the job's.
+    faults
+        What was asked and does not hold, a sentence each.
+    pile
+        How the items lie; empty unless they were heaped.
+    placed, kept
+        Number of items that were placed, and ``(n,)`` which of them are in the layout.
+    layout, metrics, promise
+        What is written, what it is worth and what was promised; None before it is measured.
+    certified
+        Whether exact measures find what was promised of geometry.
+    beside
+        Pairs of one kind that lie side by side; None if they may.
+    words
+        How many words the source holds; None for no words.
+    advice, remarks
+        What is poor and what would do; what the run chose by itself; a sentence each.
+    recorder
+        Records the way of the items.
+    """
+
+    job: Job
+    asked_for: Job
+    poses: Poses
+    nominal: FloatArray
+    limits: Limits
+    forces: Forces
+    numbers: IntArray
+    method: str = ""
+    is_tight: bool = False
+    goes_on: bool = False
+    is_only_refined: bool = False
+    ending: Ending = Ending.DONE
+    levels: tuple[LevelReport, ...] = ()
+    conflicts: tuple[Conflict, ...] = ()
+    undersized: tuple[int, ...] = ()
+    small: str = ""
+    has_thinner_lines: bool = False
+    filling: Filling | None = None
+    unplaced: tuple[Unplaced, ...] = ()
+    left_out: int = 0
+    faults: tuple[str, ...] = ()
+    pile: Mapping[str, Any] = field(default_factory=dict)
+    placed: int = 0
+    kept: IntArray = field(default_factory=lambda: np.arange(0))
+    layout: Layout | None = None
+    metrics: LayoutMetrics | None = None
+    promise: Promise = field(default_factory=Promise)
+    certified: bool = False
+    beside: int | None = None
+    words: WordsFound | None = None
+    advice: tuple[str, ...] = ()
+    remarks: tuple[str, ...] = ()
+    recorder: Recorder = field(default_factory=Recorder.off)
+
+    @classmethod
+    def of(cls, job: Job) -> State:
+        """Before the first step: no item has a place or a size yet."""
+        count = len(job.items)
+        nowhere = np.zeros(count)
+        return cls(
+            job=job,
+            asked_for=job,
+            poses=Poses(nowhere, nowhere, nowhere, nowhere),
+            nominal=nowhere,
+            limits=Limits.free(count),
+            forces=job.forces.buoyant(job.weights),
+            numbers=np.arange(count),
+        )
+
+    @property
+    def is_clean(self) -> bool:
+        """Whether the exact finish has left nothing that meets or sticks out."""
+        return self.job.plan.is_exact and not self.conflicts
+
+    @property
+    def is_refined(self) -> bool:
+        """Whether an earlier layout is gone on from that has to be refined only."""
+        return self.is_tight and self.goes_on
+
+    @property
+    def largest(self) -> FloatArray:
+        """``(n,)`` scales that no item may exceed."""
+        limits, nominal, poses = self.limits, self.nominal, self.poses
+        if limits.binds and len(limits.largest) == len(poses):
+            return limits.largest
+        if self.job.plan.sizes == "free" and len(nominal) == len(poses):
+            return nominal * self.job.plan.size_ratio
+        return poses.scale
+
+    @property
+    def measured(self) -> tuple[Layout, LayoutMetrics]:
+        """Layout and metrics of a state that has been measured."""
+        assert self.layout is not None and self.metrics is not None  # noqa: S101, PT018
+        return self.layout, self.metrics

@@ -1,0 +1,5 @@
+"""Steps of a run, one a file: places, levels, exact finish, voids, measures, looks.
+
+Which of them a run takes, and in which order, is a list that its use makes
+(:mod:`packwork.uses`).
+"""

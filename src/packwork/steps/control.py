@@ -1,0 +1,109 @@
+"""Steps made of steps: the best of several lists, a second try, a list for what is not tight."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import Any, TypeAlias, final
+
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep, run_steps, share_of
+from packwork.pipeline.watch import Watch
+
+Choice: TypeAlias = Callable[[Sequence[State], Watch], State]
+"""Takes what came of several lists, gives the best."""
+
+
+@final
+class Replan(RunStep):
+    """Other numbers in the plan of the run.
+
+    Parameters
+    ----------
+    fields
+        New values of fields of :class:`packwork.pipeline.plan.plan.Plan`.
+    """
+
+    def __init__(self, **fields: Any) -> None:
+        self._fields = fields
+
+    def run(self, state: State, watch: Watch) -> State:
+        """The same state under the new plan."""
+        job = replace(state.job, plan=replace(state.job.plan, **self._fields))
+        return replace(state, job=job, asked_for=job)
+
+
+@final
+class BestOf(RunStep):
+    """Several lists, each from the same state; the run goes on with the best outcome.
+
+    After a stop no further one is begun.
+
+    Parameters
+    ----------
+    lists
+        Steps of each.
+    choice
+        Chooses among what came of them.
+    """
+
+    def __init__(self, lists: Sequence[Sequence[RunStep]], choice: Choice) -> None:
+        self._lists, self._choice = lists, choice
+        self.share = share_of(lists[0])
+
+    def run(self, state: State, watch: Watch) -> State:
+        """What came of the best list."""
+        tried = [run_steps(steps, state, part) for part, steps in watch.turns(self._lists)]
+        return self._choice(tried, watch)
+
+
+@final
+class Retry(RunStep):
+    """A list, and where what came of it will not do, another one from the same state.
+
+    Parameters
+    ----------
+    first, again
+        Steps of the two.
+    will_do
+        Whether the first outcome is good enough.
+    choice
+        Chooses among the two.
+    """
+
+    def __init__(
+        self,
+        first: Sequence[RunStep],
+        again: Sequence[RunStep],
+        will_do: Callable[[State], bool],
+        choice: Choice,
+    ) -> None:
+        self._first, self._again = first, again
+        self._will_do, self._choice = will_do, choice
+        self.share = share_of(first)
+
+    def run(self, state: State, watch: Watch) -> State:
+        """What came of the first list, or the better one of both."""
+        found = run_steps(self._first, state, watch)
+        if watch.stop() or self._will_do(found):
+            return found
+        return self._choice([found, run_steps(self._again, state, watch)], watch)
+
+
+@final
+class UnlessTight(RunStep):
+    """Steps for first places that overlap; none where items already lie beside each other.
+
+    Parameters
+    ----------
+    steps
+        What is done then.
+    """
+
+    def __init__(self, *steps: RunStep) -> None:
+        self._steps = steps
+        self.share = share_of(steps)
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State after the steps; as it is where nothing overlaps."""
+        return state if state.is_tight else run_steps(self._steps, state, watch)

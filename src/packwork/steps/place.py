@@ -1,0 +1,172 @@
+"""First poses: sizes and angles by the plan, places by the first start that finds any."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import final
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.geometry.simplify import hull_areas
+from packwork.pipeline.job import Job
+from packwork.pipeline.plan.leaning import job_leanings
+from packwork.pipeline.plan.limits import check_poses, item_limits, pinned_scales
+from packwork.pipeline.plan.padding import check_padding, padded
+from packwork.pipeline.plan.sizes import given_scales
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
+from packwork.pipeline.watch import Watch
+from packwork.progress import Stop
+from packwork.recipe.rules import Rotation
+from packwork.scene.limits import Limits
+from packwork.scene.pose import Poses
+from packwork.start.angles import start_angles
+from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
+
+NOMINAL_COVERAGE = 0.82
+"""With free sizes: area of all items' hulls at their nominal sizes over the container's.
+Smaller lets the largest stand out more. Tried."""
+
+
+class Setting:
+    """What first poses are found in: room, sizes, angles, random numbers.
+
+    Parameters
+    ----------
+    state
+        Before any item has a place.
+    stop
+        Asked on the way.
+    """
+
+    def __init__(self, state: State, stop: Stop) -> None:
+        job = state.job
+        self.state, self.job, self.stop, self.forces = state, job, stop, state.forces
+        self.region = padded(job.container, job.plan.gap)
+        self.outlines = job.solid_outlines
+        self.rng = np.random.default_rng(job.plan.seed)
+        self.share_out(job.weights)
+
+    def share_out(self, weights: FloatArray) -> None:
+        """Set nominal and first scales by ``(n,)`` weights."""
+        self.nominal, self.scales = self._scales(weights)
+
+    @cached_property
+    def angles(self) -> FloatArray:
+        """``(n,)`` first angles, as the recipe, rules and pins allow."""
+        return first_angles(self.job, self.rng)
+
+    def limits(self, angles: FloatArray) -> tuple[Limits, FloatArray]:
+        """What rules ask of single items, and first scales that keep it."""
+        limits = Limits.free(len(angles))
+        if self.job.is_limited:
+            limits = item_limits(self.job, self.nominal, self.scales, angles)
+        return limits, np.clip(self.scales, limits.smallest, limits.largest)
+
+    def placed(self, poses: Poses, method: str, limits: Limits, *, is_tight: bool = False) -> State:
+        """State in which items have these first poses."""
+        return replace(
+            self.state, poses=poses, method=method, limits=limits, is_tight=is_tight,
+            nominal=self.nominal,
+        )  # fmt: skip
+
+    def _scales(self, weights: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Nominal and first scales; items that are free share what pinned ones leave."""
+        job, plan, outlines = self.job, self.job.plan, self.outlines
+        pinned = pinned_scales(job)
+        scales, nominal = pinned.copy(), pinned.copy()
+        free = [k for k, scale in enumerate(pinned) if np.isnan(scale)]
+        true = np.array([item.outline.area for item in job.items])
+        room = self.region.outline.area - float(np.nansum(true * pinned**2))
+        if room <= 0:
+            largest = int(np.nanargmax(true * pinned**2))
+            raise (
+                job.asked[largest]
+                .voices["pin.size"]
+                .error(
+                    f"pins {job.items[largest].name} so large that no room is left in the container"
+                )
+            )
+        if len(free) == 0:
+            return nominal, scales
+        total = plan.start_options().coverage * room
+        seen = [outlines[k] for k in free]
+        areas = np.array([outline.area for outline in seen])
+        if plan.sizes == "fixed":
+            given = given_scales(job.items, weights, job.container.unit, job.container.side)
+            nominal[free] = scales[free] = given[free]
+        elif plan.sizes == "shared":
+            nominal[free] = scales[free] = shared_scales(true[free], areas, weights[free], total)
+        else:
+            hulls = hull_areas(seen)
+            nominal[free] = nominal_scales(hulls, weights[free], NOMINAL_COVERAGE * room)
+            scales[free] = yielding_scales(areas, hulls, nominal[free], plan.size_ratio, total)
+        return nominal, scales
+
+
+class Start(ABC):
+    """One way of finding first poses."""
+
+    @abstractmethod
+    def find(self, setting: Setting) -> State | None:
+        """State with first poses; None where this way does not suit."""
+
+
+@final
+class Place(RunStep):
+    """First poses by the first of several starts that finds any.
+
+    Parameters
+    ----------
+    starts
+        Tried in turn; the last one finds poses anywhere.
+    """
+
+    def __init__(self, starts: Sequence[Start]) -> None:
+        self._starts = starts
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State with first poses of the outlines that the solver will see.
+
+        Raises
+        ------
+        RecipeError
+            If what is asked of single items cannot be, or the padding leaves no room.
+        """
+        job = state.job
+        with job.clock.time("start"):
+            check_padding(job.container, job.plan.gap, len(job.items))
+            setting = Setting(state, watch.stop)
+            found = next(one for start in self._starts if (one := start.find(setting)))
+            check_poses(job, setting.region, found.poses, found.limits)
+            return found
+
+
+def first_angles(job: Job, rng: np.random.Generator) -> FloatArray:
+    """``(n,)`` first angles, as the recipe, rules and pins allow."""
+
+    def random(items: IntArray, rotation: Rotation) -> FloatArray:
+        return start_angles(len(items), rotation.limit, rotation.choices, rng)
+
+    return allowed_angles(job, random)
+
+
+def allowed_angles(job: Job, choose: Callable[[IntArray, Rotation], FloatArray]) -> FloatArray:
+    """``(n,)`` angles of all items, those of some of them by ``choose`` within a rotation."""
+    rotation = job.plan.rotation
+    angles = choose(np.arange(len(job.items)), rotation).copy()
+    leans = job_leanings(job)
+    if leans.any():
+        # As far beyond its least tilt as any other turn from upright, but to its own side.
+        rest = np.abs(angles) * (1 - np.abs(leans) / rotation.farthest)
+        angles = np.where(leans == 0, angles, leans + np.sign(leans) * rest)
+    for k, one in enumerate(job.asked):
+        if one.rotation:
+            angles[k] = choose(np.array([k]), one.rotation)[0]
+        if "angle" in one.pin:
+            angles[k] = np.radians(one.pin["angle"])
+    return angles

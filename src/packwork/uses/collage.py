@@ -1,0 +1,209 @@
+"""Lists of steps that icons, words, photographs and charts share.
+
+Whoever asks what happens in a run reads :func:`placing` and :func:`reporting`. A new start, a new
+assignment or a new finish is one file in :mod:`packwork.steps` and a line here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from packwork.pipeline.job import Job
+from packwork.pipeline.recorder import Recorder
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep
+from packwork.pipeline.watch import Watch
+from packwork.recipe.rules import Rotation
+from packwork.steps.advice import Advise
+from packwork.steps.control import BestOf, Replan, UnlessTight
+from packwork.steps.earlier_layout import FromLayout, needs_no_levels
+from packwork.steps.exchanges import (
+    AssignByEmbedding,
+    AssignInOrder,
+    ExchangeByForces,
+    KindsApart,
+)
+from packwork.steps.finish import Finish, FinishThinner, TellOfSmall, finished
+from packwork.steps.levels import Levels, StartRecording
+from packwork.steps.looks import Dress, KeepTrack, RemarkCount, ShowPicture, StandOut
+from packwork.steps.measure import CountBeside, EvenLines, Measure
+from packwork.steps.place import Place
+from packwork.steps.seating import AssignByColour
+from packwork.steps.shortfalls import TellShortfalls
+from packwork.steps.starts import new_starts
+from packwork.steps.voids import FillerScales, FillVoids, as_planned
+
+AS_LARGE = 0.97
+"""Area that an item has upright, as a share of what it has turned, from which it is left upright.
+Larger turns it for a gain too small to be seen, smaller wastes room. Chosen."""
+
+_STILL = Rotation(limit=0.0)
+
+
+def solving(job: Job, *, suits_first_fit: bool, place: RunStep | None = None) -> list[RunStep]:
+    """Steps from no place at all to the poses of the levels.
+
+    Parameters
+    ----------
+    suits_first_fit
+        Whether first fit does these items good where all have one size.
+    place
+        What finds first places, where a use has its own way.
+    """
+    steps = list[RunStep]()
+    if place is not None:
+        steps.append(place)
+    elif job.earlier is not None:
+        steps.append(Place([FromLayout(job.earlier)]))
+    else:
+        steps.append(Place(new_starts(job, suits_first_fit=suits_first_fit)))
+    exchanges = list[RunStep]()
+    if job.forces.acts:
+        exchanges.append(ExchangeByForces())
+    if job.vectors is not None:
+        exchanges.append(AssignByEmbedding())
+    elif job.keeps_order:
+        exchanges.append(AssignInOrder())
+    if exchanges and job.earlier is None:
+        steps.append(UnlessTight(*exchanges))
+    if job.plan.keeps_apart:
+        steps.append(KindsApart())
+    steps.append(StartRecording())
+    if not needs_no_levels(job):
+        steps.append(UnlessTight(Levels()))
+    return steps
+
+
+def placing(
+    job: Job,
+    *,
+    suits_first_fit: bool,
+    methods: Sequence[str] = (),
+    bounds: Sequence[RunStep] = (),
+    place: RunStep | None = None,
+) -> list[RunStep]:
+    """Steps from no place at all to exact poses.
+
+    Parameters
+    ----------
+    suits_first_fit, place
+        As :func:`solving` has them.
+    methods
+        Starts that are tried, of which the run goes on with the most promising.
+    bounds
+        What a use does to sizes after the exact finish.
+    """
+
+    def once(job: Job, *, may_fail: bool = False) -> list[RunStep]:
+        steps = solving(job, suits_first_fit=suits_first_fit, place=place)
+        if methods:
+            tried = [
+                [
+                    Replan(method=method),
+                    *solving(_replanned(job, method=method), suits_first_fit=suits_first_fit),
+                ]
+                for method in methods
+            ]
+            steps = [BestOf(tried, most_promising)]
+        if job.target is not None and len(job.seated) and not job.plan.stays:
+            steps.append(AssignByColour(job.target))
+        if job.plan.is_exact:
+            steps.append(Finish(may_fail=may_fail))
+            if job.plan.has_even_lines:
+                steps.append(FinishThinner())
+            steps += bounds
+        return steps
+
+    steps = once(job)
+    if may_stand_upright(job):
+        still = [Replan(rotation=_STILL), *once(_replanned(job, rotation=_STILL), may_fail=True)]
+        steps = [BestOf([steps, still], as_good_upright)]
+    return steps
+
+
+def filling(job: Job, scales: FillerScales = as_planned) -> list[RunStep]:
+    """Steps after an exact finish: smaller copies in voids, notices of what came out small."""
+    if not job.plan.is_exact:
+        return []
+    voids = [FillVoids(scales)] if job.plan.voids.fills else []
+    return [TellOfSmall(), *voids, TellShortfalls()]
+
+
+def reporting(job: Job, *, is_dressed: bool, shows_shape: bool = True) -> list[RunStep]:
+    """Steps after the last move: measures, colours, film, advice.
+
+    Parameters
+    ----------
+    is_dressed
+        Whether the use gives colours of its own.
+    shows_shape
+        Whether the layout is to show the container's shape.
+    """
+    steps: list[RunStep] = [Measure()]
+    if job.plan.has_even_lines:
+        steps.insert(0, EvenLines())
+    if job.plan.keeps_apart:
+        steps.append(CountBeside())
+    if shows_shape:
+        steps.append(Advise())
+    if is_dressed or job.plan.palette or any(one.values for one in job.asked):
+        steps.append(Dress())
+    if job.target is not None:
+        steps.append(ShowPicture(job.target))
+    if job.container.backdrop is not None:
+        steps.append(StandOut())
+    if job.is_counted:
+        steps.append(RemarkCount())
+    return [*steps, KeepTrack()]
+
+
+def may_stand_upright(job: Job) -> bool:
+    """Whether a job's one item is tried upright besides.
+
+    Not where there are more items, or an angle, a force, an earlier layout or a time was asked for.
+    """
+    plan = job.plan
+    if len(job.items) != 1 or plan.rotation.is_still or plan.rotation.choices:
+        return False
+    asked = job.asked[0]
+    is_told = "rotate" in asked.values or "angle" in asked.pin or plan.is_from_layout
+    if is_told or plan.forces or plan.seconds is not None:
+        return False
+    return plan.is_exact and not plan.voids.fills
+
+
+def as_good_upright(tried: Sequence[State], watch: Watch) -> State:
+    """What was placed upright if it is clean and about as large as the turned one; else that."""
+    turned = tried[0]
+    for upright in tried[1:]:
+        sizes = float(upright.poses.scale[0] ** 2), float(turned.poses.scale[0] ** 2)
+        is_as_large = bool(turned.conflicts) or sizes[0] >= AS_LARGE * sizes[1]
+        if not upright.conflicts and is_as_large:
+            job = replace(upright.job, plan=turned.job.plan)
+            return replace(upright, job=job, asked_for=job)
+    return turned
+
+
+def most_promising(tried: Sequence[State], watch: Watch) -> State:
+    """Of what levels made of several starts, that from which most comes to be covered."""
+    if len(tried) == 1 or watch.stop():
+        return tried[0]
+
+    def worth(state: State) -> tuple[bool, float]:
+        """Whether a finish without trials comes out clean, and the area that is covered then."""
+        job = _replanned(state.job, effort="draft")
+        quick = replace(state, job=job, recorder=Recorder.off())
+        exact = finished(quick, Watch(stop=watch.stop))
+        own = np.array([item.outline.area for item in state.job.items])
+        return not exact.conflicts, float(own @ exact.poses.scale**2)
+
+    with tried[0].job.clock.time("finish"):
+        return max(tried, key=worth)
+
+
+def _replanned(job: Job, **fields: object) -> Job:
+    """The same job, some fields of its plan replaced."""
+    return replace(job, plan=replace(job.plan, **fields))  # type: ignore[arg-type]

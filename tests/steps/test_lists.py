@@ -1,0 +1,141 @@
+"""Lists of steps: what was not asked is not on them, and what steps of steps do."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from packwork import uses
+from packwork.pipeline.state import State
+from packwork.pipeline.step import RunStep, run_steps, share_of
+from packwork.pipeline.watch import Watch
+from packwork.progress import Step
+from packwork.recipe import make_recipe
+from packwork.steps.control import BestOf, Replan, Retry, UnlessTight
+
+PLAIN = [
+    "Place", "StartRecording", "UnlessTight", "Finish", "TellOfSmall", "TellShortfalls",
+    "Measure", "Advise", "KeepTrack",
+]  # fmt: skip
+
+
+def job(**options: Any) -> Any:
+    return uses.read(make_recipe(container="circle", **{"items": ["star"], "count": 3} | options))
+
+
+def names(**options: Any) -> list[str]:
+    one = job(**options)
+    return [type(step).__name__ for step in one.use.steps(one)]
+
+
+def test_a_plain_run_is_nine_steps() -> None:
+    assert names() == PLAIN
+
+
+@pytest.mark.parametrize(
+    ("options", "more"),
+    [
+        ({"arrange": "right by=name", "items": ["star", "moon"]}, {"UnlessTight"}),
+        ({"force": ["down"]}, {"UnlessTight"}),
+        ({"apart": True}, {"KindsApart", "CountBeside"}),
+        ({"palette": "okabe-ito"}, {"Dress"}),
+        ({"target_coverage": 0.8}, {"FillVoids"}),
+        ({"stroke_width": "even"}, {"FinishThinner", "EvenLines"}),
+        ({"count": "auto"}, {"RemarkCount"}),
+    ],
+)
+def test_each_wish_is_a_step_of_its_own(options: dict[str, Any], more: set[str]) -> None:
+    found = names(**options)
+    assert set(PLAIN) <= set(found)
+    extra = list(found)
+    for name in PLAIN:
+        extra.remove(name)
+    assert set(extra) == more
+
+
+def test_a_picture_is_shown_by_steps_of_its_own(tmp_path: Any) -> None:
+    Image.linear_gradient("L").save(tmp_path / "grey.png")
+    extra = set(names(picture=str(tmp_path / "grey.png"))) - set(PLAIN)
+    assert extra == {"ShowPicture"}
+
+
+def test_without_an_exact_finish_nothing_of_it_is_listed() -> None:
+    assert names(finish="none") == [
+        name for name in PLAIN if name not in {"Finish", "TellOfSmall", "TellShortfalls"}
+    ]
+
+
+class Grow(RunStep):
+    """Makes all items larger, and tells of it."""
+
+    share = 1.0
+
+    def __init__(self, factor: float) -> None:
+        self._factor = factor
+
+    def run(self, state: State, watch: Watch) -> State:
+        poses = replace(state.poses, scale=state.poses.scale * self._factor)
+        watch.observer.on_step(
+            Step(0, 1, 1, 1, 1.0, poses, lambda: (0.0, 0.0, 0.0), stage="levels")
+        )
+        return replace(state, poses=poses)
+
+
+class Told:
+    every = 1
+
+    def __init__(self) -> None:
+        self.progress: list[float] = []
+
+    def on_step(self, step: Step) -> None:
+        self.progress.append(step.progress)
+
+
+@pytest.fixture(scope="module")
+def state() -> State:
+    found = State.of(job())
+    return replace(found, poses=replace(found.poses, scale=np.ones(3)))
+
+
+def largest(tried: Any, watch: Watch) -> State:
+    del watch
+    return max(tried, key=lambda one: one.poses.scale[0])
+
+
+def test_steps_share_the_progress(state: State) -> None:
+    told = Told()
+    found = run_steps([Grow(2.0), Grow(3.0)], state, Watch(told))
+    assert told.progress == [0.5, 1.0]
+    assert found.poses.scale.tolist() == [6.0, 6.0, 6.0]
+    assert state.poses.scale.tolist() == [1.0, 1.0, 1.0]
+
+
+def test_the_best_list_is_gone_on_with_and_a_stop_leaves_the_first(state: State) -> None:
+    best = BestOf([[Grow(2.0)], [Grow(5.0)], [Grow(3.0)]], largest)
+    assert share_of([best]) == 1.0
+    assert best.run(state, Watch()).poses.scale[0] == 5.0
+    assert best.run(state, Watch(stop=lambda: True)).poses.scale[0] == 2.0
+
+
+@pytest.mark.parametrize(("will_do", "expected"), [(True, 2.0), (False, 4.0)])
+def test_a_second_try_begins_where_the_first_did(
+    state: State, will_do: bool, expected: float
+) -> None:
+    step = Retry([Grow(2.0)], [Grow(4.0)], lambda _: will_do, largest)
+    assert step.run(state, Watch()).poses.scale[0] == expected
+
+
+def test_what_is_tight_is_left_as_it_is(state: State) -> None:
+    step = UnlessTight(Grow(2.0))
+    assert step.run(replace(state, is_tight=True), Watch()).poses.scale[0] == 1.0
+    assert step.run(state, Watch()).poses.scale[0] == 2.0
+
+
+def test_a_new_plan_leaves_the_recipe(state: State) -> None:
+    found = Replan(seed=9).run(state, Watch())
+    assert (found.job.plan.seed, state.job.plan.seed) == (9, 0)
+    assert found.job.recipe is state.job.recipe
