@@ -37,7 +37,7 @@ TABLES = {
 def commands_page() -> str:
     """Every command with its arguments and options, as ``--help`` has them."""
     group: Any = typer.main.get_command(app)
-    parts = ["# Commands", "What `packwork COMMAND --help` says, all of it."]
+    parts = ["# Commands", "What `packwork COMMAND --help all` says."]
     parts += [_command(name, command) for name, command in group.commands.items()]
     return "\n\n".join(parts) + "\n"
 

@@ -15,14 +15,28 @@ class Group(StrEnum):
     """Headings under which options stand in help and forms, in their order."""
 
     WRITTEN = "What is written"
-    SHOWN = "What marks say"
+    MARKS = "What marks say"
     PLACED = "What is placed"
+    ORDER = "What lies where"
+    COLOURS = "Which colours there are"
     TYPE = "How words are set"
     EDGES = "What becomes of edges"
+    READ = "How files are read"
     TABLES = "How tables are written"
     VOIDS = "What fills the voids"
     SOLVED = "How it is solved"
-    FILMED = "What is filmed"
+    FILM = "What is filmed"
+
+    @property
+    def topic(self) -> str:
+        """Word that is typed after ``--help`` for its options.
+
+        Examples
+        --------
+        >>> Group.ORDER.topic
+        'order'
+        """
+        return self.name.lower()
 
 
 class Verbs(Flag):
@@ -62,6 +76,8 @@ class Offer:
     after
         Name of the option that it is listed after, if the model has that; None keeps the order
         of the fields.
+    is_flag
+        Whether command lines have it; if not, recipe files and Python alone do.
     takes
         Type that Python takes, where a validator makes the field's of more than that; None
         derives it from the field's.
@@ -74,6 +90,7 @@ class Offer:
     typed: Any = None
     help: str | None = None
     after: str | None = None
+    is_flag: bool = True
     takes: Any = None
 
 

@@ -211,7 +211,10 @@ def test_start_continues_an_earlier_layout(folder: Path, packwork: Command) -> N
 
 
 def test_files_hold_true_outlines_whatever_the_solver_saw(folder: Path, packwork: Command) -> None:
-    packwork(f"fill circle star -n 3 {QUICK} -q --outline hull -o out.geojson")
+    packwork(f"fill circle star -n 3 {QUICK} -q --save-recipe r.toml -o out.geojson")
+    recipe = (folder / "r.toml").read_text(encoding="utf-8")
+    (folder / "r.toml").write_text(f'outline = "hull"\n{recipe}', encoding="utf-8")
+    packwork("run r.toml -q -o out.geojson")
     features = json.loads((folder / "out.geojson").read_text(encoding="utf-8"))["features"]
     assert [len(f["geometry"]["coordinates"][0]) for f in features[1:]] == [11, 11, 11]
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import inspect
 import pkgutil
+import re
 import subprocess
 import sys
 from collections.abc import Callable
@@ -16,6 +17,8 @@ from typer.testing import Result
 
 import packwork.cli
 from packwork.cli.commands import SUMMARIES, Commands
+from packwork.offers import Verbs
+from packwork.recipe.verbs import COMMON, VERBS, named
 
 Command = Callable[..., Result]
 
@@ -25,10 +28,11 @@ PHRASES = {
         "packwork fill heart", "packwork fill bear.png icons/ -n 100", "--rotate none",
         "packwork fill text:HELLO",
         "What is placed", "How it is solved", "What is written", "all built-in icons",
+        "packwork fill --help all",
     ],
-    "words": ["packwork words heart speech.txt", "SOURCE", "How words are set", "--weight-is"],
+    "words": ["packwork words heart speech.txt", "SOURCE", "How words are set", "--color-by"],
     "chart": ["packwork chart circle coffee.csv", "DATA", "What marks say", "--size-by"],
-    "photos": ["packwork photos heart holidays/", "PHOTO", "What becomes of edges", "--dpi 300"],
+    "photos": ["packwork photos heart holidays/", "PHOTO", "What becomes of edges", "--border"],
     "pile": ["packwork pile square icons", "--open", "--size", "open path"],
     "measure": ["packwork measure bear.geojson", "LAYOUT", "--diagnose"],
     "demo": ["packwork demo", "bear", "dragon", "teaser", "--folder"],
@@ -44,6 +48,40 @@ def test_help_shows_examples(command: str, flag: str, packwork: Command) -> None
     text = " ".join(result.stdout.split())
     for phrase in PHRASES[command]:
         assert phrase in text
+
+
+def flags_in(shown: str) -> list[str]:
+    """Long names of the options that a help shows; of switches the first."""
+    return re.findall(r"^[│ ]+(?:-\w +)?(--[a-z-]+)", shown, flags=re.MULTILINE)
+
+
+@pytest.mark.parametrize("name", ["fill", "words", "photos", "chart", "pile", "run"])
+def test_help_shows_the_twenty_options_that_matter(name: str, packwork: Command) -> None:
+    flags = flags_in(packwork(f"{name} --help").output)
+    common = {*COMMON, *VERBS[named(name)].common}  # type: ignore[index]
+    options = {p.name: p.opts for p in Commands()[name].params if p.param_type_name == "option"}
+    assert set(flags) == {options[n][-1] for n in common if n in options} | {"--help"}
+    assert 18 <= len(flags) <= 21
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_what_matters_to_a_verb_is_an_option_of_it(verb: Verbs) -> None:
+    command = Commands()[str(verb.name).lower()]
+    assert set(VERBS[verb].common) <= {param.name for param in command.params}
+
+
+def test_every_option_is_in_the_help_of_all_and_in_that_of_its_topic(packwork: Command) -> None:
+    options = {p.opts[-1] for p in Commands()["fill"].params if p.param_type_name == "option"}
+    assert set(flags_in(packwork("fill --help all").output)) == options | {"--help"}
+    (more,) = re.findall(r"a topic: (.*), or an option", packwork("fill --help").output)
+    shown = [flags_in(packwork(f"fill --help {topic}").output) for topic in more.split(", ")]
+    assert {flag for flags in shown for flag in flags} == options - {"--quiet"}
+
+
+@pytest.mark.parametrize("typed", ["best_of", "best-of", "--best-of"])
+def test_help_of_one_option_shows_that_alone(typed: str, packwork: Command) -> None:
+    assert flags_in(packwork(f"fill --help {typed}").output) == ["--best-of"]
+    assert flags_in(packwork("fill heart star -h -n 4").output) == ["--count"]
 
 
 def test_the_bare_name_shows_the_help(packwork: Command) -> None:
@@ -120,14 +158,14 @@ def test_a_run_waits_for_no_library_that_only_some_need() -> None:
 def test_help_keeps_its_brackets(packwork: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "500")
     for name, command in Commands().items():
-        shown = " ".join(packwork(f"{name} --help").output.split())
+        shown = " ".join(packwork(f"{name} --help all").output.split())
         said = [param.help for param in command.params if getattr(param, "help", None)]
         said += [line.split("[/]")[-1] for line in (command.help or "").split("\n")]
         plain = shown.replace("│ ", "").replace(" │", "")
         lost = [text for text in said if "[" in text and " ".join(text.split()) not in plain]
         assert not lost, name
     assert "pip install '.[studio]'" in packwork("studio --help").output
-    assert r"[#@]\w+" in packwork("words --help").output
+    assert r"[#@]\w+" in packwork("words --help regexp").output
 
 
 def test_names_with_brackets_are_shown_whole(packwork: Command) -> None:

@@ -75,7 +75,6 @@ _OWN: Mapping[str, Mapping[str, Sequence[str]]] = {
     "fill": {
         **_SOLVED,
         "--stretch": ("1", "1.2", "3"),
-        "--outline": ("exact", "hull"),
         "--apart": ("",),
         "--preset": ("paper",),
         "--show-container": ("",),

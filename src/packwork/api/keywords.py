@@ -192,22 +192,6 @@ class _FillWordsPhotos(TypedDict, total=False):
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
-    picture: Value | None
-    """A picture that the layout shows from afar: items take on its colours (--tint), photos come to
-    lie where theirs fit best. It covers the container's box."""
-
-    tint: float | str | None
-    """How far items take on the colours of --picture, as 0.3 or 30%; 0 leaves theirs, and puts each
-    where they fit best. Default: 0 of photos, 100% of all else."""
-
-    detail: float | str | None
-    """How far sizes follow --picture, as 0.5 or 50%: small items where it has much to show, large
-    ones where it has little. Only with --sizes free. Default: 50%, of photos 0."""
-
-    ground: str | None
-    """Colour of the gaps, which the colours of --picture make up for. Default: that of
-    --background, else the one that shows the picture best, which then is the background."""
-
     arrange: str | None
     """In which order items lie: a way (right, left, down, up, 45deg, outwards or inwards from the
     middle, around it, or along the container from end to end) and what rises along it, as in right
@@ -227,6 +211,22 @@ class _FillWordsPhotos(TypedDict, total=False):
     """Write names among the items, on small plates that are placed as items are: of groups, where
     the table of --embeddings has a column of texts beside the names; else of the parts of an SVG as
     the container that have titles or ids. Default: False."""
+
+    picture: Value | None
+    """A picture that the layout shows from afar: items take on its colours (--tint), photos come to
+    lie where theirs fit best. It covers the container's box."""
+
+    tint: float | str | None
+    """How far items take on the colours of --picture, as 0.3 or 30%; 0 leaves theirs, and puts each
+    where they fit best. Default: 0 of photos, 100% of all else."""
+
+    detail: float | str | None
+    """How far sizes follow --picture, as 0.5 or 50%: small items where it has much to show, large
+    ones where it has little. Only with --sizes free. Default: 50%, of photos 0."""
+
+    ground: str | None
+    """Colour of the gaps, which the colours of --picture make up for. Default: that of
+    --background, else the one that shows the picture best, which then is the background."""
 
     target_coverage: float | str | None
     """Share of the container to cover, as 0.94 or 94%: smaller copies are put into the voids, round
@@ -252,6 +252,19 @@ class _FillPhotos(TypedDict, total=False):
 
     apart: bool
     """Keep copies of one item from lying side by side, as far as that goes. Default: False."""
+
+
+class _FillWords(TypedDict, total=False):
+    """Options of fill, words."""
+
+    outline: Literal["exact", "hull"]
+    """What an item is taken for while it is placed: exact (its true outline) or hull (no item in
+    another's bays). What is measured and written is the true outline. Default: 'exact'."""
+
+    stay: bool
+    """With --start LAYOUT: items stay as near to where they were as the result allows. They are
+    told by their names; new ones go into voids, and those no longer asked for leave. Default:
+    False."""
 
 
 class _FillWordsPile(TypedDict, total=False):
@@ -286,19 +299,6 @@ class _FillPile(TypedDict, total=False):
     """What --palette does to drawings of several colours: tint (each in the tints and shades of one
     colour, by lightness), nearest (each of their colours becomes the palette's nearest) or keep
     (they keep their own, as among words). Default: 'tint'."""
-
-
-class _FillWords(TypedDict, total=False):
-    """Options of fill, words."""
-
-    outline: Literal["exact", "hull"]
-    """What an item is taken for while it is placed: exact (its true outline) or hull (no item in
-    another's bays). What is measured and written is the true outline. Default: 'exact'."""
-
-    stay: bool
-    """With --start LAYOUT: items stay as near to where they were as the result allows. They are
-    told by their names; new ones go into voids, and those no longer asked for leave. Default:
-    False."""
 
 
 class _FillWordsPhotosChart(TypedDict, total=False):
@@ -349,10 +349,10 @@ class FillKeywords(
     _Every,
     _FillWordsPhotos,
     _FillPhotos,
+    _FillWords,
     _FillWordsPile,
     _FillWordsChartPile,
     _FillPile,
-    _FillWords,
     _FillWordsPhotosChart,
     total=False,
 ):
@@ -370,9 +370,9 @@ class WordsKeywords(
     _FillWordsPhotosPile,
     _Every,
     _FillWordsPhotos,
+    _FillWords,
     _FillWordsPile,
     _FillWordsChartPile,
-    _FillWords,
     _FillWordsPhotosChart,
     _WordsPhotos,
     _WordsChart,

@@ -9,13 +9,15 @@ from __future__ import annotations
 import copy
 import importlib
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Final
 
+import typer
 import typer.main
 from typer.core import TyperCommand
 
-from packwork.cli.usage import OneLineGroup
+from packwork.cli.usage import OneLineGroup, is_no_flag
+from packwork.synonyms import option_meant
 
 SUMMARIES: Mapping[str, str] = {
     "fill": "Fill a container with items.",
@@ -34,6 +36,9 @@ SUMMARIES: Mapping[str, str] = {
 """What stands in the help, in its order: for each command the first line of its docstring."""
 
 MARKUP: Final = "rich"
+
+ALL = "all"
+"""Topic of every option."""
 
 _NO_MARKUP = re.compile(r"\[(?!/?(?:bold)?\])")
 
@@ -64,12 +69,27 @@ def _load(name: str) -> Any:
     alone = typer.Typer(add_completion=False, rich_markup_mode=MARKUP)
     # What a benchmark's script is given is its own.
     settings = {"ignore_unknown_options": name == "bench"}
-    alone.command(cls=PlainCommand, context_settings=settings)(function)
+    alone.command(cls=HelpfulCommand, context_settings=settings)(function)
     return typer.main.get_command(alone)
 
 
-class PlainCommand(TyperCommand):
-    """A command in whose help a bracket is a bracket; of markup it has ``[bold]`` and ``[/]``."""
+class HelpfulCommand(TyperCommand):
+    """A command whose ``--help`` may be followed by a topic.
+
+    In its help a bracket is a bracket; of markup it has ``[bold]`` and ``[/]``.
+    """
+
+    topic: str | None = None
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Read the arguments, of which the one after ``--help`` is a topic."""
+        before = args[: args.index("--")] if "--" in args else args
+        places = [place for place, text in enumerate(before) if text in ctx.help_option_names]
+        self.topic = next(iter(before[places[0] + 1 :]), None) if places else None
+        if self.topic is not None:
+            args = ["--help"]
+        rest: list[str] = super().parse_args(ctx, args)
+        return rest
 
     def format_help(self, ctx: Any, formatter: Any) -> None:
         """Write the help."""
@@ -77,10 +97,65 @@ class PlainCommand(TyperCommand):
 
         shown = copy.copy(self)
         shown.help = _NO_MARKUP.sub(r"\\[", self.help or "")
-        shown.params = [copy.copy(param) for param in self.params]
+        if self.topic is None:
+            shown.params = _common(self)
+            if len(shown.params) < len(self.params):
+                shown.epilog = f"More: {ctx.command_path} --help all, or --help and a topic: "
+                shown.epilog += ", ".join(topics(self.params)) + ", or an option's name."
+        elif self.topic != ALL:
+            shown.params = _of_topic(self.params, self.topic, ctx)
+            shown.help, shown.add_help_option = "", False
+        shown.params = [copy.copy(param) for param in shown.params]
         for param in (p for p in shown.params if getattr(p, "help", None)):
             vars(param)["help"] = escape(vars(param)["help"])
-        super(PlainCommand, shown).format_help(ctx, formatter)
+        super(HelpfulCommand, shown).format_help(ctx, formatter)
+
+
+def topics(params: Sequence[Any]) -> list[str]:
+    """Topics of the groups that a command's options stand in, in their order."""
+    from packwork.offers import Group
+
+    there = {getattr(param, "rich_help_panel", None) for param in params}
+    return [group.topic for group in Group if group.value in there]
+
+
+def _common(command: HelpfulCommand) -> list[Any]:
+    """Arguments and common options; all where the command is no verb."""
+    from packwork.recipe.verbs import COMMON, VERBS, named
+
+    verb = named(command.name)
+    if verb is None:
+        return command.params
+    shown = {*COMMON, *VERBS[verb].common}
+    return [p for p in command.params if p.param_type_name == "argument" or p.name in shown]
+
+
+def _of_topic(params: Sequence[Any], topic: str, ctx: Any) -> list[Any]:
+    """Options of a group, or one option.
+
+    Raises
+    ------
+    typer.BadParameter
+        If the command has neither.
+    """
+    from packwork.offers import Group
+
+    group = next((group.value for group in Group if group.topic == topic), None)
+    options = [param for param in params if param.param_type_name == "option"]
+    found = [param for param in options if group and param.rich_help_panel == group]
+    if not found:
+        flag = f"--{topic.lstrip('-').replace('_', '-')}"
+        found = [p for p in options if {topic, flag} & {*p.opts, *p.secondary_opts}]
+    if not found:
+        meant = option_meant(topic, [param.name for param in options])
+        what_would_do = (
+            f"did you mean {meant}?" if meant else f"use {ALL}, " + ", ".join(topics(params))
+        )
+        line = (
+            is_no_flag(ctx.command.name, topic) or f"there is no topic {topic!r}; {what_would_do}"
+        )
+        raise typer.BadParameter(line, ctx=ctx, param_hint="--help")
+    return found
 
 
 class LazyGroup(OneLineGroup):

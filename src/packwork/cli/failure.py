@@ -53,11 +53,13 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
 
 
 def _flag(key: str) -> str:
-    """What an option is called on the command line."""
+    """What an option is called on the command line, or in recipe files if it is no flag."""
     from packwork.recipe.verbs import VERBS, options_of
 
     known = {option.name: option for verb in VERBS for option in options_of(verb)}
-    return known[key].flag if key in known else f"--{key.replace('_', '-')}"
+    if key not in known:
+        return f"--{key.replace('_', '-')}"
+    return known[key].flag if known[key].offer.is_flag else key
 
 
 class Interrupt:

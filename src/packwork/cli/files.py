@@ -20,7 +20,7 @@ class LayoutFiles(Options):
     """File to write; the ending (.svg, .png, .jpg, .webp, .tif, .pdf, .dxf, .geojson, or
     .packwork, a session to go on from) picks the format. May be given several times."""
 
-    film: Annotated[tuple[Path, ...], Offer(group=Group.FILMED)] = ()
+    film: Annotated[tuple[Path, ...], Offer(group=Group.FILM)] = ()
     """Film of the run to write; the ending (.svg, .gif, .apng, .webp, .mp4, .webm, .json for
     Lottie) picks the format. May be given several times."""
 
@@ -78,7 +78,7 @@ class Serial(Options):
 class SerialMarks(Options):
     """A chart for each step of a table."""
 
-    offers = Offer(group=Group.SHOWN, verbs=Verbs.CHART)
+    offers = Offer(group=Group.MARKS, verbs=Verbs.CHART)
 
     series: Annotated[str | None, Offer(metavar="COLUMN")] = None
     """Column of steps, as year: a chart for each, all at one scale, marks of one name in their

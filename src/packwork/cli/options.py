@@ -37,7 +37,7 @@ def of_verb(verb: Verbs) -> Callable[[Command], Command]:
     listed = (*before, *options_of(verb), *after)
     return _with(
         flag(option, chosen[option.name]) if option.name in chosen else _as_it_is(option)
-        for option in in_groups(option for option in listed if verb in option.verbs)
+        for option in in_groups(o for o in listed if verb in o.verbs and o.offer.is_flag)
     )
 
 
@@ -55,7 +55,7 @@ def of_any_recipe(without: Collection[str]) -> Callable[[Command], Command]:
     return _with(
         flag(option, None) if option in changes else _as_it_is(option)
         for option in in_groups((*offered(LayoutFiles), *changes, *drawn, *after))
-        if option.name not in without
+        if option.offer.is_flag and option.name not in without
     )
 
 

@@ -70,10 +70,33 @@ def _check_folder() -> None:
         ) from None
 
 
+def is_no_flag(command: str, typed: str) -> str | None:
+    """The line about an option that only recipe files and Python have; None about any other.
+
+    Examples
+    --------
+    >>> is_no_flag("fill", "--shades")
+    '--shades is no flag; write shades = "nearest" into a recipe (see --save-recipe) or use Python'
+    """
+    from packwork.recipe.verbs import named, options_of
+
+    verb, name = named(command), typed.lstrip("-").replace("-", "_")
+    for option in options_of(verb) if verb else ():
+        if option.name == name and not option.offer.is_flag:
+            other = next((one for one in option.choices if one != option.default), "...")
+            return (
+                f'{typed} is no flag; write {name} = "{other}" into a recipe (see --save-recipe) '
+                "or use Python"
+            )
+    return None
+
+
 def _meant(error: Any, context: Any) -> str | None:
     """What is wrong with an option or a command that is not known, and what may be meant."""
     option = getattr(error, "option_name", None)
     if type(error).__name__ == "NoSuchOption" and option and context is not None:
+        if line := is_no_flag(context.command.name, option):
+            return line
         names = [
             name for param in context.command.params for name in param.opts if name[:2] == "--"
         ]

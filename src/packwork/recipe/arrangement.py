@@ -122,7 +122,7 @@ def known_arrangement(text: str | None) -> str | None:
 class Ordered(Options):
     """In which order items lie."""
 
-    offers = Offer(group=Group.PLACED, verbs=Verbs.COLLAGES)
+    offers = Offer(group=Group.ORDER, verbs=Verbs.COLLAGES)
 
     arrange: Annotated[
         str | None, AfterValidator(known_arrangement), Offer(metavar="WAY", after="ground")

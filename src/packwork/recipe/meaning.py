@@ -67,7 +67,7 @@ def parse_anchor(text: str) -> Anchor:
 class Meant(Options):
     """Which items are alike, and come to lie together."""
 
-    offers = Offer(group=Group.PLACED, verbs=Verbs.COLLAGES)
+    offers = Offer(group=Group.ORDER, verbs=Verbs.COLLAGES)
 
     embeddings: Annotated[
         str | None, Offer(metavar="FILE|auto", after="arrange", flags="--embeddings")

@@ -15,7 +15,7 @@ from packwork.units import parse_share
 class Shown(Options):
     """The picture that a layout shows from afar, and how."""
 
-    offers = Offer(group=Group.PLACED, verbs=Verbs.COLLAGES)
+    offers = Offer(group=Group.COLOURS, verbs=Verbs.COLLAGES)
 
     picture: Annotated[str | None, Offer(metavar="FILE", after="palette", flags="--picture")] = None
     """A picture that the layout shows from afar: items take on its colours (--tint), photos come

@@ -95,7 +95,10 @@ class Pictured(Options):
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.COLLAGES)
 
-    shades: Annotated[Shades, Offer(verbs=Verbs.FILL | Verbs.PILE, after="palette")] = "tint"
+    shades: Annotated[
+        Shades,
+        Offer(group=Group.COLOURS, verbs=Verbs.FILL | Verbs.PILE, after="palette", is_flag=False),
+    ] = "tint"
     """What --palette does to drawings of several colours: tint (each in the tints and shades of one
     colour, by lightness), nearest (each of their colours becomes the palette's nearest) or keep
     (they keep their own, as among words)."""

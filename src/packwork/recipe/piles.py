@@ -126,6 +126,7 @@ class Moving(Options):
     force: Annotated[
         ForceTexts,
         Offer(
+            group=Group.ORDER,
             verbs=Verbs.FILL | Verbs.WORDS | Verbs.PILE,
             after="hero",
             takes=str | tuple[str, ...] | None,

@@ -16,7 +16,7 @@ from packwork.recipe.refusals import length_asked
 class Interpreted(Options):
     """What files do not say of themselves."""
 
-    offers = Offer(group=Group.PLACED, verbs=Verbs.EVERY)
+    offers = Offer(group=Group.READ, verbs=Verbs.EVERY)
 
     trim: bool | None = None
     """Leave out the page round a container's drawing (an SVG or a mask), or keep it. Default: left

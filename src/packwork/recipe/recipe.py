@@ -160,33 +160,41 @@ class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
     ] = None
     """Shares of area: a CSV file with lines of name,weight (in Python also a dict)."""
 
-    hero: Annotated[str | None, AfterValidator(known_hero), _COLLAGES] = None
+    hero: Annotated[
+        str | None, AfterValidator(known_hero), replace(_COLLAGES, group=Group.ORDER)
+    ] = None
     """One item larger than the rest and upright: NAME, NAME=30% (its longer side) or
     NAME@50%,40%=30% (where its middle lies, as shares of the canvas' width and height)."""
 
     palette: Annotated[
         str | tuple[str, ...] | dict[str, str] | None,
         BeforeValidator(known_palette),
-        Offer(verbs=Verbs.EVERY & ~Verbs.PHOTOS),
+        Offer(group=Group.COLOURS, verbs=Verbs.EVERY & ~Verbs.PHOTOS),
     ] = None
     """New colours for items, neighbours unlike: #e63946,#457b9d or okabe-ito, tol-bright,
     tol-vibrant, tol-muted, tol-high-contrast; of the values of a column (--color-by) also by
     name, as bear=red,fox=#457b9d. Photographs keep theirs."""
 
-    apart: Annotated[bool, Offer(verbs=Verbs.FILL | Verbs.PHOTOS)] = False
+    apart: Annotated[bool, Offer(group=Group.ORDER, verbs=Verbs.FILL | Verbs.PHOTOS)] = False
     """Keep copies of one item from lying side by side, as far as that goes."""
 
     rules: Annotated[tuple[Rule, ...], BeforeValidator(some_rules), NOT_OFFERED] = ()
     """What is asked of single items (in Python and recipe files)."""
 
-    holes: Annotated[Literal["fill", "keep"], Offer(verbs=Verbs.EVERY & ~Verbs.PHOTOS)] = "fill"
+    holes: Annotated[
+        Literal["fill", "keep"], Offer(group=Group.READ, verbs=Verbs.EVERY & ~Verbs.PHOTOS)
+    ] = "fill"
     """keep: the holes of items stay free, so that small items may sit in them."""
 
-    outline: Annotated[OutlineChoice, Offer(verbs=Verbs.FILL | Verbs.WORDS)] = "exact"
+    outline: Annotated[OutlineChoice, Offer(verbs=Verbs.FILL | Verbs.WORDS, is_flag=False)] = (
+        "exact"
+    )
     """What an item is taken for while it is placed: exact (its true outline) or hull
     (no item in another's bays). What is measured and written is the true outline."""
 
-    strict: Annotated[bool, Offer(verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE)] = False
+    strict: Annotated[
+        bool, Offer(group=Group.READ, verbs=Verbs.FILL | Verbs.PHOTOS | Verbs.PILE)
+    ] = False
     """Refuse a folder with an unusable file instead of leaving that file out."""
 
     start: Annotated[str | None, Offer(group=Group.SOLVED, after="levels")] = None

@@ -31,31 +31,50 @@ class Verb:
     ----------
     part
         Options that only this verb has; None if it has none.
+    common
+        Names of options that its help shows at first, beside :data:`COMMON`.
     defaults
         Defaults that differ from the recipe's.
     """
 
     part: type[Options] | None = None
+    common: tuple[str, ...] = ()
     defaults: Mapping[str, Any] = field(default_factory=lambda: MappingProxyType({}))
 
 
+COMMON = (
+    "quiet", "output", "pixels", "background", "save_recipe", "count", "canvas", "rotate",
+    "padding", "arrange", "palette", "picture", "target_coverage", "seed", "effort", "best_of",
+    "film",
+)  # fmt: skip
+"""Names of options that the help of every verb shows at first, where the verb has them."""
+
 VERBS: Mapping[Verbs, Verb] = MappingProxyType(
     {
-        Verbs.FILL: Verb(),
+        Verbs.FILL: Verb(common=("sizes", "force", "weights")),
         # Proportions of weights are kept, and words stand far enough apart to be read one by
         # one; less fills more. Chosen by eye.
         Verbs.WORDS: Verb(
             part=WordOptions,
+            common=("fonts", "color_by", "language"),
             defaults={"sizes": "auto", "rotate": "horizontal", "padding": "0.3%"},
         ),
         # Photos lie as if strewn on a table, and none is upside down.
-        Verbs.PHOTOS: Verb(part=PhotoOptions, defaults={"rotate": "15"}),
+        Verbs.PHOTOS: Verb(
+            part=PhotoOptions,
+            common=("shape", "border", "edge", "dpi"),
+            defaults={"rotate": "15"},
+        ),
         # Sizes say numbers, marks stand upright and just apart. Chosen by eye.
         Verbs.CHART: Verb(
             part=ChartOptions,
+            common=("size_by", "color_by", "label_by", "mark", "unit", "by", "title"),
             defaults={"sizes": "shared", "rotate": "none", "padding": "0.2%"},
         ),
-        Verbs.PILE: Verb(part=PileOptions),
+        Verbs.PILE: Verb(
+            part=PileOptions,
+            common=("open", "size", "emit", "compact", "force", "weights", "show_container"),
+        ),
     }
 )
 """All verbs, in the order of :class:`packwork.offers.Verbs`."""
@@ -95,6 +114,18 @@ def in_groups(options: Iterable[Offered]) -> tuple[Offered, ...]:
     """The options sorted by group, otherwise in the order given; those without a group first."""
     groups = [None, *Group]
     return tuple(sorted(options, key=lambda option: groups.index(option.offer.group)))
+
+
+def named(name: str | None) -> Verbs | None:
+    """The verb of a command; of ``run``, which has the options of ``fill``, that one.
+
+    Examples
+    --------
+    >>> named("words"), named("run"), named("measure")
+    (<Verbs.WORDS: 2>, <Verbs.FILL: 1>, None)
+    """
+    known = {str(verb.name).lower(): verb for verb in VERBS}
+    return known.get("fill" if name == "run" else str(name))
 
 
 def with_defaults(verb: Verbs, options: Mapping[str, Any]) -> dict[str, Any]:

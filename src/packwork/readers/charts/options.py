@@ -19,7 +19,7 @@ SizeIs: TypeAlias = Literal["area", "height", "width"]
 class ChartOptions(Options):
     """Where rows come from and what of a mark says what of them."""
 
-    offers = Offer(group=Group.SHOWN, verbs=Verbs.CHART)
+    offers = Offer(group=Group.MARKS, verbs=Verbs.CHART)
 
     data: Annotated[str | tuple[dict[str, Any], ...], NOT_OFFERED]
     """A table: .csv, .tsv, .json or (with pandas) .parquet; in Python also a data frame, rows

@@ -29,7 +29,7 @@ MAX_FRAMES = 20_000
 class FilmOptions(Options):
     """How a film of a run is made."""
 
-    offers = Offer(group=Group.FILMED, verbs=Verbs.EVERY)
+    offers = Offer(group=Group.FILM, verbs=Verbs.EVERY)
 
     fps: Annotated[float, Field(ge=1, le=MAX_FPS, allow_inf_nan=False)] = 30.0
     """Pictures a second of a film. Any number: they are drawn between what was recorded."""
