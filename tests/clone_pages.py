@@ -16,8 +16,8 @@ TAKES_LEVELS = {"fill", "words", "chart", "photos"}
 
 
 def sections(page: str) -> dict[str, str]:
-    """Text of a page of ``docs`` by second-level heading."""
-    text = (ROOT / "docs" / page).read_text(encoding="utf-8")
+    """Text of a page of the guide by second-level heading."""
+    text = (ROOT / "docs" / "guide" / page).read_text(encoding="utf-8")
     return dict(re.findall(r"^## (.*?)\n(.*?)(?=^## |\Z)", text, re.MULTILINE | re.DOTALL))
 
 

@@ -124,12 +124,12 @@ def test_every_option_of_films_is_offered_and_documented(command: str) -> None:
     helps = {name: field.description for name, field in FilmOptions.model_fields.items()}
     assert {name: option.help for name, option in there.items()} == helps
     assert {option.default for option in there.values()} == {None}
-    page = (ROOT / "docs" / "films.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "guide" / "films.md").read_text(encoding="utf-8")
     assert not [name for name, option in there.items() if f"`{option.opts[0]}" not in page]
 
 
 def test_every_format_of_films_is_documented() -> None:
-    page = (ROOT / "docs" / "films.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "guide" / "films.md").read_text(encoding="utf-8")
     assert not [ending for ending in FILMS if f"| `{ending}` |" not in page]
 
 
@@ -182,7 +182,7 @@ def test_every_packwork_command_of_the_readme_can_be_parsed() -> None:
 
 PAGES_THAT_INSTALL = [
     page
-    for folder in ("", "docs", "examples/network", "examples/torch_loss")
+    for folder in ("", "docs", "docs/guide", "examples/network", "examples/torch_loss")
     for page in sorted((ROOT / folder).glob("*.md"))
 ]
 

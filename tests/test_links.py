@@ -39,7 +39,7 @@ def test_every_anchor_is_a_heading() -> None:
     assert lost == []
 
 
-@pytest.mark.parametrize("name", ["tutorial", "users", "how-it-works"])
+@pytest.mark.parametrize("name", ["README", "guide/tutorial", "guide/users", "how-it-works"])
 def test_the_site_and_the_readme_lead_to_what_a_newcomer_needs(name: str) -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     assert f"](docs/{name}.md)" in readme

@@ -17,7 +17,7 @@ import packwork
 from packwork.api.verbs import fill
 
 ROOT = Path(__file__).parents[1]
-PAGE = ROOT / "docs" / "python.md"
+PAGE = ROOT / "docs" / "guide" / "python.md"
 
 
 def blocks(*kinds: str) -> str:
@@ -97,9 +97,9 @@ def _parted(layout: packwork.Layout) -> float:
     ("page", "loss", "moved"),
     [
         ("README.md", "lean_left", _to_left),
-        ("docs/python.md", "top_heavy", _to_top),
-        ("docs/python.md", "part_ways", _parted),
-        ("docs/python.md", "warm_left", _parted),
+        ("docs/guide/python.md", "top_heavy", _to_top),
+        ("docs/guide/python.md", "part_ways", _parted),
+        ("docs/guide/python.md", "warm_left", _parted),
     ],
 )
 def test_losses_of_the_pages_move_items_where_they_say(

@@ -34,9 +34,9 @@ def test_every_command_runs(heading: str, tmp_path: Path, monkeypatch: pytest.Mo
 
 @pytest.mark.parametrize("heading", SECTIONS)
 def test_the_picture_beside_it_is_the_commands(heading: str) -> None:
-    shown = re.findall(r"\]\(tutorial/(\S+)\)", SECTIONS[heading])
+    shown = re.findall(r"\]\(\.\./pictures/tutorial/(\S+)\)", SECTIONS[heading])
     assert shown == drawn(SECTIONS[heading])
-    assert all((ROOT / "docs" / "tutorial" / name).exists() for name in shown)
+    assert all((ROOT / "docs" / "pictures" / "tutorial" / name).exists() for name in shown)
 
 
 def test_the_loss_tells_its_derivative(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,28 +19,23 @@ BUILD = ROOT / "build"
 STAGE, SITE = BUILD / "site-source", BUILD / "site"
 
 PAGES = {
-    "Begin": ("tutorial", "users", "how-it-works", "gallery"),
-    "Uses": (
-        "words",
-        "words-pairs",
-        "photos",
-        "mosaics",
-        "arranging",
-        "meaning",
-        "charts",
-        "films",
-        "forces",
-        "rules",
-        "cutting",
-        "python",
-        "live",
-        "studio",
-        "batch",
+    "Begin": ("README", "guide/tutorial", "guide/users", "how-it-works", "gallery"),
+    "Uses": tuple(
+        f"guide/{name}"
+        for name in (
+            "words", "photos", "mosaics", "arranging", "meaning", "charts", "films", "forces",
+            "rules", "cutting", "python", "live", "studio", "batch",
+        )
     ),
-    "Reference": tuple(f"reference/{name}" for name in REFERENCE),
-    "About": ("conventions", "architecture", "security"),
-}
-"""What is in the sidebar by name; benchmarks, decisions and examples follow by themselves."""
+    "Reference": tuple(
+        f"reference/{name}" for name in (*REFERENCE, "glossary", "units", "files", "options")
+    ),
+    "About": ("architecture", "security"),
+}  # fmt: skip
+"""What is in the sidebar by name; examples follow by themselves."""
+
+LISTED = {"benchmarks": "Benchmarks", "decisions": "Decisions"}
+"""Folders of ``docs`` whose pages are in the sidebar by themselves, and under which caption."""
 
 CONF = """
 project = "Packwork"
@@ -117,15 +112,14 @@ def _documents() -> list[Path]:
 def _readable(path: Path) -> str:
     """A page whose links to README.md lead to the index."""
     text = path.read_text(encoding="utf-8")
-    if path.parent in {ROOT, ROOT / "docs"}:
-        text = re.sub(r"\]\(((?:\.\./)*)README\.md", r"](\1index.md", text)
-    return text
+    up = len(path.parent.relative_to(ROOT).parts) * r"\.\./"
+    return re.sub(rf"\]\(({up})README\.md", r"](\1index.md", text)
 
 
 def _toctrees() -> list[str]:
     pages = {caption: [f"docs/{name}" for name in names] for caption, names in PAGES.items()}
-    pages["Benchmarks"] = _all("docs", "benchmarks*.md")
-    pages["Decisions"] = _all("docs/decisions", "*.md")
+    for folder, caption in LISTED.items():
+        pages[caption] = _all(f"docs/{folder}", "*.md")
     pages["Examples"] = _all("examples", "*/README.md")
     pages["About"] += ["CONTRIBUTING", "CHANGELOG"]
     return [

@@ -1,7 +1,7 @@
 """Draws the pictures of docs/how-it-works.md: ``python tools/draw_figures.py``.
 
 One run, watched: its density, adjoint and accumulation images, the pull on the vertices, and
-the layout before and after the exact finish. Writes PNGs into docs/figures/.
+the layout before and after the exact finish. Writes PNGs into docs/pictures/figures/.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from packwork.solve.ensemble import Ensemble
 from packwork.solve.options import SolveOptions
 from packwork.solve.schedule import weights_at
 
-OUT = Path(__file__).parents[1] / "docs" / "figures"
+OUT = Path(__file__).parents[1] / "docs" / "pictures" / "figures"
 COUNT = 36
 LEVELS = (50, 200, 600)
 PANEL_PX = 300

@@ -1,4 +1,4 @@
-"""Make the pictures of docs/studio.md, in a Chromium that is there."""
+"""Make the pictures of docs/guide/studio.md, in a Chromium that is there."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from PIL import Image
 ROOT = Path(__file__).parents[1]
 sys.path.append(str(ROOT / "tests"))
 
-FOLDER = ROOT / "docs" / "studio"
+FOLDER = ROOT / "docs" / "pictures" / "studio"
 SIZE = {"width": 1440, "height": 900}
 
 

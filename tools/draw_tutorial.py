@@ -1,7 +1,7 @@
-"""Draws the pictures of docs/tutorial.md: ``python tools/draw_tutorial.py``.
+"""Draws the pictures of docs/guide/tutorial.md: ``python tools/draw_tutorial.py``.
 
 Runs the page's commands as they stand, in a folder that looks like a clone, and keeps their
-PNGs and films under docs/tutorial/.
+PNGs and films under docs/pictures/tutorial/.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from PIL import Image
 from packwork.cli import app
 
 ROOT = Path(__file__).resolve().parents[1]
-PAGE = ROOT / "docs" / "tutorial.md"
-OUT = ROOT / "docs" / "tutorial"
+PAGE = ROOT / "docs" / "guide" / "tutorial.md"
+OUT = ROOT / "docs" / "pictures" / "tutorial"
 COLOURS = 128
 
 

@@ -1,4 +1,4 @@
-"""Many at once: ``packwork bench batch`` prints and writes docs/benchmarks-batch.md.
+"""Many at once: ``packwork bench batch`` prints and writes docs/benchmarks/batch.md.
 
 ``packwork bench batch rates kills`` measures some of its parts, all of them where none is named;
 the page keeps the others as they were measured last. ``rows=N`` for the rates, ``times=N`` kills,
@@ -81,7 +81,7 @@ def main() -> None:
                 "measured": known["measured"],
                 "parts": _parts(known["measured"]),
             }
-            write_text("benchmarks-batch.md", of_parts(PAGE, write_manifest("batch", manifest)))
+            write_text("batch.md", of_parts(PAGE, write_manifest("batch", manifest)))
 
 
 def _parts(measured: dict[str, Manifest]) -> Manifest:

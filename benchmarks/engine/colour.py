@@ -1,6 +1,6 @@
 """The colour image beside the density: ``packwork bench colour``.
 
-Prints the tables and writes them to docs/benchmarks-colour.md. One process, one thread. Times are
+Prints the tables and writes them to docs/benchmarks/colour.md. One process, one thread. Times are
 medians with quartiles of blocks of calls, which are made in turn with what they are compared with.
 """
 
@@ -163,7 +163,7 @@ def main() -> None:
         pulled.append(pulled_row(seed))
         print("  ".join(pulled[-1]), flush=True)
     write_page(
-        "benchmarks-colour.md", PAGE, target=f"{TARGET:g}", weight=f"{WEIGHT:g}",
+        "colour.md", PAGE, target=f"{TARGET:g}", weight=f"{WEIGHT:g}",
         count=str(RUN["count"]), cost=markdown_table(HEADER, cost),
         pulled=markdown_table(PULLED_HEADER, pulled),
     )  # fmt: skip

@@ -1,6 +1,6 @@
 """The engine's figures: ``packwork bench engine``.
 
-Prints the tables and writes them to docs/benchmarks-engine.md. One process, one thread. Times
+Prints the tables and writes them to docs/benchmarks/engine.md. One process, one thread. Times
 are medians with quartiles, of the processor; the running sum they are compared with is
 ``np.cumsum(image, axis=1, out=buffer)`` on a float32 image of the same size.
 """
@@ -204,7 +204,7 @@ def target_rows(
 
 
 def main() -> None:
-    """Measure, print, write docs/benchmarks-engine.md."""
+    """Measure, print, write docs/benchmarks/engine.md."""
     print(machine(), flush=True)
     pipeline.warm_up()
     epochs = timed_epochs(
@@ -218,7 +218,7 @@ def main() -> None:
     normal, _ = budget_rows(800)
     stages = stage_rows()
     write_page(
-        "benchmarks-engine.md",
+        "engine.md",
         PAGE,
         targets=markdown_table(
             ["what", "measured", "target"], target_rows(epochs, curves, draft_mean)

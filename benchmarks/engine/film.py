@@ -1,4 +1,4 @@
-"""Films: ``packwork bench film`` prints and writes docs/benchmarks-films.md.
+"""Films: ``packwork bench film`` prints and writes docs/benchmarks/films.md.
 
 What recording adds to a run, the two in turn; the memory of a long recording; how long each
 format takes and how large it is; a frame as we lay it together against the renderer of our
@@ -86,9 +86,7 @@ def main() -> None:
         "recording": recording_table(),
     }
     print(*tables.values(), sep="\n\n")
-    write_page(
-        "benchmarks-films.md", PAGE, rounds=str(ROUNDS), items=str(ITEMS), side=str(SIDES), **tables
-    )
+    write_page("films.md", PAGE, rounds=str(ROUNDS), items=str(ITEMS), side=str(SIDES), **tables)
 
 
 def recording_table() -> str:

@@ -1,4 +1,4 @@
-"""Sessions: ``packwork bench live`` prints and writes docs/benchmarks-live.md.
+"""Sessions: ``packwork bench live`` prints and writes docs/benchmarks/live.md.
 
 Random gestures on a layout of icons, each a grab, thirty moves of the pointer with flow between
 them, a drop, a settle and a polish: how many frames a second, how long a settle takes, what moves
@@ -81,7 +81,7 @@ def main() -> None:
     tables = {"gesture_table": gesture_table(found), "other_table": other_table(layouts[counts[0]])}
     print(*tables.values(), sep="\n\n")
     write_page(
-        "benchmarks-live.md", PAGE, gestures=str(gestures), events=str(EVENTS),
+        "live.md", PAGE, gestures=str(gestures), events=str(EVENTS),
         frame_ms=f"{FRAME_MS:g}", polish=str(POLISH), **tables,
     )  # fmt: skip
 

@@ -1,6 +1,6 @@
 """Fitted outlines, icon by icon: ``packwork bench outlines``.
 
-Prints the table and writes it to docs/benchmarks-outlines.md. One process, one thread;
+Prints the table and writes it to docs/benchmarks/outlines.md. One process, one thread;
 milliseconds are of the processor, so that a busy machine does not show, medians with
 quartiles, without the memory of earlier fits.
 """
@@ -73,7 +73,7 @@ def icon_row(item: Item, result: FittedOutline, timing: Timing) -> list[str]:
 
 
 def main() -> None:
-    """Measure, print, write docs/benchmarks-outlines.md."""
+    """Measure, print, write docs/benchmarks/outlines.md."""
     print(machine(), flush=True)
     items = read_items(["icons"]).items
     fit_anew(items[0].outline, MAIN)
@@ -87,7 +87,7 @@ def main() -> None:
         print("  ".join(summary[-1]), flush=True)
     header = ["curves", "worst IoU", "median IoU", "median ms", "slowest ms", "fitted"]
     write_page(
-        "benchmarks-outlines.md",
+        "outlines.md",
         PAGE,
         main=str(MAIN),
         summary=markdown_table(header, summary),

@@ -213,7 +213,7 @@ def main(words: list[str]) -> None:
             about = {"bytes_a_pixel": BYTES_A_PIXEL, "epochs": EPOCHS}
             manifest = write_manifest("scaling", {**about, "sections": {**earlier, **measured}})
             draw(manifest)
-            write_text("benchmarks-scaling.md", page(manifest))
+            write_text("scaling.md", page(manifest))
     if is_short:
         print(measured)
     else:

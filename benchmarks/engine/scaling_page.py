@@ -1,4 +1,4 @@
-"""docs/benchmarks-scaling.md and its plots, of their manifest."""
+"""docs/benchmarks/scaling.md and its plots, of their manifest."""
 
 from __future__ import annotations
 
@@ -48,15 +48,15 @@ the process, of which {before:.0f} MiB are Python, the packages and the compiled
 run begins. Time grows as the number of items to the power {power:.2f} from {low:,} to {high:,}. The
 shares are of the time by the clock.
 
-![time and memory by the number of items](pictures/scaling-items.svg)
+![time and memory by the number of items](../pictures/scaling-items.svg)
 
 {table}
 
-![share of each stage by the number of items](pictures/scaling-stages.svg)"""
+![share of each stage by the number of items](../pictures/scaling-stages.svg)"""
 
 PX = """100 items, {epochs} epochs all at one resolution, no finish; a process each.
 
-![time and memory by pixels](pictures/scaling-px.svg)
+![time and memory by pixels](../pictures/scaling-px.svg)
 
 {table}"""
 
@@ -75,7 +75,7 @@ are cores, of 100 items with the defaults, the start of Python taken in:
 
 
 def page(manifest: Manifest) -> str:
-    """docs/benchmarks-scaling.md."""
+    """docs/benchmarks/scaling.md."""
     sections = manifest["sections"]
     return PAGE.format(
         sections="\n".join(

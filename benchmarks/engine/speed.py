@@ -149,7 +149,7 @@ def knows(checkout: Path, command: Sequence[str]) -> bool:
     if not asked:
         return True
     done = subprocess.run(  # noqa: S603
-        [sys.executable, "-m", "packwork", command[0], "--help"], env=_environment(checkout),
+        [sys.executable, "-m", "packwork", command[0], "--help", "all"], env=_environment(checkout),
         check=False, capture_output=True, text=True,
     )  # fmt: skip
     return all(word in done.stdout for word in asked)
@@ -219,7 +219,7 @@ def profile_of(checkout: Path) -> list[list[str]]:
 def written(manifest: dict[str, Any]) -> None:
     """Write the manifest and its pages."""
     manifest = write_manifest("speed", manifest)
-    write_text("benchmarks-speed.md", page(manifest))
+    write_text("speed.md", page(manifest))
     overview.write()
 
 

@@ -1,4 +1,4 @@
-"""docs/benchmarks-speed.md: two checkouts in turn, of the manifest alone."""
+"""docs/benchmarks/speed.md: two checkouts in turn, of the manifest alone."""
 
 from __future__ import annotations
 

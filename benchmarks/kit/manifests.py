@@ -1,6 +1,6 @@
 """What a run measured, as JSON beside the page that is made of it.
 
-``docs/manifests/NAME.json`` is what one benchmark measured; the pages of ``docs`` are functions
+``docs/manifests/NAME.json`` is what one benchmark measured; the pages of ``docs/benchmarks`` are functions
 of such manifests and of nothing else, so that no figure stands on a page but those of a run whose
 manifest is committed with it. ``packwork bench pages`` writes the pages anew, without measuring.
 """
@@ -19,6 +19,7 @@ from typing import Any
 from benchmarks.kit.measuring import DOCS, machine, markdown_table
 
 FOLDER = DOCS / "manifests"
+PAGES = DOCS / "benchmarks"
 
 Manifest = dict[str, Any]
 
@@ -59,16 +60,16 @@ def known() -> dict[str, Manifest]:
 
 
 def write_text(name: str, text: str) -> None:
-    """Write a page of ``docs``."""
-    (DOCS / name).write_text(text, encoding="utf-8")
-    print(f"wrote {DOCS / name}", flush=True)
+    """Write a page of figures."""
+    (PAGES / name).write_text(text, encoding="utf-8")
+    print(f"wrote {PAGES / name}", flush=True)
 
 
 def write_page(name: str, page: str, **parts: str) -> None:
-    """Manifest and page ``benchmarks-X.md``: a format string and its parts."""
+    """Manifest and page: a format string and its parts."""
     blocks = {key: blocks_of(part) for key, part in parts.items()}
-    key = name.removeprefix("benchmarks-").removesuffix(".md")
-    write_text(name, of_parts(page, write_manifest(key, {**stamp(), "parts": blocks})))
+    manifest = write_manifest(name.removesuffix(".md"), {**stamp(), "parts": blocks})
+    write_text(name, of_parts(page, manifest))
 
 
 def of_parts(page: str, manifest: Manifest) -> str:

@@ -1,4 +1,4 @@
-"""docs/benchmarks.md: ours, the paper's and the peers' side by side, of all manifests."""
+"""docs/benchmarks/README.md: ours, the paper's and the peers' side by side, of all manifests."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ made of those (`packwork bench pages`), and the list below leads to both. The pa
 figures, and those of ShapeWordle, PAD and ShapeCollage, are of its own inputs, which are not
 public in full, on hardware that it does not name. **A ratio to them says in which range we are,
 not that the same work was done**; how the inputs differ is on [the page of its
-comparisons](benchmarks-paper.md). Ratios to peers are of the same work in the same run. A dash:
+comparisons](paper.md). Ratios to peers are of the same work in the same run. A dash:
 not measured, or not known.
 
 {pictures}
@@ -49,7 +49,7 @@ has: the rows "kept apart".
 
 ## Peers
 
-Medians; [the page of peers](benchmarks-peers.md) has the spread, versions, time-outs and what each
+Medians; [the page of peers](peers.md) has the spread, versions, time-outs and what each
 was asked for. Of words the row shows the best of ours whose sizes are at least as true as the
 peer's, which shrinks what finds no place. {missing}
 
@@ -95,8 +95,8 @@ WEAK = "Where a peer comes out ahead in what its row shows:"
 
 
 def write() -> None:
-    """docs/benchmarks.md, of what there is."""
-    write_text("benchmarks.md", page(known()))
+    """docs/benchmarks/README.md, of what there is."""
+    write_text("README.md", page(known()))
 
 
 def page(manifests: dict[str, Manifest]) -> str:
@@ -116,7 +116,7 @@ def page(manifests: dict[str, Manifest]) -> str:
         pictures=_pictures(manifests.get("paper")),
         weak=_weak(peers),
         pages="\n".join(
-            f"- [{name}](benchmarks-{name}.md): {said}{_source(name, manifests)}"
+            f"- [{name}]({name}.md): {said}{_source(name, manifests)}"
             for name, said in PAGES.items()
         ),
     )
@@ -124,7 +124,7 @@ def page(manifests: dict[str, Manifest]) -> str:
 
 def _source(name: str, manifests: dict[str, Manifest]) -> str:
     """Where a page's figures are, as a link."""
-    return f" ([manifest](manifests/{name}.json))" if name in manifests else ""
+    return f" ([manifest](../manifests/{name}.json))" if name in manifests else ""
 
 
 def _median(values: list[float]) -> float:
@@ -333,7 +333,7 @@ def _pictures(paper: Manifest | None) -> str:
     if paper is None:
         return ""
     cells = [
-        f'<img src="{case["pictures"]["packwork"]["file"]}" width="130" alt="{name}">'
+        f'<img src="../{case["pictures"]["packwork"]["file"]}" width="130" alt="{name}">'
         for name, case in paper["cases"].items()
     ]
     return "\n".join(["| " + " | ".join(cells) + " |", "|" + " :---: |" * len(cells)])

@@ -1,4 +1,4 @@
-"""Pages of ``docs`` anew from their manifests, without measuring: ``packwork bench pages``."""
+"""Pages of ``docs/benchmarks`` anew from their manifests, without measuring: ``packwork bench pages``."""
 
 from __future__ import annotations
 
@@ -51,19 +51,12 @@ PAGES: dict[str, Callable[[Manifest], str]] = {
 }  # fmt: skip
 """By the manifest's name."""
 
-FILES = {"words-pairs": pairs_page.FILE}
-"""Pages that are called otherwise than their manifests."""
-
 
 def rendered() -> dict[str, str]:
     """Every page of which something was measured, by its file's name; the overview last."""
     manifests = known()
-    found = {
-        FILES.get(name, f"benchmarks-{name}.md"): text
-        for name, one in manifests.items()
-        if (text := PAGES[name](one))
-    }
-    return {**found, "benchmarks.md": overview.page(manifests)}
+    found = {f"{name}.md": text for name, one in manifests.items() if (text := PAGES[name](one))}
+    return {**found, "README.md": overview.page(manifests)}
 
 
 def main() -> None:

@@ -43,8 +43,8 @@ Made by `{command}` on {date}.
 
 Six cases, as "Image-Space Collage and Packing with Differentiable Rendering" (Wang and Lu, SIGGRAPH
 2025) compares itself with others on them: words against ShapeWordle, icons against PAD,
-photographs against ShapeCollage. Its ablations: [resolutions](benchmarks-resolution.md),
-[evenness](benchmarks-evenness.md).
+photographs against ShapeCollage. Its ablations: [resolutions](resolution.md),
+[evenness](evenness.md).
 
 **The inputs are not the paper's**, whose data is not public in full. The containers are of the
 same character: a flower and a leaf (outlines of bundled icons), the letter P of the bundled font,
@@ -124,7 +124,7 @@ def _ratio(coverage: float, published: Comparison) -> str:
 
 
 def page(manifest: Manifest) -> str:
-    """docs/benchmarks-paper.md."""
+    """docs/benchmarks/paper.md."""
     rows = [
         row(name, case["kind"], setting, runs)
         for name, case in manifest["cases"].items()
@@ -155,7 +155,7 @@ def _gallery(pictures: list[tuple[str, str]]) -> str:
     lines = []
     for start in range(0, len(pictures), 3):
         some = pictures[start : start + 3]
-        shown = [f'<img src="{file}" width="260" alt="{name}"><br>{name}' for name, file in some]
+        shown = [f'<img src="../{file}" width="260" alt="{name}"><br>{name}' for name, file in some]
         lines.append("| " + " | ".join(shown) + " |")
         if start == 0:
             lines.append("|" + " :---: |" * len(some))
@@ -173,7 +173,7 @@ def main(words: list[str]) -> None:
         if is_short:
             print(page(manifest))
         else:
-            write_text("benchmarks-paper.md", page(write_manifest("paper", manifest)))
+            write_text("paper.md", page(write_manifest("paper", manifest)))
     for module in (evenness, resolution):
         if module.__name__ in sections:
             module.main(["short"] if is_short else [])

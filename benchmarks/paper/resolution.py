@@ -1,7 +1,7 @@
 """Constant resolutions against hierarchies: ``packwork bench resolution [short]``.
 
 The ablation of Wang and Lu 2025, table 1, on the frozen set: 200 epochs shared evenly
-among the levels. Prints the tables and writes them to docs/benchmarks-resolution.md.
+among the levels. Prints the tables and writes them to docs/benchmarks/resolution.md.
 ``short`` takes one seed in place of three, and only prints.
 """
 
@@ -79,7 +79,7 @@ def measure(seeds: Sequence[int]) -> Manifest:
 
 
 def page(manifest: Manifest) -> str:
-    """docs/benchmarks-resolution.md."""
+    """docs/benchmarks/resolution.md."""
     return PAGE.format(
         date=manifest["date"],
         machine=manifest["machine"],
@@ -106,13 +106,13 @@ def _table(manifest: Manifest, measure: int, factor: float, form: str, name: str
 
 
 def main(words: list[str]) -> None:
-    """Measure, print, write the manifest and docs/benchmarks-resolution.md."""
+    """Measure, print, write the manifest and docs/benchmarks/resolution.md."""
     seeds = SEEDS[:1] if "short" in words else SEEDS
     print(machine(), flush=True)
     pipeline.warm_up()
     manifest = {**stamp(), **measure(seeds)}
     if seeds == SEEDS:
-        write_text("benchmarks-resolution.md", page(write_manifest("resolution", manifest)))
+        write_text("resolution.md", page(write_manifest("resolution", manifest)))
     else:
         print(page(manifest))
 

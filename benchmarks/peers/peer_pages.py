@@ -1,4 +1,4 @@
-"""docs/benchmarks-peers.md, of its manifest."""
+"""docs/benchmarks/peers.md, of its manifest."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ rectangle, by polygons, the worst of all seeds; the least gap is in canvas units
         "Words: wordcloud, d3-cloud",
         f"""A hundred words with weights 1 / rank^0.35, heights of letters in proportion, one in
 four upright, no padding. Ink, gaps and L-nU by pixels at 1,200 px, as on the page of
-[word clouds](benchmarks-words.md), which has more containers. wordcloud shrinks words that find no
+[word clouds](words.md), which has more containers. wordcloud shrinks words that find no
 place: "sizes off by" is the median distance of a word's height from its share; "scaling 1" is the
 peer asked for proportion; in "sizes free" ours give way too (`--sizes free --size-ratio
 {SIZE_RATIO:g}`). d3-cloud fills rectangles alone, takes sizes as they are given and leaves out what

@@ -57,7 +57,7 @@ def main(words: list[str]) -> None:
             # A section that is not asked for now stays as it was measured before.
             earlier = known().get("peers", {"sections": {}})["sections"]
             manifest = write_manifest("peers", {"sections": {**earlier, **measured}})
-            write_text("benchmarks-peers.md", page(manifest))
+            write_text("peers.md", page(manifest))
     if is_short:
         print(page({"sections": measured}))
     else:

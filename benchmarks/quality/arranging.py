@@ -76,7 +76,7 @@ def main() -> None:
             rows.append([container, f"`{way}`", *orders, *covered, ratio, certified])
             print("  ".join(rows[-1]), flush=True)
     table = markdown_table(HEADER, rows)
-    write_page("benchmarks-arranging.md", PAGE, items=str(count), table=table)
+    write_page("arranging.md", PAGE, items=str(count), table=table)
 
 
 if __name__ == "__main__":

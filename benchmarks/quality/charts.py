@@ -2,7 +2,7 @@
 
 The two bundled charts, each in one container, in bars and in a container for each group. Areas are
 those of the SVG that is written, read back, against the numbers of the table. Without arguments
-docs/benchmarks-charts.md is written.
+docs/benchmarks/charts.md is written.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def main() -> None:
             print("  ".join(found[-1]), flush=True)
     if len(sys.argv) == 1:
         write_page(
-            "benchmarks-charts.md", PAGE, seeds=", ".join(map(str, seeds)),
+            "charts.md", PAGE, seeds=", ".join(map(str, seeds)),
             table=markdown_table(HEADER, found),
         )  # fmt: skip
 

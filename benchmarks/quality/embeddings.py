@@ -159,7 +159,7 @@ def main() -> None:
                 clouds.append(word_row(shape, called, file))
                 print("  ".join(clouds[-1]), flush=True)
     write_page(
-        "benchmarks-embeddings.md", PAGE, nearest=str(NEAREST), words=str(WORDS),
+        "embeddings.md", PAGE, nearest=str(NEAREST), words=str(WORDS),
         seeds=", ".join(map(str, SEEDS)), icons=markdown_table(ICON_HEADER, icons),
         clouds=markdown_table(WORD_HEADER, clouds),
     )  # fmt: skip

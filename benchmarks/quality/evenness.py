@@ -2,7 +2,7 @@
 
 Both presets on the frozen set with their losses against large gaps and without, and one
 epoch against a running sum. Prints the tables and writes them to
-docs/benchmarks-evenness.md. ``short`` takes one seed in place of five, and only prints.
+docs/benchmarks/evenness.md. ``short`` takes one seed in place of five, and only prints.
 """
 
 from __future__ import annotations
@@ -157,7 +157,7 @@ def tables_of(manifest: Manifest) -> dict[str, list[list[str]]]:
 
 
 def page(manifest: Manifest) -> str:
-    """docs/benchmarks-evenness.md."""
+    """docs/benchmarks/evenness.md."""
     tables = tables_of(manifest)
     timings = {
         name: {key: Timing(**timing) for key, timing in one.items()}
@@ -185,13 +185,13 @@ def page(manifest: Manifest) -> str:
 
 
 def main(words: list[str]) -> None:
-    """Measure, print, write the manifest and docs/benchmarks-evenness.md."""
+    """Measure, print, write the manifest and docs/benchmarks/evenness.md."""
     seeds = SEEDS[:1] if "short" in words else SEEDS
     print(machine(), flush=True)
     pipeline.warm_up()
     manifest = {**stamp(), **measure(seeds)}
     if seeds == SEEDS:
-        write_text("benchmarks-evenness.md", page(write_manifest("evenness", manifest)))
+        write_text("evenness.md", page(write_manifest("evenness", manifest)))
     else:
         print(page(manifest))
 

@@ -292,7 +292,7 @@ def main(arguments: Sequence[str]) -> None:
     for part in parts.values():
         print(part)
     if not is_short:
-        write_page("benchmarks-forces.md", PAGE, **parts)
+        write_page("forces.md", PAGE, **parts)
 
 
 if __name__ == "__main__":

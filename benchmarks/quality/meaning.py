@@ -280,7 +280,7 @@ def main() -> None:
                 print("  ".join(rows[-1]), flush=True)
     table = markdown_table(HEADER, rows)
     write_page(
-        "benchmarks-meaning.md", PAGE, items=str(count), ratio=f"{SIZE_RATIO:g}",
+        "meaning.md", PAGE, items=str(count), ratio=f"{SIZE_RATIO:g}",
         skimage=version("scikit-image"), table=table,
     )  # fmt: skip
 

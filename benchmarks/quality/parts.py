@@ -1,7 +1,7 @@
 """How evenly the parts of one container fill: ``packwork bench parts [short]``.
 
 A word of eight letters, each a part; exact coverage of every part. Prints the table and
-writes it to docs/benchmarks-parts.md. ``short`` takes one seed in place of eight, and only
+writes it to docs/benchmarks/parts.md. ``short`` takes one seed in place of eight, and only
 prints.
 """
 
@@ -107,7 +107,7 @@ def row(runs: list[Filled]) -> list[str]:
 
 
 def main(words: list[str]) -> None:
-    """Measure, print, write docs/benchmarks-parts.md."""
+    """Measure, print, write docs/benchmarks/parts.md."""
     seeds = SEEDS[:1] if "short" in words else SEEDS
     print(machine(), flush=True)
     pipeline.warm_up()
@@ -123,7 +123,7 @@ def main(words: list[str]) -> None:
     print("\n\n".join(["", *tables]))
     if seeds == SEEDS:
         write_page(
-            "benchmarks-parts.md",
+            "parts.md",
             PAGE,
             word=WORD,
             seeds=str(len(seeds)),

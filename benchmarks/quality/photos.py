@@ -2,7 +2,7 @@
 
 Photos are made for the purpose: aspects between 2:3 and 3:2, drawn from a seed. With ``poster`` a
 hundred of 24 megapixels are laid out and printed in a process of its own, which needs 0.6 GB of
-disk and two minutes; without arguments all is run and docs/benchmarks-photos.md is written.
+disk and two minutes; without arguments all is run and docs/benchmarks/photos.md is written.
 """
 
 from __future__ import annotations
@@ -135,7 +135,7 @@ def main() -> None:
     if not arguments:
         size, used = memory()
         write_page(
-            "benchmarks-photos.md", PAGE, count=str(COUNT), seeds=", ".join(map(str, seeds)),
+            "photos.md", PAGE, count=str(COUNT), seeds=", ".join(map(str, seeds)),
             table=found, size=size, memory=used, poster=" ".join(POSTER),
         )  # fmt: skip
 

@@ -4,7 +4,7 @@ Two sets, three size modes, two efforts. Words restrict the rows (``frozen``, ``
 ``free``, ``shared``, ``shared-1..4``, ``normal``, ``best``, a container's name), ``seeds=2``
 takes that many seeds; ``gaps`` and ``many`` are the tables of filled voids and of many items,
 and nothing else. Without words all rows are run, and the tables are written to
-docs/benchmarks-quality.md; ``write`` does so for some rows.
+docs/benchmarks/quality.md; ``write`` does so for some rows.
 """
 
 from __future__ import annotations
@@ -217,7 +217,7 @@ def said_seeds(asked: Asked) -> str:
 
 
 def main(words: list[str]) -> None:
-    """Measure, print, write docs/benchmarks-quality.md."""
+    """Measure, print, write docs/benchmarks/quality.md."""
     asked = Asked(tuple(words))
     print(machine(), flush=True)
     pipeline.warm_up()
@@ -228,7 +228,7 @@ def main(words: list[str]) -> None:
         if not words or "write" in words:
             # After each table: what a stopped run has measured is not lost.
             write_page(
-                "benchmarks-quality.md", PAGE, words=told, seeds=said_seeds(asked),
+                "quality.md", PAGE, words=told, seeds=said_seeds(asked),
                 tables="\n".join(made),
             )  # fmt: skip
 

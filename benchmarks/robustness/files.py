@@ -8,7 +8,7 @@ gate let it in, both drawn 1,000 px long, as when they are traced; and how long 
 in time of the processor, so that a busy machine does not show. Without folders: the bundled
 drawings, and a made-up set that uses every feature. Then the table of ``outputs.py``:
 twenty icons from those folders, or bundled ones, as they are written. Fetches nothing. With
-folders it writes docs/benchmarks-files.md; one that ``npm pack NAME`` gave goes by the name and
+folders it writes docs/benchmarks/files.md; one that ``npm pack NAME`` gave goes by the name and
 version in its package.json.
 """
 
@@ -189,7 +189,7 @@ def main(arguments: list[str]) -> None:
     print(outputs)
     if folders:
         told = " ".join(word for word in arguments if word.partition("=")[0] in settings)
-        write_page("benchmarks-files.md", PAGE, settings=told, drawings=drawings, outputs=outputs)
+        write_page("files.md", PAGE, settings=told, drawings=drawings, outputs=outputs)
 
 
 if __name__ == "__main__":

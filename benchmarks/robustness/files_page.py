@@ -1,4 +1,4 @@
-"""The page docs/benchmarks-files.md; what measures needs more than the page does."""
+"""The page docs/benchmarks/files.md; what measures needs more than the page does."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ shapes agreed less with the picture than a trace does. Seconds are the processor
 
 What is empty: symbols without a `use`, fonts, lines without a stroke. resvg shows nothing of
 them either. [How it is done and what else was
-tried](decisions/0008-drawings-compared-with-their-rendering.md).
+tried](../decisions/0008-drawings-compared-with-their-rendering.md).
 
 # Files as they come out
 

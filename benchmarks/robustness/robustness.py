@@ -9,7 +9,7 @@ they were and ends with code 1. ``only=inputs``, ``only=meaning``, ``only=fonts`
 one part of it (or some of them, with commas); ``fonts=60 parquet=60 nested=80 encodings=80
 drawings=1000`` are the numbers of these. Runs are kept in ``out/robustness`` as they are made: what
 is interrupted goes on, and what was a fault is run again. ``only=page`` writes
-``docs/benchmarks-robustness.md`` of what is there; once there is every part, with 10,000 inputs and
+``docs/benchmarks/robustness.md`` of what is there; once there is every part, with 10,000 inputs and
 2,000 lines or more, that happens by itself. ``kinds=fonts,tables`` tries those kinds of input only;
 ``processes=2`` shares them out. Needs Linux and ``packwork[dev]``.
 """

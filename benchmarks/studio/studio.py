@@ -1,4 +1,4 @@
-"""The studio: ``packwork bench studio`` prints and writes docs/benchmarks-studio.md.
+"""The studio: ``packwork bench studio`` prints and writes docs/benchmarks/studio.md.
 
 A server of its own and a Chromium without a window, in which drags are made: how long until a first
 layout flows, how fast neighbours answer, how many frames are drawn, how soon it is certified; what
@@ -44,7 +44,7 @@ share the processor's cores. A drag is {seconds} s long, its pointer moves 60 ti
 
 {table}
 
-Rates of frames are kept in [the manifest](manifests/studio.json); a run of which one is lower by
+Rates of frames are kept in [the manifest](../manifests/studio.json); a run of which one is lower by
 more than a tenth says so.
 
 {falls}
@@ -77,7 +77,7 @@ def main() -> None:
         "parts": {k: blocks_of(v) for k, v in parts.items()},
     }
     print("\n".join(parts.values()))
-    write_text("benchmarks-studio.md", of_parts(PAGE, write_manifest("studio", manifest)))
+    write_text("studio.md", of_parts(PAGE, write_manifest("studio", manifest)))
     if fallen:
         raise SystemExit("\n".join(fallen))
 

@@ -1,4 +1,4 @@
-"""The peer's examples by either package: that part of docs/benchmarks-words.md."""
+"""The peer's examples by either package: that part of docs/benchmarks/words.md."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ that package and once with `packwork.wordcloud` under its name; in six of them a
 Most examples give no seed, so each run draws another picture; these are of one run, not the best of
 several. Where an example gives no font, each package takes its default: the peer a thin one of
 fixed width, ours a black one. How long each took, and all figures, are on
-[the page of word clouds](benchmarks-words.md#the-peers-own-examples).
+[the page of word clouds](words.md#the-peers-own-examples).
 
 Under each pair stands whether we would choose ours, and if not, why; by eye.
 
@@ -143,7 +143,7 @@ def verdict(name: str, sha256: str) -> str:
 
 def _picture(name: str, program: str, one: Manifest) -> str:
     if "file" in one:
-        return f'<img src="{one["file"]}" width="380" alt="{name} by {program}">'
+        return f'<img src="../{one["file"]}" width="380" alt="{name} by {program}">'
     if "lacks" in one:
         return f"not run: lacks {one['lacks']}"
     return f"stops with `{one.get('fails', 'no picture')}`"

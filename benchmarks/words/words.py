@@ -101,7 +101,7 @@ def _keep(name: str, found: Manifest, is_short: bool) -> None:
         return
     earlier = known().get("words", {}).get("sections", {})
     manifest = write_manifest("words", {"sections": {**earlier, **measured}})
-    write_text("benchmarks-words.md", page(manifest))
+    write_text("words.md", page(manifest))
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""docs/benchmarks-words.md, of its manifest."""
+"""docs/benchmarks/words.md, of its manifest."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ PAGE = """# Word clouds
 Made by `packwork bench words`, a section at a time; each says when and on what. Weights are
 1 / rank^{zipf:g}, heights of letters, and the font is the same for all, but where another thing is
 said. Seconds are the processor's, on a machine that others use too. What the pictures look like:
-[pairs](words-pairs.md). What `true` and `graded` mean: [words](words.md#true-or-graded).
+[pairs](words-pairs.md). What `true` and `graded` mean: [words](../guide/words.md#true-or-graded).
 
 {sections}
 """

@@ -1,6 +1,6 @@
 """Array aliases and the checks that stand before the kernels.
 
-Conventions (docs/conventions.md): y points down; points are ``(x, y)``,
+Conventions (docs/reference/units.md): y points down; points are ``(x, y)``,
 images ``[row, col]``; pixel ``(row, col)`` is the square
 ``[col, col + 1] x [row, row + 1]``; positive area is clockwise on screen.
 """

@@ -98,7 +98,7 @@ def test_the_page_tells_every_part_and_its_code(
     page.write(
         {"nested": Part("nested", {"nested recipes": tally}, facts, "only=nested", {"a": 7})}
     )
-    text = (tmp_path / "benchmarks-robustness.md").read_text(encoding="utf-8")
+    text = (tmp_path / "robustness.md").read_text(encoding="utf-8")
     assert "- nested: `packwork bench robustness only=nested` (7 at a)" in text
     assert "Of these runs 2 were faults at first" in text
     assert "Not yet measured: `packwork bench robustness only=meaning`." in text

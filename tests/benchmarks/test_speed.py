@@ -41,7 +41,7 @@ def test_rows_of_the_same_sources_stay_and_others_go(written: dict[str, str]) ->
 
 def test_a_page_says_how_much_of_the_time_is_left_and_no_path(written: dict[str, str]) -> None:
     speed.keep("draft", [[ONE], [OTHER]], ["a", "b"], AT)
-    page = written["benchmarks-speed.md"]
+    page = written["speed.md"]
     assert "| draft | here | 1 | 3.00 | 2.00 | 100 | 0.50 |" in page
     assert "--against PATH" in page
     assert "somewhere" not in page

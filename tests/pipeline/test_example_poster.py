@@ -12,7 +12,7 @@ from packwork.recipe import make_recipe
 from packwork.recipe.rules import Pin, Rule
 
 ROOT = Path(__file__).parents[2]
-PAGE = (ROOT / "docs" / "rules.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "guide" / "rules.md").read_text(encoding="utf-8")
 
 
 def test_the_recipe_of_the_poster_can_be_run() -> None:

@@ -116,7 +116,7 @@ def write(parts: Mapping[str, Part]) -> None:
         for name, tell in told.items()
     }
     write_page(
-        "benchmarks-robustness.md",
+        "robustness.md",
         PAGE,
         settings="\n".join(map(_how, parts.values())),
         rows=markdown_table(HEADER, table_of(parts.values())[0]),

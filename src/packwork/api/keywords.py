@@ -272,7 +272,7 @@ class _FillWordsPile(TypedDict, total=False):
 
     force: str | Sequence[str] | None
     """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
-    balance or together; docs/forces.md has all. May be given several times."""
+    balance or together; docs/guide/forces.md has all. May be given several times."""
 
     stroke_width: Literal["scaled", "even"]
     """Lines of items that are drawn in lines, as line icons: scaled (as wide as their sizes make

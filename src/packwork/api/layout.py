@@ -351,7 +351,7 @@ class Layout(scene.Layout):
     def metrics(self) -> Metrics:
         """Measures by name: LC, LC_ratio, OO, EA, LnU, LC_ink and a table ``exact``.
 
-        Shares are of the container's area; docs/conventions.md says what each means.
+        Shares are of the container's area; docs/reference/units.md says what each means.
 
         Examples
         --------

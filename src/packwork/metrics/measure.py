@@ -35,7 +35,7 @@ class ExactShares(TypedDict):
 
 
 class Metrics(TypedDict):
-    """Measures of a layout by the names of the report, as docs/conventions.md explains them."""
+    """Measures of a layout by the names of the report, as docs/reference/units.md explains them."""
 
     LC: float
     """Share of the container that is covered."""

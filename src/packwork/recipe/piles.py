@@ -133,7 +133,7 @@ class Moving(Options):
         ),
     ] = None
     """Pull items about: down, up, left, right, 30deg, towards PLACE, away PLACE, inward, align,
-    balance or together; docs/forces.md has all. May be given several times."""
+    balance or together; docs/guide/forces.md has all. May be given several times."""
 
     pile: Annotated[PileOptions | None, NOT_OFFERED] = None
     """Items of given sizes, heaped by forces (``packwork pile``)."""

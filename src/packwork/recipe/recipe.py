@@ -59,7 +59,7 @@ Effort: TypeAlias = Literal["draft", "normal", "best"]
 Sizes: TypeAlias = Literal["free", "shared", "fixed", "graded", "auto"]
 
 EPOCHS: dict[str, int] = {"draft": 200, "normal": 800, "best": 6_000}
-"""Iterations, never seconds: one seed gives one result. Measured (docs/benchmarks-engine.md)."""
+"""Iterations, never seconds: one seed gives one result. Measured (docs/benchmarks/engine.md)."""
 
 APART = 0.5
 """Weight of the loss that keeps kinds apart. Larger parts more and fills less. Tried."""

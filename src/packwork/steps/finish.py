@@ -40,7 +40,7 @@ _LOG = logging.getLogger(__name__)
 
 TRIALS = {"draft": 0, "normal": 3, "best": 40}
 """Turns and exchanges tried for each item, by effort: 2 ms each. More fill better, ever less
-so. Measured in docs/benchmarks-quality and decision 0030."""
+so. Measured in docs/benchmarks/quality.md and decision 0030."""
 
 MOST_TRIALS = {"draft": 0, "normal": 2_500, "best": 20_000}
 """Such trials at most: what a person waits for must not grow with the items for ever. With 2,250,

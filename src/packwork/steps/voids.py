@@ -31,7 +31,7 @@ from packwork.steps.finish import Closing, gap_with_bulge, scale_ranges, without
 
 ROUNDS = {"draft": 4, "normal": 8, "best": 16}
 """Linear programmes of each item after each round of fillers, by effort. Measured in
-docs/benchmarks-quality."""
+docs/benchmarks/quality.md."""
 
 MORE, AT_LEAST = 0.4, 30
 """Copies tried in a round, as a share of those that lie there, and at least. Fewer in a round
