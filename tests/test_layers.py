@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import ast
 import importlib
+import re
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -154,3 +156,13 @@ def test_an_unknown_name_is_an_attribute_error() -> None:
 def test_every_module_loads_by_itself_and_says_what_it_is() -> None:
     names = [name_of(path) for path in MODULES if path.stem != "__main__"]
     assert not [name for name in names if not importlib.import_module(name).__doc__]
+
+
+def test_the_page_of_the_architecture_has_the_layers_that_contracts_hold() -> None:
+    project = tomllib.loads((TOP / "pyproject.toml").read_text(encoding="utf-8"))
+    held, *_ = project["tool"]["importlinter"]["contracts"]
+    page = (TOP / "docs" / "architecture.md").read_text(encoding="utf-8")
+    lines = re.findall(r"^    (\w.*)$", page, flags=re.MULTILINE)
+    shown = " ; ".join(re.split(r"  +", line)[0] for line in lines).replace("| ;", "|")
+    layers = [sorted(layer.split(" | ")) for layer in shown.split(" ; ")]
+    assert layers == [sorted(layer.split(" | ")) for layer in held["layers"]]

@@ -1,8 +1,9 @@
 """What a run measured, as JSON beside the page that is made of it.
 
-``docs/manifests/NAME.json`` is what one benchmark measured; the pages of ``docs/benchmarks`` are functions
-of such manifests and of nothing else, so that no figure stands on a page but those of a run whose
-manifest is committed with it. ``packwork bench pages`` writes the pages anew, without measuring.
+``docs/manifests/NAME.json`` is what one benchmark measured; the pages of ``docs/benchmarks`` are
+functions of such manifests and of nothing else, so that no figure stands on a page but those of a
+run whose manifest is committed with it. ``packwork bench pages`` writes the pages anew, without
+measuring.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Pages of ``docs/benchmarks`` anew from their manifests, without measuring: ``packwork bench pages``."""
+"""Pages of figures anew from their manifests, without measuring: ``packwork bench pages``."""
 
 from __future__ import annotations
 
