@@ -103,7 +103,8 @@ def python_page() -> str:
     parts = ["# Python", "All that `import packwork as pw` offers."]
     for name in packwork.__all__:
         thing = getattr(packwork, name)
-        kind = "autoclass" if isinstance(thing, type) else "autofunction"
+        kind = "autofunction" if callable(thing) else "autodata"
+        kind = "autoclass" if isinstance(thing, type) else kind
         members = "   :members:\n" if kind == "autoclass" else ""
         block = f".. {kind}:: packwork.{name}\n{members}"
         parts.append(f"## `{name}`\n\n```{{eval-rst}}\n{block}```")
