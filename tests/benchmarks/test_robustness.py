@@ -92,7 +92,7 @@ def test_the_page_tells_every_part_and_its_code(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("benchmarks.kit.manifests.FOLDER", tmp_path)
-    monkeypatch.setattr("benchmarks.kit.manifests.DOCS", tmp_path)
+    monkeypatch.setattr("benchmarks.kit.manifests.PAGES", tmp_path)
     tally = Tally(Counter({"tried": 7, SUCCESS: 7}))
     facts = {"count": 7, "peak": 99.0, "slowest": 1.5, "mended": 2}
     page.write(
