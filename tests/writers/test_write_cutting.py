@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import ctypes
+import io
+import shutil
+import subprocess
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pikepdf
 import pypdfium2 as pdfium
 import pypdfium2.raw as raw
 import pytest
@@ -97,8 +101,6 @@ def test_files_measure_as_before(
 
 
 def test_a_dxf_has_the_lines_on_the_layer_that_is_cut(stickers: Layout) -> None:
-    import io
-
     import ezdxf
 
     text = encoded(stickers, "a.dxf", write_options(kiss_cut="2")).decode()
@@ -114,7 +116,11 @@ def test_a_dxf_has_the_lines_on_the_layer_that_is_cut(stickers: Layout) -> None:
 
 def test_a_pdf_strokes_the_lines_in_the_spot_colour(stickers: Layout) -> None:
     pdf = encoded(stickers, "a.pdf", write_options(kiss_cut="2"))
-    assert b"[/Separation/CutContour/DeviceCMYK " in pdf
+    with pikepdf.open(io.BytesIO(pdf)) as read:
+        ink = read.pages[0].Resources.ColorSpace.CutContour
+        assert [str(one) for one in ink[:3]] == ["/Separation", "/CutContour", "/DeviceCMYK"]
+        assert read.pages[0].Resources.ExtGState.Overprint.OP
+        drawn = read.pages[0].Contents[1].read_bytes()
     assert pdf == encoded(stickers, "a.pdf", write_options(kiss_cut="2"))
     asked = lines(stickers, kiss="2")
     found = stroked(pdf)
@@ -125,7 +131,19 @@ def test_a_pdf_strokes_the_lines_in_the_spot_colour(stickers: Layout) -> None:
         assert np.abs(px - shape.bounds).max() < 0.4
     plain = encoded(stickers, "a.pdf")
     assert b"Separation" not in plain
-    assert pdf.startswith(plain)
+    with pikepdf.open(io.BytesIO(plain)) as read:
+        assert read.pages[0].Contents.read_bytes() == drawn
+
+
+@pytest.mark.skipif(shutil.which("pdftoppm") is None, reason="poppler is not installed")
+@pytest.mark.parametrize("asked", [{}, {"cut": "outlines"}, {"kiss_cut": "2", "bleed": "3mm"}])
+def test_poppler_has_nothing_to_say(
+    stickers: Layout, tmp_path: Path, asked: dict[str, str]
+) -> None:
+    write(stickers, tmp_path / "a.pdf", write_options(**asked))  # type: ignore[arg-type]
+    for command in (["pdfinfo", "a.pdf"], ["pdftoppm", "-png", "a.pdf", "a"]):
+        done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=True)
+        assert done.stderr == ""
 
 
 def test_a_bleed_is_beyond_the_trimmed_sheet(stickers: Layout) -> None:

@@ -80,7 +80,7 @@ def test_no_suspects_are_written(sheet: Callable[..., Layout], cut: CutOptions |
     # Poppler: "Suspects object is wrong type (boolean)", of the boolean that the format asks for.
     data = pdf_bytes(sheet(builtin_item("star")), SvgOptions(cut=cut))
     assert data.count(b"/MarkInfo") == 1
-    assert re.search(rb"/MarkInfo<</Marked true *>>", data)
+    assert re.search(rb"/MarkInfo << /Marked true >>", data)
     assert b"/Suspects" not in data
     table = int(data[data.rindex(b"startxref") :].split()[1])
     assert data[table : table + 4] == b"xref"

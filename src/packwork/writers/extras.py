@@ -9,10 +9,10 @@ from types import MappingProxyType
 
 from packwork.errors import WriteError
 
-PACKAGES: Mapping[str, str] = MappingProxyType(
-    {".pdf": "typst", ".dxf": "ezdxf", ".mp4": "av", ".webm": "av"}
+PACKAGES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {".pdf": ("typst", "pikepdf"), ".dxf": ("ezdxf",), ".mp4": ("av",), ".webm": ("av",)}
 )
-"""File ending to the package it needs: the extras ``pdf``, ``dxf`` and ``video`` of the
+"""File ending to the packages it needs: the extras ``pdf``, ``dxf`` and ``video`` of the
 project."""
 
 
@@ -28,6 +28,8 @@ def check_extra(path: str | Path) -> None:
     --------
     >>> check_extra("layout.svg")
     """
-    package = PACKAGES.get(Path(path).suffix.lower())
-    if package is not None and importlib.util.find_spec(package) is None:
-        raise WriteError(path, f"needs the package {package}; install it: pip install {package}")
+    for package in PACKAGES.get(Path(path).suffix.lower(), ()):
+        if importlib.util.find_spec(package) is None:
+            raise WriteError(
+                path, f"needs the package {package}; install it: pip install {package}"
+            )

@@ -22,10 +22,6 @@ from packwork.writers.picturing import pictured
 from packwork.writers.spot import Press, prepared
 from packwork.writers.svg import NAME_LENGTH, SvgOptions, svg_text
 
-_MARKED = b"/MarkInfo<</Marked true"
-_SUSPECTS = b"/Suspects false"
-"""What is so where nothing is said; programs made with Poppler call it an error where it is."""
-
 PICTURE_DPI = 600
 """Pixels to the inch of a drawing that becomes a picture. More: larger files. Chosen."""
 
@@ -73,14 +69,12 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | No
 
     container = layout.container
     width, height = (convert(v, container.unit, "pt") for v in (container.width, container.height))
-    # A PDF's words are curves: what sets the page would take fonts of its own for text.
-    curves = replace(options, text="outlines", cut=None)
     beyond = 0.0 if bleed is None else bleed_pt(bleed, container)
     sizes = {
         "width": width, "height": height, "bleed": beyond, "fill": _fill(options.background),
         "wide": width + 2 * beyond, "high": height + 2 * beyond,
     }  # fmt: skip
-    drawing = svg_text(without_text(layout), curves)
+    drawing = drawing_text(layout, replace(options, cut=None))
     try:
         page = typst.compile(
             (_PAGE_WITH_BLEED if beyond else _PAGE).format(**sizes).encode(),
@@ -90,15 +84,26 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | No
     except RuntimeError as error:
         reason = " ".join(str(error).split())
         raise WriteError("PDF", f"an item's drawing cannot be rendered ({reason})") from error
-    # As many bytes, so that all objects stay where the file's table says.
-    page = page.replace(_MARKED + _SUSPECTS, _MARKED + b" " * len(_SUSPECTS))
-    is_cut = options.cut is not None and options.cut.is_asked
-    if not (is_cut or beyond):
-        return page
     scale = convert(1.0, container.unit, "pt")
-    rings = cut_rings(layout, options.cut) if options.cut is not None and is_cut else []
+    rings = (
+        [] if options.cut is None or not options.cut.is_asked else cut_rings(layout, options.cut)
+    )
     lines = [scale * ring for ring in rings]
     return prepared(page, Press(lines=lines, width=width, height=height, bleed=beyond))
+
+
+def drawing_text(layout: Layout, options: SvgOptions) -> str:
+    """SVG that stands on the page of a PDF: its words are curves.
+
+    What sets the page would take fonts of its own for text.
+
+    Examples
+    --------
+    >>> from packwork.scene.blank import blank
+    >>> drawing_text(blank(), SvgOptions(text="live")) == drawing_text(blank(), SvgOptions())
+    True
+    """
+    return svg_text(without_text(layout), replace(options, text="outlines"))
 
 
 def bleed_pt(text: str, container: Container) -> float:
