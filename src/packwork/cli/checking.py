@@ -6,24 +6,37 @@ from collections.abc import Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from packwork import pipeline
+from packwork import pipeline, writers
 from packwork.scene.layout import Layout
 
 
-def faults_in(drawn: Sequence[tuple[Path, bytes]], layout: Layout) -> list[str]:
+def faults_in(
+    drawn: Sequence[tuple[Path, bytes]], layout: Layout, options: writers.WriteOptions
+) -> list[str]:
     """Parts of a layout's promise that the text of a file breaks, a sentence each."""
     return [
         f"{path.name}: {fault}"
         for path, data in drawn
-        for fault in pipeline.faults_in_file(data, path, layout)
+        for fault in pipeline.faults_in_file(data, path, layout, options)
     ]
 
 
-def held_against_files(run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]]) -> pipeline.Run:
+def on_trust_in(drawn: Sequence[tuple[Path, bytes]], layout: Layout) -> list[str]:
+    """What of the files is not held against what was measured, a sentence each."""
+    return [
+        f"{path.name}: {one}"
+        for path, _ in drawn
+        for one in pipeline.on_trust_in_file(path, layout)
+    ]
+
+
+def held_against_files(
+    run: pipeline.Run, drawn: Sequence[tuple[Path, bytes]], options: writers.WriteOptions
+) -> pipeline.Run:
     """A run that is certified if the texts of its files are, measured by themselves."""
     if not run.certified:
         return run
-    faults = faults_in(drawn, run.layout)
+    faults = faults_in(drawn, run.layout, options)
     return replace(run, certified=False, broken=(*run.broken, *faults)) if faults else run
 
 

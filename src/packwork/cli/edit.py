@@ -245,7 +245,7 @@ def _written(
 ) -> bool:
     """Settle, write and show a session's layout; whether it is certified."""
     from packwork import writers
-    from packwork.cli.checking import faults_in
+    from packwork.cli.checking import faults_in, on_trust_in
     from packwork.cli.show import Paper, certificate_line, metrics_table, printing
     from packwork.live.file.disk import Disk
     from packwork.metrics.measure import measure
@@ -261,7 +261,7 @@ def _written(
         for path in outputs
         if path != report and not is_session(path)
     ]
-    faults = faults_in(files, made) if done.certified else []
+    faults = faults_in(files, made, drawing) if done.certified else []
     certified = done.certified and not faults
     metrics = measure(made).as_dict()
     said = {
@@ -287,7 +287,8 @@ def _written(
         console.print(certificate_line(True, certified), soft_wrap=True)
         names = ", ".join(printable(str(path)) for path, _ in files)
         console.print(f"wrote {names}", soft_wrap=True)
-    for line in (*done.in_the_way, *faults, *session.advice):
+    on_trust = on_trust_in(files, made) if certified else []
+    for line in (*done.in_the_way, *faults, *on_trust, *session.advice):
         say(line)
     return certified
 

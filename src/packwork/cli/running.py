@@ -17,7 +17,7 @@ import typer
 from rich.console import Console
 
 from packwork import pipeline, threads, uses, writers
-from packwork.cli.checking import held_against_files, painted_in
+from packwork.cli.checking import held_against_files, on_trust_in, painted_in
 from packwork.cli.choosing import check_choosing, run_chosen, seeded, sheet_of
 from packwork.cli.cutting import check_bleed, check_room, with_room
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
@@ -235,7 +235,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
             films = _filmed(run, outputs, bar, interrupt)
         was_stopped = was_cut_short or len(films) < len(outputs.films)
         drawn, undrawn = _drawn(run, outputs)
-        run = held_against_files(run, drawn)
+        run = held_against_files(run, drawn, outputs.options)
         if tried:
             saved = outputs.saved_recipe(seeded(recipe, run))
         written = [*drawn, *saved, *films, *sheet_of(tried, outputs.choosing)]
@@ -246,6 +246,7 @@ def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:
         results["advice"] += pipeline.coarse_photos(
             run.layout, outputs.options.dpi, is_bounded=_bounds_resolution(job)
         )
+        results["advice"] += on_trust_in(drawn, run.layout) if run.certified else []
         results["painted"] = None if was_cut_short else painted_in(run, drawn, results["advice"])
         if outputs.report is not None:
             written.append((outputs.report, writers.json_bytes(results)))

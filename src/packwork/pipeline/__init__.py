@@ -9,7 +9,7 @@ from packwork.pipeline.plan.resolution import coarse_photos, tell_coarse
 from packwork.pipeline.result import Run, find_unplaced
 from packwork.pipeline.run import run
 from packwork.pipeline.warming import KERNELS, warm_up, warm_up_once
-from packwork.pipeline.written import faults_in_file
+from packwork.pipeline.written import faults_in_file, on_trust_in_file
 
 __all__ = [
     "KERNELS",
@@ -22,6 +22,7 @@ __all__ = [
     "faults_in_file",
     "find_unplaced",
     "item_weights",
+    "on_trust_in_file",
     "padded",
     "painted_pixels",
     "run",

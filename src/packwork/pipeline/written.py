@@ -2,24 +2,46 @@
 
 from __future__ import annotations
 
+from collections.abc import Set
 from pathlib import Path
 
 import numpy as np
 import shapely
 
+from packwork import writers
 from packwork.errors import PackworkError
-from packwork.metrics.certificate import Promise, unclean
+from packwork.metrics.certificate import HAIR, Promise, unclean
 from packwork.metrics.exact import exact_metrics
+from packwork.phrasing import number_of
 from packwork.readers.gate.door import MAX_BYTES
+from packwork.readers.layouts.agreement import differences, shapes_of_svg
+from packwork.readers.layouts.pdf import printed_page
 from packwork.readers.layouts.read import ENDINGS, read_content
+from packwork.readers.svg_syntax.page import Page
+from packwork.readers.svg_syntax.painted import Painted
+from packwork.readers.unfit import UnfitError
 from packwork.scene.layout import Layout
+from packwork.units import convert
+
+AGREEMENT = HAIR / 2
+"""How far paths of a PDF may lie from those of the SVG that it was made of, as a share of the
+canvas: half of the least gap that is certified, so that two items cannot meet. Derived."""
+
+_BEYOND_PATHS = ("filter", "marker", "mask", "pattern")
+"""Elements that in a PDF become what is not held against them: pictures, paths, soft masks."""
 
 
-def faults_in_file(data: bytes, path: str | Path, layout: Layout) -> tuple[str, ...]:
+def faults_in_file(
+    data: bytes,
+    path: str | Path,
+    layout: Layout,
+    options: writers.WriteOptions | None = None,
+) -> tuple[str, ...]:
     """Parts of a layout's promise that the text of a file breaks, a sentence each.
 
-    Transforms and outlines are those that stand in the text, curves followed anew. Files that
-    have no outlines break nothing.
+    Transforms and outlines are those that stand in the text, curves followed anew. Of a PDF
+    those of the SVG that it was made of, with which the paths in its own text have to agree.
+    Files that have no outlines break nothing.
 
     Parameters
     ----------
@@ -29,6 +51,8 @@ def faults_in_file(data: bytes, path: str | Path, layout: Layout) -> tuple[str, 
         Where to; its ending says what it is.
     layout
         What is to stand in it.
+    options
+        How it was drawn.
 
     Examples
     --------
@@ -36,12 +60,22 @@ def faults_in_file(data: bytes, path: str | Path, layout: Layout) -> tuple[str, 
     >>> faults_in_file(b"", "layout.png", blank())
     ()
     """
+    ending = Path(path).suffix.lower()
+    if Promise.of(layout.manifest) is None or ending not in {*ENDINGS, ".pdf"}:
+        return ()
+    if ending != ".pdf":
+        return _broken_in(data, path, layout)
+    text, bleed = writers.printed_drawing(layout, options)
+    drawing = text.encode()
+    return (
+        *_broken_in(drawing, Path(path).with_suffix(".svg"), layout),
+        *_off_drawing(data, drawing, convert(bleed, "pt", "px"), _beyond_paths(layout)),
+    )
+
+
+def _broken_in(data: bytes, path: str | Path, layout: Layout) -> tuple[str, ...]:
     # Of larger ones mostly pixels.
-    if (
-        Promise.of(layout.manifest) is None
-        or Path(path).suffix.lower() not in ENDINGS
-        or len(data) > MAX_BYTES
-    ):
+    if len(data) > MAX_BYTES:
         return ()
     try:
         found = read_content(data, path, outlines_only=True)
@@ -56,6 +90,60 @@ def faults_in_file(data: bytes, path: str | Path, layout: Layout) -> tuple[str, 
     if is_clear(found, promise.least_gap(found.container.side)):
         return ()
     return unclean(promise, found, exact_metrics(found.outlines, found.container.outline))
+
+
+def _off_drawing(data: bytes, drawing: bytes, bleed_px: float, beyond: Set[str]) -> tuple[str, ...]:
+    """What a PDF paints elsewhere than the SVG that it was made of, a sentence or none."""
+    try:
+        page, drawn = shapes_of_svg(drawing)
+        printed = printed_page(data)
+    except UnfitError as error:
+        return (f"what is written cannot be read back: it {error}",)
+    tolerance = AGREEMENT * max(page.width, page.height)
+    if max(abs(page.width - printed.width), abs(page.height - printed.height)) > tolerance:
+        return (
+            f"its page is {printed.width:.9g} x {printed.height:.9g} px instead of "
+            f"{page.width:.9g} x {page.height:.9g}",
+        )
+    shapes = printed.shapes
+    if bleed_px and shapes and _is_beyond(shapes[0], page, bleed_px):
+        # The background of the whole sheet lies behind all.
+        shapes = shapes[1:]
+    found = differences(drawn, shapes, tolerance)
+    # What is painted besides was named as taken on trust.
+    is_known = bool({"filter", "marker"} & beyond) or not found.strange
+    if is_known and not found.missing:
+        return ()
+    missing = number_of(len(found.missing), "shape that was", "shapes that were")
+    strange = number_of(len(found.strange), "path that was", "paths that were")
+    return (f"it lacks {missing} measured, and has {strange} not",)
+
+
+def _is_beyond(shape: Painted, page: Page, bleed_px: float) -> bool:
+    """Whether a shape covers the sheet and more on each side."""
+    left, top, right, bottom = shape.bounds
+    least = bleed_px / 2
+    return max(left, top) < -least and right > page.width + least and bottom > page.height + least
+
+
+def _beyond_paths(layout: Layout) -> set[str]:
+    markups = {id(item.art): getattr(item.art, "markup", "") for item in layout.items}.values()
+    return {tag for tag in _BEYOND_PATHS for markup in markups if f"<{tag}" in markup}
+
+
+def on_trust_in_file(path: str | Path, layout: Layout) -> tuple[str, ...]:
+    """What of a file is not held against what was measured, a sentence or none.
+
+    Examples
+    --------
+    >>> from packwork.scene.blank import blank
+    >>> on_trust_in_file("layout.pdf", blank())
+    ()
+    """
+    beyond = _beyond_paths(layout) if Path(path).suffix.lower() == ".pdf" else set()
+    if not beyond:
+        return ()
+    return (f"what {' and '.join(f'{tag}s' for tag in sorted(beyond))} paint is taken on trust",)
 
 
 def is_clear(layout: Layout, gap: float) -> bool:

@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         check_output,
         check_picture_size,
         encoded,
+        printed_drawing,
         write,
         write_options,
     )
@@ -54,6 +55,7 @@ __all__ = [
     "geojson_text",
     "json_bytes",
     "png_bytes",
+    "printed_drawing",
     "recipe_bytes",
     "svg_text",
     "tell_nobody",
@@ -73,8 +75,8 @@ _HOMES = {
     "png": ("png_bytes",),
     "recipe": ("recipe_bytes",),
     "registry": (
-        "WRITERS", "WriteOptions", "check_output", "check_picture_size", "encoded", "write",
-        "write_options",
+        "WRITERS", "WriteOptions", "check_output", "check_picture_size", "encoded",
+        "printed_drawing", "write", "write_options",
     ),
     "svg": ("SvgOptions", "svg_text"),
 }  # fmt: skip

@@ -19,7 +19,7 @@ from packwork.writers.frame import check_side, picture_frame, side_at
 from packwork.writers.geojson import geojson_text
 from packwork.writers.halos import haloed
 from packwork.writers.options import DrawingOptions, HaloChoice
-from packwork.writers.pdf import pdf_bytes
+from packwork.writers.pdf import bleed_pt, drawing_text, pdf_bytes
 from packwork.writers.png import ON_WHITE, png_bytes
 from packwork.writers.printing import DPI, SPARE, printed, printed_on_paper
 from packwork.writers.stills import check_webp_side, jpeg_bytes, tiff_bytes, webp_bytes
@@ -249,6 +249,24 @@ def encoded(layout: Layout, path: str | Path, options: WriteOptions | None = Non
     """
     encoder = _encoder(path)
     return encoder(layout, (options or WriteOptions()).on_ground(layout))
+
+
+def printed_drawing(layout: Layout, options: WriteOptions | None = None) -> tuple[str, float]:
+    """SVG that :func:`encoded` puts on a PDF's page, and the bleed around it in points.
+
+    Cut lines are among it; photos are their small copies.
+
+    Examples
+    --------
+    >>> from packwork.scene.blank import blank
+    >>> text, bleed = printed_drawing(blank())
+    >>> text[:5], bleed
+    ('<?xml', 0.0)
+    """
+    options = (options or WriteOptions()).on_ground(layout)
+    seen = haloed(layout, options.halo, options.svg.background)
+    bleed = 0.0 if options.bleed is None else bleed_pt(options.bleed, layout.container)
+    return drawing_text(seen, options.svg), bleed
 
 
 def _encoder(path: str | Path) -> Encoder:

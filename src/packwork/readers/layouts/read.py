@@ -17,7 +17,8 @@ from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.layout import Layout
 
 ENDINGS = (".geojson", ".json", ".svg", ".dxf")
-"""What can be measured. A PNG has no outlines, and a PDF is read by no part of ours."""
+"""What can be measured. A PNG has no outlines, and a PDF does not say what was promised of
+which paths."""
 
 
 SESSION = ".packwork"

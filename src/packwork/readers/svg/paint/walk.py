@@ -26,8 +26,13 @@ from packwork.readers.svg_syntax.vocabulary import HREF, NEVER_DRAWN, SHAPES
 from packwork.readers.unfit import UnfitError
 
 
-def painted_shapes(root: ET.Element, page: Page | None) -> list[Painted]:
+def painted_shapes(root: ET.Element, page: Page | None, most: int = MAX_SEGMENTS) -> list[Painted]:
     """Every shape of a clean drawing that leaves ink, in painting order.
+
+    Parameters
+    ----------
+    most
+        Segments of all, repeats counted, that are taken.
 
     Raises
     ------
@@ -40,7 +45,7 @@ def painted_shapes(root: ET.Element, page: Page | None) -> list[Painted]:
     >>> len(painted_shapes(root, None))
     1
     """
-    return _walked(root, page).painted
+    return _walked(root, page, most).painted
 
 
 def placed_texts(root: ET.Element, page: Page | None) -> list[PlacedText]:
@@ -60,9 +65,9 @@ def placed_texts(root: ET.Element, page: Page | None) -> list[PlacedText]:
     return _walked(root, page).texts
 
 
-def _walked(root: ET.Element, page: Page | None) -> _Walk:
+def _walked(root: ET.Element, page: Page | None, most: int = MAX_SEGMENTS) -> _Walk:
     """Walk through the whole of a clean drawing."""
-    walk = _Walk(root)
+    walk = _Walk(root, most)
     if page is None:
         frame = _Surroundings(affine.identity(), Painting(), PLAIN_VIEWPORT)
     else:
@@ -88,7 +93,7 @@ class _Surroundings:
 class _Walk:
     """Visits a tree and collects what it paints."""
 
-    def __init__(self, root: ET.Element) -> None:
+    def __init__(self, root: ET.Element, most: int) -> None:
         self.painted: list[Painted] = []
         self.texts: list[PlacedText] = []
         self._by_id = elements_by_id(root)
@@ -96,7 +101,7 @@ class _Walk:
         self._known: dict[tuple[ET.Element, Viewport], list[SubPath]] = {}
         self._known_clips: dict[tuple[ET.Element, bytes, Viewport], Clip] = {}
         self._known_paintings: dict[ET.Element, Painting] = {}
-        self._segments = 0
+        self._segments, self._most = 0, most
 
     def visit(self, element: ET.Element, frame: _Surroundings) -> None:
         """Collect what one element paints inside its frame."""
@@ -155,8 +160,8 @@ class _Walk:
             self._known[key] = shape_pieces(element, viewport)
         pieces = self._known[key]
         self._segments += sum(len(piece.segments) for piece in pieces)
-        if self._segments > MAX_SEGMENTS:
-            raise UnfitError(f"has more than {MAX_SEGMENTS:,} path segments; simplify it")
+        if self._segments > self._most:
+            raise UnfitError(f"has more than {self._most:,} path segments; simplify it")
         return pieces
 
     def _place(self, text: ET.Element, frame: _Surroundings) -> None:
