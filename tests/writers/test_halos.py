@@ -69,6 +69,33 @@ def test_what_is_said_names_them_and_what_would_do(layout: Layout) -> None:
     assert faint_told(layout, "teal") == ""
 
 
+@pytest.mark.parametrize("dark", ["#000", "#111", "#12181f"])
+def test_black_on_a_dark_ground_is_faint_and_sent_to_one_that_shows_it(
+    make_layout: LayoutMaker, dark: str
+) -> None:
+    items = [flat("coal", "#000"), flat("navy", "#000022")]
+    layout = make_layout(items, [20.0, 50.0], [30.0, 30.0], scale=[4.0, 4.0])
+    assert names(faint_items(layout, dark)) == ["coal", "navy"]
+    assert faint_told(layout, dark).split("'")[1] == "#2f3e55"
+    assert all(item.halo for item in haloed(layout, "faint", dark).items)
+
+
+def test_a_ground_on_which_others_are_faint_is_not_proposed(make_layout: LayoutMaker) -> None:
+    items = [flat(ground, ground) for ground in halos.GROUNDS]
+    xs = [10.0 * k for k in range(len(items))]
+    layout = make_layout(items, xs, [30.0] * len(items))
+    assert "; --halo faint would show them" in faint_told(layout, None)
+
+
+@pytest.mark.parametrize(
+    "ground", ["#fff", "#bbb", "#999", "#818181", "#5f6b7a", "#f4f1ea", "#000"]
+)
+def test_a_rim_can_be_told_from_every_ground(layout: Layout, ground: str) -> None:
+    rims = {item.halo for item in haloed(layout, "all", ground).items}
+    rim = replace(layout, items=tuple(flat("rim", str(halo)) for halo in rims for _ in range(3)))
+    assert not faint_items(rim, ground)
+
+
 def test_rims_are_drawn_round_whom_they_are_asked_for(layout: Layout) -> None:
     halos = [
         [bool(item.halo) for item in haloed(layout, choice, None).items]

@@ -14,14 +14,15 @@ import numpy as np
 import numpy.typing as npt
 from PIL import Image
 
-from packwork.arrays import BoolArray, FloatArray
+from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.fields.morphology import eroded
 from packwork.folders import Store
 from packwork.phrasing import number_of
 from packwork.scene.colour import hex_colour, parse_colour
-from packwork.scene.contrast import oklabs
+from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import FlatArt, Item, PhotoArt, VectorArt
 from packwork.scene.layout import Layout
+from packwork.scene.light import light_of
 from packwork.scene.swatch import small_png
 from packwork.writers.marks import shape_key
 from packwork.writers.options import HaloChoice
@@ -32,6 +33,11 @@ PAPER = "#ffffff"
 ALIKE = 0.1
 """Difference of two colours (Oklab) below which one is hardly seen on the other. Larger blames
 pale yellow on white, smaller passes a grey ghost. By eye, of 100 emoji."""
+
+FLARE = 0.02
+"""Light of the room on the screen, of its white's: by it near blacks are alike, which Oklab alone
+tells apart. Larger calls black on slate faint (the 0.05 of WCAG 2), smaller passes black on
+``#222222``. By eye."""
 
 MOST_ALIKE = 0.5
 """Share of an item's edge that may be so before the whole is hard to see. Chosen by eye."""
@@ -45,11 +51,8 @@ MOST_DRAWINGS = 300
 GROUNDS = ("#ffffff", "#f4ecd8", "#f0cf95", "#c99a6b", "#2f3e55", "#12181f")
 """Backgrounds that may be proposed, from light to dark. Chosen by eye."""
 
-RIM_ON_LIGHT, RIM_ON_DARK = "#5f6b7a", "#f4f1ea"
-"""Colours of halos. Chosen by eye."""
-
-_LIGHT = 0.6
-"""Lightness (Oklab) from which a background takes dark rims. Chosen."""
+RIMS = ("#5f6b7a", "#f4f1ea")
+"""Colours of halos: that which differs more from the background is taken. Chosen by eye."""
 
 _SOLID = 128
 
@@ -91,7 +94,8 @@ def haloed(layout: Layout, choice: HaloChoice, background: str | None) -> Layout
     if choice == "none" or layout.container.backdrop is not None:
         return layout
     faint = {_look(item) for item in faint_items(layout, background)}
-    rim = RIM_ON_LIGHT if _ground(background)[0] >= _LIGHT else RIM_ON_DARK
+    ground = _ground(background)
+    rim = max(RIMS, key=lambda colour: float(np.linalg.norm(_ground(colour) - ground)))
     items = tuple(
         replace(item, halo=item.halo or rim) if choice == "all" or _look(item) in faint else item
         for item in layout.items
@@ -116,17 +120,13 @@ def faint_told(layout: Layout, background: str | None) -> str:
 
 
 def _better_ground(layout: Layout, background: str | None) -> str | None:
-    """The nearest background on which nothing is hard to see; else that with the fewest."""
+    """The nearest background on which nothing is hard to see, if there is one."""
     own = _ground(background)
     edges = [edge for _, edge in _edges(layout)]
-
-    def faint_on(colour: str) -> int:
-        return sum(_is_faint(edge, _ground(colour)) for edge in edges)
-
-    nearest = sorted(GROUNDS, key=lambda c: abs(float(_ground(c)[0] - own[0])))
-    best = min(nearest, key=faint_on)
-    now = sum(_is_faint(edge, own) for edge in edges)
-    return best if faint_on(best) < now / 2 else None
+    for colour in sorted(GROUNDS, key=lambda c: abs(float(_ground(c)[0] - own[0]))):
+        if not any(_is_faint(edge, _ground(colour)) for edge in edges):
+            return colour
+    return None
 
 
 def _edges(layout: Layout) -> list[tuple[Item, FloatArray]]:
@@ -147,16 +147,21 @@ def _look(item: Item) -> tuple[Hashable, str]:
 
 
 def _edge(item: Item) -> FloatArray:
-    """``(n, 3)`` colours along an item's edge; none if they cannot be told."""
+    """``(n, 3)`` colours along an item's edge, as seen; none if they cannot be told."""
     if isinstance(item.art, FlatArt):
         red, green, blue, opacity = parse_colour("fill", item.art.fill)
-        return oklabs(np.array([[red, green, blue]]) / 255)[: 1 if opacity >= _SOLID else 0]
+        return _seen(np.array([[red, green, blue]]))[: 1 if opacity >= _SOLID else 0]
     key = _edge_key(item.art, item.ink.bounds) if isinstance(item.art, VectorArt) else None
     kept = None if key is None else STORE.get(key)
     edge = _looked_at(item) if kept is None else np.frombuffer(kept, np.uint8).reshape(-1, 3)
     if key is not None and kept is None:
         STORE.put(key, edge.tobytes())
-    return oklabs(edge / 255)
+    return _seen(edge)
+
+
+def _seen(rgb: ByteArray | IntArray) -> FloatArray:
+    """``(n, 3)`` colours, 0 to 255, as they are seen in a room with light (Oklab)."""
+    return oklabs_of_light((light_of(rgb / 255) + FLARE) / (1.0 + FLARE))
 
 
 def _looked_at(item: Item) -> ByteArray:
@@ -193,4 +198,4 @@ def _ground(background: str | None) -> FloatArray:
     red, green, blue, opacity = parse_colour("background", background or PAPER)
     solid = hex_colour((red, green, blue)) if opacity >= _SOLID else PAPER
     channels = parse_colour("background", solid)[:3]
-    return np.asarray(oklabs(np.array([channels]) / 255)[0])
+    return np.asarray(_seen(np.array([channels]))[0])
