@@ -157,6 +157,9 @@ def test_more_words_are_the_advice_as_long_as_there_are_some() -> None:
     assert "; -n 70 would show more of it; --sizes graded, " in advised(few, with_tail(4))
     every = words_recipe("tail", weights)
     assert "; --sizes graded, " in advised(every, with_tail(4))
+    six = words_recipe("tail", dict(list(weights.items())[:6]))
+    assert "--sizes graded" not in advised(six, with_tail(4))
+    assert "; --target-coverage 0.6," in advised(six, with_tail(4))
     graded = words_recipe("tail", weights, sizes="graded")
     assert "; --target-coverage 0.6," in advised(graded, with_tail(4))
 
@@ -168,11 +171,18 @@ def test_of_a_container_of_thin_lines_more_items_are_not_the_advice() -> None:
 
 
 def test_data_and_heaps_are_as_many_as_they_are() -> None:
-    assert "a container without thin parts" in advised(
-        chart_recipe("tail", {"n": [3, 2, 1]}), with_tail(8)
-    )
+    asked = chart_recipe("tail", {"n": list(range(1, 31))})
+    assert "a container without thin parts" in advised(asked, with_tail(8))
     heap = uses.read(pile_recipe("square", ["circle"], size="9%"), container=square_container())
     assert not any(isinstance(step, Advise) for step in heap.use.steps(heap))
+
+
+@pytest.mark.parametrize(("rows", "container"), [(3, with_tail(8)), (30, round_container())])
+def test_a_chart_is_not_sent_to_a_container_that_would_not_do(
+    rows: int, container: Container
+) -> None:
+    told = advised(chart_recipe("tail", {"n": list(range(1, rows + 1))}), container)
+    assert told.endswith("; more marks, of more rows or of a smaller --unit, would show more of it")
 
 
 def _guitar(neck: float) -> Container:

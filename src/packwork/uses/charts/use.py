@@ -9,6 +9,7 @@ from typing import final
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
+from packwork.pipeline.plan.counts import LEAST, items_needed
 from packwork.pipeline.read import Material
 from packwork.pipeline.state import State
 from packwork.pipeline.step import RunStep
@@ -67,9 +68,10 @@ class Marks(Use):
         return list(colours) if any(colours) else None
 
     def remedy(self, job: Job) -> str:
-        """Another container: the data say how many marks there are, and how large."""
-        del job
-        return "a container without thin parts, such as circle, would show"
+        """Another container, if so many marks would show a plain one; else more marks."""
+        if items_needed(job.container).count > len(job.items) >= LEAST:
+            return "a container without thin parts, such as circle, would show"
+        return "more marks, of more rows or of a smaller --unit, would show more of it"
 
 
 @final

@@ -202,7 +202,9 @@ class Words(Use):
         if self.read.found > count:
             needed = max(words_needed(job.container), 2 * count)
             said = [f"-n {min(needed, self.read.found)} would show more of it"]
-        if job.plan.sizes == "shared" and can_give_way(job):
+        # Fewer leave it bare with whatever sizes.
+        is_cloud = self.read.found >= MANY
+        if job.plan.sizes == "shared" and is_cloud and can_give_way(job):
             said.append("--sizes graded, whose proportions give way, would fill it")
         else:
             said.append(smaller_copies(job.plan.voids, WORDS_REACH))
