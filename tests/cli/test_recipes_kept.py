@@ -156,7 +156,9 @@ def test_a_recipe_runs_no_code_unless_that_is_said(folder, packwork) -> None:
     assert (folder / "ran").exists(), trusted.output
 
 
-def test_files_outside_a_recipes_folder_are_named(folder, packwork, tmp_path, monkeypatch) -> None:
+def test_files_outside_a_recipes_folder_are_named_once(
+    folder, packwork, tmp_path, monkeypatch
+) -> None:
     (tmp_path / "secret.txt").write_text("bears and bees", encoding="utf-8")
     (folder / "r.toml").write_text(
         'container = "circle"\nitems = []\nlevels = "16"\nepochs = 2\n[words]\n'
@@ -165,8 +167,9 @@ def test_files_outside_a_recipes_folder_are_named(folder, packwork, tmp_path, mo
     )
     result = packwork("run r.toml -q -o a.geojson")
     assert "r.toml reads files outside its folder: ../secret.txt" in result.stderr
+    assert result.stderr.count("secret.txt") == 1
     monkeypatch.chdir(tmp_path)
-    assert "outside its folder" not in packwork("run work/r.toml -q -o a.geojson").stderr
+    assert packwork("run work/r.toml -q -o a.geojson").stderr.count("secret.txt") == 1
 
 
 def test_modules_of_the_working_folder_are_left_alone(folder) -> None:

@@ -11,14 +11,9 @@ import typer
 from packwork.cli import options as shared
 from packwork.cli.failure import clear_errors
 from packwork.cli.fill import DEFAULT_OUTPUT
-from packwork.cli.terminal import say
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
 from packwork.recipe import make_recipe
-from packwork.recipe_paths import files_outside
-
-MOST_NAMED = 5
-"""Files outside a recipe's folder that are named. Chosen."""
 
 ABOUT_CONTAINERS = frozenset({"show_saliency"})
 """What ``run`` does not offer: it is for trying containers out."""
@@ -69,10 +64,6 @@ def run(
                 )
             file = stack.enter_context(recipe_of_session(recipe))
         options = read_recipe(file, allow_code=allow_code)
-        outside = files_outside(options, [file.parent, Path.cwd()])
-        if outside:
-            named = ", ".join(outside[:MOST_NAMED]) + (" ..." if outside[MOST_NAMED:] else "")
-            say(f"{recipe} reads files outside its folder: {named}")
         changes = shared.of_run(Verbs.FILL, asked)
         changes["losses"] = changes["losses"] or None
         if allow_code:

@@ -11,8 +11,8 @@ from typing import Any
 
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated
-from packwork.readers.files import exists, read_text
-from packwork.recipe_paths import found_from, named_files, with_paths
+from packwork.readers.files import read_text
+from packwork.recipe_paths import files_outside, found_from, with_paths
 
 MAX_BYTES = 1_000_000
 """Largest recipe file. Chosen."""
@@ -109,15 +109,10 @@ def _name_files_elsewhere(recipe: str | Path, options: Mapping[str, Any]) -> Non
 
     A recipe may come from anywhere, and could set any text that its reader can open.
     """
-    home = Path(recipe).parent.resolve()
-    elsewhere = [
-        name
-        for name in dict.fromkeys(named_files(options))
-        if exists(name) and not Path(name).resolve().is_relative_to(home)
-    ]
+    elsewhere = files_outside(options, [Path(recipe).parent])
     if elsewhere:
         names = enumerated(elsewhere, MOST_NAMED)
-        _LOG.warning("%s reads %s, outside of its own folder", recipe, names)
+        _LOG.warning("%s reads files outside its folder: %s", recipe, names)
 
 
 def check_no_code(options: Mapping[str, Any]) -> None:
