@@ -108,6 +108,7 @@ OPTIONS = [
     ("--pixels 99999999", "pixels: "),
     ("-o note.txt/out.svg", "a part of its path is a file"),
     ("-o out.tga", "'.tga' is not known; use one of .svg"),
+    ("-o out.tga", ".geojson, .json, .packwork"),
     ("-o out", "the name has no ending"),
     ("-o nothing.svg -o out.tga", "'.tga' is not known"),
     ("--report note.txt/report.json", "a part of its path is a file"),
@@ -117,7 +118,7 @@ OPTIONS = [
 OTHERS = [
     ("measure missing.geojson", "there is no such file"),
     ("measure broken.geojson", "is not JSON"),
-    ("measure light.png", "has no outlines to measure; give a .geojson, .svg or .dxf"),
+    ("measure light.png", "has no outlines to measure; give a .geojson, .svg, .dxf or .packwork"),
     ("measure missing.dxf", "there is no such file"),
     ("measure cut.svg", "not well-formed"),
     ("measure entities.svg", "entities"),

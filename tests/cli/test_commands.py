@@ -67,6 +67,16 @@ def test_without_output_a_drawing_in_the_working_folder(folder: Path, packwork: 
     assert "wrote collage.svg" in result.stdout
 
 
+@pytest.mark.parametrize("flag", ["--film a.gif", "--report a.json", "--save-recipe a.toml"])
+def test_where_any_file_is_named_no_other_is_written(
+    flag: str, folder: Path, packwork: Command
+) -> None:
+    films = "--fps 2 --seconds 1 --film-pixels 40" if "film" in flag else ""
+    result = packwork(f"fill circle star {QUICK} {flag} {films}")
+    assert result.exit_code == 0, result.output
+    assert [file.name for file in folder.iterdir()] == [flag.split()[1]]
+
+
 @pytest.mark.parametrize("container", ["circle", "heart", "bear", "islands", "stripe:6"])
 def test_containers_of_every_kind(container: str, folder: Path, packwork: Command) -> None:
     packwork(f"fill {container} star -n 3 {QUICK} -q -o out.svg")

@@ -132,14 +132,14 @@ def edit(
         from packwork import writers
         from packwork.inputs import check_no_input
         from packwork.readers.container import read_container
-        from packwork.readers.layouts.read import is_session
+        from packwork.readers.layouts.read import SESSION, is_session
 
-        outputs = list(output or [DEFAULT_OUTPUT])
+        outputs = list(output or ([] if report else [DEFAULT_OUTPUT]))
         sides = [path for path in outputs if is_session(path)]
         outputs = [path for path in outputs if not is_session(path)]
         sides += [] if report is None else [report]
         for path in outputs:
-            writers.check_output(path)
+            writers.check_output(path, SESSION)
         for side in sides:
             writers.check_writable(side)
         writers.check_outputs([*outputs, *sides])

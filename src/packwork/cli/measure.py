@@ -22,7 +22,7 @@ def measure(
     layout: Annotated[
         Path,
         typer.Argument(
-            metavar="LAYOUT", help="A layout that was saved, as .geojson, .svg or .dxf."
+            metavar="LAYOUT", help="A layout that was saved, as .geojson, .svg, .dxf or .packwork."
         ),
     ],
     painted: Annotated[

@@ -8,7 +8,7 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, NoReturn
@@ -31,7 +31,7 @@ from packwork.cli.watch import WATCH
 from packwork.display.bar import TerminalBar
 from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
-from packwork.readers.layouts.read import is_session
+from packwork.readers.layouts.read import SESSION, is_session
 from packwork.recipe import Recipe
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import validated
@@ -109,7 +109,10 @@ class Outputs:
             Before anything has been run or written.
         """
         for path in self.files:
-            (writers.check_writable if is_session(path) else writers.check_output)(path)
+            if is_session(path):
+                writers.check_writable(path)
+            else:
+                writers.check_output(path, SESSION)
         for path in self.films:
             writers.check_film(path)
         for side in self.sides:
@@ -160,7 +163,7 @@ def carry_out(recipe: Recipe, asked: Mapping[str, Any], default: Path) -> NoRetu
     asked
         All options of the command by name.
     default
-        File to write where none is named.
+        File to write where no file of any kind is named.
     """
     outputs = outputs_asked(asked, default, recipe.film)
     raise typer.Exit(run_and_write(recipe, outputs, asked["quiet"]))
@@ -180,8 +183,8 @@ def outputs_asked(
     """
     drawing = {key: asked[key] for key in DrawingOptions.model_fields if key in asked}
     filming = {key: asked[key] for key in FilmOptions.model_fields if key in asked}
-    return Outputs(
-        files=asked["output"] or [default],
+    outputs = Outputs(
+        files=asked["output"] or (),
         options=writers.write_options(**drawing),
         films=asked["film"] or (),
         filming=film_options(recipes, **filming),
@@ -193,6 +196,7 @@ def outputs_asked(
         choosing=validated(Choosing, {name: asked[name] for name in Choosing.model_fields}),
         drawing=drawing,
     )
+    return outputs if outputs.every else replace(outputs, files=[default])
 
 
 def run_and_write(recipe: Recipe, outputs: Outputs, quiet: bool = False) -> int:

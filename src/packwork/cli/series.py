@@ -113,7 +113,7 @@ class _Files:
     asked
         All options of the command by name.
     verb
-        What files are called by where no name is asked for.
+        What files are called by where no file of any kind is named.
     column, labels
         Of the steps.
     """
@@ -121,12 +121,13 @@ class _Files:
     def __init__(
         self, asked: Mapping[str, Any], verb: str, column: str, labels: Sequence[str]
     ) -> None:
-        given = asked["output"] or [Path(f"{verb}-{{{column}}}.svg")]
-        templates = [str(path) for path in given]
-        self.steps = step_files(templates, column, labels)
         self.films: list[Path] = list(asked["film"] or ())
         self.sheet: Path | None = asked["contact_sheet"]
         self.report: Path | None = asked["report"]
+        given = list(map(str, asked["output"] or ()))
+        if not (given or self.films or self._sides):
+            given = [f"{verb}-{{{column}}}.svg"]
+        self.steps = step_files(given, column, labels)
         for path in self.films:
             writers.check_film(path)
         for path in self._sides:

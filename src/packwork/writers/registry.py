@@ -165,8 +165,13 @@ ONLY_FILMS = frozenset({".gif", ".apng", ".mp4", ".webm"})
 """Endings of pictures that move, which a layout alone is not."""
 
 
-def check_output(path: str | Path) -> None:
+def check_output(path: str | Path, *others: str) -> None:
     """Refuse, before a run, a path that :func:`write` would refuse after it.
+
+    Parameters
+    ----------
+    others
+        Endings to name beside those of layouts: of what the caller writes itself.
 
     Raises
     ------
@@ -178,7 +183,7 @@ def check_output(path: str | Path) -> None:
     --------
     >>> check_output("layout.svg")
     """
-    _encoder(path)
+    _encoder(path, *others)
     check_writable(path)
 
 
@@ -269,10 +274,10 @@ def printed_drawing(layout: Layout, options: WriteOptions | None = None) -> tupl
     return drawing_text(seen, options.svg), bleed
 
 
-def _encoder(path: str | Path) -> Encoder:
+def _encoder(path: str | Path, *others: str) -> Encoder:
     ending = Path(path).suffix.lower()
     if ending not in WRITERS:
-        known = ", ".join(WRITERS)
+        known = ", ".join((*WRITERS, *others))
         if ending in ONLY_FILMS:
             raise WriteError(path, "is a film; give it to --film (in Python to save_film)")
         met = f"the ending {ending!r} is not known" if ending else "the name has no ending"

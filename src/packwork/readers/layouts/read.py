@@ -92,7 +92,9 @@ def read_written(path: str | Path) -> Layout:
         raise RecipeError("layout", f"is {type(path).__name__}; give a layout or its file")
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
-        raise ReadError(path, "has no outlines to measure; give a .geojson, .svg or .dxf")
+        raise ReadError(
+            path, "has no outlines to measure; give a .geojson, .svg, .dxf or .packwork"
+        )
     if not is_drawn(path):
         return read_layout(path)
     most = MAX_BYTES if ending == ".svg" else MAX_LAYOUT_BYTES
