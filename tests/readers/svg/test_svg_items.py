@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
+from packwork.errors import ReadError
 from packwork.readers.svg.item import item_of_svg
 from packwork.scene.item import VectorArt
 
@@ -68,6 +69,21 @@ def test_shadows_beyond_the_shapes_are_taken_off(caplog):
     assert isinstance(item.art, VectorArt)
     assert item.art.markup == '<rect width="30" height="20"/>'
     assert "a.svg: its filters were left out" in caplog.text
+
+
+@pytest.mark.parametrize(
+    "step",
+    [
+        "",
+        '<feFlood flood-opacity="0"/>',
+        '<feOffset dx="500"/>',
+        '<feComponentTransfer><feFuncA type="linear" slope="0"/></feComponentTransfer>',
+    ],
+)
+def test_a_drawing_whose_filter_leaves_nothing_is_refused_by_name(step: str) -> None:
+    hidden = f'<filter id="f">{step}</filter><rect width="30" height="20" filter="url(#f)"/>'
+    with pytest.raises(ReadError, match=r"a\.svg: paints nothing, for its filters hide"):
+        item_of(hidden)
 
 
 def test_shading_within_the_shapes_stays(caplog):

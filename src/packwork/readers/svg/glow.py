@@ -1,4 +1,4 @@
-"""Filters that paint beyond their shapes: detected by rendering, and removed."""
+"""Filters that paint beyond their shapes, or nothing at all: detected by rendering."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from dataclasses import replace
 from packwork.readers.budget.expansion import count_expanded
 from packwork.readers.budget.filters import FILTER, drop_filters
 from packwork.readers.svg.drawing import Drawing
-from packwork.readers.svg.render.compare import SIDES_PX, excess
-from packwork.readers.unfit import notice
+from packwork.readers.svg.render.compare import SIDES_PX, excess, side_by_side
+from packwork.readers.unfit import UnfitError, notice
 
 MOST_GLOW = 0.02
 """What filters may add beyond the ink, as a share of it. Larger lets shadows fall on
@@ -20,6 +20,11 @@ shading of four public collections stays below 0.003, shadows come to 0.05 and m
 
 def without_glow(drawing: Drawing) -> ET.Element:
     """Tree of a drawing, its filters taken off if they paint beyond its ink, which is said.
+
+    Raises
+    ------
+    UnfitError
+        If its filters leave nothing to be seen.
 
     Examples
     --------
@@ -34,7 +39,10 @@ def without_glow(drawing: Drawing) -> ET.Element:
     work = replace(drawing.work, layers=count_expanded(root)[1])
     side = work.side(SIDES_PX[0], work.page)
     work.spend(side, work.page)
-    if excess(ink, root, drawing.page, side) <= MOST_GLOW:
+    shown, drawn = side_by_side(ink, root, drawing.page, side)
+    if not shown.any():
+        raise UnfitError("paints nothing, for its filters hide every shape; save it without them")
+    if excess(shown, drawn) <= MOST_GLOW:
         return root
     notice("its filters were left out, for they paint shadows or light beyond its shapes")
     plain = copy.deepcopy(root)

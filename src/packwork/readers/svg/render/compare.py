@@ -87,32 +87,17 @@ class Comparison:
         return reached
 
 
-def excess(region: Region, root: ET.Element, page: Page | None, side: int) -> float:
-    """What a clean drawing, filters and all, shows beyond a region, as a share of that.
+def excess(shown: FloatArray, drawn: FloatArray) -> float:
+    """What a drawing shows beyond a region, both as pictures, as a share of the region.
 
     What is within a pixel of the region is not beyond it: filters leave hard edges.
 
-    Parameters
-    ----------
-    region, root, page
-        As for ``Comparison``, but the drawing is shown as it is.
-    side
-        Longer side of the picture that tells, in pixels.
-
-    Raises
-    ------
-    UnfitError
-        If resvg cannot render the drawing.
-
     Examples
     --------
-    >>> import shapely
-    >>> from packwork.readers.svg_syntax.page import read_page
-    >>> root = ET.fromstring('<svg width="20" height="20"><rect width="10" height="10"/></svg>')
-    >>> round(excess(shapely.box(0, 0, 10, 5), root, read_page(root), 64), 1)
-    1.0
+    >>> whole = np.ones((8, 8))
+    >>> excess(whole, np.pad(np.ones((8, 4)), ((0, 0), (0, 4))))
+    0.75
     """
-    shown, drawn = side_by_side(region, root, page, side)
     return float(np.maximum(shown - _spread(drawn), 0.0).sum() / max(1.0, drawn.sum()))
 
 
