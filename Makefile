@@ -44,8 +44,9 @@ test: .venv/installed-dev
 	$(BIN)/ruff check src tests benchmarks examples tools
 	$(BIN)/mypy
 	$(BIN)/lint-imports
-	$(BIN)/python -m pytest -q -n auto
-	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest -q -n auto tests/raster tests/losses tests/fields
+	$(BIN)/python -m pytest -q -n auto --dist worksteal
+	NUMBA_DISABLE_JIT=1 $(BIN)/python -m pytest -q -n auto --dist worksteal -m "not compiled" \
+	  tests/raster tests/losses tests/fields
 
 # What reads, draws, asks and writes, with the lowest version of each dependency. Old libraries
 # warn of each other's ways.

@@ -9,14 +9,12 @@ the limit in the same commit, and says why; one that makes do with less lowers i
 from __future__ import annotations
 
 import ast
-import io
 import re
 import statistics
 import subprocess
 import sys
-import tokenize
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 
@@ -25,15 +23,6 @@ SOURCE = ROOT / "src" / "packwork"
 
 ROAD = ("pipeline", "run", "steps", "uses")
 """Packages between a recipe and the stages."""
-
-NO_CODE = {
-    tokenize.COMMENT,
-    tokenize.NL,
-    tokenize.NEWLINE,
-    tokenize.INDENT,
-    tokenize.DEDENT,
-    tokenize.ENDMARKER,
-}
 
 DOCUMENTED = (ast.Module, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef)
 
@@ -86,30 +75,34 @@ LIMITS = {
 """Most of each count. They are what is so, not what is aimed at."""
 
 
-def modules() -> Iterator[tuple[Path, str, ast.Module]]:
-    """Path, text and tree of each module of the package."""
+def modules() -> Iterator[tuple[str, list[ast.AST]]]:
+    """Text and nodes of each module of the package."""
     for path in sorted(SOURCE.rglob("*.py")):
         text = path.read_text(encoding="utf-8")
-        yield path, text, ast.parse(text)
+        yield text, list(ast.walk(ast.parse(text)))
 
 
-def docstring_lines(tree: ast.Module) -> set[int]:
+def docstring_lines(nodes: Iterable[ast.AST]) -> set[int]:
     """Lines that docstrings of modules, classes and functions take; those of fields are code."""
     lines: set[int] = set()
-    for node in ast.walk(tree):
+    for node in nodes:
         if isinstance(node, DOCUMENTED) and ast.get_docstring(node, clean=False) is not None:
-            first = node.body[0]
-            lines.update(range(first.lineno, (first.end_lineno or first.lineno) + 1))
+            lines.update(_lines_of(node.body[0]))
     return lines
 
 
-def code_lines(text: str) -> set[int]:
+def code_lines(text: str, nodes: Iterable[ast.AST]) -> set[int]:
     """Lines with something besides comments and blanks; docstrings count."""
-    lines: set[int] = set()
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type not in NO_CODE:
-            lines.update(range(token.start[0], token.end[0] + 1))
+    stripped = (line.strip() for line in text.split("\n"))
+    lines = {k for k, line in enumerate(stripped, 1) if line and not line.startswith("#")}
+    for node in nodes:
+        if isinstance(node, (ast.Constant, ast.JoinedStr)):
+            lines.update(_lines_of(node))
     return lines
+
+
+def _lines_of(node: ast.expr | ast.stmt) -> range:
+    return range(node.lineno, (node.end_lineno or node.lineno) + 1)
 
 
 def begins_with_question(node: ast.AST) -> bool:
@@ -121,11 +114,11 @@ def begins_with_question(node: ast.AST) -> bool:
     return bool(_QUESTION.match(ast.get_docstring(node) or ""))
 
 
-def calls_of(tree: ast.Module, name: str) -> int:
+def calls_of(nodes: Iterable[ast.AST], name: str) -> int:
     """Number of calls of a plain name."""
     return sum(
         isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == name
-        for node in ast.walk(tree)
+        for node in nodes
     )
 
 
@@ -143,14 +136,13 @@ def counts() -> list[Count]:
     code, docs, per_file = 0, 0, []
     of_id = variables = questions = chosen = 0
     classes: Counter[str] = Counter()
-    for _, text, tree in modules():
-        described = docstring_lines(tree)
-        per_file.append(len(code_lines(text) - described))
+    for text, nodes in modules():
+        described = docstring_lines(nodes)
+        per_file.append(len(code_lines(text, nodes) - described))
         code += per_file[-1]
         docs += len(described)
-        of_id += calls_of(tree, "id")
-        variables += calls_of(tree, "ContextVar")
-        nodes = list(ast.walk(tree))
+        of_id += calls_of(nodes, "id")
+        variables += calls_of(nodes, "ContextVar")
         questions += sum(map(begins_with_question, nodes))
         classes.update(node.name for node in nodes if isinstance(node, ast.ClassDef))
         chosen += len(_CHOSEN.findall(text))
@@ -167,7 +159,7 @@ def counts() -> list[Count]:
 def median_file() -> float:
     """Lines of code of the median file."""
     return statistics.median(
-        len(code_lines(text) - docstring_lines(tree)) for _, text, tree in modules()
+        len(code_lines(text, nodes) - docstring_lines(nodes)) for text, nodes in modules()
     )
 
 

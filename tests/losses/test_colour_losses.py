@@ -68,6 +68,7 @@ def test_losses_are_told_by_what_they_take() -> None:
     assert not takes_colour(lambda *images: None)
 
 
+@pytest.mark.compiled
 def test_a_level_pulls_by_what_colours_change() -> None:
     """Against differences of what the level says the objective is, on its own images."""
     container, outlines = square_container(40.0), [star(7.0), disc(6.0, 9), star(6.0)]
@@ -85,6 +86,7 @@ def test_a_level_pulls_by_what_colours_change() -> None:
     assert_gradient(value, gradient, as_array(at), step=2.0**-8, error=3e-3)
 
 
+@pytest.mark.compiled
 def test_items_go_where_their_colours_are_wanted() -> None:
     scores = []
     for seed in range(3):
@@ -97,6 +99,7 @@ def test_items_go_where_their_colours_are_wanted() -> None:
     assert pulled.manifest["recipe"]["losses"] == {"warm_left": 5.0}
 
 
+@pytest.mark.compiled
 def test_colours_of_a_palette_stay_where_the_loss_had_them() -> None:
     layout = pw.fill(
         "square", "circle", palette=["#ff0000", "#0000ff"], losses={warm_left: 5.0}, **RUN
@@ -106,6 +109,7 @@ def test_colours_of_a_palette_stay_where_the_loss_had_them() -> None:
     assert score(layout) < 0
 
 
+@pytest.mark.compiled
 def test_the_background_is_the_functions_own() -> None:
     seen: list[tuple[Image, Image]] = []
 
@@ -155,6 +159,7 @@ def blind(density: Image, container: Image) -> Any:
     return pw.Term(0.0, np.ones_like(density), np.ones((*density.shape, 3)))
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize(
     ("loss", "problem"),
     [
@@ -172,6 +177,7 @@ def test_what_is_no_loss_is_refused_on_one_line(loss: Any, problem: str) -> None
     assert "\n" not in str(met.value)
 
 
+@pytest.mark.compiled
 def test_a_loss_of_colours_that_says_nothing_is_told(caplog: pytest.LogCaptureFixture) -> None:
     def silent(density: Image, colour: Image, container: Image) -> pw.Term:
         return pw.Term(0.0, np.zeros_like(density), np.zeros_like(colour))
@@ -180,6 +186,7 @@ def test_a_loss_of_colours_that_says_nothing_is_told(caplog: pytest.LogCaptureFi
     assert "the loss silent is zero wherever items are" in caplog.text
 
 
+@pytest.mark.compiled
 def test_a_loss_of_colours_by_name_has_its_term_in_the_history(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -211,6 +218,7 @@ def yellow(density, colour, container):
     assert red / (red + kept) > float(np.average(shares, weights=plain.areas))
 
 
+@pytest.mark.compiled
 def test_the_same_layout_for_any_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("packwork.raster.coverage.PARTED", 0)
     found = []

@@ -293,6 +293,7 @@ def test_points_and_starts_are_checked(points: Any, starts: Any, problem: str) -
         coverage(points, starts, (2, 2))
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("side", [MAX_SIDE_PX])
 def test_the_widest_image_keeps_its_exact_sums(side: int, rng: np.random.Generator) -> None:
     ring = np.array([[0.3, 0.2], [side - 0.4, 0.7], [side * 0.4, 1.9]])
@@ -302,6 +303,7 @@ def test_the_widest_image_keeps_its_exact_sums(side: int, rng: np.random.Generat
         assert float(image.sum(dtype=np.float64)) == pytest.approx(signed_area(ring), abs=tolerance)
 
 
+@pytest.mark.compiled
 @pytest.mark.parametrize("shape", [(3, 4), (1500, 1500)], ids=["small", "large"])
 @pytest.mark.parametrize("starts", [[0], [0, 0], [0, 0, 0]])
 def test_rings_without_points_cover_nothing(starts: list[int], shape: tuple[int, int]) -> None:
