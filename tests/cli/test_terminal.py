@@ -50,26 +50,6 @@ def test_names_move_no_cursor(folder: Path, packwork) -> None:
     assert "wrote x\\x1b]0;y.geojson" in written.stdout
 
 
-@pytest.mark.parametrize("letters", [300, 5_000])
-@pytest.mark.parametrize(
-    "line",
-    [
-        "fill NAME", "fill NAME.svg", "fill circle NAME", "fill circle NAME/a.svg",
-        "fill circle NAME*.svg", "fill circle star --weights NAME", "fill text:A --font NAME",
-        "fill circle star --filler NAME", "fill circle star --start NAME.geojson",
-        "fill around:NAME star", "words circle NAME.csv", "words circle NAME.txt",
-        "words circle NAME", "photos circle NAME", "photos circle NAME.jpg",
-        "photos circle star --shape NAME", "chart circle NAME.csv", "chart circle NAME",
-        "pile square star --emit NAME.svg", "run NAME", "measure NAME.svg", "measure NAME",
-        "fill circle star -o NAME.svg", "fill circle star --report NAME", "demo NAME",
-    ],
-)  # fmt: skip
-def test_names_that_no_disk_takes_are_one_line(packwork, line: str, letters: int) -> None:
-    result = packwork(line.replace("NAME", "n" * letters))
-    assert result.exit_code == 2
-    assert result.stderr.count("\n") == 1
-
-
 def test_a_folder_that_is_gone_is_one_line(folder: Path) -> None:
     gone = folder / "gone"
     gone.mkdir()

@@ -16,14 +16,20 @@ def test_even_density_gives_even_cells() -> None:
 
 
 @pytest.mark.parametrize("factor", [4.0, 16.0])
-def test_cells_shrink_by_the_square_root_of_the_density(factor: float) -> None:
-    """Gersho's law in the plane: area of a cell by the density to the power of minus one half."""
-    density = np.ones((80, 160))
-    density[:, 80:] = factor
-    found = stippled(np.ones_like(density), density, 200, np.random.default_rng(1), rounds=60)
-    left = found.x < 80
-    ratio = found.areas[left].mean() / found.areas[~left].mean()
-    assert ratio == pytest.approx(np.sqrt(factor), rel=0.2)
+def test_cells_shrink_with_the_density_from_any_seed(factor: float) -> None:
+    """At best by its root (Gersho's law in the plane); points drawn by the density alone, by all.
+
+    Three points fall to each row here: drawn in even steps they would stand in columns.
+    """
+    density = np.ones((40, 80))
+    density[:, 40:] = factor
+    ratios = []
+    for seed in range(5):
+        found = stippled(np.ones_like(density), density, 120, np.random.default_rng(seed))
+        left = found.x < 40
+        ratios.append(found.areas[left].mean() / found.areas[~left].mean())
+    assert np.sqrt(factor) < min(ratios)
+    assert max(ratios) < factor
 
 
 def test_points_lie_in_a_convex_region_and_repeat() -> None:

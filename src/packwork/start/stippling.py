@@ -74,9 +74,12 @@ def stippled(
 
 
 def _drawn(weights: FloatArray, count: int, rng: np.random.Generator) -> IntArray:
-    """Pixels drawn in equal steps of the summed weight: spread better than by chance."""
+    """Pixels drawn one from each equal part of the summed weight: spread better than by chance.
+
+    At one place of all parts they would stand in columns where rows hold a whole number of parts.
+    """
     sums = np.cumsum(weights)
-    at = (np.arange(count) + rng.uniform()) / count * sums[-1]
+    at = (np.arange(count) + rng.uniform(size=count)) / count * sums[-1]
     return np.asarray(np.minimum(np.searchsorted(sums, at), len(sums) - 1))
 
 
