@@ -18,8 +18,8 @@ from packwork.settle.pile import Arrival, pile
 from scenes import disc, overlap_area, placed, square, square_container
 
 
-def _mixed(count: int, spread: float = 0.5) -> FloatArray:
-    return np.asarray(np.exp(np.random.default_rng(1).normal(0, spread, count)))
+def _mixed(count: int, seed: int = 1) -> FloatArray:
+    return np.asarray(np.exp(np.random.default_rng(seed).normal(0, 0.5, count)))
 
 
 def _least_gap(centres: FloatArray, radii: FloatArray) -> float:
@@ -43,10 +43,13 @@ def test_equal_discs_come_near_the_best_circle_that_is_known(count: int, least: 
 
 @pytest.mark.parametrize(("count", "least"), [(10, 0.73), (100, 0.83), (400, 0.84)])
 def test_mixed_discs_are_no_looser(count: int, least: float) -> None:
-    radii = _mixed(count)
-    centres = packed_circles(radii, np.random.default_rng(0))
-    assert _least_gap(centres, radii) > 0
-    assert _covered(centres, radii) > least
+    covered = []
+    for seed in range(3):
+        radii = _mixed(count, seed)
+        centres = packed_circles(radii, np.random.default_rng(seed))
+        assert _least_gap(centres, radii) > 0
+        covered.append(_covered(centres, radii))
+    assert np.median(covered) > least
 
 
 @pytest.mark.parametrize("count", [1, 2, 3])

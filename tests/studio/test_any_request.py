@@ -109,7 +109,7 @@ def exports() -> Iterator[Any]:
     )
     drawn = [*DrawingOptions.model_fields, *KEYS]
     filmed = ["background", "show_container", *FilmOptions.model_fields, *KEYS]
-    for kind, names in (("geojson", drawn), ("svg", drawn), ("film.json", filmed)):
+    for kind, names in (("geojson", drawn), ("film.json", filmed)):
         for name, value in itertools.product(names, TYPES):
             yield {"format": kind, "options": {name: value}}
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from io import BytesIO
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,6 +23,13 @@ def in_bytes() -> bytes:
     return stream.getvalue()
 
 
+@pytest.fixture(scope="module")
+def of_file(tmp_path_factory: pytest.TempPathFactory) -> pw.Layout:
+    picture = tmp_path_factory.mktemp("picture") / "halves.png"
+    picture.write_bytes(in_bytes())
+    return pw.fill("square", "star", count=12, picture=picture, **QUICK)
+
+
 @pytest.mark.parametrize(
     "picture",
     [
@@ -34,12 +40,8 @@ def in_bytes() -> bytes:
     ],
     ids=["shares", "bytes of colours", "picture", "file"],
 )
-def test_a_picture_in_memory_is_shown_as_its_file_is(picture: Any, tmp_path: Path) -> None:
-    (tmp_path / "halves.png").write_bytes(in_bytes())
-    of_file, of_memory = (
-        pw.fill("square", "star", count=12, picture=one, **QUICK)
-        for one in (tmp_path / "halves.png", picture)
-    )
+def test_a_picture_in_memory_is_shown_as_its_file_is(picture: Any, of_file: pw.Layout) -> None:
+    of_memory = pw.fill("square", "star", count=12, picture=picture, **QUICK)
     assert np.array_equal(of_file.poses.x, of_memory.poses.x)
     assert list(of_file.to_dataframe()["color"]) == list(of_memory.to_dataframe()["color"])
 
