@@ -55,7 +55,7 @@ LOWEST := tests/readers tests/writers tests/display tests/recipe tests/scene tes
   tests/test_api_values.py tests/test_errors.py tests/typed
 
 test-lowest: .lowest/installed
-	$(LOWEST_BIN)/python -m pytest -q -n auto -W ignore::DeprecationWarning $(LOWEST)
+	$(LOWEST_BIN)/python -m pytest -q -n auto --dist worksteal -W ignore::DeprecationWarning $(LOWEST)
 
 .lowest/installed: pyproject.toml
 	$(PYTHON) -c "import sys; sys.exit(sys.version_info[:2] != (3, 11) and 'The lowest versions are those of Python 3.11: make test-lowest PYTHON=python3.11')"

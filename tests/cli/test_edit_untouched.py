@@ -50,7 +50,7 @@ def sources(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def _fill(*more: object) -> Callable[[Path], Sequence[object]]:
-    return lambda at: ["fill", "heart", at / "coin.svg", at / "gift.svg", *more, "-n", 10, *QUICK]
+    return lambda at: ["fill", "heart", at / "coin.svg", at / "gift.svg", *more, "-n", 6, *QUICK]
 
 
 LAYOUTS: dict[str, Callable[[Path], Sequence[object]]] = {
@@ -58,7 +58,7 @@ LAYOUTS: dict[str, Callable[[Path], Sequence[object]]] = {
     "palette": _fill("star", "--palette", "#264653,#e9c46a"),
     "on a ground": _fill("--background", "#fff8e7", "--show-container", "--rotate", "none"),
     "in full": _fill("star", "--flatten"),
-    "pictures": lambda at: ["fill", "circle", at / "blob.png", "owl", "-n", 8, *QUICK],
+    "pictures": lambda at: ["fill", "circle", at / "blob.png", "owl", "-n", 5, *QUICK],
     "photographs": lambda at: ["photos", "circle", at / "photos", *QUICK],
     "marks": lambda at: [
         "chart", "circle", at / "marks.csv", "--size-by", "kg", "--color-by", "name",

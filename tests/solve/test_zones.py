@@ -112,16 +112,21 @@ def test_relocation_leaves_held_items_where_they_are() -> None:
     assert [relocation.item for relocation in relocations] == [0]
 
 
-def test_after_a_solve_all_are_in_their_zone(quick: Options) -> None:
+def test_a_solve_brings_those_of_a_zone_into_it(quick: Options) -> None:
+    """Nearly all, whatever the start; the finish is there for the rest."""
     outlines = [disc(), star(), square()] * 4
-    rng = np.random.default_rng(3)
-    start = poses(rng.uniform(15, 85, 12), rng.uniform(15, 85, 12), 0.0, np.full(12, 9.0))
-    items = [0, 1, 2, 3]
-    limits = limits_of(items, 12, smallest=start.scale / 2, largest=start.scale * 2)
+    items, zone = [0, 1, 2, 3], replace(square_container(), outline=ZONE)
     options = quick(epochs=250, levels=(40, 120))
-    end = solve(square_container(), outlines, start, start.scale, options, limits=limits).poses
-    zone = replace(square_container(), outline=ZONE)
-    shares = [share_inside(placed(outlines, end)[k], zone) for k in range(12)]
-    # Those of the zone are in it, others where they like.
-    assert min(shares[k] for k in items) > 9 / 10
-    assert min(shares) < 9 / 10
+    shares: list[list[float]] = [[], []]
+    for seed in range(4):
+        rng = np.random.default_rng(seed)
+        start = poses(rng.uniform(15, 85, 12), rng.uniform(15, 85, 12), 0.0, np.full(12, 9.0))
+        bounds = {"smallest": start.scale / 2, "largest": start.scale * 2}
+        for k, given in enumerate((Limits.free(12), limits_of(items, 12))):
+            limits = replace(given, **bounds)
+            end = solve(square_container(), outlines, start, start.scale, options, limits=limits)
+            ends = placed(outlines, end.poses)
+            shares[k] += [share_inside(ends[item], zone) for item in items]
+    free, held = np.mean(shares, axis=1)
+    assert free < 1 / 2
+    assert held > 9 / 10
