@@ -19,13 +19,7 @@ class Cluster:
         self.scheduler = self._start("dask_scheduler", *where, "--no-dashboard")
         self._wait_for(self._file)
         self.address = json.loads(self._file.read_text(encoding="utf-8"))["address"]
-        self.workers: list[subprocess.Popen[bytes]] = []
-        self.fill_up(workers)
-
-    def fill_up(self, workers: int = 2) -> None:
-        """Start as many workers as have ended."""
-        self.workers = [one for one in self.workers if one.poll() is None]
-        self.workers += [self.add_worker() for _ in range(workers - len(self.workers))]
+        self.workers = [self.add_worker() for _ in range(workers)]
 
     def add_worker(self) -> subprocess.Popen[bytes]:
         own = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--host", "127.0.0.1")

@@ -74,8 +74,8 @@ def statuses(outcomes: Any) -> list[str]:
     return [one.status for one in outcomes]
 
 
-@pytest.fixture(scope="module")
-def processes(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
+@pytest.fixture
+def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
     pytest.importorskip("distributed", reason="the extra packwork[cluster] is not installed")
     one = Cluster(tmp_path_factory.mktemp("cluster"))
     try:
@@ -84,25 +84,18 @@ def processes(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Cluster]:
         one.close()
 
 
-@pytest.fixture
-def cluster(processes: Cluster) -> Cluster:
-    """One for all tests; workers that another has ended are started again."""
-    processes.fill_up()
-    return processes
-
-
 def test_workers_far_away_make_the_same_bytes_from_what_they_are_sent(
     home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(home)
-    plan = plan_of(Path(), "alone", 3)
-    assert statuses(carried_out(plan, standing(plan), 1)) == ["made"] * 3
-    plan = plan_of(Path(), "far", 3)
+    plan = plan_of(Path(), "alone")
+    assert statuses(carried_out(plan, standing(plan), 1)) == ["made"] * 6
+    plan = plan_of(Path(), "far")
     found = carried_out(plan, standing(plan), scheduler=cluster.address)
-    assert statuses(found) == ["made"] * 3
+    assert statuses(found) == ["made"] * 6
     assert contents(Path("far")) == contents(Path("alone"))
-    again = plan_of(Path(), "far", 3)
-    assert len(standing(again).kept) == 3
+    again = plan_of(Path(), "far")
+    assert len(standing(again).kept) == 6
 
 
 def test_a_worker_that_is_killed_costs_no_row(home: Path, cluster: Cluster) -> None:
@@ -138,6 +131,26 @@ def test_a_row_that_ends_its_workers_fails_alone(
     assert {made.outcomes[k].status for k in (0, 2)} <= {"made", "short"}
 
 
+def test_a_scheduler_that_is_lost_ends_with_what_was_made(
+    home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("packwork.batches.cluster.LOST_SECONDS", 1.0)
+    plan, heard = plan_of(home, "far"), list[Outcome]()
+
+    def kill(outcome: Outcome) -> None:
+        if not heard:
+            cluster.scheduler.kill()
+        heard.append(outcome)
+
+    found = carried_out(plan, standing(plan), told=kill, scheduler=cluster.address)
+    assert "made" in statuses(found)
+    assert "stopped" in statuses(found)
+    assert set(statuses(found)) == {"made", "stopped"}
+    assert not list((home / "far").glob(".packwork-*"))
+    rest = carried_out(plan, standing(plan), 1)
+    assert set(statuses(rest)) == {"made", "kept"}
+
+
 def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(home: Path, cluster: Cluster) -> None:
     rows = [
         {"name": "a", "shape": "heart", "art": str(home / "own.svg"), "n": 4},
@@ -158,12 +171,12 @@ def test_a_bad_row_is_its_own_and_in_place_needs_no_sending(home: Path, cluster:
 def test_a_local_cluster_serves_too(home: Path) -> None:
     distributed = pytest.importorskip("distributed", reason="packwork[cluster] is not installed")
     local = distributed.LocalCluster(
-        n_workers=1, threads_per_worker=1, dashboard_address=None, silence_logs=50
+        n_workers=2, threads_per_worker=1, dashboard_address=None, silence_logs=50
     )
     with local:
-        plan = plan_of(home, "local", 2)
+        plan = plan_of(home, "local", 3)
         found = carried_out(plan, standing(plan), scheduler=local.scheduler_address)
-    assert statuses(found) == ["made"] * 2
+    assert statuses(found) == ["made"] * 3
 
 
 def test_without_a_scheduler_or_dask_it_is_one_line(
@@ -199,24 +212,3 @@ def test_a_parcel_holds_what_is_read_and_a_mirror_calls_it_so(home: Path, tmp_pa
         assert read_bytes(name, 1_000) == SVG.format(9).encode()
         names = [str(home / "drawn" / f"{k}.svg") for k in (0, 1)]
         assert sorted(names_like(str(home / "drawn" / "*.svg"))) == names
-
-
-def test_a_scheduler_that_is_lost_ends_with_what_was_made(
-    home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """Last of all: the scheduler is that of all tests."""
-    monkeypatch.setattr("packwork.batches.cluster.LOST_SECONDS", 1.0)
-    plan, heard = plan_of(home, "far"), list[Outcome]()
-
-    def kill(outcome: Outcome) -> None:
-        if not heard:
-            cluster.scheduler.kill()
-        heard.append(outcome)
-
-    found = carried_out(plan, standing(plan), told=kill, scheduler=cluster.address)
-    assert "made" in statuses(found)
-    assert "stopped" in statuses(found)
-    assert set(statuses(found)) == {"made", "stopped"}
-    assert not list((home / "far").glob(".packwork-*"))
-    rest = carried_out(plan, standing(plan), 1)
-    assert set(statuses(rest)) == {"made", "kept"}
