@@ -91,3 +91,37 @@ def test_what_is_no_session_is_one_line(folder: Path) -> None:
     code, said = packwork("run", "a.packwork", "--save-recipe", "r.toml", "-q")
     assert code == 2
     assert "a session holds its drawings itself" in said
+
+
+def test_a_run_begins_with_a_session_as_with_any_layout(folder: Path) -> None:
+    items = ("circle", "star", "owl", "-n", "6", "--levels", "50", *QUICK)
+    assert packwork("fill", *items, "-o", "a.packwork", "-o", "a.geojson")[0] == 0
+    for ending in ("packwork", "geojson"):
+        out = f"from-{ending}.geojson"
+        code, said = packwork("fill", *items, "--start", f"a.{ending}", "--stay", "-o", out)
+        assert code == 0, said
+    one, other = (pw.Layout.load(f"from-{end}.geojson").poses for end in ("packwork", "geojson"))
+    assert one.x == pytest.approx(other.x, abs=0.01)
+    recipe = (
+        'container = "circle"\nitems = ["star"]\ncount = 3\neffort = "draft"\nstart = "{from}"\n'
+    )
+    Path("on.toml").write_text(recipe, encoding="utf-8")
+    Path("rows.csv").write_text("from\nsmall.packwork\n", encoding="utf-8")
+    pw.fill("circle", "star", count=3, effort="draft", levels="50").save("small.packwork")
+    code, said = packwork("batch", "on.toml", "--table", "rows.csv", "-o", "{row}.svg", "-q")
+    assert code == 0, said
+
+
+def test_a_series_writes_a_session_of_each_step_and_a_batch_says_what_would_do(
+    folder: Path,
+) -> None:
+    Path("talks.csv").write_text("year,word,n\n1,bear,3\n1,fox,2\n2,bear,2\n2,owl,3\n", "utf-8")
+    asked = ("words", "circle", "--series", "talks.csv:year", *QUICK)
+    code, said = packwork(*asked, "-o", "{year}.packwork", "-o", "{year}.geojson")
+    assert code == 0, said
+    for year in ("1", "2"):
+        one, other = (pw.Layout.load(f"{year}.{end}") for end in ("packwork", "geojson"))
+        assert one.poses.x.tolist() == other.poses.x.tolist()
+    code, said = packwork("batch", "recipe.toml", "-o", "{recipe}.packwork", "-q")
+    assert code != 0
+    assert "a batch writes no sessions; write .geojson" in said

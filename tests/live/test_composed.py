@@ -133,7 +133,8 @@ def test_other_words_with_other_weights(cloud: pw.Layout) -> None:
 
 def test_in_shares_all_become_smaller_where_one_finds_no_room(cloud: pw.Layout) -> None:
     session = cloud.edit()
-    session.scale("bear", 1.6)
+    (k,) = session.positions("bear")
+    session.weigh("bear", 2.5 * float(session.document.weights[k]))
     before = session.document.poses.scale
     found = session.finish()
     assert found.certified, found.in_the_way

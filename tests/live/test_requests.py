@@ -70,3 +70,12 @@ def test_undo_and_redo_say_whether_they_did_anything(session: pw.Session) -> Non
     assert not session.undo()
     assert session.redo()
     assert not session.redo()
+
+
+def test_the_place_of_what_is_added_is_said_where_it_is_not_had(session: pw.Session) -> None:
+    session.add("star", 0, 0)
+    session.add("star")
+    session.finish()
+    (said,) = session.unmet
+    assert said.startswith("star#5 is at ")
+    assert said.endswith("not at 0, 0: there is no room for it")

@@ -10,7 +10,6 @@ import numpy as np
 
 from packwork.api.frozen import ReadOnly
 from packwork.api.layout import Layout, public
-from packwork.api.saved import read_saved
 from packwork.errors import RecipeError
 from packwork.finish.finish import finish as exact_finish
 from packwork.finish.options import FinishOptions
@@ -19,6 +18,7 @@ from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.measure import LayoutMetrics, Metrics
 from packwork.metrics.measure import measure as measure_layout
 from packwork.progress import NOBODY, Listener, Stop, as_observer, never
+from packwork.readers.layouts.read import read_written
 from packwork.recipe.refusals import length_asked
 from packwork.scene import layout as scene
 
@@ -48,7 +48,7 @@ def measure(layout: scene.Layout | str | Path) -> Metrics:
         return layout.metrics
     if isinstance(layout, scene.Layout):
         return cast(Metrics, ReadOnly(measure_layout(layout).as_dict()))
-    found = measure_layout(read_saved(layout)).as_dict()
+    found = measure_layout(read_written(layout)).as_dict()
     return cast(Metrics, ReadOnly({k: v for k, v in found.items() if k != "LC_ink"}))
 
 

@@ -159,8 +159,8 @@ class _Every(TypedDict, total=False):
     start: str | Path | Layout | Poses | None
     """How the first places are found: distance-field (into the largest room), medial-axis (along
     the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;
-    for words and shared sizes), or a layout (.geojson, .svg, .dxf; edited ones too). Default: what
-    suits the sizes, of photos the best of distance-field, medial-axis and scatter."""
+    for words and shared sizes), or a layout (.geojson, .svg, .dxf, .packwork). Default: what suits
+    the sizes, of photos the best of distance-field, medial-axis and scatter."""
 
     rules: Sequence[RuleTable]
     """What is asked of single items (in Python and recipe files)."""

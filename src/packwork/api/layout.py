@@ -17,7 +17,7 @@ from packwork.api.frozen import ReadOnly, checked_poses, frozen, frozen_poses, m
 from packwork.api.history import History
 from packwork.api.keywords import FilmKeywords, SaveKeywords
 from packwork.api.placement import Placement, Pose
-from packwork.api.saved import keep_session, read_saved
+from packwork.api.saved import keep_session
 from packwork.api.signatures import of_model
 from packwork.display.axes import drawn_on
 from packwork.display.bar import bar_for, shown
@@ -28,7 +28,7 @@ from packwork.metrics.certificate import Promise, unclean
 from packwork.metrics.exact import exact_metrics
 from packwork.metrics.measure import Metrics, measure
 from packwork.pipeline import tell_coarse
-from packwork.readers.layouts.read import is_session
+from packwork.readers.layouts.read import is_session, read_written
 from packwork.recipe.film import film_options
 from packwork.recipe.refusals import refusal
 from packwork.scene import item as scene_item
@@ -144,7 +144,7 @@ class Layout(scene.Layout):
         >>> bool(abs(again.poses.angle - layout.poses.angle).max() < 1e-9)
         True
         """
-        found = read_saved(path)
+        found = read_written(path)
         if drawings := list(items):
             from packwork.pipeline.registration import drawn_by
 

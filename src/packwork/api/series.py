@@ -16,6 +16,7 @@ from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.errors import RecipeError
 from packwork.pipeline import tell_coarse, warm_up_once
 from packwork.progress import Stop, never
+from packwork.readers.layouts.read import is_session
 from packwork.readers.memory.values import Value
 from packwork.readers.tables.frames import is_frame, rows_of_frame
 from packwork.readers.words.options import check_weight
@@ -80,7 +81,11 @@ class Series:
         """
         files = step_files([str(path)], self.column, self.labels)
         options = writers.write_options(**drawing)
-        pairs = zip((one[0] for one in files), self.layouts, strict=True)
+        pairs = list(zip((one[0] for one in files), self.layouts, strict=True))
+        if is_session(path):
+            for file, layout in pairs:
+                layout.save(file, **drawing)
+            return tuple(file for file, _ in pairs)
         made = [(file, writers.encoded(layout, file, options)) for file, layout in pairs]
         writers.write_all(made)
         for layout in self.layouts:

@@ -15,6 +15,7 @@ from packwork.batches.task import Outcome, Task, failed
 from packwork.batches.template import RECIPE, ROW, columns_of, filled
 from packwork.errors import PackworkError, RecipeError
 from packwork.phrasing import enumerated
+from packwork.readers.layouts.read import is_session
 from packwork.readers.recipe import check_no_code
 from packwork.recipe import make_recipe
 from packwork.recipe_paths import files_outside, found_from, with_paths
@@ -145,6 +146,11 @@ def _check(wanted: Wanted) -> None:
                     "braces that are meant as such are doubled",
                 )
     for output in wanted.outputs:
+        if is_session(output):
+            raise RecipeError(
+                "output", f"{output}: a batch writes no sessions; write .geojson, which packwork "
+                "edit and studio go on from too",
+            )  # fmt: skip
         writers.check_output(output)
         if count > 1 and not list(columns_of(output)):
             raise RecipeError(

@@ -53,7 +53,7 @@ def measure(
         from packwork.inputs import check_no_input
         from packwork.metrics import certificate
         from packwork.metrics.measure import measure as measure_layout
-        from packwork.readers.layouts.read import is_session, read_written
+        from packwork.readers.layouts.read import read_written
 
         outputs = [path for path in (report, diagnose) if path is not None]
         for path in outputs:
@@ -61,12 +61,7 @@ def measure(
         writers.check_outputs(outputs)
         if no_clobber:
             writers.check_new(outputs)
-        if is_session(layout):
-            from packwork.live.file.disk import layout_in
-
-            found = layout_in(layout)
-        else:
-            found = read_written(layout)
+        found = read_written(layout)
         for path in outputs:
             check_no_input(path)
         measured = measure_layout(found)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn
@@ -14,12 +15,15 @@ from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.cli.failure import INTERRUPTED, SHORTFALL, Interrupt
 from packwork.cli.files import Choosing
 from packwork.cli.running import compile_kernels
+from packwork.cli.sessions import saving
+from packwork.cli.sessions import told as told_drawing
 from packwork.cli.terminal import printable, say
 from packwork.display.bar import TerminalBar
 from packwork.errors import RecipeError
 from packwork.inputs import check_no_input
 from packwork.phrasing import number_of
 from packwork.pipeline import tell_coarse
+from packwork.readers.layouts.read import is_session
 from packwork.readers.words.items import EM_PX
 from packwork.readers.words.steps import named_column, read_word_steps
 from packwork.recipe.film import film_options
@@ -33,6 +37,7 @@ from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 
 if TYPE_CHECKING:
+    from packwork.scene.layout import Layout
     from packwork.timeline.step import SeriesStep
 
 SECONDS_EACH = 1.5
@@ -137,6 +142,7 @@ class _Files:
             writers.check_new(self.every)
         drawing = {key: asked[key] for key in DrawingOptions.model_fields if key in asked}
         self._drawing = writers.write_options(**drawing)
+        self._asked = drawing
         filming = {key: asked[key] for key in FilmOptions.model_fields if key in asked}
         if filming.get("seconds") is None:
             filming["seconds"] = SECONDS_EACH * len(labels)
@@ -150,6 +156,10 @@ class _Files:
     def every(self) -> list[Path]:
         """All files."""
         return [*(path for files in self.steps for path in files), *self.films, *self._sides]
+
+    def _told(self, layout: Layout) -> Layout:
+        """The layout, its manifest saying how it is drawn."""
+        return told_drawing(layout, self._drawing.svg.background, self._asked)
 
     def check_read(self) -> None:
         """Refuse to write over what was read.
@@ -166,7 +176,11 @@ class _Files:
         """Write all files; which they are."""
         pairs: list[tuple[Path, bytes]] = []
         for files, run in zip(self.steps, series.runs, strict=True):
-            pairs += [(path, writers.encoded(run.layout, path, self._drawing)) for path in files]
+            pairs += [
+                (path, writers.encoded(run.layout, path, self._drawing))
+                for path in files
+                if not is_session(path)
+            ]
         if self.films:
             svg = self._drawing.svg
             film = writers.Film(
@@ -178,7 +192,10 @@ class _Files:
             pairs.append((self.sheet, sheet_bytes(small, [step.label for step in series.steps])))
         if self.report is not None:
             pairs.append((self.report, writers.json_bytes(report(series))))
-        writers.write_all(pairs)
+        with contextlib.ExitStack() as saved:
+            for files, run in zip(self.steps, series.runs, strict=True):
+                pairs += saved.enter_context(saving(self._told(run.layout), files))
+            writers.write_all(pairs)
         for run in series.runs:
             tell_coarse(run.layout, self._drawing.dpi)
         return [path for path, _ in pairs]

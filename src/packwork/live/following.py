@@ -14,6 +14,7 @@ from packwork.live.document import PROPERTIES, Document
 from packwork.live.frames import Frames
 from packwork.live.marks import Marks
 from packwork.live.neighbourhood.flow import Flow
+from packwork.live.neighbourhood.nearest import brought_inside
 from packwork.live.neighbourhood.settle import settle
 from packwork.live.neighbourhood.shapes import Shapes
 from packwork.live.neighbourhood.sights import Sights
@@ -93,8 +94,21 @@ class Following:
         self._follow(flow)
         return set(now.ids[near].tolist())
 
-    def _settle(self, flow: Flow, near: set[int], stop: Stop) -> None:
-        """Let what was touched make room, then finish it."""
+    def _bring_inside(self) -> None:
+        """Put what the hand has put where it sticks out to the nearest place, at its size.
+
+        What finds its size by itself becomes smaller there.
+        """
+        before = self._document
+        if before.options.sizes == "free":
+            return
+        rows = self._rows(self.marks.given | self.marks.turned)
+        inside = brought_inside(before, rows, self.shapes)
+        if inside is not before:
+            self._take(Change.between(before, inside), before, inside)
+
+    def _make_room(self, flow: Flow, near: set[int]) -> Document:
+        """Let what was touched make room; the document then, its angles held as the hand has."""
         self.marks.given = self._fitting(self.marks.given)
         flow.bring_in(self._rows(self.marks.touched - self.marks.given))
         strict = self._turned_held(self._document)
@@ -102,13 +116,22 @@ class Following:
         flow.hold(self._rows(self.marks.given))
         flow.harden(RELAX, self._rows(near | self.marks.touched))
         self._follow(flow)
+        return replace(self._document, held=strict.held)
+
+    def _settle(self, flow: Flow, strict: Document, stop: Stop) -> bool:
+        """Finish what was touched; whether that could be without what is far from it."""
         touched = np.union1d(self._rows(self.marks.touched), np.flatnonzero(flow.moved))
         flow.review()
-        strict = replace(self._document, held=strict.held)
         given = self._rows(self.marks.given)
         done = settle(strict, touched.astype(np.int64), given, flow.touching, self.shapes, stop)
-        self._document = self._document.with_poses(done.document.poses)
-        flow.turn_to(self._document)
+        self._turn_to(self._document.with_poses(done.document.poses))
+        return done.is_clean
+
+    def _turn_to(self, document: Document) -> None:
+        """Have this document, and the flow go on from it."""
+        self._document = document
+        if self._flow is not None:
+            self._flow.turn_to(document)
 
     @property
     def violations(self) -> tuple[Violation, ...]:

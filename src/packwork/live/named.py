@@ -164,12 +164,16 @@ class NamedSession(Session):
         if (x is None) != (y is None):
             raise RecipeError("add", "takes both x and y, or neither")
         first, container = self.document.next_id, self.document.container
-        commands = list(brought(self.document, self.library, self.shapes, items))
-        placed = {}
+        commands: list[Command] = list(brought(self.document, self.library, self.shapes, items))
         if x is not None and y is not None:
-            placed["x"] = self._length("x", x, container.width)
-            placed["y"] = self._length("y", y, container.height)
-        self._together([command.model_copy(update=placed) for command in commands])
+            place = {
+                "x": self._length("x", x, container.width),
+                "y": self._length("y", y, container.height),
+            }
+            # A place is noted where it is moved to; of several items one only can have it.
+            asked = [made(Move, item=first, **place)] if len(items) == 1 else []
+            commands = [*(command.model_copy(update=place) for command in commands), *asked]
+        self._together(commands)
         return tuple(range(first, first + len(items)))
 
     def remove(self, which: Which) -> None:

@@ -9,10 +9,10 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.errors import PackworkError
 from packwork.live.anew import job_again, poured_again
-from packwork.live.certificate import Certificate
+from packwork.live.certificate import Certificate, promise_of
 from packwork.live.commands.command import Library
 from packwork.live.composed import is_word
-from packwork.live.document import PROPERTIES, Document
+from packwork.live.document import Document
 from packwork.metrics.shape import shape_metrics
 from packwork.progress import Stop
 from packwork.steps.advice import LEAST_SHAPE, MOST_BARE, advice
@@ -50,39 +50,50 @@ def is_other_cloud(before: Document, now: Document) -> bool:
     return sum(item.outline not in known for item in now.items) > MOST_NEW * len(now)
 
 
-def refilled(before: Document, settled: Document, given: IntArray, stop: Stop) -> Refilled | None:
+def refilled(
+    before: Document, asked: Document, settled: Document, by_hand: IntArray, stop: Stop
+) -> Refilled | None:
     """What a run makes of a cloud, where that covers plainly more than it did; else None.
 
     Parameters
     ----------
     before
-        As it was before words, weights or letters changed.
+        As it was before gestures, or words, weights or letters changed.
+    asked
+        As these ask for it.
     settled
         As it is now.
-    given
-        ``(m,)`` rows of what the hand has put where it is.
+    by_hand
+        ``(m,)`` rows of what the hand has put where it is in ``asked``, turned or sized: it stays.
     stop
         Asked by the run; None where it comes true.
     """
-    if not _is_cloud(settled) or not _is_reweighed(before, settled):
+    if not _is_cloud(asked) or not (len(by_hand) or _is_reweighed(before, asked)):
         return None
-    is_other = is_other_cloud(before, settled)
-    if not is_other and covered(settled) >= covered(before) - MOST_LOST:
+    was_wrong = bool(Certificate().violations(settled))
+    is_fuller = covered(settled) >= covered(before) - MOST_LOST and not was_wrong
+    if is_fuller and not is_other_cloud(before, asked):
         return None
-    held = settled.held.copy()
-    held[given, PROPERTIES.index("place")] = True
+    held = asked.held.copy()
+    # Where sizes are promised to be in shares, those of the hand stay so beside all others.
+    held[by_hand] |= [True, True, not promise_of(asked).areas_in_shares]
+    # In proportion as they are: where sizes gave way, weights ask for others.
+    areas = asked.own_areas * asked.poses.scale**2
+    pinned = replace(asked, held=held, weights=areas)
     try:
-        arranged = poured_again(replace(settled, held=held), 0, stop=stop)
-        poured = arranged.applied(settled, Library())
+        arranged = poured_again(pinned, 0, stop=stop)
+        poured = arranged.applied(pinned, Library())
     except PackworkError:
         # What is held leaves no room for a run: what was settled stands.
         return None
-    is_wrong, was_wrong = (bool(Certificate().violations(one)) for one in (poured, settled))
+    is_wrong = bool(Certificate().violations(poured))
     is_fuller = was_wrong or covered(poured) > covered(settled) + MOST_LOST
     if stop() or is_wrong or not is_fuller:
         return None
     share = f"{100 * covered(poured):.0f} % of the container"
-    return Refilled(poured, f"the words were poured anew, for they would not fill it else: {share}")
+    said = f"the words were poured anew, for they would not fill it else: {share}"
+    kept = replace(poured, held=asked.held, weights=asked.weights)
+    return Refilled(kept, said)
 
 
 def advice_of(document: Document) -> tuple[str, ...]:

@@ -19,10 +19,7 @@ ROUNDING = 1e-6
 
 
 class Requests:
-    """Notes of what was asked of items and not taken back since.
-
-    Where sizes are in shares, a larger item is a larger share, which it has: sizes are not noted.
-    """
+    """Notes of what was asked of items and not taken back since."""
 
     def __init__(self) -> None:
         self._places: dict[int, tuple[float, float]] = {}
@@ -33,12 +30,11 @@ class Requests:
         for one in commands:
             if isinstance(one, Move):
                 self._places[one.item] = one.x, one.y
-            elif isinstance(one, Scale) and after.options.sizes != "shared":
+            elif isinstance(one, Scale):
                 row, first = after.index(one.item), before.index(one.item)
                 if row is not None and first is not None:
-                    scale = float(before.poses.scale[first])
-                    known = self._sizes.get(one.item, (0.0, scale))[1]
-                    self._sizes[one.item] = float(after.poses.scale[row]), known
+                    known = self._sizes.get(one.item, (0.0, _size(before, first)))[1]
+                    self._sizes[one.item] = _size(after, row), known
             elif isinstance(one, Arrange | Cover | Exchange | Replace):
                 # Other places and sizes are asked for now.
                 self.forget()
@@ -63,13 +59,22 @@ class Requests:
             )
         for number, (asked, first) in self._sizes.items():
             k = document.index(number)
-            if k is None or poses.scale[k] * NEARLY >= asked * (1 - ROUNDING):
+            spare = NEARLY if document.options.sizes == "free" else 1.0
+            if k is None or _size(document, k) * spare >= asked * (1 - ROUNDING):
                 continue
+            factor = _size(document, k) / first
             told.append(
-                f"{called(document, k)} is {poses.scale[k] / first:.3g} times as large as it was, "
+                f"{called(document, k)} is {factor:.3g} times as large as it was, "
                 f"not {asked / first:.3g} times: there is no room for more"
             )
         return tuple(told)
+
+
+def _size(document: Document, k: int) -> float:
+    """Size of an item: beside the others' where sizes are in shares."""
+    if document.options.sizes == "shared":
+        return math.sqrt(document.weights[k])
+    return float(document.poses.scale[k])
 
 
 def called(document: Document, k: int) -> str:

@@ -21,7 +21,7 @@ from packwork.live.history import History
 from packwork.live.kept import Kept
 from packwork.live.log import MOST_TRIALS, Entry, Log
 from packwork.live.neighbourhood.flow import Flow
-from packwork.live.neighbourhood.settle import polish
+from packwork.live.neighbourhood.settle import made_smaller, polish, sizes_are_common
 from packwork.live.neighbourhood.shapes import Shapes
 from packwork.live.refilling import advice_of, is_other_cloud, refilled
 from packwork.live.requests import Requests
@@ -193,27 +193,37 @@ class Session(Following):
         # What is in conflict is touched, whenever that came about.
         self.marks.touched |= beyond(wrong, near)
         if self.marks.touched and not stop():
-            self._flow = self._flow or Flow(self._document, self._sights)
+            flow = self._flow = self._flow or Flow(self._document, self._sights)
             self._poured = ()
-            if not is_other_cloud(self._base, before) or not self._refill(self._flow, stop):
-                flowed = self._document
-                self._settle(self._flow, near, stop)
-                if len(self.violations) > len(wrong):
-                    # Nothing is better than something worse.
-                    self._document = flowed
-                    self._flow.turn_to(flowed)
-                self._refill(self._flow, stop)
+            self._fill_again(flow, near, len(wrong), stop)
         moved = differing(before.poses, self._document.poses)
         self.marks.rough |= set(self._document.ids[moved].tolist())
         return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
 
-    def _refill(self, flow: Flow, stop: Stop) -> bool:
-        """Pour a cloud anew that its new words or weights have left emptier; whether it was."""
-        given = self._rows(self.marks.given)
-        found = None if stop() else refilled(self._base, self._document, given, stop)
+    def _fill_again(self, flow: Flow, near: set[int], wrong: int, stop: Stop) -> None:
+        """Finish what was touched near where it is; else pour a cloud, or make all smaller."""
+        self._bring_inside()
+        asked = self._document
+        if is_other_cloud(self._base, asked) and self._refill(asked, stop):
+            return
+        strict = self._make_room(flow, near)
+        is_clean = self._settle(flow, strict, stop)
+        if self._refill(asked, stop):
+            return
+        if not is_clean and sizes_are_common(strict):
+            smaller = made_smaller(strict, self.shapes, stop).document
+            self._turn_to(self._document.with_poses(smaller.poses))
+        if len(self.violations) > wrong:
+            # Nothing is better than something worse.
+            self._turn_to(asked)
+
+    def _refill(self, asked: Document, stop: Stop) -> bool:
+        """Pour a cloud anew that a gesture, new words or weights have left emptier; if it was."""
+        by_hand = self._rows(self.marks.given | self.marks.turned)
+        found = None if stop() else refilled(self._base, asked, self._document, by_hand, stop)
         if found is not None:
-            self._document, self._poured = found.document, (found.said,)
-            flow.turn_to(found.document)
+            self._poured = (found.said,)
+            self._turn_to(found.document)
         return found is not None
 
     @property
@@ -263,8 +273,7 @@ class Session(Following):
         self.marks.polished += 1
         if done.is_clean:
             self._document = self._base = before.with_poses(done.document.poses)
-        if self._flow is not None:
-            self._flow.turn_to(self._document)
+        self._turn_to(self._document)
         self.marks.tried += trials
         if self.marks.tried >= ENOUGH * len(rows):
             self.marks.rough, self.marks.tried = set(), 0
@@ -390,11 +399,10 @@ class Session(Following):
             return False
         document = getattr(self.history, kind)(self._document)
         self.log.note(kind)
-        self._document = self._base = document
+        self._base = document
+        self._turn_to(document)
         self.marks.leapt()
         self._requests.forget()
-        if self._flow is not None:
-            self._flow.turn_to(document)
         self._film()
         self.log.flush()
         return True

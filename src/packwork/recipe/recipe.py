@@ -200,7 +200,7 @@ class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
     start: Annotated[str | None, Offer(group=Group.SOLVED, after="levels")] = None
     """How the first places are found: distance-field (into the largest room), medial-axis (along
     the middle line), auto (of these two), scatter (at random), first-fit (where they touch most;
-    for words and shared sizes), or a layout (.geojson, .svg, .dxf; edited ones too). Default: what
+    for words and shared sizes), or a layout (.geojson, .svg, .dxf, .packwork). Default: what
     suits the sizes, of photos the best of distance-field, medial-axis and scatter."""
 
     finish: Annotated[Literal["exact", "none"], _LEVELS] = "exact"
@@ -311,7 +311,9 @@ class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
     @model_validator(mode="after")
     def _stays_somewhere(self) -> Recipe:
         if self.stay and not self.layout_file:
-            raise RecipeError("stay", "needs an earlier layout (.geojson, .svg or .dxf) as --start")
+            raise RecipeError(
+                "stay", "needs an earlier layout (.geojson, .svg, .dxf or .packwork) as --start"
+            )
         return self
 
     @model_validator(mode="after")

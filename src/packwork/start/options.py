@@ -12,7 +12,7 @@ Placing: TypeAlias = Literal["distance-field", "medial-axis", "scatter", "first-
 """Ways to find first places."""
 
 
-LAYOUTS = frozenset({".geojson", ".json", ".svg", ".dxf"})
+LAYOUTS = frozenset({".geojson", ".json", ".svg", ".dxf", ".packwork"})
 """Endings of files that hold a layout from which a run can begin."""
 
 

@@ -9,6 +9,7 @@ from packwork import writers
 from packwork.batches.naming import identity_of, path_of
 from packwork.batches.template import ROW, columns_of
 from packwork.errors import RecipeError
+from packwork.readers.layouts.read import is_session
 
 
 def step_files(templates: Sequence[str], column: str, labels: Sequence[str]) -> list[list[Path]]:
@@ -27,7 +28,8 @@ def step_files(templates: Sequence[str], column: str, labels: Sequence[str]) -> 
         If the ending of a file is none of ours.
     """
     for template in templates:
-        writers.check_output(template)
+        if not is_session(template):
+            writers.check_output(template)
         named = set(columns_of(template))
         if not named & {column, ROW} or not named <= {column, ROW}:
             raise RecipeError(

@@ -110,12 +110,15 @@ def settle(
         if found.is_clean or stop():
             break
         first = touching.beside(first)
-    if found.is_clean or document.options.sizes != "shared" or document.held[:, [0, 2]].any():
-        return found
-    return _made_smaller(document, shapes, stop)
+    return found
 
 
-def _made_smaller(document: Document, shapes: Shapes, stop: Stop) -> Settled:
+def sizes_are_common(document: Document) -> bool:
+    """Whether all items may become smaller alike, for sizes are in shares and nothing is held."""
+    return document.options.sizes == "shared" and not document.held[:, [0, 2]].any()
+
+
+def made_smaller(document: Document, shapes: Shapes, stop: Stop) -> Settled:
     """All items finished in one, as much smaller as that takes: sizes stay in proportion."""
     everything = np.arange(len(document))
     return _finished(document, everything, shapes, stop, sizes="shared")

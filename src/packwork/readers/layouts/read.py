@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from importlib import import_module
 from pathlib import Path
 
 from packwork.errors import ReadError, RecipeError
@@ -23,6 +24,9 @@ which paths."""
 
 SESSION = ".packwork"
 """Ending of session files: layouts with all that undo leads to."""
+
+READER_OF_SESSIONS = "packwork.live.file.disk"
+"""Module with ``layout_in``, which reads these: it stands above this one, and is loaded late."""
 
 
 def is_drawn(path: str | Path) -> bool:
@@ -74,8 +78,9 @@ def holds_layout(path: str | Path) -> bool:
 def read_written(path: str | Path) -> Layout:
     """Layout of a file that we wrote, its outlines those that stand in the file.
 
-    GeoJSON and DXF hold the outlines themselves. In an SVG each drawing is read anew, as
-    people will see it, and followed to ``svg.MEASURED_FLATTENING`` of the canvas.
+    A session's file is read as the session stands. GeoJSON and DXF hold the outlines themselves. In
+    an SVG each drawing is read anew, as people will see it, and followed to
+    ``svg.MEASURED_FLATTENING`` of the canvas.
 
     Raises
     ------
@@ -90,6 +95,9 @@ def read_written(path: str | Path) -> Layout:
     """
     if not isinstance(path, str | os.PathLike):
         raise RecipeError("layout", f"is {type(path).__name__}; give a layout or its file")
+    if is_session(path):
+        layout: Layout = import_module(READER_OF_SESSIONS).layout_in(path)
+        return layout
     ending = Path(path).suffix.lower()
     if ending not in ENDINGS:
         raise ReadError(

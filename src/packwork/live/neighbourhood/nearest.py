@@ -1,0 +1,105 @@
+"""Nearest places at which items lie inside, at the sizes and angles that they have.
+
+The places of an item are the container eroded by it (J. Serra, "Image Analysis and Mathematical
+Morphology", Academic Press 1982): here exact, and by its convex hull, which holds the item.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import shapely
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.geometry.overlay import buffered, difference, union, union_of_layout, valid
+from packwork.geometry.polygon import Region
+from packwork.geometry.simplify import hull
+from packwork.live.document import PROPERTIES, Document
+from packwork.live.neighbourhood.settle import gap_of
+from packwork.live.neighbourhood.shapes import Shapes
+
+HALVINGS = 7
+"""Sizes that are tried where an item is too large for all places. More come nearer to the largest,
+by a hundredth of it already, and take longer. Chosen."""
+
+MARGIN = 1e-4
+"""Share of the canvas' side that is kept to the edge of all places. Larger is farther from what was
+asked, smaller leaves nothing to the rounding of what follows. Chosen."""
+
+
+def brought_inside(document: Document, rows: IntArray, shapes: Shapes) -> Document:
+    """A document whose items ``(m,)`` lie in the room that what is held leaves them.
+
+    Those that stick out come to the nearest place; what is too large for every place is made
+    smaller until it has one.
+
+    Parameters
+    ----------
+    shapes
+        Covers of the outlines.
+    """
+    if len(rows) == 0:
+        return document
+    room = _room(document, rows, shapes)
+    for k in rows.tolist():
+        placed = shapes.cover(document.items[k].outline).mapped(document.poses.matrix(k))
+        if not room.covers(placed.region):
+            document = _brought(document, k, room)
+    return document
+
+
+def _room(document: Document, rows: IntArray, shapes: Shapes) -> Region:
+    """What the container leaves, gaps taken off, once everything that is held is too."""
+    gap = gap_of(document, rows)
+    region = valid(document.container.outline.region)
+    held = np.setdiff1d(np.flatnonzero(document.held[:, PROPERTIES.index("place")]), rows)
+    covers = [shapes.cover(document.items[k].outline) for k in held]
+    walls = [c.mapped(document.poses.matrix(k)) for c, k in zip(covers, held, strict=True)]
+    if walls:
+        taken = union_of_layout([outline.region for outline in walls])
+        return difference(buffered(region, -gap), buffered(taken, gap))
+    return buffered(region, -gap)
+
+
+def _brought(document: Document, k: int, room: Region) -> Document:
+    """The document with one item inside; as it was where it has no place at any size tried."""
+    poses, (is_held, _, is_sized) = document.poses, document.held[k]
+    at = np.array([poses.x[k], poses.y[k]])
+    shape = hull(document.items[k].outline.mapped(poses.matrix(k))).points - at
+    margin = MARGIN * document.container.side
+    low, high, factor = 0.0, 1.0, 1.0
+    place = None
+    for _ in range(1 if is_sized else HALVINGS):
+        found = None if is_held else _nearest(room, factor * shape, at, margin)
+        low, high = (low, factor) if found is None else (factor, high)
+        place = place if found is None else found
+        if low == 1.0:
+            break
+        factor = (low + high) / 2
+    if place is None:
+        return document
+    columns = {name: getattr(document, name).copy() for name in ("smallest", "largest", "weights")}
+    columns["smallest"][k] *= low
+    columns["largest"][k] *= low
+    # Sizes stay in the shares that are asked for, so another one is asked for.
+    columns["weights"][k] *= low**2 if document.options.sizes == "shared" else 1.0
+    x, y, scale = poses.x.copy(), poses.y.copy(), poses.scale.copy()
+    x[k], y[k] = place
+    scale[k] *= low
+    return replace(document, poses=replace(poses, x=x, y=y, scale=scale), **columns)
+
+
+def _nearest(room: Region, shape: FloatArray, at: FloatArray, margin: float) -> FloatArray | None:
+    """Place nearest to a point at which a convex shape ``(m, 2)`` about it lies in the room."""
+    rings = shapely.get_rings(shapely.get_parts(room))
+    lines = [shapely.get_coordinates(ring) for ring in rings]
+    edges = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines])
+    # Where the shape's middle may not be: along each edge, swept by the shape turned about.
+    swept = (edges[:, :, None] - shape).reshape(len(edges), -1, 2)
+    taken = union(shapely.convex_hull(shapely.linestrings(swept)))
+    free = buffered(difference(room, taken), -margin)
+    if free.is_empty:
+        return None
+    way = shapely.shortest_line(free, shapely.Point(*at))
+    return np.asarray(shapely.get_coordinates(way)[0])
