@@ -9,6 +9,8 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
+from packwork.pipeline.result import Run
+from packwork.pipeline.watch import Watch
 from packwork.readers.words.items import EM_PX
 from packwork.uses import read, words_recipe
 from packwork.uses.words.graded import graded_places
@@ -189,3 +191,38 @@ def test_a_cloud_by_default_shows_its_shape_or_sizes_gave_way(seed: int) -> None
     assert found.metrics["shape"] >= 0.9 or found.manifest["words"]["of_true"]
     true = pw.words("circle", text, count=60, seed=seed, effort="draft", sizes="shared")
     assert found.metrics["shape"] >= true.metrics["shape"]
+
+
+@pytest.fixture
+def bar(tmp_path: Path) -> str:
+    path = tmp_path / "bar.svg"
+    drawn = '<path d="M0 0h100v3H0z"/>'
+    path.write_text(
+        f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 3">{drawn}</svg>',
+        encoding="utf-8",
+    )
+    return str(path)
+
+
+def _run(container: str, count: int, **options: object) -> Run:
+    """A cloud of so many words whose weights fall slowly."""
+    weights = {f"{NAMES[k % 5]}{k}": (k + 3.0) ** -0.6 for k in range(count)}
+    job = read(words_recipe(container, weights, count=count, **{**QUICK, **options}))
+    return job.use.run(job, Watch())
+
+
+def test_many_words_stand_closer_unless_a_gap_is_asked_for(bar: str) -> None:
+    """A share of the canvas left thousands of words no room between them, and most no place."""
+    close, asked = _run(bar, 200), _run(bar, 200, padding="1.8")
+    assert close.certified
+    assert close.metrics.exact.min_gap < 1
+    assert any("apart, not 1.8 px" in said for said in close.remarks)
+    assert len(close.layout.items) > 150
+    assert asked.metrics.exact.min_gap >= 1.8
+    assert not any("apart" in said for said in asked.remarks)
+
+
+def test_heavy_words_are_held_down_where_many_others_would_find_no_place(bar: str) -> None:
+    found = _run(bar, 200, padding="1.8")
+    assert len(found.layout.items) > 100
+    assert (np.diff(found.layout.poses.scale) <= 1e-6).all()

@@ -11,7 +11,6 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.scene.container import Container
-from packwork.start.first_fit import _kernels
 from packwork.start.first_fit.graded import Graded, graded_fit, sizes_down
 from packwork.start.first_fit.grading import Candidate
 from scenes import box
@@ -205,15 +204,13 @@ def test_what_one_item_lacks_later_ones_have_again() -> None:
     assert half[2:] == pytest.approx(np.minimum(own / lacks**0.5, half[1]))
 
 
-def test_a_margin_is_between_squares_of_pixels() -> None:
-    mask = np.random.default_rng(2).random((7, 9)) < 0.2
-    for reach in (0.0, 1.0, 1.5, 2.0, 2.3):
-        wide = int(np.ceil(reach)) + 1
-        near = _kernels.grown(mask, wide, reach)
-        rows, columns = np.indices(near.shape)
-        expected = np.zeros_like(near)
-        for row, column in np.argwhere(mask) + wide:
-            down, across = (np.maximum(abs(d) - 1, 0) for d in (rows - row, columns - column))
-            apart = np.hypot(down, across)
-            expected |= (apart < reach) | (apart == 0)
-        assert (near == expected).all()
+@pytest.mark.parametrize("margin", [0.0, 0.05, 2.0])
+def test_a_margin_takes_no_rows_of_pixels_more(margin: float) -> None:
+    """A row of pixels all round each item wasted half the room of thousands of small words."""
+    tile = box(-1.0, -1.0, 1.0, 1.0)
+    container = Container("", "", box(0.0, 0.0, 100.0, 100.0), 100.0, 100.0)
+    asked = [Candidate(tile, step) for step in (8.0, *[1.0] * 15)]
+    found = graded_fit(container, asked, len(asked), np.random.default_rng(1), margin_cu=margin)
+    regions = [tile.mapped(found.poses.matrix(k)).region for k in range(len(asked))]
+    least = min(one.distance(other) for one, other in combinations(regions, 2))
+    assert margin <= least < margin + 200 / 700

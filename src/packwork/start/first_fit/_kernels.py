@@ -170,30 +170,6 @@ def spread(mask, down, across):
     return near
 
 
-@kernel
-def grown(mask, wide, reach):
-    """Return a mask, ``wide`` pixels larger all round, of the pixels nearer than ``reach`` to one.
-
-    Between the squares themselves, not their centres; those that touch are near as well.
-    """
-    height, width = mask.shape
-    near = np.zeros((height + 2 * wide, width + 2 * wide), np.bool_)
-    for y in range(height):
-        for x in range(width):
-            if not mask[y, x]:
-                continue
-            near[y + wide, x + wide] = True
-            if _is_amid(mask, y, x):
-                continue
-            for j in range(-wide, wide + 1):
-                for i in range(-wide, wide + 1):
-                    across, down = max(abs(i) - 1, 0), max(abs(j) - 1, 0)
-                    apart = across * across + down * down
-                    if apart == 0 or apart < reach * reach:
-                        near[y + j + wide, x + i + wide] = True
-    return near
-
-
 @helper
 def _is_amid(mask, y, x):
     """Return whether the four pixels round one are in the mask as well."""

@@ -41,6 +41,10 @@ REACH = 3
 CORNER = math.sqrt(0.5)
 """Pixels from the centre of one to its corner."""
 
+GRAZED = 0.05
+"""Pixels that an outline may reach into one that it does not count as touching, at its corners.
+Derived from ``TOUCHED``: the leg of a right angle of that area."""
+
 INWARD = 0.6
 """Score, beside the touched share of 0 to 1, for lying where the container is widest, of an item
 of the first one's size while nothing lies there; less by as much as an item is smaller, and
@@ -148,7 +152,8 @@ class Grading:
     ) -> None:
         side = side_px or image_side(count)
         image, self._px_per_cu = container_image(container, side)
-        self._reach = margin_cu * self._px_per_cu
+        # Each item has half of the margin round itself, and so has the edge.
+        self._reach = margin_cu / 2 * self._px_per_cu + GRAZED
         clearance = distance_inside(image > 1 - TOUCHED)
         self._inward = _inwards(clearance)
         self._noise = NOISE * rng.random(image.shape)
@@ -176,7 +181,7 @@ class Grading:
     def lay(self, outline: Outline) -> None:
         """Take what an item covers that lies in place."""
         posed = outline.mapped(similarity(0.0, 0.0, 0.0, self._px_per_cu))
-        mask, origin = covered(posed)
+        mask, origin = covered(posed, self._reach)
         self._take(mask, -origin[0], -origin[1])
 
     def put(self, candidate: Candidate, sizes: Sequence[float]) -> PoseRow | None:
@@ -216,7 +221,7 @@ class Grading:
             posed = candidate.outline.mapped(similarity(0.0, 0.0, angle, scale * self._px_per_cu))
             if self._is_larger(posed):
                 continue
-            mask, origin = covered(posed)
+            mask, origin = covered(posed, self._reach)
             wide = self._with_room(mask, origin, candidate.apart, scale, angle)
             found = self._occupancy.best_place(wide, self._noise, is_everywhere, field, pull)
             if found is not None:
@@ -261,9 +266,7 @@ class Grading:
         return self._inward, inward if is_drawn else 0.0, is_drawn
 
     def _take(self, mask: BoolArray, row: int, column: int) -> None:
-        """Take pixels and those round them that are nearer than the margin."""
-        wide = math.ceil(self._reach) + 1
-        near = _kernels.grown(mask, wide, self._reach)
-        self._occupancy.take(near, row - wide, column - wide)
+        """Take the pixels of an item and of its half of the margin."""
+        self._occupancy.take(mask, row, column)
         self._bareness.cover(mask, row, column)
-        self._left -= int(near.sum())
+        self._left -= int(mask.sum())

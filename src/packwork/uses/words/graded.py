@@ -48,6 +48,11 @@ ENOUGH = 0.5
 """Ink, as a share of the container, from which no step is made smaller. Smaller leaves the tips of
 shapes bare that hold the heaviest word down. By eye: what a fat shape comes to."""
 
+MOST_SPECKS = 0.3
+"""How much words may lack of that height on average, those without a place all of it, before they
+are placed again, all but the first ones held down so that the last find larger places. Larger
+leaves specks among thousands of words, smaller makes few of them alike. Tried, by eye."""
+
 DWARF = 0.1
 """Size, as a share of its proportion, below which a word is left out unless a least size is given.
 Larger leaves out more, smaller leaves specks. Chosen."""
@@ -98,11 +103,19 @@ def graded_places(job: Job, letters: Letters, stop: Stop = never) -> Places:
     readable = LEGIBLE * job.container.side / EM_PX
     kept = words.readable_share(readable)
     sizes = words.sizes(kept)
-    for share in dict.fromkeys((kept, kept / 2, 0.0)):
-        found = _placed(job, letters, words, sizes, share, stop)
+    ways = [(share, False) for share in dict.fromkeys((kept, kept / 2, 0.0))]
+    while ways:
+        (share, is_held), *ways = ways
+        found = _placed(job, letters, words, sizes, share, is_held, stop)
         ink = float((words.inks[found.placed] * found.poses.scale**2).sum())
-        tried.append((ink, found))
-        if stop() or ink >= ENOUGH * job.container.outline.area:
+        shown = float(np.minimum(found.poses.scale / readable, 1).sum()) / len(words.order)
+        tried.append((ink * shown, found))
+        if stop() or is_held:
+            break
+        if shown < 1 - MOST_SPECKS:
+            # Sizes nearer to each other would leave the last ones yet less.
+            ways = [(share, True)]
+        elif ink >= ENOUGH * job.container.outline.area:
             break
     _, found = max(tried, key=lambda one: one[0])
     if len(found.placed) == 0:
@@ -154,6 +167,8 @@ class _Ranked:
         ``(n,)`` true sizes over the one before, the first 1.
     inks
         ``(n,)`` area drawn at that scale.
+    widths
+        ``(n,)`` width of the outlines at that scale.
     room
         Area that all are to cover, ``FULL`` of the container.
     """
@@ -162,12 +177,14 @@ class _Ranked:
     unit: FloatArray
     ratios: FloatArray
     inks: FloatArray
+    widths: FloatArray
     room: float
 
     @classmethod
     def of(cls, job: Job) -> _Ranked:
         """All items of a job."""
         areas = np.array([item.outline.area for item in job.items])
+        left, _, right, _ = np.array([item.outline.bounds for item in job.items]).T
         inks = np.array([item.ink.area for item in job.items])
         words = set(job.use.words)
         is_word = np.array([item in words for item in job.items])
@@ -178,7 +195,8 @@ class _Ranked:
         order = np.argsort(-np.round(true / true.max(), 9), kind="stable")
         ratios = np.append(1.0, true[order][1:] / true[order][:-1])
         room = FULL * job.container.outline.area
-        return cls(order, unit[order], ratios, inks[order] * unit[order] ** 2, room)
+        widths = (right - left)[order] * unit[order]
+        return cls(order, unit[order], ratios, inks[order] * unit[order] ** 2, widths, room)
 
     def steps(self, share: float) -> FloatArray:
         """``(n,)`` sizes over the one before with ``share`` of the steps of weights kept."""
@@ -213,9 +231,18 @@ class _Ranked:
 
 
 def _placed(
-    job: Job, letters: Letters, words: _Ranked, sizes: FloatArray, share: float, stop: Stop
+    job: Job,
+    letters: Letters,
+    words: _Ranked,
+    sizes: FloatArray,
+    share: float,
+    is_held: bool,
+    stop: Stop,
 ) -> Graded:
-    """Items put one after another, ``share`` of the steps between their weights kept."""
+    """Items put one after another, ``share`` of the steps between their weights kept.
+
+    ``is_held``: none so large that those after it would find no place.
+    """
     first = float(sizes[0])
     if letters.largest is not None:
         first = min(first, letters.largest / EM_PX)
@@ -227,6 +254,7 @@ def _placed(
         np.random.default_rng(job.plan.seed),
         smallest=least,
         margin_cu=job.plan.gap + HAIR * job.container.side,
+        lengths=words.widths.tolist() if is_held else (),
         stop=stop,
     )
 

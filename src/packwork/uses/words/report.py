@@ -57,3 +57,15 @@ class RemarkWords(RunStep):
             why = "the container is thin" if is_thin else "in proportion they would leave it bare"
             said.append(f"{why}, so sizes of words give way; --sizes shared keeps proportions")
         return replace(state, remarks=(*state.remarks, *said))
+
+
+@final
+class RemarkGap(RunStep):
+    """A sentence about a gap that is narrower than usual, for there are so many words."""
+
+    def run(self, state: State, watch: Watch) -> State:
+        """State with the remark."""
+        job, unit = state.job, state.job.container.unit
+        usual = job.recipe.padding_cu(job.container)
+        said = f"so many words stand {job.plan.gap:.2g} {unit} apart, not {usual:g} {unit}"
+        return replace(state, remarks=(*state.remarks, f"{said}; another --padding is kept"))
