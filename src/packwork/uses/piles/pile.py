@@ -12,6 +12,7 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.metrics.compactness import compactness
+from packwork.phrasing import number_of
 from packwork.pipeline.earlier import matched
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
@@ -42,6 +43,10 @@ SHUFFLE, SHUFFLE_ALONE = 0.6, 0.15
 """Logarithm of size within which items come in random order, in a container and without one.
 Larger leaves more gaps, and below 0.82 of the circle in a round pack; smaller puts copies of
 one thing side by side. Tried, the first by eye."""
+
+MANY = 2_000
+"""Items above which it is said that the pile takes long. Of 1,000 it takes half a minute of one
+processor core, of 3,000 minutes: rounds and what each costs grow with the items. Measured."""
 
 AT_EDGE = 1e-3
 """Distance from the canvas' edge, as a share of its longer side, below which an item counts
@@ -81,6 +86,12 @@ class HeapUp(RunStep):
 
     def run(self, state: State, watch: Watch) -> State:
         """State of those items that found room."""
+        if len(state.job.items) > MANY:
+            _LOG.warning(
+                "a pile of %s takes minutes to come to rest, one of 1,000 half a minute; use fewer, "
+                "or stop it with Ctrl-C, which writes it as it lies by then",
+                number_of(len(state.job.items), "item"),
+            )
         recorder = watch.recorder()
         job, piled = _heaped_to_fit(state.job, self._heap, watch.heard_by(recorder))
         found = replace(state, job=job, recorder=recorder)
