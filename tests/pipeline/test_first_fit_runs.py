@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 import packwork as pw
+from packwork import uses
 from packwork.errors import RecipeError
+from packwork.steps.starts import is_only_refined
 
 WORDS = {"harbour": 9, "tide": 7, "gull": 5, "mast": 4, "rope": 3, "sail": 2, "oar": 1}
 
@@ -91,3 +93,12 @@ def test_thousands_of_words_fill_as_hundreds_do() -> None:
         return float(layout.metrics["LC_ink"])
 
     assert ink(1_700) > ink(400) / 2
+
+
+def test_thousands_of_turning_words_are_only_refined(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The finish made all of 5,000 much smaller for hairs of conflict between specks."""
+    weights = {f"word{k}": 1.0 + k for k in range(60)}
+    job = uses.read(uses.words_recipe("circle", weights, count=60, rotate="20", sizes="shared"))
+    assert not is_only_refined(job)
+    monkeypatch.setattr("packwork.steps.starts.MOST_ANGLES", 100)
+    assert is_only_refined(job)

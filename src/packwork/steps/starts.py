@@ -212,7 +212,7 @@ class ByFirstFit(Start):
         """Poses in which nothing overlaps; None where no size is found."""
         job, plan = setting.job, setting.job.plan
         limits, scales = setting.limits(setting.angles)
-        is_only_refined = _is_only_refined(job)
+        few_steps = is_only_refined(job)
         seeded = np.random.default_rng
         poses = first_fit(
             setting.region,
@@ -221,7 +221,7 @@ class ByFirstFit(Start):
             _angles_tried(job, setting.angles, limits),
             seeded(plan.seed),
             margin_cu=plan.gap / 2 + HAIR * job.container.side,
-            slack=FINE if is_only_refined else SPARE * COMMON_COARSE,
+            slack=FINE if few_steps else SPARE * COMMON_COARSE,
             attempts=ATTEMPTS[plan.effort],
             limits=limits,
             fields=_fields(job),
@@ -232,7 +232,7 @@ class ByFirstFit(Start):
         if poses is not None:
             is_tight = not needs_levels(job)
             found = setting.placed(poses, "first-fit", limits, is_tight=is_tight)
-            return replace(found, is_only_refined=is_tight and is_only_refined)
+            return replace(found, is_only_refined=is_tight and few_steps)
         # Once a run is to stop, there is no time to take apart what others leave overlapping.
         apart = None
         if not limits.binds and setting.stop():
@@ -257,16 +257,16 @@ class ByMethod(Start):
         return setting.placed(poses, str(found.method), limits)
 
 
-def _is_only_refined(job: Job) -> bool:
+def is_only_refined(job: Job) -> bool:
     """Whether a few small steps of the finish do with what first fit has put down.
 
     So it is where many words keep their angles: those that turn, and icons, gain by as many larger
-    ones.
+    ones. Of thousands that turn, a hair of conflict between specks would make all much smaller.
     """
     is_told = job.forces.acts or job.is_limited or job.plan.effort == "best"
     are_words = len(job.use.words) == len(job.items) > FEW
-    is_still = job.plan.rotation.is_still and are_words
-    return job.plan.sizes == "shared" and is_still and not is_told
+    is_still = job.plan.rotation.is_still or len(job.items) * ANGLES > MOST_ANGLES
+    return job.plan.sizes == "shared" and are_words and is_still and not is_told
 
 
 def _homes(setting: Setting) -> Homes | None:

@@ -88,8 +88,8 @@ class HeapUp(RunStep):
         """State of those items that found room."""
         if len(state.job.items) > MANY:
             _LOG.warning(
-                "a pile of %s takes minutes to come to rest, one of 1,000 half a minute; use fewer, "
-                "or stop it with Ctrl-C, which writes it as it lies by then",
+                "a pile of %s takes minutes to come to rest, one of 1,000 half a minute; use "
+                "fewer, or stop it with Ctrl-C, which writes it as it lies by then",
                 number_of(len(state.job.items), "item"),
             )
         recorder = watch.recorder()
