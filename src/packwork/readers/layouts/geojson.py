@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, TypeAlias, TypeVar
 
 import numpy as np
 import shapely
+from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, PlainValidator, ValidationError
 from shapely.errors import GEOSException
 from shapely.geometry import MultiPolygon, Polygon
 
@@ -16,7 +16,6 @@ from packwork.arrays import FloatArray, as_points
 from packwork.errors import ReadError, RecipeError, ShapeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.geometry.polygon import Region
 from packwork.readers.files import read_text
 from packwork.readers.json_text import parsed
 from packwork.readers.regions import MAX_POINTS
@@ -29,7 +28,7 @@ from packwork.scene.item import FlatArt, Item
 from packwork.scene.label import Label
 from packwork.scene.layout import Layout, ground_in
 from packwork.scene.pose import Poses
-from packwork.units import UNITS, as_unit
+from packwork.units import UNITS, Unit
 
 MAX_LAYOUT_BYTES = 64_000_000
 """Size of a layout file: thousands of items with hundreds of vertices each. Chosen."""
@@ -49,8 +48,104 @@ and 93 MB for 20,000 squares."""
 _DRAWN = (".svg", ".dxf", ".png", ".pdf")
 """Endings of what is written of layouts besides: shapes in place, no items and poses."""
 
-_POSE = ("x", "y", "angle")
-_LABEL = ("name", "link", "title")
+_NUMBER = f"must be up to {MAX_COORDINATE:g}"
+_MUST = {
+    "features": "must be a list",
+    "manifest": "must be an object",
+    "canvas": "must be an object with width and height",
+    "width": f"must be positive, up to {MAX_COORDINATE:g}",
+    "height": f"must be positive, up to {MAX_COORDINATE:g}",
+    "unit": f"must be one of {', '.join(UNITS)}",
+    "walls": f"must be lines of [x, y] pairs up to {MAX_COORDINATE:g}",
+    "scale": f"must be positive, {SMALLEST_SCALE:g} to {LARGEST_SCALE:g}",
+    "stretch": f"must be {1 / WIDEST_STRETCH:g} to {WIDEST_STRETCH:g}",
+    "weight": f"must not be negative, and up to {MAX_COORDINATE:g}",
+    "fill": "must be a colour such as #4a5568",
+    **dict.fromkeys(("name", "link", "title"), "must be text"),
+    **dict.fromkeys(("datum", "row"), "must be an object with a row"),
+}
+"""Refusals of what stands under a key; of other keys it is ``_NUMBER``."""
+
+
+def _lines(said: Any) -> tuple[FloatArray, ...] | None:
+    try:
+        lines = None if said is None else tuple(as_points(line) for line in said)
+    except (TypeError, ShapeError) as error:
+        raise ValueError from error
+    if any(len(line) < 2 or _reach(line) > MAX_COORDINATE for line in lines or ()):
+        raise ValueError
+    return lines
+
+
+def _colour(said: Any) -> str:
+    # What is no colour may lead out of the file once it is written again.
+    css_colour(str(said))
+    return str(said)
+
+
+_Number: TypeAlias = Annotated[float, Field(ge=-MAX_COORDINATE, le=MAX_COORDINATE)]
+_Side: TypeAlias = Annotated[float, Field(gt=0, le=MAX_COORDINATE)]
+
+
+class _Saved(BaseModel):
+    model_config = ConfigDict(strict=True, arbitrary_types_allowed=True)
+
+
+class _Canvas(_Saved):
+    width: _Side
+    height: _Side
+    unit: Unit = "px"
+
+
+class _Collection(_Saved):
+    features: list[Any]
+    canvas: _Canvas | None = None
+    manifest: dict[str, Any] | None = None
+    items: Any = None
+
+
+class _ContainerMembers(_Saved):
+    role: Literal["container"]
+    name: Any = "container"
+    source: Any = None
+    walls: Annotated[tuple[FloatArray, ...] | None, PlainValidator(_lines)] = None
+
+
+class _DatumMembers(_Saved):
+    row: dict[str, Any]
+    value: _Number = 1.0
+    category: Any = ""
+    group: Any = ""
+
+
+class _ItemMembers(_Saved):
+    role: Literal["item"]
+    item: Any = "item"
+    source: Any = None
+    x: _Number
+    y: _Number
+    angle: _Number
+    scale: Annotated[float, Field(ge=SMALLEST_SCALE, le=LARGEST_SCALE)]
+    stretch: Annotated[float, Field(ge=1 / WIDEST_STRETCH, le=WIDEST_STRETCH)] = 1.0
+    weight: Annotated[float, Field(ge=0, le=MAX_COORDINATE)] = 1.0
+    fill: Annotated[str, BeforeValidator(_colour)] = FlatArt().fill
+    name: str | None = None
+    link: str | None = None
+    title: str | None = None
+    datum: _DatumMembers | None = None
+
+
+class _Geometry(_Saved):
+    type: Literal["Polygon", "MultiPolygon"]
+    coordinates: Any = None
+
+
+class _Feature(_Saved):
+    properties: Annotated[_ContainerMembers | _ItemMembers, Field(discriminator="role")]
+    geometry: _Geometry
+
+
+_Model = TypeVar("_Model", bound=BaseModel)
 
 
 def read_layout(path: str | Path) -> Layout:
@@ -88,211 +183,122 @@ def read_layout(path: str | Path) -> Layout:
 
 
 def layout_of_geojson(text: str) -> Layout:
-    """The same of a file's text.
+    """Layout of such a file's text.
 
     Raises
     ------
     UnfitError
         If it is no layout.
     """
-    collection = _parsed(text)
-    containers, placed = _split_by_role(collection)
-    container = _container(containers, collection)
-    items = tuple(_item(feature, where) for where, feature in placed)
-    rows = [_pose(feature, where) for where, feature in placed]
-    columns = np.array(rows, dtype=np.float64).reshape(-1, 5).T.copy()
-    weights = np.array([_weight(feature, where) for where, feature in placed])
-    manifest = collection.get("manifest") or {}
-    if not isinstance(manifest, dict):
-        raise UnfitError("manifest: must be an object")
-    stated = collection.get("items", len(items))
-    if stated != len(items):
-        lost = f"{len(items)} of {str(stated)[:9]} items are in the file"
-        manifest = {**manifest, "changed": [lost], "certified": False}
-    poses, ground = Poses(*columns), ground_in(manifest)
-    return Layout(container, items, poses, weights, manifest, ground=ground)
-
-
-def _parsed(text: str) -> Mapping[str, Any]:
-    collection = parsed(text)
-    if not isinstance(collection, dict) or collection.get("type") != "FeatureCollection":
+    said = parsed(text)
+    if not isinstance(said, dict) or said.get("type") != "FeatureCollection":
         raise UnfitError("is not a GeoJSON FeatureCollection; give a layout saved as .geojson")
-    return collection
-
-
-_Posed = tuple[str, Mapping[str, Any]]
-
-
-def _split_by_role(collection: Mapping[str, Any]) -> tuple[list[_Posed], list[_Posed]]:
-    """Container features and item features, each with words that say where it stands."""
-    features = collection.get("features")
-    if not isinstance(features, list):
-        raise UnfitError("features: must be a list")
+    collection = _valid(_Collection, said)
+    features, manifest = collection.features, collection.manifest or {}
     if len(features) > MAX_ITEMS + 1:
         raise UnfitError(f"features: holds {len(features):,}, more than {MAX_ITEMS:,} items")
-    by_role: dict[str, list[_Posed]] = {"container": [], "item": []}
-    for k, feature in enumerate(features):
+    containers: list[Container] = []
+    items: list[Item] = []
+    rows: list[tuple[float, ...]] = []
+    weights: list[float] = []
+    for k, each in enumerate(features):
         where = f"features[{k}]"
-        role = _properties(feature, where).get("role")
-        if not isinstance(role, str) or role not in by_role:
-            raise UnfitError(f"{where}: role must be container or item, not {str(role)[:20]!r}")
-        by_role[role].append((where, feature))
-    return by_role["container"], by_role["item"]
+        feature = _valid(_Feature, each, where)
+        outline, of = _outline(feature.geometry, where), feature.properties
+        if isinstance(of, _ContainerMembers):
+            containers.append(_container(outline, of, collection.canvas))
+        else:
+            items.append(_item(outline, of, where))
+            rows.append((of.x, of.y, math.radians(of.angle), of.scale, of.stretch))
+            weights.append(of.weight)
+    if len(containers) != 1:
+        raise UnfitError(f"must have one feature of role container, not {len(containers)}")
+    if collection.items not in (None, len(items)):
+        lost = f"{len(items)} of {str(collection.items)[:9]} items are in the file"
+        manifest = {**manifest, "changed": [lost], "certified": False}
+    poses = Poses(*np.array(rows, dtype=np.float64).reshape(-1, 5).T.copy())
+    ground = ground_in(manifest)
+    return Layout(containers[0], tuple(items), poses, np.array(weights), manifest, ground=ground)
 
 
-def _properties(feature: Any, where: str) -> Mapping[str, Any]:
-    properties = feature.get("properties") if isinstance(feature, dict) else None
-    if not isinstance(properties, dict):
-        raise UnfitError(f"{where}: must be a feature with properties")
-    return properties
-
-
-def _container(found: list[_Posed], collection: Mapping[str, Any]) -> Container:
-    if len(found) != 1:
-        raise UnfitError(f"must have one feature of role container, not {len(found)}")
-    where, feature = found[0]
-    properties = _properties(feature, where)
-    outline = _outline(feature, where)
-    canvas = collection.get("canvas", {"width": outline.bounds[2], "height": outline.bounds[3]})
-    if not isinstance(canvas, dict):
-        raise UnfitError("canvas: must be an object with width and height")
-    width, height = (_positive(canvas, side, "canvas") for side in ("width", "height"))
-    unit = as_unit(canvas.get("unit", "px"))
-    if unit is None:
-        known = ", ".join(UNITS)
-        raise UnfitError(f"canvas.unit: must be one of {known}, not {str(canvas['unit'])[:20]!r}")
-    name = str(properties.get("name", "container"))
-    source = str(properties.get("source", name))
-    walls = _walls(properties, where)
-    return Container(name, source, outline, width, height, unit, walls=walls)
-
-
-def _walls(properties: Mapping[str, Any], where: str) -> tuple[FloatArray, ...] | None:
-    """Lines that are seen of a container with openings; None where it has none."""
-    said = properties.get("walls")
-    if said is None:
-        return None
+def _valid(model: type[_Model], value: Any, where: str = "") -> _Model:
+    """A model's fields, or one line about the first that is wrong."""
     try:
-        lines = tuple(as_points(line) for line in said)
-    except (TypeError, ValueError, ShapeError):
-        lines = (np.full((1, 2), math.inf),)
-    if any(len(line) < 2 or _reach(line) > MAX_COORDINATE for line in lines):
-        raise UnfitError(f"{where}.walls: must be lines of [x, y] pairs up to {MAX_COORDINATE:g}")
-    return lines
+        return model.model_validate(value)
+    except ValidationError as refused:
+        raise UnfitError(_refusal(refused, where)) from None
 
 
-def _item(feature: Mapping[str, Any], where: str) -> Item:
-    properties = _properties(feature, where)
-    x, y, angle_rad, scale, stretch = _pose(feature, where)
+def _refusal(refused: ValidationError, where: str) -> str:
+    error = refused.errors(include_url=False)[0]
+    place, met = error["loc"], error["input"]
+    if place[:1] == ("geometry",):
+        return f"{where}: geometry must be a Polygon or MultiPolygon"
+    if error["type"].startswith("union_tag"):
+        return f"{where}: role must be container or item, not {str(met.get('role'))[:20]!r}"
+    if place in ((), ("properties",)):
+        return f"{where}: must be a feature with properties"
+    names = [where] if where else []
+    # After "properties" stands the role, by which the model was chosen.
+    names += map(str, place[2:] if place[0] == "properties" else place)
+    met = None if error["type"] == "missing" else met
+    is_number = isinstance(met, int | float) and not isinstance(met, bool)
+    must = _MUST.get(names[-1], _NUMBER)
+    if error["type"] == "float_type" and not is_number:
+        must = "must be a number"
+    shown = f"{met:g}" if isinstance(met, float) else str(met)[:20]
+    return f"{'.'.join(names)}: {must}, not {shown if is_number else repr(shown)}"
+
+
+def _container(outline: Outline, of: _ContainerMembers, canvas: _Canvas | None) -> Container:
+    if canvas is None:
+        _, _, right, bottom = outline.bounds
+        canvas = _valid(_Canvas, {"width": right, "height": bottom}, "canvas")
+    name = str(of.name)
+    source = name if of.source is None else str(of.source)
+    size = canvas.width, canvas.height, canvas.unit
+    return Container(name, source, outline, *size, walls=of.walls)
+
+
+def _item(outline: Outline, of: _ItemMembers, where: str) -> Item:
     # Undo the pose: move back, turn back, scale back, stretch back.
     back = affine.compose(
-        affine.similarity(0.0, 0.0, -angle_rad, 1.0 / scale), affine.similarity(-x, -y, 0.0, 1.0)
+        affine.similarity(0.0, 0.0, -math.radians(of.angle), 1.0 / of.scale),
+        affine.similarity(-of.x, -of.y, 0.0, 1.0),
     )
-    back = affine.compose(affine.stretched(1.0 / stretch), back)
-    outline = _outline(feature, where).mapped(back)
-    name = str(properties.get("item", "item"))
-    art = FlatArt(_fill(properties, where))
-    source = str(properties.get("source", name))
-    return Item(
-        name, source, outline, outline, art, _label(properties, where),
-        datum=_datum(properties, where),
-    )  # fmt: skip
-
-
-def _label(properties: Mapping[str, Any], where: str) -> Label:
-    said = {key: properties[key] for key in _LABEL if properties.get(key) is not None}
-    for key, text in said.items():
-        if not isinstance(text, str):
-            raise UnfitError(f"{where}.{key}: must be text, not {str(text)[:20]!r}")
+    shape = outline.mapped(affine.compose(affine.stretched(1.0 / of.stretch), back))
     try:
-        return Label(**said)
+        label = Label(of.name or "", of.link or "", of.title or "")
     except RecipeError as error:
         raise UnfitError(f"{where}.{error}") from None
+    name, said = str(of.item), of.datum
+    source = name if of.source is None else str(of.source)
+    datum = None
+    if said is not None:
+        datum = Datum(said.row, said.value, str(said.category), str(said.group))
+    return Item(name, source, shape, shape, FlatArt(of.fill), label, datum=datum)
 
 
-def _datum(properties: Mapping[str, Any], where: str) -> Datum | None:
-    """What a mark of a chart stands for; None for any other item."""
-    said = properties.get("datum")
-    if said is None:
-        return None
-    if not isinstance(said, dict) or not isinstance(said.get("row"), dict):
-        raise UnfitError(f"{where}.datum: must be an object with a row")
-    value = said.get("value", 1.0)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise UnfitError(f"{where}.datum.value: must be a number, not {str(value)[:20]!r}")
-    category, group = (str(said.get(key, "")) for key in ("category", "group"))
-    return Datum(said["row"], float(value), category, group)
-
-
-def _fill(properties: Mapping[str, Any], where: str) -> str:
-    fill = properties.get("fill", FlatArt().fill)
+def _outline(geometry: _Geometry, where: str) -> Outline:
+    parts = [geometry.coordinates] if geometry.type == "Polygon" else geometry.coordinates
     try:
-        # What is no colour may lead out of the file once it is written again.
-        css_colour(str(fill))
-    except ValueError:
-        raise UnfitError(
-            f"{where}.fill: must be a colour such as #4a5568, not {str(fill)[:20]!r}"
-        ) from None
-    return str(fill)
-
-
-def _pose(feature: Mapping[str, Any], where: str) -> tuple[float, float, float, float, float]:
-    """Position, angle in radians, scale and stretch."""
-    properties = _properties(feature, where)
-    x, y, angle = (_number(properties, key, where) for key in _POSE)
-    scale = _scale(properties, where)
-    return x, y, math.radians(angle), scale, _stretch(properties, where)
-
-
-def _scale(properties: Mapping[str, Any], where: str) -> float:
-    """Canvas units to a unit of the item's file: of tiny drawings on large sheets it is large."""
-    scale = properties.get("scale")
-    if isinstance(scale, bool) or not isinstance(scale, int | float):
-        raise UnfitError(f"{where}.scale: must be a number, not {str(scale)[:20]!r}")
-    if not SMALLEST_SCALE <= scale <= LARGEST_SCALE:
-        bounds = f"{SMALLEST_SCALE:g} to {LARGEST_SCALE:g}"
-        raise UnfitError(f"{where}.scale: must be positive, {bounds}, not {str(scale)[:20]}")
-    return float(scale)
-
-
-def _stretch(properties: Mapping[str, Any], where: str) -> float:
-    stretch, least = _number({"stretch": 1.0, **properties}, "stretch", where), 1 / WIDEST_STRETCH
-    if not least <= stretch <= WIDEST_STRETCH:
-        raise UnfitError(
-            f"{where}.stretch: must be {least:g} to {WIDEST_STRETCH:g}, not {stretch:g}"
-        )
-    return stretch
-
-
-def _weight(feature: Mapping[str, Any], where: str) -> float:
-    weight = _number({"weight": 1.0, **_properties(feature, where)}, "weight", where)
-    if weight < 0:
-        raise UnfitError(f"{where}.weight: must not be negative, is {weight:g}")
-    return weight
-
-
-def _outline(feature: Mapping[str, Any], where: str) -> Outline:
-    geometry = feature.get("geometry")
-    kind = geometry.get("type") if isinstance(geometry, dict) else None
-    if not isinstance(geometry, dict) or kind not in ("Polygon", "MultiPolygon"):
-        raise UnfitError(f"{where}: geometry must be a Polygon or MultiPolygon")
-    parts: Any = geometry.get("coordinates")
-    try:
-        if kind == "Polygon":
-            count = sum(len(ring) for ring in parts)
-        else:
-            count = sum(len(ring) for part in parts for ring in part)
+        count = sum(len(ring) for part in parts for ring in part)
         if count > MAX_POINTS:
             raise UnfitError(
                 f"{where}: has {count:,} points, more than {MAX_POINTS:,}; simplify it"
             )
-        polygons = [parts] if kind == "Polygon" else parts
-        region = MultiPolygon([_polygon(rings) for rings in polygons])
+        region = MultiPolygon([_polygon(rings) for rings in parts])
     except (TypeError, ValueError, OverflowError, GEOSException):
         raise UnfitError(
             f"{where}: coordinates must be rings of [x, y] pairs up to {MAX_COORDINATE:g}"
         ) from None
-    return Outline.from_region(_checked(region, where))
+    if not region.is_valid:
+        raise UnfitError(
+            f"{where}: its outline is no clean region: {shapely.is_valid_reason(region)}"
+        )
+    if region.area <= 0:
+        raise UnfitError(f"{where}: its outline has no area")
+    return Outline.from_region(region)
 
 
 def _polygon(rings: Any) -> Polygon:
@@ -304,29 +310,3 @@ def _polygon(rings: Any) -> Polygon:
 
 def _reach(ring: FloatArray) -> float:
     return float(np.abs(ring).max()) if len(ring) else math.inf
-
-
-def _checked(region: Region, where: str) -> Region:
-    if not region.is_valid:
-        raise UnfitError(
-            f"{where}: its outline is no clean region: {shapely.is_valid_reason(region)}"
-        )
-    if region.area <= 0:
-        raise UnfitError(f"{where}: its outline has no area")
-    return region
-
-
-def _number(values: Mapping[str, Any], key: str, where: str) -> float:
-    value = values.get(key)
-    if isinstance(value, bool) or not isinstance(value, int | float):
-        raise UnfitError(f"{where}.{key}: must be a number, not {str(value)[:20]!r}")
-    if not abs(value) <= MAX_COORDINATE:
-        raise UnfitError(f"{where}.{key}: must be up to {MAX_COORDINATE:g}, not {str(value)[:20]}")
-    return float(value)
-
-
-def _positive(values: Mapping[str, Any], key: str, where: str) -> float:
-    number = _number(values, key, where)
-    if number <= 0:
-        raise UnfitError(f"{where}.{key}: must be positive, not {number:g}")
-    return number
