@@ -10,14 +10,13 @@ from __future__ import annotations
 import html
 import os
 import re
-import struct
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib import resources
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any
 
 from packwork.folders import home_folder
 
@@ -27,9 +26,6 @@ instead of the system's."""
 
 MAX_FILES = 5_000
 """Font files that are looked at. A well-equipped studio has as many. Chosen."""
-
-MAX_NAMES = 100_000
-"""Bytes of a font's table of names: those of many languages have 20,000. Chosen."""
 
 MOST_FACES = 64
 """Faces of one collection that are looked at. Chosen."""
@@ -41,6 +37,7 @@ BUNDLED_FAMILY = "Inter Display"
 """Family of the bundled font, for machines that have no other."""
 
 _FAMILY, _WHOLE_FAMILY = 1, 16
+_UNREADABLE = "\ufffd"
 _TAG = re.compile(r"<[^>]*>")
 _WISH = re.compile(r"""\bfont-family=("[^"]*"|'[^']*')""")
 _PLAIN_LETTERS = "\u024f"
@@ -210,11 +207,29 @@ def family_of(file: str) -> set[str]:
     >>> sorted(family_of(bundled_file()))
     ['Inter Display']
     """
+    import uharfbuzz as hb
+
     try:
-        with Path(file).open("rb") as font:
-            return {name for start in _face_starts(font) for name in _families(font, start)}
-    except (OSError, struct.error, UnicodeDecodeError, ValueError):
+        # The file is mapped: no more than its table of names is read.
+        blob = hb.Blob.from_file_path(file)
+    except hb.HarfBuzzError:
         return set()
+    faces = min(hb.Face(blob).count, MOST_FACES)
+    return {name for k in range(faces) for name in _families(hb.Face(blob, k))}
+
+
+def _families(face: Any) -> set[str]:
+    """Families of a face, all its weights under one name.
+
+    Older programs know four weights to a family; for them the others are families.
+    """
+    entries = face.list_names()
+    for kind in (_WHOLE_FAMILY, _FAMILY):
+        languages = {entry.language for entry in entries if entry.name_id == kind}
+        names = {face.get_name(kind, language) or _UNREADABLE for language in languages}
+        if names := {name for name in names if _UNREADABLE not in name}:
+            return names
+    return set()
 
 
 def _first(names: Iterable[str], installed: Mapping[str, tuple[str, ...]]) -> str:
@@ -280,46 +295,3 @@ def _folders() -> list[Path]:
         home / ".local" / "share" / "fonts",
         home / ".fonts",
     ]
-
-
-def _face_starts(font: BinaryIO) -> list[int]:
-    """Where each face of a file begins: one, or several in a collection."""
-    tag, _, count = struct.unpack(">4s4sI", font.read(12))
-    if tag != b"ttcf":
-        return [0]
-    faces = min(count, MOST_FACES)
-    return list(struct.unpack(f">{faces}I", font.read(4 * faces)))
-
-
-def _families(font: BinaryIO, start: int) -> set[str]:
-    """Families of the face that begins at ``start``, all its weights under one name.
-
-    Older programs know four weights to a family; for them the others are families.
-    """
-    names = list(_names(font, start))
-    whole = {name for kind, name in names if kind == _WHOLE_FAMILY}
-    return whole or {name for kind, name in names if kind == _FAMILY}
-
-
-def _names(font: BinaryIO, start: int) -> Iterator[tuple[int, str]]:
-    """Kinds and texts of a face's table of names: a few hundred bytes of each file are read.
-
-    HarfBuzz would have to be given whole files, gigabytes of them on a well-equipped machine.
-    """
-    font.seek(start)
-    (tables,) = struct.unpack(">4xH6x", font.read(12))
-    for _ in range(tables):
-        tag, offset, length = struct.unpack(">4s4xII", font.read(16))
-        if tag == b"name":
-            font.seek(offset)
-            yield from _records(font.read(min(length, MAX_NAMES)))
-            return
-
-
-def _records(table: bytes) -> Iterator[tuple[int, str]]:
-    count, texts = struct.unpack_from(">2xHH", table)
-    for k in range(count):
-        platform, _, _, kind, length, place = struct.unpack_from(">6H", table, 6 + 12 * k)
-        text = table[texts + place : texts + place + length]
-        if kind in {_FAMILY, _WHOLE_FAMILY}:
-            yield kind, text.decode("mac-roman" if platform == 1 else "utf-16-be")
