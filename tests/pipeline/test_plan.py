@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
 from packwork import uses
-from packwork.pipeline.plan.plan import _FIRST, Plan, Stage
+from packwork.pipeline.plan.plan import Plan
 from packwork.recipe import make_recipe
 from scenes import round_container
 
@@ -34,25 +34,6 @@ def test_stage_options_follow_a_changed_field() -> None:
     assert part.solve_options().margin == 2.0
     assert "evenness" in whole.solve_options().losses
     assert "evenness" not in part.solve_options().losses
-
-
-@pytest.mark.parametrize(
-    ("change", "stage"),
-    [
-        ({}, None),
-        ({"size_ratio": 3.0}, Stage.START),
-        ({"epochs": 7}, Stage.LEVELS),
-        ({"target_coverage": 0.9}, Stage.GAPS),
-        ({"palette": "teal"}, Stage.LOOK),
-        ({"palette": "teal", "seed": 4}, Stage.START),
-    ],
-)
-def test_a_change_says_from_where_a_run_is_stale(change: Any, stage: Stage | None) -> None:
-    assert plan(**change).stale_since(plan()) is stage
-
-
-def test_stages_are_told_of_fields_that_there_are() -> None:
-    assert _FIRST.keys() <= {field.name for field in fields(Plan)}
 
 
 def test_the_recipe_of_a_run_is_what_was_asked() -> None:

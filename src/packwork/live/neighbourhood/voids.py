@@ -19,24 +19,18 @@ EMPTY = 1e-6
 """Share of the container's area that is no room any more. Chosen."""
 
 
-def widest_place(document: Document, shapes: Shapes) -> tuple[float, float, float]:
-    """Middle and radius of the largest disc that no item lies in, canvas units.
+def widest_places(document: Document, shapes: Shapes) -> Iterator[tuple[float, float, float]]:
+    """Middles and radii of the largest discs that no item and no disc before lies in.
+
+    Without end: where nothing is free any more, items are taken for not there.
 
     Examples
     --------
     >>> from packwork import fill
     >>> layout = fill("square", "circle", count=1, epochs=20, levels="50")
-    >>> x, y, radius = widest_place(Document.of(layout), Shapes())
+    >>> x, y, radius = next(widest_places(Document.of(layout), Shapes()))
     >>> 0 < radius < 300
     True
-    """
-    return next(widest_places(document, shapes))
-
-
-def widest_places(document: Document, shapes: Shapes) -> Iterator[tuple[float, float, float]]:
-    """Middles and radii of the largest discs that no item and no disc before lies in.
-
-    Without end: where nothing is free any more, items are taken for not there.
     """
     covers = [
         shapes.cover(item.outline).mapped(document.poses.matrix(k)).region

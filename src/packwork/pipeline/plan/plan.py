@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
-from enum import IntEnum
+from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
 
 from packwork.errors import RecipeError
@@ -45,16 +44,6 @@ SHOWING_RATIO = 1.5
 items are large, smaller fills less. Chosen by eye."""
 
 Losses = Mapping[str | ImageLossFunction, float]
-
-
-class Stage(IntEnum):
-    """Stages of a run in their order."""
-
-    START = 0
-    LEVELS = 1
-    EXACT = 2
-    GAPS = 3
-    LOOK = 4
 
 
 @dataclass(frozen=True)
@@ -147,14 +136,11 @@ class Plan:
 
     Examples
     --------
-    >>> from dataclasses import replace
     >>> from packwork.readers.builtin import builtin_container
     >>> from packwork.recipe import make_recipe
     >>> plan = Plan.of(make_recipe(container="heart", padding="1%"), builtin_container("heart"))
     >>> plan.gap, plan.solve_options().margin
     (6.0, 3.0)
-    >>> replace(plan, sizes="fixed").stale_since(plan).name
-    'START'
     """
 
     gap: float
@@ -299,25 +285,7 @@ class Plan:
         }
         return SolveOptions(**{**dict(preset), **changes})
 
-    def stale_since(self, before: Plan) -> Stage | None:
-        """First stage that has to run again after a change; None if nothing changed."""
-        changed = [
-            one.name for one in fields(self) if getattr(self, one.name) != getattr(before, one.name)
-        ]
-        return min((_FIRST.get(name, Stage.START) for name in changed), default=None)
 
-
-_FIRST: Mapping[str, Stage] = {
-    "levels": Stage.LEVELS,
-    "losses": Stage.LEVELS,
-    "epochs": Stage.LEVELS,
-    "is_exact": Stage.EXACT,
-    "trial_factor": Stage.EXACT,
-    "voids": Stage.GAPS,
-    "palette": Stage.LOOK,
-    "shades": Stage.LOOK,
-    "has_even_lines": Stage.LOOK,
-}
 """Stages that are the first to read a field; the start for all others."""
 
 

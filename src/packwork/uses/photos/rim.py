@@ -34,7 +34,6 @@ GAIN = 1e-3
 
 ShapeArray: TypeAlias = npt.NDArray[np.object_]
 
-_SLACK = 1e-9
 _NOTHING = shapely.Polygon()
 _SIDES = tuple(product((-1, 0, 1), repeat=2))
 
@@ -123,10 +122,6 @@ def _within_reach(seen: ShapeArray, k: int, extent: float, gap: float) -> IntArr
     shapely.prepare(near)
     met = np.flatnonzero(shapely.intersects(near, seen))
     return np.asarray(met[met != k])
-
-
-def _is_short(whole: Region, window: Region, least: float) -> bool:
-    return bool(intersection(whole, window).area < least * whole.area)
 
 
 def _about_sides(
