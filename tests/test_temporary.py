@@ -171,8 +171,7 @@ def is_running(process: int) -> bool:
 @pytest.mark.parametrize(
     "work",
     [
-        "from packwork.readers.words.matching import found_in\n"
-        "found_in('(a+)+$', ['a' * 60 + 'b'])",
+        "from packwork.readers.words.tokens import found_in\nfound_in('(a+)+$', ['a' * 60 + 'b'])",
         "from packwork.raster.drawing import drawn_png\n"
         "line = 'M0 0' + ''.join(f'L{k * 7 % 997} {k * 13 % 991}' for k in range(900_000))\n"
         'drawn_png(f\'<svg xmlns="http://www.w3.org/2000/svg" width="999" height="999">\'\n'

@@ -15,7 +15,7 @@ from packwork.readers.items import read_items
 from packwork.readers.layouts.read import read_written
 from packwork.readers.options import ReadOptions
 from packwork.readers.slits import closed_slits
-from packwork.readers.svg.walls import walled_container
+from packwork.readers.svg.curve import walled_container
 from packwork.recipe import make_recipe
 from packwork.recipe.reading import Interpreted
 from packwork.recipe.refusals import validated

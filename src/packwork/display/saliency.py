@@ -13,8 +13,7 @@ from packwork.readers.container import read_container
 from packwork.readers.files import read_bytes
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.pictures.developing import developed, inspected
-from packwork.readers.saliency.container import QuietOptions
-from packwork.readers.saliency.region import saliency_map
+from packwork.readers.saliency import QuietOptions, saliency_map
 from packwork.recipe import Recipe
 from packwork.recipe_paths import AROUND
 from packwork.writers.atomic import check_writable, write_atomic

@@ -26,7 +26,7 @@ from packwork.readers.items import is_several, read_items
 from packwork.readers.layouts.read import is_drawn, read_written
 from packwork.readers.photos.read import read_photos
 from packwork.readers.regions import MAX_POINTS
-from packwork.readers.saliency.container import QuietOptions
+from packwork.readers.saliency import QuietOptions
 from packwork.recipe import Recipe
 from packwork.recipe.meaning import FROM_TEXT
 from packwork.scene.canvas import on_canvas

@@ -3,20 +3,112 @@
 from __future__ import annotations
 
 import difflib
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Mapping
 from importlib import resources
 
 from packwork.errors import ReadError
 from packwork.geometry import affine
+from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
-from packwork.readers.primitives import NAMES, PATHS, primitive
+from packwork.geometry.polygon import Region, region
 from packwork.readers.regions import Holes, centred
 from packwork.readers.svg.container import container_of_svg
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.unfit import naming
+from packwork.readers.svg_syntax.path_data import parse_path
+from packwork.readers.svg_syntax.shapes import flattened
+from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.units import SHEETS
+
+MOST_STRIPE = 100.0
+"""Longest stripe, as a multiple of its width. Chosen."""
+
+_SIDE = 100.0
+
+
+def _corners(count: int, inner: float = 1.0) -> str:
+    """Path through ``count`` corners of a circle, one on top; stars dent by ``inner``."""
+    points = count if inner == 1.0 else 2 * count
+    places = []
+    for k in range(points):
+        radius = _SIDE / 2 * (inner if points > count and k % 2 else 1.0)
+        turn = 2 * math.pi * k / points
+        places.append(f"{50 + radius * math.sin(turn)!r} {50 - radius * math.cos(turn)!r}")
+    return f"M{' '.join(places)}z"
+
+
+def _disc(radius: float, ry: float | None = None) -> str:
+    """Path round an ellipse in the middle of the box."""
+    down = radius if ry is None else ry
+    arc = f"a{radius} {down} 0 1 1"
+    return f"M{50 - radius} 50{arc}{2 * radius} 0{arc}{-2 * radius} 0z"
+
+
+PATHS: Mapping[str, str] = {
+    "arrow": "M0 36h56v-24l44 38-44 38v-24h-56z",
+    "circle": _disc(50),
+    "cloud": "M24 78A22 22 0 0 1 18 36A27 27 0 0 1 66 24A24 24 0 0 1 84 44A18 18 0 0 1 80 78z",
+    "cross": "M35 0h30v35h35v30h-35v35h-30v-35h-35v-30h35z",
+    "diamond": "M50 0L88 50L50 100L12 50z",
+    "drop": "M50 0C62 24 84 44 84 66A34 34 0 0 1 16 66C16 44 38 24 50 0z",
+    "ellipse": _disc(50, 31),
+    "heart": (
+        "M50 92C18 66 0 50 0 28C0 12 12 0 27 0C37 0 45 5 50 14"
+        "C55 5 63 0 73 0C88 0 100 12 100 28C100 50 82 66 50 92z"
+    ),
+    "hexagon": _corners(6),
+    "leaf": "M50 0C90 22 92 72 50 100C8 72 10 22 50 0z",
+    "moon": "M62 2A50 50 0 1 0 98 62A40 40 0 0 1 62 2z",
+    "octagon": _corners(8),
+    "pentagon": _corners(5),
+    "rectangle": "M0 0h100v62h-100z",
+    "ring": _disc(50) + _disc(30),
+    "square": "M0 0h100v100h-100z",
+    "star": _corners(5, 0.42),
+    "triangle": _corners(3),
+}
+"""Path data by name; holes by the even-odd rule."""
+
+NAMES = (*sorted(PATHS), "stripe:6")
+"""All plain shapes; a stripe takes any length, as a multiple of its width."""
+
+
+def primitive(name: str) -> Region | None:
+    """Region of a plain shape; None if none has that name.
+
+    Raises
+    ------
+    UnfitError
+        If it is a stripe of no sane length.
+
+    Examples
+    --------
+    >>> primitive("square").area, primitive("stripe:4").bounds, primitive("dodo")
+    (10000.0, (0.0, 0.0, 100.0, 25.0), None)
+    """
+    if name.startswith("stripe:"):
+        return _stripe(name.partition(":")[2])
+    if name not in PATHS:
+        return None
+    pieces = parse_path(PATHS[name])
+    return region([flattened(piece, FLATTENING * _SIDE) for piece in pieces], "evenodd")
+
+
+def _stripe(text: str) -> Region:
+    try:
+        aspect = float(text)
+    except ValueError:
+        aspect = math.nan
+    if not 1 / MOST_STRIPE <= aspect <= MOST_STRIPE:
+        raise UnfitError(
+            f"a stripe needs its length as a multiple of its width, up to {MOST_STRIPE:g}, "
+            f"as in stripe:6, not {text[:20]!r}"
+        )
+    width, height = (_SIDE, _SIDE / aspect) if aspect >= 1 else (_SIDE * aspect, _SIDE)
+    return region([flattened(parse_path(f"M0 0h{width!r}v{height!r}h{-width!r}z")[0], 1.0)])
+
 
 ALL_ICONS = "icons"
 """Name that stands for every bundled icon."""

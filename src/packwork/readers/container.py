@@ -9,15 +9,14 @@ from packwork.geometry.polygon import Region
 from packwork.readers.builtin import builtin_container, container_names
 from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
-from packwork.readers.memory.container import container_in_memory
-from packwork.readers.options import AS_DRAWN, ReadOptions
+from packwork.readers.memory.items import container_in_memory
+from packwork.readers.options import AS_DRAWN, TEXT_PREFIX, ReadOptions
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
-from packwork.readers.saliency.container import QuietOptions, container_around
+from packwork.readers.regions import canvas_box
+from packwork.readers.saliency import QuietOptions, container_around
 from packwork.readers.slits import closed_slits
 from packwork.readers.svg.container import container_of_svg, parts_of_svg
-from packwork.readers.text import PREFIX
-from packwork.readers.trimming import canvas_box
 from packwork.readers.unfit import naming
 from packwork.recipe_paths import AROUND, BUILTIN
 from packwork.scene.blank import sheet
@@ -131,9 +130,9 @@ def _container(
     # A folder or a note that happens to be called "heart" is not what was meant.
     if exists(path) and not (path.suffix == "" and text in container_names()):
         return _container_of_file(path, text, side, reading)
-    if text.startswith(PREFIX):
+    if text.startswith(TEXT_PREFIX):
         # Only words need the font library.
-        from packwork.readers.text.container import container_of_words
+        from packwork.readers.text import container_of_words
 
         return container_of_words(text, side or DEFAULT_SIDE, font)
     if text.startswith(AROUND):

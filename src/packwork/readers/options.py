@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+TEXT_PREFIX = "text:"
+"""Beginning of a container that is made of words."""
+
 GAPS_AUTO, GAPS_NONE = "auto", "none"
 """How slits are closed, where no length is given."""
 

@@ -14,7 +14,7 @@ from packwork.arrays import BoolArray, FloatArray
 from packwork.errors import ReadError, RecipeError
 from packwork.phrasing import enumerated
 from packwork.readers.files import read_bytes
-from packwork.readers.memory.vectors import GivenVectors
+from packwork.readers.memory.values import GivenVectors
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table, read_table
 from packwork.readers.tables.written import Written

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from importlib import resources
 
-from packwork.readers.words.matching import found_in
+from packwork.readers.words.tokens import found_in
 
 STOPWORDS: set[str] = set(
     resources.files("packwork.bundled")

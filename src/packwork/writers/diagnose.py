@@ -17,7 +17,7 @@ from PIL import Image
 from packwork.geometry.outline import Outline, joined
 from packwork.raster.membership import centre_count
 from packwork.scene.layout import Layout
-from packwork.writers.frame import Frame, picture_frame
+from packwork.writers.frame import PictureFrame, picture_frame
 
 _Pixels: TypeAlias = npt.NDArray[np.uint8]
 
@@ -61,7 +61,7 @@ def diagnose_png(layout: Layout, longer_side_px: int) -> bytes:
     return target.getvalue()
 
 
-def _classes(layout: Layout, frame: Frame, top: int, bottom: int) -> _Pixels:
+def _classes(layout: Layout, frame: PictureFrame, top: int, bottom: int) -> _Pixels:
     """What each sample of the pixel rows ``top`` to ``bottom`` shows."""
     inside = _counts([layout.container.outline], frame, top, bottom) > 0
     items = _counts(layout.outlines, frame, top, bottom)
@@ -73,7 +73,7 @@ def _classes(layout: Layout, frame: Frame, top: int, bottom: int) -> _Pixels:
 
 
 def _counts(
-    outlines: Sequence[Outline], frame: Frame, top: int, bottom: int
+    outlines: Sequence[Outline], frame: PictureFrame, top: int, bottom: int
 ) -> npt.NDArray[np.int32]:
     """Outlines that hold each sample of some pixel rows."""
     shape = ((bottom - top) * SAMPLES, frame.columns * SAMPLES)

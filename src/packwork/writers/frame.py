@@ -17,7 +17,7 @@ MAX_PIXELS = 150_000_000
 
 
 @dataclass(frozen=True, kw_only=True)
-class Frame:
+class PictureFrame:
     """Size of a picture in pixels and its scale.
 
     Parameters
@@ -93,7 +93,7 @@ def check_side(longer_side_px: int) -> None:
         )
 
 
-def picture_frame(container: Container, longer_side_px: int) -> Frame:
+def picture_frame(container: Container, longer_side_px: int) -> PictureFrame:
     """Frame that shows the whole canvas, ``longer_side_px`` long.
 
     Raises
@@ -116,4 +116,4 @@ def picture_frame(container: Container, longer_side_px: int) -> Frame:
             f"{columns} x {rows} px are too many; a picture may have "
             f"{MAX_PIXELS // 1_000_000} million",
         )
-    return Frame(rows=rows, columns=columns, px_per_cu=longer_side_px / container.side)
+    return PictureFrame(rows=rows, columns=columns, px_per_cu=longer_side_px / container.side)

@@ -32,7 +32,7 @@ from packwork.scene.notation import (
 from packwork.scene.note import Note
 from packwork.units import Unit
 from packwork.writers.cutting import CutOptions, cut_group
-from packwork.writers.frame import Frame
+from packwork.writers.frame import PictureFrame
 from packwork.writers.labels import item_ids, labelled
 from packwork.writers.live import LiveWords
 from packwork.writers.marks import element, paint, shape_key
@@ -122,7 +122,7 @@ class SheetSize:
     view: tuple[float, float]
 
 
-def sheet_of(frame: Frame) -> SheetSize:
+def sheet_of(frame: PictureFrame) -> SheetSize:
     """Sheet of whole pixels both ways: renderers fit a fractional canvas with soft edges."""
     size = (float(frame.columns), float(frame.rows))
     view = (size[0] / frame.px_per_cu, size[1] / frame.px_per_cu)

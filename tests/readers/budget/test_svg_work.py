@@ -15,8 +15,7 @@ from packwork.readers.gate.door import admit
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.paint.walk import painted_shapes
-from packwork.readers.svg.render.touched import touched
-from packwork.readers.svg.render.trace import MAX_POINTS, MAX_RINGS
+from packwork.readers.svg.render.trace import MAX_POINTS, MAX_RINGS, touched
 from packwork.readers.unfit import TooRichError
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1000 1000">{}</svg>'

@@ -8,8 +8,8 @@ from fontTools.pens.recordingPen import DecomposingRecordingPen
 from fontTools.ttLib import TTFont
 
 from packwork.fonts import bundled_file
-from packwork.readers.fonts.curves import points_of, rings_of
 from packwork.readers.fonts.face import bundled_typeface
+from packwork.readers.fonts.glyph_ink import points_of, rings_of
 
 TEXT = "SIGaqgfjß&8%ÄçΩЖ@ế"
 TOLERANCE = 1e-6

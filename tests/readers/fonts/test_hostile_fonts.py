@@ -24,8 +24,7 @@ from packwork.errors import ReadError
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.fonts.guard import MAX_FONT_BYTES
-from packwork.readers.text.container import container_of_words
-from packwork.readers.text.letters import Letter, letters_of
+from packwork.readers.text import Letter, container_of_words, letters_of
 from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.items import word_item
 from packwork.readers.words.word import Word

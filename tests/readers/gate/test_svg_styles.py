@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from packwork.readers.gate.css.colours import plain_colour
 from packwork.readers.gate.css.declarations import parse_declarations
-from packwork.readers.gate.css.nodes import Node
-from packwork.readers.gate.css.selectors import UnknownSelectorError, parse_selector
+from packwork.readers.gate.css.selectors import Node, UnknownSelectorError, parse_selector
 from packwork.readers.gate.css.sheets import StyleSheet
 from packwork.readers.gate.door import admit
 

@@ -12,7 +12,7 @@ import packwork as pw
 from packwork.errors import ReadError
 from packwork.metrics.certificate import taken_on_trust
 from packwork.readers import json_text
-from packwork.readers.layouts import assembly, dxf_tags
+from packwork.readers.layouts import assembly, dxf
 from packwork.readers.layouts import geojson as saved
 from packwork.readers.layouts.read import read_written
 from packwork.scene.item import FlatArt, VectorArt
@@ -117,7 +117,7 @@ def test_a_dxf_of_millions_of_lines_is_refused(
 ) -> None:
     file = tmp_path / "found.dxf"
     file.write_text("0\nEOF\n" * 30, encoding="utf-8")
-    monkeypatch.setattr(dxf_tags, "MOST_LINES", 40)
+    monkeypatch.setattr(dxf, "MOST_LINES", 40)
     with pytest.raises(ReadError, match="has more than 40 lines"):
         read_written(file)
 

@@ -18,8 +18,7 @@ from packwork.errors import ReadError, RecipeError
 from packwork.raster.drawing import drawn_png
 from packwork.readers.container import read_container
 from packwork.readers.photos.options import PhotoOptions
-from packwork.readers.photos.photo import read_photo
-from packwork.readers.photos.read import read_photos, shape_of
+from packwork.readers.photos.read import read_photo, read_photos, shape_of
 from packwork.readers.pictures.developing import developed, inspected
 from packwork.recipe.refusals import validated
 from packwork.scene.item import Item, PhotoArt

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import ExifTags, Image, ImageOps
 
-from packwork.readers.pictures import decode, reducing
+from packwork.readers.pictures import decode
 from packwork.readers.pictures.decode import averageable, decode_picture
 from packwork.readers.pictures.developing import developed
 
@@ -23,8 +23,8 @@ def noise(mode: str, size: tuple[int, int]) -> Image.Image:
 @pytest.mark.parametrize("size", [(7, 5), (40, 30), (39, 1), (1, 61)])
 def test_bands_make_what_the_whole_makes(monkeypatch, mode, size):
     image = noise(mode, (80, 61))
-    monkeypatch.setattr(reducing, "BAND_PIXELS", 700)
-    found = reducing.shrunk(image, size, averageable)
+    monkeypatch.setattr(decode, "BAND_PIXELS", 700)
+    found = decode.shrunk(image, size, averageable)
     whole = averageable(image).resize(size, Image.Resampling.BOX)
     assert found.mode == whole.mode
     away = np.abs(np.asarray(found, float) - np.asarray(whole, float))
@@ -33,14 +33,14 @@ def test_bands_make_what_the_whole_makes(monkeypatch, mode, size):
 
 
 def test_no_band_is_larger_than_allowed(monkeypatch):
-    monkeypatch.setattr(reducing, "BAND_PIXELS", 5_000)
+    monkeypatch.setattr(decode, "BAND_PIXELS", 5_000)
     seen: list[int] = []
 
     def watched(band: Image.Image) -> Image.Image:
         seen.append(band.width * band.height)
         return band
 
-    reducing.shrunk(noise("L", (100, 900)), (10, 90), watched)
+    decode.shrunk(noise("L", (100, 900)), (10, 90), watched)
     assert max(seen) <= 6_000
     assert sum(seen) < 1.3 * 90_000
 

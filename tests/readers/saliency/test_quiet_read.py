@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw
 
 from packwork.errors import ReadError
 from packwork.readers.container import read_container
-from packwork.readers.saliency.container import QuietOptions
+from packwork.readers.saliency import QuietOptions
 from packwork.scene.container import Container
 
 BUSY = (10, 60, 90, 140)

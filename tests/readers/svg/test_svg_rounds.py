@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 
 from packwork.geometry.polygon import region
-from packwork.readers.svg.item import item_of_svg
-from packwork.readers.svg.rounds import with_short_arcs
+from packwork.readers.svg.item import item_of_svg, with_short_arcs
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.readers.svg_syntax.shapes import flattened, shape_pieces
 from packwork.scene.layout import Layout

@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from packwork.readers.svg_syntax.arcs import arc_cubics
-from packwork.readers.svg_syntax.path_data import parse_path
+from packwork.readers.svg_syntax.path_data import arc_cubics, parse_path
 from packwork.readers.svg_syntax.shapes import flattened, shape_pieces
 
 

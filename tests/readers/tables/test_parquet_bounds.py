@@ -10,8 +10,7 @@ import pytest
 
 from packwork.errors import ReadError
 from packwork.readers.tables import parquet as reader
-from packwork.readers.tables import parquet_pages
-from packwork.readers.tables.json_rows import MAX_JSON_BYTES
+from packwork.readers.tables.decoding import MAX_JSON_BYTES
 from packwork.readers.tables.table import read_table
 
 pa = pytest.importorskip("pyarrow")
@@ -107,7 +106,7 @@ def test_a_spoilt_end_is_refused(spoil: Any, written: Any) -> None:
     with pytest.raises(ReadError, match="is not Parquet that can be read"):
         read_table(str(path))
     with pytest.raises(ValueError, match="account of itself"):
-        parquet_pages.pieces_of(path.read_bytes())
+        reader.pieces_of(path.read_bytes())
 
 
 def test_texts_told_by_the_one_before_are_counted_as_they_are_unpacked(
@@ -141,7 +140,7 @@ def test_texts_of_every_encoding_are_read(coding: str, written: Any) -> None:
 def test_pages_are_counted(written: Any, monkeypatch: pytest.MonkeyPatch) -> None:
     file = written({"n": list(range(5_000))}, use_dictionary=False, data_page_size=64)
     assert len(read_table(file).rows) == 5_000
-    monkeypatch.setattr(parquet_pages, "MOST_PAGES", 3)
+    monkeypatch.setattr(reader, "MOST_PAGES", 3)
     with pytest.raises(ReadError, match="more than 3 pages"):
         read_table(file)
 

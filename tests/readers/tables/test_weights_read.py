@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from packwork.errors import ReadError
-from packwork.readers.tables.weights import read_weights
+from packwork.readers.tables.pairs import read_weights
 
 
 @pytest.fixture(scope="module")

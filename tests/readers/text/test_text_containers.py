@@ -26,10 +26,15 @@ from packwork.geometry.polygon import polygon_parts
 from packwork.readers.container import read_container
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
-from packwork.readers.text import lines
-from packwork.readers.text.container import container_of_words
-from packwork.readers.text.letters import Letter, letters_of
-from packwork.readers.text.lines import LETTER_GAP, LINE_GAP, MOST_CHARACTERS, set_lines
+from packwork.readers.text import (
+    LETTER_GAP,
+    LINE_GAP,
+    MOST_CHARACTERS,
+    Letter,
+    container_of_words,
+    letters_of,
+    set_lines,
+)
 from packwork.readers.unfit import naming
 
 BUNDLED = Path(bundled_file()).read_bytes()
@@ -260,7 +265,7 @@ def test_letters_are_moved_apart_and_lines_are_centred():
 
 def test_letters_of_many_points_are_set_as_others_are(monkeypatch):
     whole = container_of_words("text:LTAVfj/|AV", 600)
-    monkeypatch.setattr(lines, "FEW_POINTS", 0)
+    monkeypatch.setattr("packwork.readers.text.FEW_POINTS", 0)
     facing = container_of_words("text:LTAVfj/|AV", 600)
     assert np.allclose(facing.outline.points, whole.outline.points, atol=1e-9)
 

@@ -16,9 +16,7 @@ from packwork.errors import PackworkError, ReadError, RecipeError
 from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import ranked_words, read_words
-from packwork.readers.words.stop_words import guess_language, stop_words
-from packwork.readers.words.tokens import sentences
-from packwork.readers.words.unspaced import segments
+from packwork.readers.words.tokens import guess_language, segments, sentences, stop_words
 from packwork.recipe.refusals import validated
 
 

@@ -7,10 +7,9 @@ import re
 import pytest
 
 from packwork.errors import RecipeError
-from packwork.readers.words import matching
-from packwork.readers.words.matching import found_in
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import read_words
+from packwork.readers.words.tokens import found_in
 from packwork.wordcloud.words import tokens
 
 ENDLESS = "(a+)+$"
@@ -27,7 +26,7 @@ def test_matches_are_those_of_the_same_process(pattern: str) -> None:
 
 
 def test_a_pattern_that_does_not_end_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(matching, "MOST_SECONDS", 0.5)
+    monkeypatch.setattr("packwork.readers.words.tokens.MOST_SECONDS", 0.5)
     with pytest.raises(RecipeError, match=r"regexp: takes more than 0\.5 s on this text"):
         read_words(WordOptions(source=f"bears {LONG}", regexp=ENDLESS))
     with pytest.raises(RecipeError, match="takes more than"):
@@ -43,6 +42,6 @@ def test_the_drop_in_finds_what_the_other_package_finds() -> None:
 def test_a_program_that_holds_python_in_it_matches_by_itself(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    monkeypatch.setattr(matching.sys, "executable", "")
+    monkeypatch.setattr("packwork.readers.words.tokens.sys.executable", "")
     assert found_in("b.", ["abc"]) == [["bc"]]
     assert found_in("(b)(.)", ["abc"], groups=True) == [[("b", "c")]]

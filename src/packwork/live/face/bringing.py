@@ -9,10 +9,15 @@ from pathlib import Path
 from packwork.errors import ReadError
 from packwork.fonts import installed_families
 from packwork.geometry.outline import Outline
-from packwork.readers.builtin import builtin_container, builtin_item, container_names, icon_names
+from packwork.readers.builtin import (
+    NAMES,
+    builtin_container,
+    builtin_item,
+    container_names,
+    icon_names,
+)
 from packwork.readers.container import read_container
 from packwork.readers.items import ItemsRead, read_items
-from packwork.readers.primitives import NAMES
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.palette import PALETTES

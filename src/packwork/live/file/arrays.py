@@ -13,8 +13,7 @@ from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.file.records import FARTHEST, OutlineRecord
-from packwork.readers.budget.crossings import Allowance
-from packwork.readers.budget.nesting import check_nesting
+from packwork.readers.budget.crossings import Allowance, check_nesting
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.unfit import UnfitError
 

@@ -13,7 +13,7 @@ from packwork.errors import RecipeError
 from packwork.phrasing import number_of
 from packwork.pipeline.plan.asked import Asked, Voice, named, voices
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.tables.weights import read_weights
+from packwork.readers.tables.pairs import read_weights
 from packwork.recipe import Recipe
 from packwork.recipe.rules import MAX_COUNT, Rule
 from packwork.scene.item import Item

@@ -10,8 +10,7 @@ import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 
 from packwork.readers.budget.dashes import dashes_per_unit, draw_solid, line_length, settle_dashes
-from packwork.readers.svg_syntax.embedded import embedded_size
-from packwork.readers.svg_syntax.references import elements_by_id, referenced_ids
+from packwork.readers.svg_syntax.references import elements_by_id, embedded_size, referenced_ids
 from packwork.readers.svg_syntax.vocabulary import (
     FILTER_STEPS,
     GRADIENTS,

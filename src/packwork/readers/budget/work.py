@@ -13,9 +13,8 @@ from dataclasses import dataclass
 
 from packwork.readers.account import left, spend
 from packwork.readers.budget.expansion import count_expanded
-from packwork.readers.svg_syntax.extent import drawing_box, stretch
 from packwork.readers.svg_syntax.page import Page
-from packwork.readers.svg_syntax.painted import Painted
+from packwork.readers.svg_syntax.painted import Painted, drawing_box, stretch
 from packwork.readers.unfit import TooRichError
 
 PICTURE_NS = 5e8

@@ -1,4 +1,4 @@
-"""Shaped words to regions and to paths."""
+"""Shaped words to regions and to paths; glyphs that are pictures are traced."""
 
 from __future__ import annotations
 
@@ -6,14 +6,18 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from io import BytesIO
 
 import numpy as np
+import shapely
+from PIL import Image
 from shapely import affinity
 
 from packwork.arrays import FloatArray
+from packwork.geometry import affine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.polygon import Region, united
-from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Glyph, Typeface
+from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Bitmap, Glyph, Typeface
 from packwork.readers.fonts.glyph_ink import (
     ClearInk,
     GlyphPath,
@@ -22,11 +26,76 @@ from packwork.readers.fonts.glyph_ink import (
     glyph_path,
 )
 from packwork.readers.fonts.itemise import Piece, visual_order
-from packwork.readers.fonts.kept_glyphs import GlyphInk
-from packwork.readers.fonts.pictures import GlyphPicture, picture_of
-from packwork.readers.fonts.remembered import remembered_by_font
+from packwork.readers.fonts.kept_glyphs import GlyphInk, remembered_by_font
+from packwork.readers.pictures.decode import Pixels, decode_picture
+from packwork.readers.pictures.silhouette import outline_of_cut_out
 from packwork.readers.unfit import UnfitError
 from packwork.scene.live_text import TextRun
+
+MOST_PX = 1_024
+"""Longer side of a glyph's picture; fonts have 136 and 160. Chosen."""
+
+
+@dataclass(frozen=True, eq=False)
+class GlyphPicture:
+    """A glyph's picture in place.
+
+    Parameters
+    ----------
+    png
+        A complete PNG file.
+    width, height
+        Its size in pixels.
+    matrix
+        2 x 3 map from pixels to the word's units.
+    region
+        What it shows, in the word's units.
+    """
+
+    png: bytes
+    width: int
+    height: int
+    matrix: FloatArray
+    region: Region
+
+
+def picture_of(bitmap: Bitmap, origin: tuple[float, float], scale: float) -> GlyphPicture:
+    """Picture of a glyph whose origin stands there, its font's units that large.
+
+    Raises
+    ------
+    UnfitError
+        If the font's picture is broken or shows nothing.
+
+    Examples
+    --------
+    >>> made = BytesIO()
+    >>> Image.new("RGBA", (4, 2), "teal").save(made, format="png")
+    >>> picture = picture_of(Bitmap(made.getvalue(), 0, -100, 200, 0), (10.0, 0.0), 1.0)
+    >>> [round(side) for side in picture.region.bounds]
+    [10, -100, 210, 0]
+    """
+    pixels = decode_picture(bitmap.png, MOST_PX).pixels
+    height, width = pixels.shape[:2]
+    wide = scale * (bitmap.right - bitmap.left) / width
+    high = scale * (bitmap.bottom - bitmap.top) / height
+    left, top = origin[0] + scale * bitmap.left, origin[1] + scale * bitmap.top
+    matrix = np.array([[wide, 0.0, left], [0.0, high, top]])
+    outline = outline_of_cut_out(pixels)
+    return GlyphPicture(
+        _png(pixels),
+        width,
+        height,
+        matrix,
+        shapely.transform(outline, lambda points: affine.apply(matrix, points)),
+    )
+
+
+def _png(pixels: Pixels) -> bytes:
+    made = BytesIO()
+    Image.fromarray(pixels).save(made, format="png")
+    return made.getvalue()
+
 
 LINE_STEP = 1.0
 """Distance of the base lines of a word of several lines, in ems. Chosen."""
@@ -127,7 +196,7 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
 
 
 @dataclass(frozen=True, eq=False)
-class _Drawn:
+class _DrawnWord:
     """What a word's letters cover, in ems, and its curves, as a lettering has them."""
 
     covered: ClearInk | Region
@@ -135,12 +204,14 @@ class _Drawn:
 
 
 @remembered_by_font(MOST_WORDS)
-def _drawn_by(face: Typeface, runs: tuple[tuple[tuple[Glyph, ...], float, float], ...]) -> _Drawn:
+def _drawn_by(
+    face: Typeface, runs: tuple[tuple[tuple[Glyph, ...], float, float], ...]
+) -> _DrawnWord:
     """Glyphs of one font, each run with the place where it begins: words recur as letters do."""
     return _drawn([_GlyphRun(face, glyphs, x, y, 1.0) for glyphs, x, y in runs], ())
 
 
-def _drawn(runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture]) -> _Drawn:
+def _drawn(runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture]) -> _DrawnWord:
     boxes = [box for run in runs for box in run.boxes()]
     if not boxes and not pictures:
         raise UnfitError("has no outlines to draw it with")
@@ -148,7 +219,7 @@ def _drawn(runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture]) -> _Draw
     size = 1 / runs[0].face.units
     covered = _covered(runs, pictures, _tolerance(boxes), size)
     curves = [(*one, run.scale) for run in runs for one in run.curves()]
-    return _Drawn(covered, Curves(tuple(curves)))
+    return _DrawnWord(covered, Curves(tuple(curves)))
 
 
 def _covered(

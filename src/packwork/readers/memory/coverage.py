@@ -18,7 +18,7 @@ _FORMS = "give (rows, columns), or (rows, columns, 3 or 4) of colours"
 
 
 @dataclass(frozen=True, eq=False)
-class Coverage:
+class CoverageArray:
     """Which part of each pixel is inside.
 
     Parameters
@@ -33,7 +33,7 @@ class Coverage:
     shares: FloatArray
 
 
-def coverage_of_array(array: Any, name: str) -> Coverage | bytes:
+def coverage_of_array(array: Any, name: str) -> CoverageArray | bytes:
     r"""Coverage of an array of bools or floats; of one of whole numbers, a picture file.
 
     True, and 1.0, is inside. Whole numbers from 0 to 255 are grey or colours, as in a picture
@@ -66,7 +66,7 @@ def coverage_of_array(array: Any, name: str) -> Coverage | bytes:
         )
     if values.ndim == 3:
         return png_of_picture(Image.fromarray(np.round(values * 255.0).astype(np.uint8)))
-    return Coverage(name, values.astype(np.float64))
+    return CoverageArray(name, values.astype(np.float64))
 
 
 def picture_of_array(array: Any) -> Image.Image:

@@ -1,20 +1,69 @@
-"""Values in memory to items."""
+"""Values in memory to items and containers."""
 
 from __future__ import annotations
 
 from dataclasses import replace
 
 import numpy as np
+import shapely
 
 from packwork.geometry import affine
-from packwork.readers.memory.coverage import Coverage
-from packwork.readers.memory.shapes import Shape, Shapes
+from packwork.geometry.polygon import Region, united
+from packwork.readers.memory.coverage import CoverageArray
+from packwork.readers.memory.shapes import GivenShape, GivenShapes
+from packwork.readers.options import ReadOptions
 from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
-from packwork.readers.regions import Holes, centred, clean_union
+from packwork.readers.regions import Box, Holes, canvas_box, centred, clean_union
 from packwork.readers.unfit import UnfitError, naming
+from packwork.scene.canvas import placed_container
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item, PhotoArt
+
+
+def container_in_memory(
+    value: object, source: str, side: float, reading: ReadOptions
+) -> Container | None:
+    """Container of a value on the shelf, its longer side ``side``; None of a file's bytes.
+
+    The canvas of an array is the array; that of geometries is their box.
+
+    Raises
+    ------
+    ReadError
+        About ``source``, if it is none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> mask = CoverageArray("half", np.arange(20) < np.full((10, 1), 10))
+    >>> half = container_in_memory(mask, "memory:half", 600.0, ReadOptions())
+    >>> half.width, half.height, [round(side) for side in half.outline.bounds]
+    (600.0, 300.0, [0, 0, 300, 300])
+    """
+    with naming(source):
+        if isinstance(value, Item):
+            return _boxed(value.name, source, value.ink.region, side)
+        if isinstance(value, GivenShapes):
+            return _boxed(value.name, source, united(s.region for s in value.shapes), side)
+        if isinstance(value, CoverageArray):
+            rows, columns = value.shares.shape
+            if value.shares.max() < 0.5:
+                raise UnfitError("is False, or 0, all over; True, or 1, is inside")
+            region = clean_union(outline_of_coverage(value.shares), speck=SPECK)
+            page = float(columns), float(rows)
+            canvas = canvas_box(region.bounds, page, reading.trim, None)
+            return placed_container(value.name, source, region, canvas, side)
+    return None
+
+
+def _boxed(name: str, source: str, region: Region, side: float) -> Container:
+    left, top, right, bottom = region.bounds
+    # About its own corner first: far from the origin few digits are left for the shape.
+    near = clean_union(shapely.transform(region, lambda points: points - (left, top)))
+    canvas: Box = (0.0, 0.0, right - left, bottom - top)
+    return placed_container(name, source, near, canvas, side)
+
 
 OFF_CENTRE = 0.01
 """Distance of an outline's centroid from its origin, as a share of its extent, from which the
@@ -31,22 +80,22 @@ def items_in_memory(value: object, source: str, holes: Holes) -> list[Item] | No
 
     Examples
     --------
-    >>> mask = Coverage("all", np.ones((10, 10)))
+    >>> mask = CoverageArray("all", np.ones((10, 10)))
     >>> [item.name for item in items_in_memory(mask, "memory:all", "fill")]
     ['all']
     """
     with naming(source):
         if isinstance(value, Item):
             return [recentred(value)]
-        if isinstance(value, Shapes):
+        if isinstance(value, GivenShapes):
             return [_item_of_shape(shape, source, holes) for shape in value.shapes]
-        if isinstance(value, Coverage):
+        if isinstance(value, CoverageArray):
             if value.shares.max() < 0.5:
                 raise UnfitError("is False, or 0, all over; True, or 1, is inside")
             region = clean_union(outline_of_coverage(value.shares), speck=SPECK)
-            return [_item_of_shape(Shape(value.name, region), source, holes)]
+            return [_item_of_shape(GivenShape(value.name, region), source, holes)]
         if isinstance(value, Container):
-            return [_item_of_shape(Shape(value.name, value.outline.region), source, holes)]
+            return [_item_of_shape(GivenShape(value.name, value.outline.region), source, holes)]
     return None
 
 
@@ -73,7 +122,7 @@ def recentred(item: Item) -> Item:
     return replace(item, outline=item.outline.mapped(place), ink=item.ink.mapped(place), art=art)
 
 
-def _item_of_shape(shape: Shape, source: str, holes: Holes) -> Item:
+def _item_of_shape(shape: GivenShape, source: str, holes: Holes) -> Item:
     outline, ink, _ = centred(clean_union(shape.region), holes)
     art = FlatArt(shape.fill) if _is_colour(shape.fill) else FlatArt()
     return Item(shape.name, source, outline, ink, art, weight=shape.weight, row=shape.row)

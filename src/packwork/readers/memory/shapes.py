@@ -63,7 +63,7 @@ class Columns:
 
 
 @dataclass(frozen=True, eq=False)
-class Shape:
+class GivenShape:
     """One geometry, and what is said of it.
 
     Parameters
@@ -88,7 +88,7 @@ class Shape:
 
 
 @dataclass(frozen=True, eq=False)
-class Shapes:
+class GivenShapes:
     """Geometries that were given as one value.
 
     Parameters
@@ -99,7 +99,7 @@ class Shapes:
         What people call all of them.
     """
 
-    shapes: tuple[Shape, ...]
+    shapes: tuple[GivenShape, ...]
     name: str
 
 
@@ -131,7 +131,7 @@ def points_up(value: object) -> bool:
 
 def shapes_of(
     value: object, name: str, *, y_up: bool = False, columns: Columns | None = None
-) -> Shapes:
+) -> GivenShapes:
     """Regions of a geometry, a frame, a row of one, or GeoJSON; y down.
 
     Rows without area are left out with a notice, if others have some. Coordinates that are no px
@@ -163,7 +163,7 @@ def shapes_of(
     >>> lake.name, lake.weight, lake.region.bounds
     ('lake', 3.0, (0.0, 0.0, 4.0, 2.0))
     """
-    found: list[Shape] = []
+    found: list[GivenShape] = []
     bare: list[str] = []
     rows = zip(_features(value), chain(row_labels(value), repeat(None)), strict=False)
     for number, ((geometry, said), row) in enumerate(rows, start=1):
@@ -175,12 +175,12 @@ def shapes_of(
             bare.append(called)
         else:
             weight = _weight(said, columns, number)
-            found.append(Shape(called, region, weight, _fill(said), row))
+            found.append(GivenShape(called, region, weight, _fill(said), row))
     if not found:
         raise UnfitError(f"has no area{_kind(value)}; give polygons, or lines with a buffer round")
     if bare:
         notice(f"{len(bare)} of {len(bare) + len(found)} geometries have no area and are left out")
-    return Shapes(tuple(_fitted(_numbered(found))), name)
+    return GivenShapes(tuple(_fitted(_numbered(found))), name)
 
 
 def _features(value: object) -> Iterator[tuple[BaseGeometry | None, Mapping[str, Any]]]:
@@ -309,7 +309,7 @@ def _kind(value: object) -> str:
     return f", as a {value.geom_type}" if isinstance(value, BaseGeometry) else ""
 
 
-def _numbered(shapes: list[Shape]) -> list[Shape]:
+def _numbered(shapes: list[GivenShape]) -> list[GivenShape]:
     """Shapes of one name told apart by numbers."""
     seen: dict[str, int] = {}
     found = []
@@ -319,7 +319,7 @@ def _numbered(shapes: list[Shape]) -> list[Shape]:
     return found
 
 
-def _fitted(shapes: list[Shape]) -> list[Shape]:
+def _fitted(shapes: list[GivenShape]) -> list[GivenShape]:
     """Shapes in px: as they are where they are about that large, else all scaled alike."""
     bounds = np.array([shape.region.bounds for shape in shapes])
     extent = float((bounds[:, 2:] - bounds[:, :2]).max())

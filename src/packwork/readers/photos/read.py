@@ -1,8 +1,9 @@
-"""Files, folders and patterns to photographs, several decoded at a time."""
+"""Files, folders and patterns to photographs: decoded, cropped to their frames, made items."""
 
 from __future__ import annotations
 
 import glob
+import hashlib
 import logging
 import warnings
 from collections.abc import Callable, Iterable, Sequence
@@ -12,18 +13,220 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ParamSpec, TypeVar
 
+import numpy as np
+import shapely
+
 from packwork.errors import ReadError
-from packwork.geometry.polygon import Region
+from packwork.geometry import affine
+from packwork.geometry.overlay import buffered
+from packwork.geometry.polygon import Region, oriented_rings
 from packwork.readers.container import read_container
-from packwork.readers.files import exists, is_folder, stem
+from packwork.readers.files import exists, is_folder, read_bytes, stem
 from packwork.readers.folders import LOOK_LIKE_PICTURES, Listing, Sample, listed, matched
 from packwork.readers.items import ItemsRead
 from packwork.readers.options import AS_DRAWN, HALF
 from packwork.readers.photos.options import PhotoOptions
-from packwork.readers.photos.photo import read_photo
-from packwork.readers.pictures.decode import PICTURE_ENDINGS
-from packwork.scene.item import Item
+from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, PICTURE_ENDINGS
+from packwork.readers.pictures.developing import Negative, Photograph, Window, developed, inspected
+from packwork.readers.pictures.silhouette import outline_of_cut_out
+from packwork.readers.pictures.transparency import solidity, tell_what_is_faint
+from packwork.readers.regions import centred, clean_union
+from packwork.readers.unfit import naming
+from packwork.scene.item import Item, PhotoArt
+from packwork.shelf import MEMORY
 from packwork.threads import thread_count
+
+CUT_OUT_PX = 800
+"""Longer side at which the outline of a cut-out is traced. Larger traces finer and gives the
+outline more points. Chosen."""
+
+CORNER_SEGMENTS = 16
+"""Chords of a quarter circle, of borders and rounded corners. More: longer runs; these lie
+within a thousandth of the radius. Chosen."""
+
+MITRE = 10.0
+"""How far a border reaches beyond a sharp corner, in widths. Larger than that of any
+right angle, so that prints keep their corners."""
+
+
+@dataclass(frozen=True, eq=False)
+class PhotoCrop:
+    """What of a photo is shown, in its upright pixels.
+
+    Parameters
+    ----------
+    window
+        The part of the photo.
+    picture
+        What is seen of the photo.
+    whole
+        The same with its border.
+    is_cut
+        Whether the picture is less than its window: shaped, or clear in places.
+    """
+
+    window: Window
+    picture: Region
+    whole: Region
+    is_cut: bool
+
+
+def framed(
+    data: bytes,
+    negative: Negative,
+    options: PhotoOptions,
+    threshold: float = HALF,
+    shape: Region | None = None,
+) -> PhotoCrop:
+    """Frame of a photo: its rectangle, its cut-out, or the largest shape in its middle.
+
+    Parameters
+    ----------
+    threshold
+        Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
+    shape
+        Region that the photo is cut to, of any size.
+
+    Raises
+    ------
+    UnfitError
+        If a cut-out shows nothing.
+    """
+    width, height = negative.width, negative.height
+    full = (0.0, 0.0, float(width), float(height))
+    shorter = min(width, height)
+    if options.rounding:
+        window, picture = full, _rounded(full, options.rounding * shorter)
+    elif shape is not None:
+        window, picture = _shaped(shape, full)
+    elif negative.has_alpha:
+        window, picture = full, _cut_out(data, negative, threshold)
+    else:
+        window, picture = full, shapely.box(*full)
+    is_cut = picture.area < (1 - 1e-9) * shapely.box(*window).area
+    return PhotoCrop(window, picture, _bordered(picture, options.border_share * shorter), is_cut)
+
+
+def _rounded(full: Window, radius: float) -> Region:
+    """A rectangle with round corners; half the shorter side as radius makes a pill."""
+    left, top, right, bottom = full
+    xs, ys = (left + radius, right - radius), (top + radius, bottom - radius)
+    middles = shapely.multipoints([(x, y) for x in xs for y in ys])
+    return buffered(middles.convex_hull, radius, quad_segs=CORNER_SEGMENTS)
+
+
+def _shaped(shape: Region, full: Window) -> tuple[Window, Region]:
+    """The largest copy of a shape in the middle of a photo, and the box about it."""
+    left, top, right, bottom = shape.bounds
+    scale = min(full[2] / (right - left), full[3] / (bottom - top))
+    middle = full[2] / 2 - scale * (left + right) / 2, full[3] / 2 - scale * (top + bottom) / 2
+    place = affine.similarity(*middle, 0.0, scale)
+    placed = shapely.transform(shape, lambda points: affine.apply(place, points))
+    x0, y0, x1, y1 = placed.bounds
+    return (max(x0, 0.0), max(y0, 0.0), min(x1, full[2]), min(y1, full[3])), placed
+
+
+def _cut_out(data: bytes, negative: Negative, threshold: float) -> Region:
+    """What is not clear of a photo."""
+    scale = min(1.0, CUT_OUT_PX / max(negative.width, negative.height))
+    size = max(1, round(negative.width * scale)), max(1, round(negative.height * scale))
+    full = (0.0, 0.0, float(negative.width), float(negative.height))
+    pixels = np.asarray(developed(data, full, size))
+    tell_what_is_faint(solidity(pixels), threshold)
+    traced = outline_of_cut_out(pixels, threshold)
+    ratio = np.array([negative.width / size[0], negative.height / size[1]])
+    return shapely.transform(traced, lambda points: points * ratio)
+
+
+def _bordered(picture: Region, width: float) -> Region:
+    """Region with a border round it; corners stay corners, as those of prints do."""
+    if width == 0:
+        return picture
+    is_box = picture.area > (1 - 1e-9) * shapely.box(*picture.bounds).area
+    join = "mitre" if is_box else "round"
+    return buffered(picture, width, quad_segs=CORNER_SEGMENTS, join_style=join, mitre_limit=MITRE)
+
+
+PREVIEW_PX = 320
+"""Longer side of the copy that is kept. Larger costs memory, and time as JPEGs are then
+decoded finer. Chosen: what a collage of a dozen shows of each on a screen."""
+
+SPECK = 1e-4
+"""Share of the area below which a part of a cut-out counts as dust. As of other pictures."""
+
+_DIGITS = 3
+
+
+def read_photo(
+    file: str,
+    options: PhotoOptions,
+    number: int = 1,
+    threshold: float = HALF,
+    shape: Region | None = None,
+) -> Item:
+    """Item of a photo, its units the pixels of the file.
+
+    Parameters
+    ----------
+    number
+        Which photo of a run it is: one file may be there twice.
+    threshold
+        Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
+    shape
+        Region that the photo is cut to, of any size; None where ``options`` ask for no shape.
+
+    Raises
+    ------
+    ReadError
+        If it is missing, broken or larger than the limits.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> from PIL import Image
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "sea.jpg")
+    ...     Image.new("RGB", (300, 200), "teal").save(path)
+    ...     item = read_photo(str(path), PhotoOptions(sources=path, border="5%"))
+    ...     print_ = item.art.original.printed(0.1)
+    >>> item.name, item.outline.bounds
+    ('sea', (-160.0, -110.0, 160.0, 110.0))
+    """
+    data = read_bytes(file, MAX_PICTURE_BYTES)
+    with naming(file):
+        negative = inspected(data)
+        frame = framed(data, negative, options, threshold, shape)
+        whole = clean_union(frame.whole, speck=SPECK)
+        outline, ink, place = centred(whole, "fill")
+    has_border = options.border_share > 0
+    photo = Photograph(
+        file=file,
+        key=f"photo-{number}-{hashlib.sha256(file.encode()).hexdigest()[:8]}",
+        window=frame.window,
+        picture=_path(frame.picture) if frame.is_cut and not _is_soft(negative, options) else "",
+        whole=_path(whole) if has_border else "",
+        border_color=options.border_color,
+        origin=(float(place[0, 2]), float(place[1, 2])),
+        data=data if file.startswith(MEMORY) else None,
+    )
+    longer = max(np.subtract(frame.window[2:], frame.window[:2]))
+    preview = photo.drawn(photo.developed(data, PREVIEW_PX / float(longer)))
+    return Item(stem(file), file, outline, ink, PhotoArt(preview, photo))
+
+
+def _is_soft(negative: Negative, options: PhotoOptions) -> bool:
+    """Whether the photo's own opacity says what is seen, so that no edge has to be cut."""
+    return negative.has_alpha and options.shape is None
+
+
+def _path(region: Region) -> str:
+    """SVG path of a region in pixels of a photo."""
+    rings = oriented_rings(region)
+    return "".join(
+        "M" + " ".join(f"{v:.{_DIGITS}f}" for v in ring.ravel().tolist()) + "Z" for ring in rings
+    )
+
 
 MOST_AT_ONCE = 4
 """Photos decoded at a time. More need more memory: a broken header's worth of pixels each.

@@ -12,14 +12,13 @@ from shapely.errors import GEOSException
 
 from packwork.errors import ShapeError
 from packwork.readers.account import one_budget
-from packwork.readers.budget.patterns import check_tiles
+from packwork.readers.budget.filters import check_tiles
 from packwork.readers.budget.work import Work, work_of
 from packwork.readers.gate.door import admit
 from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
 from packwork.readers.svg.paint.solid import solid_twin
-from packwork.readers.svg.paint.steady import settle_steady
-from packwork.readers.svg.paint.walk import painted_shapes
+from packwork.readers.svg.paint.walk import painted_shapes, settle_steady
 from packwork.readers.svg.region.ink import Ink, painted_ink
 from packwork.readers.svg.region.sheet import drop_sheet
 from packwork.readers.svg.render.compare import LEAST_AGREEMENT, Comparison
@@ -33,9 +32,8 @@ from packwork.readers.svg.render.trace import (
     needs_tracing,
     traced_ink,
 )
-from packwork.readers.svg_syntax.extent import drawing_box
 from packwork.readers.svg_syntax.page import Page, read_page
-from packwork.readers.svg_syntax.painted import Painted
+from packwork.readers.svg_syntax.painted import Painted, drawing_box
 from packwork.readers.unfit import TooRichError, UnfitError, notice
 
 MAX_SHAPES = 8_000
@@ -50,7 +48,7 @@ LARGESSE = 20.0
 
 
 @dataclass(frozen=True, eq=False)
-class Drawing:
+class PaintedDrawing:
     """An SVG that has been through the gate, and what it paints.
 
     Parameters
@@ -87,7 +85,7 @@ def read_drawing(
     keep_page: bool | None = None,
     alpha_threshold: float = HALF,
     tolerance: float | None = None,
-) -> Drawing:
+) -> PaintedDrawing:
     """Drawing of an SVG file's bytes.
 
     Parameters
@@ -132,18 +130,18 @@ def read_drawing(
         elif is_compared:
             drawing = _compared(root, page, shapes, alpha_threshold)
         else:
-            drawing = Drawing(root, page, painted_ink(shapes, tolerance), shapes)
+            drawing = PaintedDrawing(root, page, painted_ink(shapes, tolerance), shapes)
         return replace(drawing, sheet=sheet)
 
 
 def _compared(
     root: ET.Element, page: Page | None, shapes: list[Painted], threshold: float
-) -> Drawing:
+) -> PaintedDrawing:
     """Drawing as computed from its shapes, or traced where that is nearer to its picture."""
     try:
         if len(shapes) > MAX_SHAPES:
             raise TooRichError(f"has {len(shapes):,} shapes")
-        drawing = Drawing(root, page, painted_ink(shapes), shapes)
+        drawing = PaintedDrawing(root, page, painted_ink(shapes), shapes)
         if not is_plain_enough(drawing.ink.body):
             raise TooRichError(f"needs more than {MAX_POINTS:,} points or {MAX_RINGS:,} rings")
         comparison = Comparison(root, page, drawing.ink.body, drawing.work)
@@ -171,7 +169,7 @@ def _traced(
     threshold: float,
     *,
     is_sure: bool = False,
-) -> Drawing:
+) -> PaintedDrawing:
     """Drawing as its picture shows it.
 
     Parameters
@@ -192,7 +190,7 @@ def _traced(
     if part is not None:
         check_tiles(root, shapes, max(part[2:]))
     known = shapes if is_sure else ()
-    return Drawing(root, page, traced_ink(root, page, part, work, threshold, known), shapes)
+    return PaintedDrawing(root, page, traced_ink(root, page, part, work, threshold, known), shapes)
 
 
 def _shown_part(shapes: Sequence[Painted], page: Page) -> View | None:

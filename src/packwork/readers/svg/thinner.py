@@ -18,10 +18,10 @@ from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import silhouette
 from packwork.readers.regions import Holes, clean_union, without_holes
 from packwork.readers.svg.art import vector_art
-from packwork.readers.svg.drawing import Drawing, read_drawing
+from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg.paint.walk import painted_shapes
 from packwork.readers.svg.region.ink import PaintedInk
-from packwork.readers.svg_syntax.extent import drawing_box
+from packwork.readers.svg_syntax.painted import drawing_box
 from packwork.readers.unfit import UnfitError
 from packwork.scene.item import Item, VectorArt
 
@@ -60,7 +60,7 @@ class LineDrawing:
     item: Item
     width: float
     _art: VectorArt
-    _drawing: Drawing
+    _drawing: PaintedDrawing
 
     def thinner(self, factor: float, holes: Holes) -> Item | None:
         """The item with all its lines ``factor`` times as wide; None where that cannot be told.

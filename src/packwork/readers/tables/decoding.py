@@ -1,14 +1,18 @@
-"""Bytes to text: Unicode, and the encodings that Windows programs save tables in."""
+"""Bytes to text or to rows of JSON: Unicode, and the encodings of Windows programs."""
 
 from __future__ import annotations
 
 import codecs
+import json
 import re
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 from packwork.errors import ReadError
+from packwork.readers.files import read_bytes
+from packwork.readers.tables.format import TableFormat
 
 MARKS = (
     (codecs.BOM_UTF8, "utf-8-sig"),
@@ -184,3 +188,29 @@ _ODD = "?"
 _WORD = re.compile(r"[^\W\d_]+")
 _SPLIT = re.compile(r"(?<=[^\W\d_])[^\x00-\x7f\w’‘·](?=[^\W\d_])")
 _FAR_FROM_ASCII = re.compile(r"[^\x00-\x7f]{3}")
+
+
+MAX_JSON_BYTES = 30_000_000
+"""Size of a JSON file: its values take up to 25 times as much in memory, three quarters of a
+gigabyte. Derived."""
+
+
+def read_json(file: str, asked: TableFormat) -> Any:
+    """What a JSON file holds.
+
+    Raises
+    ------
+    ReadError
+        If it is none, or larger than ``MAX_JSON_BYTES``.
+
+    Examples
+    --------
+    >>> read_json("no such file.json", TableFormat())
+    Traceback (most recent call last):
+    packwork.errors.ReadError: no such file.json: there is no such file
+    """
+    text = decoded(read_bytes(file, MAX_JSON_BYTES), file, asked.encoding).text
+    try:
+        return json.loads(text)
+    except (ValueError, RecursionError) as error:
+        raise ReadError(file, f"is not JSON ({str(error)[:120]})") from None

@@ -18,8 +18,7 @@ from packwork.geometry.outline import Outline, centre_of_area
 from packwork.geometry.snapping import CLEFT
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.glyph_ink import ClearInk
-from packwork.readers.fonts.lettering import MOST_WORDS, Lettering
-from packwork.readers.fonts.pictures import GlyphPicture
+from packwork.readers.fonts.lettering import MOST_WORDS, GlyphPicture, Lettering
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.unfit import UnfitError, naming

@@ -1,4 +1,4 @@
-"""Words and weights from texts, tables, standard input and dicts, the largest first."""
+"""Words and weights counted in texts or read from tables, the largest first."""
 
 from __future__ import annotations
 
@@ -16,23 +16,240 @@ from packwork.readers.files import exists, read_bytes
 from packwork.readers.tables.decoding import Decoded, decoded
 from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.words.counting import (
-    count_forms,
-    folded,
-    phrases,
-    without_parts,
-    without_plurals,
-)
+from packwork.readers.tables.pairs import MOST_NAMED, Pair, Pairs, read_pairs
+from packwork.readers.tables.table import total_row
 from packwork.readers.words.options import WordOptions
-from packwork.readers.words.stop_words import (
+from packwork.readers.words.tokens import (
     ENGLISH,
     guess_language,
+    is_unspaced,
+    matches,
     own_stop_words,
+    sentences,
     stop_words,
 )
-from packwork.readers.words.table import read_word_table
-from packwork.readers.words.tokens import matches, sentences
 from packwork.readers.words.word import Word, sound
+
+
+@dataclass(frozen=True, eq=False)
+class TableRead:
+    """Words of a table.
+
+    Parameters
+    ----------
+    words
+        One per row that has a word and a weight.
+    notices
+        What has to be told of how it was read.
+    lost
+        What has to be told of rows with data that are left out.
+    """
+
+    words: tuple[Word, ...]
+    notices: tuple[str, ...] = ()
+    lost: tuple[str, ...] = ()
+
+
+def read_word_table(file: str, most_bytes: int, asked: TableFormat) -> TableRead:
+    r"""Words of lines ``word,weight``, or of JSON as ``{"bear": 2}``.
+
+    Further columns go under the names of the first line. Rows without a word, or without a
+    positive number, are left out and named.
+
+    Raises
+    ------
+    ReadError
+        If it is no table, or no row has both.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from pathlib import Path
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = Path(folder, "t.csv")
+    ...     _ = path.write_text("word,weight,kind\nbear,2,animal\nfox,,\n")
+    ...     read = read_word_table(str(path), 1_000, TableFormat())
+    >>> read.words
+    (Word(text='bear', weight=2.0, columns={'kind': 'animal'}),)
+    >>> read.notices
+    ('left out 1 row of 2 without a weight: fox (line 3)',)
+    """
+    return words_of(read_pairs(file, most_bytes, asked), file)
+
+
+def words_of(table: Pairs, file: str) -> TableRead:
+    """The same of a table that is read already.
+
+    Raises
+    ------
+    ReadError
+        If no row has a word and a weight.
+    """
+    sound = [pair for pair in table.rows if pair.is_sound]
+    odd = [pair for pair in table.rows if not pair.is_sound]
+    if odd and not sound:
+        raise ReadError(file, f"{odd[0].where}: {odd[0].wanted('word')}")
+    said: dict[str, list[Pair]] = {}
+    for pair in odd:
+        said.setdefault(_why(pair), []).append(pair)
+    count = len(table.rows)
+    notices = {why: _left_out(why, which, count) for why, which in said.items()}
+    told = [text for why, text in notices.items() if why in _EMPTY]
+    total = total_row([pair.name for pair in sound], [pair.number for pair in sound])
+    if total is not None:
+        told.append(
+            f"{sound[total].name[:40]!r} ({sound[total].where}) looks like the sum of the others; "
+            "it is a word as they are: take it out of the table if it is none"
+        )
+    return TableRead(
+        tuple(Word(pair.name, pair.number, dict(pair.others)) for pair in sound),
+        (*table.notices, *told),
+        tuple(text for why, text in notices.items() if why not in _EMPTY),
+    )
+
+
+_EMPTY = frozenset({"without a weight", "whose weight is 0"})
+"""Why rows are left out that say nothing."""
+
+
+def _why(pair: Pair) -> str:
+    if not pair.name:
+        return "without a word"
+    if pair.written is None:
+        return "without a weight"
+    if pair.number == 0:
+        return "whose weight is 0"
+    return "whose weight is negative" if pair.number < 0 else "whose weight is no number"
+
+
+def _left_out(why: str, which: Sequence[Pair], count: int) -> str:
+    """Sentence about rows that are not set."""
+    named = [f"{pair.name[:40]} ({pair.where})" if pair.name else pair.where for pair in which]
+    rows = number_of(len(which), "row")
+    return f"left out {rows} of {count} {why}: {enumerated(named, MOST_NAMED)}"
+
+
+LEAST_TOGETHER = 3
+"""How often words must stand together to be a phrase. Chosen."""
+
+PHRASE_SHARE = 0.5
+"""Share of the rarer word's places at which it stands in the phrase. Larger finds names
+only, smaller any habit of speech. Tried on two novels."""
+
+Sentences = Sequence[Sequence[str]]
+
+
+def count_forms(sentences: Sentences) -> Counter[str]:
+    """How often each written form stands in the sentences.
+
+    Examples
+    --------
+    >>> dict(count_forms([["Bear", "bear"], ["bear"]]))
+    {'Bear': 1, 'bear': 2}
+    """
+    return Counter(word for sentence in sentences for word in sentence)
+
+
+def folded(forms: Counter[str]) -> tuple[Counter[str], dict[str, str]]:
+    """Counts by case-folded word, and how each is mostly written.
+
+    Examples
+    --------
+    >>> counts, written = folded(Counter({"Bear": 1, "bear": 2, "NASA": 5}))
+    >>> dict(counts), written["nasa"], written["bear"]
+    ({'bear': 3, 'nasa': 5}, 'NASA', 'bear')
+    """
+    counts: Counter[str] = Counter()
+    best: dict[str, tuple[int, str]] = {}
+    for form, count in forms.items():
+        key = form.casefold()
+        counts[key] += count
+        # Of two that are as frequent the one without capitals.
+        best[key] = max(best.get(key, (0, "")), (count, form))
+    return counts, {key: form for key, (_, form) in best.items()}
+
+
+def without_plurals(counts: Counter[str]) -> Counter[str]:
+    """Counts in which English plurals are added to their singular, if that is there.
+
+    Examples
+    --------
+    >>> dict(without_plurals(Counter(bear=2, bears=3, glass=1, berry=1, berries=1)))
+    {'bear': 5, 'glass': 1, 'berry': 2}
+    """
+    merged = Counter(counts)
+    for word in counts:
+        single = _singular(word, merged)
+        if single is not None:
+            merged[single] += merged.pop(word)
+    return merged
+
+
+def phrases(sentences: Sentences, most: int, stops: frozenset[str]) -> Counter[str]:
+    """How often up to ``most`` words that belong together stand together, as written.
+
+    A phrase neither begins nor ends with a stop word, stands there ``LEAST_TOGETHER``
+    times, and at ``PHRASE_SHARE`` of the places of its rarest word.
+
+    Examples
+    --------
+    >>> text = [["the", "White", "Rabbit", "ran"]] * 3
+    >>> dict(phrases(text, 2, frozenset({"the", "ran"})))
+    {'White Rabbit': 3}
+    """
+    found = Counter(
+        part
+        for size in range(2, most + 1)
+        for sentence in sentences
+        for part in _parts(sentence, size)
+        if part.split()[0].casefold() not in stops and part.split()[-1].casefold() not in stops
+    )
+    single, _ = folded(count_forms(sentences))
+    together, _ = folded(found)
+    kept = {
+        phrase
+        for phrase, count in together.items()
+        if count >= max(LEAST_TOGETHER, PHRASE_SHARE * _rarest(phrase, single))
+    }
+    return Counter({form: count for form, count in found.items() if form.casefold() in kept})
+
+
+def without_parts(counts: Counter[str], found: Mapping[str, int]) -> Counter[str]:
+    """Counts of words and phrases, each word's less what stands inside of phrases.
+
+    Examples
+    --------
+    >>> dict(without_parts(Counter(white=3, rabbit=5), {"white rabbit": 3}))
+    {'rabbit': 2, 'white rabbit': 3}
+    """
+    left = Counter(counts)
+    for phrase, count in found.items():
+        for word in phrase.split():
+            left[word] -= count
+    return Counter({**{word: n for word, n in left.items() if n > 0}, **found})
+
+
+def _parts(sentence: Sequence[str], size: int) -> list[str]:
+    """Runs of that many words; none in scripts without spaces."""
+    spaced = [word for word in sentence if not is_unspaced(word[0])]
+    starts = range(len(sentence) - size + 1) if len(spaced) == len(sentence) else ()
+    return [" ".join(sentence[start : start + size]) for start in starts]
+
+
+def _rarest(phrase: str, single: Counter[str]) -> int:
+    return min(single[word] for word in phrase.split())
+
+
+def _singular(word: str, counts: Counter[str]) -> str | None:
+    if len(word) < 4 or not word.endswith("s") or word.endswith("ss") or is_unspaced(word[0]):
+        return None
+    forms = [word[:-1]]
+    if word.endswith("ies"):
+        forms.append(word[:-3] + "y")
+    if word.endswith("es"):
+        forms.append(word[:-2])
+    return next((form for form in forms if form in counts), None)
+
 
 MAX_BYTES = 50_000_000
 """Size of a text or a table: some fifty long novels. Chosen."""

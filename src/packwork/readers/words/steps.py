@@ -12,8 +12,7 @@ from packwork.phrasing import enumerated
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import pairs_of_rows
 from packwork.readers.tables.written import is_number_like
-from packwork.readers.words.source import MAX_BYTES
-from packwork.readers.words.table import TableRead, read_word_table, words_of
+from packwork.readers.words.source import MAX_BYTES, TableRead, read_word_table, words_of
 from packwork.readers.words.word import Word
 
 MOST_STEPS = 1_000

@@ -1,14 +1,294 @@
-"""Tokenisation of texts in any script."""
+"""Tokenisation of texts in any script, by spaces or a regular expression; stop words.
+
+Python's matching tries one way after the other and knows no limit: ``(a+)+$`` takes longer
+than the world is old on forty letters, and no look at a pattern tells all of its kind. What
+cannot be known beforehand is stopped.
+"""
 
 from __future__ import annotations
 
+import difflib
+import json
 import re
+import subprocess
+import sys
 import unicodedata
-from collections.abc import Iterator
+from collections import Counter
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
+from importlib import resources
+from typing import Any
 
-from packwork.readers.words.matching import found_in
-from packwork.readers.words.unspaced import is_unspaced, segments
+from packwork.errors import RecipeError
+from packwork.offspring import END_WITH_PARENT
+from packwork.readers.files import read_text
 from packwork.readers.words.word import sound
+
+MAX_BYTES = 2_000_000
+"""Size of a file of stop words. Chosen."""
+
+ENGLISH = "en"
+
+LEAST_SHARE = 0.12
+"""Share of a text's words that must be function words of a language for it to be that
+one. Running text has 0.3 to 0.5; larger misses lists of headings, smaller finds languages
+in lists of names. Chosen."""
+
+
+def stop_words(language: str) -> frozenset[str]:
+    """Function words of languages given by code, case folded: ``en``, or ``en,de``.
+
+    English is a list of our own: that of ``stopwordsiso`` has nouns such as "computer" and
+    "world". All others are that package's.
+
+    Raises
+    ------
+    RecipeError
+        If there is no list for a code.
+
+    Examples
+    --------
+    >>> "the" in stop_words("en"), "und" in stop_words("en,de"), "world" in stop_words("en")
+    (True, True, False)
+    """
+    codes = [code.strip().lower() for code in language.split(",")]
+    known = languages()
+    for code in codes:
+        if code not in known:
+            close = difflib.get_close_matches(code, known, n=1)
+            hint = f"did you mean {close[0]}?" if close else f"there are {', '.join(known)}"
+            raise RecipeError("language", f"there is no list for {code[:20]!r}; {hint}")
+    return frozenset().union(*map(_list, codes))
+
+
+@cache
+def languages() -> tuple[str, ...]:
+    """Codes of the languages that there are lists for.
+
+    Examples
+    --------
+    >>> {"ar", "de", "en", "hi", "zh"} <= set(languages())
+    True
+    """
+    import stopwordsiso
+
+    return tuple(sorted({*stopwordsiso.langs(), ENGLISH}))
+
+
+def guess_language(counts: Counter[str]) -> str | None:
+    """Language of a text, by the share of its words that are function words of one.
+
+    Parameters
+    ----------
+    counts
+        How often each case-folded word stands there.
+
+    Examples
+    --------
+    >>> guess_language(Counter("der bär und die biene in dem wald".split()))
+    'de'
+    >>> guess_language(Counter(["bear", "honey"])) is None
+    True
+    """
+    total = counts.total()
+    if not total:
+        return None
+    shares = {code: _share(counts, _list(code)) / total for code in languages()}
+    best = max(shares, key=lambda code: (shares[code], -len(_list(code))))
+    return best if shares[best] >= LEAST_SHARE else None
+
+
+def own_stop_words(words: str | Iterable[str] | None) -> frozenset[str]:
+    """Stop words of a file, one or several a line, or of a list; case folded.
+
+    Raises
+    ------
+    ReadError
+        If the file cannot be read.
+
+    Examples
+    --------
+    >>> sorted(own_stop_words(["Bear", "fox"]))
+    ['bear', 'fox']
+    """
+    if words is None:
+        return frozenset()
+    if isinstance(words, str):
+        words = read_text(words, MAX_BYTES).replace(",", " ").split()
+    return frozenset(word.casefold() for word in words)
+
+
+@cache
+def _list(code: str) -> frozenset[str]:
+    if code == ENGLISH:
+        place = resources.files("packwork.bundled").joinpath("words", "english.txt")
+        return frozenset(place.read_text(encoding="utf-8").split())
+    import stopwordsiso
+
+    return frozenset(word.casefold() for word in stopwordsiso.stopwords(code))
+
+
+def _share(counts: Counter[str], words: frozenset[str]) -> int:
+    return sum(counts[word] for word in words)
+
+
+_HAN = "\u3005\u3400-\u4dbf\u4e00-\u9fff\uf900-\ufaff\U00020000-\U0003ffff"
+_KANA = "\u3041-\u3096\u30a1-\u30fa\u30fc"
+_THAI = "\u0e01-\u0e4e"
+_UNSPACED = re.compile(f"[{_HAN}{_KANA}{_THAI}]")
+_KANA_RUN = re.compile(f"[{_KANA}]")
+_THAI_RUN = re.compile(f"[{_THAI}]")
+_PIECES = re.compile(f"[{_HAN}{_KANA}]+|[{_THAI}]+|[^{_HAN}{_KANA}{_THAI}]+")
+_HIRAGANA = re.compile("[\u3041-\u3096]+")
+
+_TRADITIONAL = frozenset("個們來時國學為說會對過還沒這裡與從開門問東車馬見長風飛魚龍愛書")
+
+_PARTICLES = (
+    "でした", "ました", "ません", "ます", "です", "から", "まで", "より", "など", "には", "では",
+    "とは", "だけ", "ほど", "は", "が", "を", "に", "で", "と", "も", "の", "へ", "や", "だ", "な",
+)  # fmt: skip
+"""What the phrases of the Japanese segmenter end in, longest first."""
+
+MOST_AT_ONCE = 10_000
+"""Characters that are segmented in one go; the rest is cut there. Chosen."""
+
+
+def is_unspaced(character: str) -> bool:
+    """Whether a character belongs to a script that is written without spaces.
+
+    Examples
+    --------
+    >>> [is_unspaced(character) for character in "语กa"]
+    [True, True, False]
+    """
+    return _UNSPACED.match(character) is not None
+
+
+def segments(text: str) -> list[str]:
+    """Words of a text without spaces; single Han characters and kana endings are left out.
+
+    BudouX segments, into phrases: of Japanese ones the particles at the end are taken off.
+
+    Examples
+    --------
+    >>> segments("我们的世界"), segments("日本の自然と文化")
+    (['我们', '世界'], ['日本', '自然', '文化'])
+    """
+    found: list[str] = []
+    for piece in _PIECES.findall(text):
+        if not is_unspaced(piece[0]):
+            found += [piece] if len(piece) > 1 and not piece.isnumeric() else []
+            continue
+        language = _language(piece)
+        for start in range(0, len(piece), MOST_AT_ONCE):
+            words = _segmenter(language).parse(piece[start : start + MOST_AT_ONCE])
+            found += [_bare(word) for word in words] if language == "ja" else words
+    return [word for word in found if _is_word(word)]
+
+
+def _language(piece: str) -> str:
+    if _THAI_RUN.match(piece):
+        return "th"
+    if _KANA_RUN.search(piece):
+        return "ja"
+    return "zh-hant" if _TRADITIONAL.intersection(piece) else "zh-hans"
+
+
+@cache
+def _segmenter(language: str) -> Any:
+    """BudouX' parser, whose model takes a moment to load."""
+    import budoux
+
+    return {
+        "th": budoux.load_default_thai_parser,
+        "ja": budoux.load_default_japanese_parser,
+        "zh-hans": budoux.load_default_simplified_chinese_parser,
+        "zh-hant": budoux.load_default_traditional_chinese_parser,
+    }[language]()
+
+
+def _bare(phrase: str) -> str:
+    """A Japanese phrase without the particles that end it."""
+    while True:
+        ending = next((p for p in _PARTICLES if phrase.endswith(p)), "")
+        rest = phrase.removesuffix(ending) if ending else phrase
+        if not ending or _HIRAGANA.fullmatch(rest) or not rest:
+            return phrase
+        phrase = rest
+
+
+def _is_word(word: str) -> bool:
+    return len(word) > 1 and not (len(word) < 3 and _HIRAGANA.fullmatch(word))
+
+
+MOST_SECONDS = 20.0
+"""After which a match is given up. A plain pattern goes through a long novel in a tenth of one.
+Chosen: what a person waits for before they think that it hangs."""
+
+_WORK = f"""{END_WITH_PARENT}
+import json, re
+try:
+    import resource
+    # Elsewhere than on Linux too, a match that takes long is not left behind.
+    resource.setrlimit(resource.RLIMIT_CPU, (2 * {MOST_SECONDS:.0f}, 2 * {MOST_SECONDS:.0f}))
+except (ImportError, ValueError, OSError):
+    pass
+asked = json.loads(sys.stdin.buffer.read())
+known = re.compile(asked["pattern"])
+found = [known.findall(text) if asked["groups"] else [m.group() for m in known.finditer(text)]
+         for text in asked["texts"]]
+sys.stdout.buffer.write(json.dumps(found).encode())
+"""
+
+
+def found_in(pattern: str, texts: Sequence[str], *, groups: bool = False) -> list[list[Any]]:
+    r"""All that a regular expression finds in each text.
+
+    Parameters
+    ----------
+    pattern
+        Known to compile.
+    groups
+        As ``re.findall`` has it: groups, where the pattern has some, in place of the whole.
+
+    Raises
+    ------
+    RecipeError
+        If that takes more than ``MOST_SECONDS``.
+
+    Examples
+    --------
+    >>> found_in(r"#\w+", ["a #bear and", "#honey"])
+    [['#bear'], ['#honey']]
+    >>> found_in(r"(\w)(\w)", ["ox"], groups=True)
+    [[['o', 'x']]]
+    """
+    if not sys.executable:  # a program that holds Python in it
+        known = re.compile(pattern)
+        return [
+            known.findall(text) if groups else [match.group() for match in known.finditer(text)]
+            for text in texts
+        ]
+    asked = {"pattern": pattern, "texts": list(texts), "groups": groups}
+    try:
+        done = subprocess.run(  # noqa: S603 - our own words, the pattern comes as data
+            [sys.executable, "-I", "-c", _WORK],
+            input=json.dumps(asked).encode(),
+            capture_output=True,
+            timeout=MOST_SECONDS,
+            check=True,
+        )
+    except subprocess.TimeoutExpired:
+        raise RecipeError(
+            "regexp",
+            f"takes more than {MOST_SECONDS:g} s on this text; use a plainer one, with no "
+            "repeat of what repeats",
+        ) from None
+    except (OSError, subprocess.CalledProcessError) as error:
+        raise RecipeError("regexp", f"cannot be matched ({type(error).__name__})") from None
+    found: list[list[Any]] = json.loads(done.stdout)
+    return found
+
 
 JOINERS = "\u200c\u200d"
 """Unseen characters that belong to words of Persian and Indian scripts."""

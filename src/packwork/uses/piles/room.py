@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.pipeline.plan.cast import Cast
 from packwork.pipeline.plan.sizes import given_scales
 from packwork.pipeline.read import read_room
-from packwork.readers.svg.walls import walled_container
+from packwork.readers.svg.curve import walled_container
 from packwork.recipe import Recipe
 from packwork.recipe.piles import PileOptions
 from packwork.scene.canvas import on_canvas

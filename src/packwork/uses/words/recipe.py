@@ -8,8 +8,8 @@ from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
+from packwork.readers.options import TEXT_PREFIX
 from packwork.readers.tables.frames import is_frame, rows_of_frame
-from packwork.readers.text import PREFIX
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.pictures import check_no_names, known_palette
@@ -71,7 +71,7 @@ def words_recipe(
 
 def _container_font(asked: WordOptions, container: str) -> str | None:
     """Font of a container of words: its own, or else the words' first."""
-    if container.startswith(PREFIX):
+    if container.startswith(TEXT_PREFIX):
         return asked.container_font or next(iter(asked.fonts), None)
     if asked.container_font is not None:
         raise RecipeError(

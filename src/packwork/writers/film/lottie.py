@@ -24,7 +24,7 @@ from packwork.scene.track import poses_of
 from packwork.writers.film.animated_svg import TOLERANCE
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.film.knots import item_knots
-from packwork.writers.frame import Frame, picture_frame
+from packwork.writers.frame import PictureFrame, picture_frame
 from packwork.writers.marks import shape_key
 from packwork.writers.picturing import pictured
 from packwork.writers.svg import CONTAINER_STROKE, CONTAINER_STROKE_SHARE
@@ -61,7 +61,7 @@ def lottie_bytes(film: Film, tell: Tell = tell_nobody) -> bytes:
 class _Scene:
     """Layers of items, and the pictures that several of them share."""
 
-    def __init__(self, film: Film, frame: Frame) -> None:
+    def __init__(self, film: Film, frame: PictureFrame) -> None:
         self._film, self._frame = film, frame
         self._items = film.items
         self._largest: dict[Hashable, float] = {}
@@ -106,7 +106,7 @@ class _Scene:
         return self._anchors[key]
 
 
-def _under(film: Film, frame: Frame) -> list[Json]:
+def _under(film: Film, frame: PictureFrame) -> list[Json]:
     """Layers under the items: the container's line and the background."""
     layers: list[Json] = []
     container = film.layout.container

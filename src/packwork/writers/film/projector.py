@@ -18,7 +18,7 @@ from packwork.scene.blank import without_items
 from packwork.scene.item import Item
 from packwork.scene.track import poses_of
 from packwork.writers.film.film import Film, Tell, tell_nobody
-from packwork.writers.frame import Frame, picture_frame
+from packwork.writers.frame import PictureFrame, picture_frame
 from packwork.writers.marks import paint, shape_key
 from packwork.writers.picturing import pictured
 from packwork.writers.svg import sheet_of, svg_document
@@ -101,7 +101,7 @@ def _texture(item: Item, px_per_unit: float) -> Texture:
     return texture_of(_pixels(art.png), affine.inverse(art.matrix))
 
 
-def _frame(film: Film, is_even: bool) -> Frame:
+def _frame(film: Film, is_even: bool) -> PictureFrame:
     frame = picture_frame(film.layout.container, film.options.film_pixels)
     if not is_even:
         return frame
@@ -110,7 +110,7 @@ def _frame(film: Film, is_even: bool) -> Frame:
     )
 
 
-def _sheet(film: Film, frame: Frame) -> Picture:
+def _sheet(film: Film, frame: PictureFrame) -> Picture:
     """What lies under the items in every frame, premultiplied."""
     document = svg_document(without_items(film.layout), film.drawing, sheet_of(frame))
     return premultiplied(_pixels(drawn_png(document)))

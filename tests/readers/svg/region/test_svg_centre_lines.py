@@ -7,8 +7,12 @@ import pytest
 import shapely
 
 from packwork.readers.svg.drawing import read_drawing
-from packwork.readers.svg.region.centre_lines import FinePoints, open_stroke, piece_strokes
-from packwork.readers.svg.region.strokes import stroke_region
+from packwork.readers.svg.region.centre_lines import (
+    FinePoints,
+    open_stroke,
+    piece_strokes,
+    stroke_region,
+)
 from packwork.readers.svg_syntax.painting import StrokeStyle
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.readers.svg_syntax.shapes import flattened

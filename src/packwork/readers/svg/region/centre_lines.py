@@ -1,27 +1,188 @@
-"""Stroke regions along pieces of a path, or along their dashes.
+"""Stroke regions along polylines and their dashes: width, caps, joins and mitre limit.
 
 Flat and square caps stand across the curve's end. The last chord of a flattened curve is off
 its direction by the root of the tolerance, and a wide pen carries that to the corners; so
 pieces that end are followed finer, and their ends drawn by themselves.
+
+GEOS offsets the flattened centre line. It may cut shallow dents of the line by up to 1 %
+of half the width, always outwards, so the region covers the true stroke. Its mitre limit
+differs from SVG's (it clips where SVG bevels), so mitres are added here, corner by corner.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import shapely
-from shapely.geometry import Polygon
+from shapely.geometry import LinearRing, LineString, Point, Polygon
 
 from packwork.arrays import FloatArray
-from packwork.geometry.overlay import simplify, union
+from packwork.geometry.overlay import buffered, simplify, union
 from packwork.geometry.polygon import Region
-from packwork.readers.svg.region.dashing import dashed
-from packwork.readers.svg.region.strokes import stroke_region
+from packwork.readers.budget.expansion import MAX_DASHES
 from packwork.readers.svg_syntax.painting import StrokeStyle
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all, step_counts
+
+MAX_QUARTER_STEPS = 64
+"""Chords of a quarter turn at most, as for a width as large as the drawing. Chosen."""
+
+_CAPS = {"butt": "flat", "round": "round", "square": "square"}
+_JOINS = {"round": "round", "bevel": "bevel"}
+
+
+def stroke_region(
+    points: FloatArray, is_closed: bool, pen: StrokeStyle, tolerance: float
+) -> Region:
+    """Region that ``pen`` paints along a polyline; valid, empty for an invisible dot.
+
+    Parameters
+    ----------
+    points
+        ``(n, 2)``, not closed by repetition.
+    tolerance
+        Largest distance of a round cap or join from its chords.
+
+    Examples
+    --------
+    >>> stroke_region(np.array([[0.0, 0], [10, 0]]), False, StrokeStyle(2.0, "square"), 0.01).area
+    24.0
+    """
+    line = _distinct(points, is_closed)
+    if len(line) < 2:
+        return _dot(points[0], pen, tolerance)
+    # A ring of two points is a line there and back.
+    is_ring = is_closed and len(line) > 2
+    path = LinearRing(line) if is_ring else LineString(line)
+    painted = buffered(
+        path,
+        pen.width / 2,
+        quad_segs=_quarter_steps(pen.width / 2, tolerance),
+        cap_style=_CAPS.get(pen.cap, "flat"),
+        join_style=_JOINS.get(pen.join, "bevel"),
+    )
+    spikes = [] if pen.join in _JOINS else _mitres(line, is_ring, pen, tolerance)
+    return union([painted, *spikes]) if spikes else painted
+
+
+def _distinct(points: FloatArray, is_closed: bool) -> FloatArray:
+    """Points without immediate repeats, the first one not repeated at the end of a ring."""
+    moved = np.ones(len(points), dtype=bool)
+    moved[1:] = (np.diff(points, axis=0) != 0).any(axis=1)
+    line = points[moved]
+    if is_closed and len(line) > 1 and (line[0] == line[-1]).all():
+        line = line[:-1]
+    return line
+
+
+def _dot(at: FloatArray, pen: StrokeStyle, tolerance: float) -> Region:
+    """Mark of a piece without length."""
+    half = pen.width / 2
+    if pen.cap == "round":
+        return buffered(Point(at), half, quad_segs=_quarter_steps(half, tolerance))
+    if pen.cap == "square":
+        return shapely.box(*(at - half), *(at + half))
+    return Polygon()
+
+
+def _quarter_steps(radius: float, tolerance: float) -> int:
+    step = 2 * math.acos(max(0.0, 1 - tolerance / radius))
+    return min(max(math.ceil(math.pi / 2 / max(step, 1e-6)), 2), MAX_QUARTER_STEPS)
+
+
+def _mitres(line: FloatArray, is_ring: bool, pen: StrokeStyle, tolerance: float) -> list[Polygon]:
+    """Spikes over the bevelled corners that the mitre limit allows."""
+    half = pen.width / 2
+    corners = np.concatenate([line[-1:], line, line[:1]]) if is_ring else line
+    ways = np.diff(corners, axis=0)
+    ways /= np.hypot(ways[:, 0], ways[:, 1])[:, None]
+    before, after, at = ways[:-1], ways[1:], corners[1:-1]
+    turn = before[:, 0] * after[:, 1] - before[:, 1] * after[:, 0]
+    half_cosine = np.sqrt(np.maximum(0.0, (1 + (before * after).sum(axis=1)) / 2))
+    # The corners of a flattened curve need none: their spikes are below the tolerance.
+    is_sharp = half * (1 - half_cosine**2) > tolerance * half_cosine
+    allowed = is_sharp & (turn != 0) & (half_cosine * pen.miter_limit >= 1)
+    if not allowed.any():
+        return []
+    side = -np.sign(turn)[:, None] * half
+    left = at + side * _normals(before)
+    right = at + side * _normals(after)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        middle = _normals(before) + _normals(after)
+        tip = at + side * middle / (2 * half_cosine**2)[:, None]
+    return [Polygon([at[k], left[k], tip[k], right[k]]) for k in np.flatnonzero(allowed)]
+
+
+def _normals(ways: FloatArray) -> FloatArray:
+    return np.column_stack([-ways[:, 1], ways[:, 0]])
+
+
+_DOT = 1e-9
+"""Length of a dash without any, as a share of the line's: it has a direction then, which
+square caps need."""
+
+
+def dashed(
+    line: FloatArray, is_closed: bool, dashes: Sequence[float], offset: float
+) -> list[FloatArray]:
+    """Open polylines ``(k, 2)`` of the dashes along a polyline.
+
+    On a closed one a dash that ends where another begins goes on in it.
+
+    Parameters
+    ----------
+    line
+        ``(n, 2)``, not closed by repetition.
+    dashes
+        Lengths of dashes and gaps in turn, an even number of them, not all zero.
+    offset
+        Where in the pattern the line begins.
+
+    Examples
+    --------
+    >>> line = np.array([[0.0, 0.0], [10.0, 0.0]])
+    >>> [part[:, 0].tolist() for part in dashed(line, False, (3.0, 2.0), 1.0)]
+    [[0.0, 2.0], [4.0, 7.0], [9.0, 10.0]]
+    """
+    path = np.concatenate([line, line[:1]]) if is_closed else line
+    along = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(path, axis=0).T))])
+    length = float(along[-1])
+    period = sum(dashes)
+    if length == 0 or length / period * len(dashes) > MAX_DASHES:
+        return [path]
+    spans = _spans(length, dashes, offset % period)
+    parts = [_between(path, along, begin, end) for begin, end in spans]
+    if is_closed and len(parts) > 1 and spans[0][0] == 0 and spans[-1][1] == length:
+        parts[0] = np.concatenate([parts.pop(), parts[0][1:]])
+    return parts
+
+
+def _spans(length: float, dashes: Sequence[float], offset: float) -> list[tuple[float, float]]:
+    """Where along the line each dash begins and ends."""
+    period = sum(dashes)
+    turns = int(np.ceil((length + offset) / period))
+    ends = np.cumsum(np.tile(np.asarray(dashes, dtype=np.float64), turns)) - offset
+    begins = np.concatenate([[-offset], ends[:-1]])[::2]
+    ends = ends[::2]
+    shows = (ends >= 0) & (begins < length) & ((ends > 0) | (begins == ends))
+    begins, ends = np.maximum(begins[shows], 0.0), np.minimum(ends[shows], length)
+    return list(zip(begins.tolist(), ends.tolist(), strict=True))
+
+
+def _between(path: FloatArray, along: FloatArray, begin: float, end: float) -> FloatArray:
+    if begin == end:
+        dot = _DOT * float(along[-1])
+        begin, end = max(0.0, begin - dot), min(float(along[-1]), end + dot)
+    first, last = np.searchsorted(along, begin, "right"), np.searchsorted(along, end, "left")
+    near = slice(max(0, int(first) - 1), int(last) + 1)
+    ends = np.column_stack(
+        [np.interp([begin, end], along[near], path[near, axis]) for axis in (0, 1)]
+    )
+    return np.concatenate([ends[:1], path[first:last], ends[1:]])
+
 
 FINER = 4_096.0
 """Factor in tolerance by which pieces that end are followed: a 64th of a chord's length, so

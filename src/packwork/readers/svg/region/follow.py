@@ -1,4 +1,8 @@
-"""Regions of single painted shapes: fill and stroke, clipped."""
+"""Regions of single painted shapes: fill by its rule and stroke, clipped.
+
+Then nothing has to be cut: how often the others go round a ring tells whether it is an
+edge of the region, which makes a compound path some thirty times cheaper.
+"""
 
 from __future__ import annotations
 
@@ -8,22 +12,85 @@ from typing import final
 
 import numpy as np
 import shapely
-from shapely.geometry import Polygon
+from shapely.geometry import LinearRing, MultiLineString, Polygon
 
-from packwork.arrays import FloatArray
+from packwork.arrays import BoolArray, FloatArray
 from packwork.geometry import affine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import buffered, intersection, union
-from packwork.geometry.polygon import Region, polygon_parts
+from packwork.geometry.polygon import FillRule, Region, enclosed, polygon_parts, region, signed_area
 from packwork.readers.account import spend
-from packwork.readers.budget.crossings import MAX_CROSSINGS, MAX_UNION_CROSSINGS, Allowance
+from packwork.readers.budget.crossings import (
+    MAX_CROSSINGS,
+    MAX_UNION_CROSSINGS,
+    Allowance,
+    check_nesting,
+)
 from packwork.readers.svg.region.centre_lines import FinePoints, piece_strokes
-from packwork.readers.svg.region.fills import filled
-from packwork.readers.svg_syntax.extent import is_inside, stretch, whole_box
-from packwork.readers.svg_syntax.painted import Clip, Painted
+from packwork.readers.svg_syntax.painted import Clip, Painted, is_inside, stretch, whole_box
 from packwork.readers.svg_syntax.painting import StrokeStyle
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all
+
+_MANY = 2_000
+
+
+def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) -> Region:
+    """Region that closed rings fill under ``rule``; valid, possibly empty.
+
+    Parameters
+    ----------
+    rings
+        Each ``(n, 2)``.
+    rule
+        SVG's word.
+    allowance
+        For crossings.
+
+    Raises
+    ------
+    TooRichError
+        If they cross each other too often to be resolved, or too many lie in each other.
+
+    Examples
+    --------
+    >>> square = np.array([[0, 0], [4, 0], [4, 4], [0, 4.0]])
+    >>> filled([square, square / 4 + 1], "evenodd", Allowance(9)).area
+    15.0
+    >>> filled([square, square / 4 + 1], "nonzero", Allowance(9)).area
+    16.0
+    """
+    kept = [LinearRing(ring) for ring in rings if len(ring) >= 3]
+    is_large = sum(len(ring) for ring in rings) > _MANY
+    if is_large:
+        # Before crossings are looked for one by one, which may take as long.
+        allowance.spend(rings)
+        check_nesting(kept)
+    together = MultiLineString(kept)
+    if not kept or not together.is_simple:
+        if not is_large:
+            allowance.spend(rings)
+        return region(rings, rule)
+    if len(kept) == 1:
+        return Polygon(kept[0])
+    if rule == "nonzero":
+        kept = [ring for ring, is_edge in zip(kept, _are_edges(kept), strict=True) if is_edge]
+    return enclosed(kept)
+
+
+def _are_edges(rings: Sequence[LinearRing]) -> BoolArray:
+    """Which of several rings part what is wound about from what is not.
+
+    They neither cross nor touch, so the winding number is the same all along a ring.
+    """
+    faces = shapely.polygons(rings)
+    signs = np.array([np.sign(signed_area(shapely.get_coordinates(ring))) for ring in rings])
+    corners = shapely.points([ring.coords[0] for ring in rings])
+    inner, outer = shapely.STRtree(faces).query(corners, predicate="within")
+    is_other = inner != outer
+    around = np.bincount(inner[is_other], signs[outer[is_other]], minlength=len(rings))
+    return np.asarray((around != 0) != (around + signs != 0))
+
 
 BRIDGED_SHARE = 0.1
 """Gap of a dashed line, as a share of the drawing's extent, up to which an outline passes

@@ -8,11 +8,10 @@ from collections.abc import Sequence
 from shapely.errors import GEOSException
 
 from packwork.readers.pages import PageFate
-from packwork.readers.pictures.whites import LEAST_WHITE as LEAST_WHITE
+from packwork.readers.pictures.transparency import LEAST_WHITE as LEAST_WHITE
 from packwork.readers.svg.region.ink import painted_ink
-from packwork.readers.svg_syntax.extent import Box, drawing_box
 from packwork.readers.svg_syntax.page import Page
-from packwork.readers.svg_syntax.painted import Painted
+from packwork.readers.svg_syntax.painted import Box, Painted, drawing_box
 from packwork.readers.unfit import TooRichError
 from packwork.scene.colour import css_colour
 

@@ -1,1 +1,0 @@
-"""Pictures to containers: the part of them in which little is to be seen."""
