@@ -13,6 +13,7 @@ from scipy.spatial import cKDTree
 import packwork as pw
 from packwork.arrays import IntArray
 from packwork.errors import ReadError, RecipeError
+from packwork.readers.words.options import Word
 from packwork.readers.words.together import (
     information,
     pairs_within,
@@ -20,7 +21,6 @@ from packwork.readers.words.together import (
     related,
     vectors_of,
 )
-from packwork.readers.words.word import Word
 from packwork.scene.swatch import representative_colour
 
 QUICK = {"levels": "60", "epochs": 60, "effort": "draft", "seed": 0}

@@ -20,7 +20,7 @@ from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.layouts.read import read_written
 from packwork.readers.words.items import word_item
-from packwork.readers.words.word import Word
+from packwork.readers.words.options import Word
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import recoloured
 from packwork.writers.embedding import may_be_embedded

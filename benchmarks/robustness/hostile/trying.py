@@ -26,8 +26,8 @@ from packwork.readers.layouts.read import read_written
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.read import read_photos
 from packwork.readers.recipe import read_recipe
-from packwork.readers.svg.walls import walled_container
-from packwork.readers.tables.weights import read_weights
+from packwork.readers.svg.curve import walled_container
+from packwork.readers.tables.pairs import read_weights
 from packwork.readers.words.items import read_word_items
 from packwork.recipe import make_recipe
 from packwork.uses.charts.recipe import chart_recipe

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Literal, Required, TypedDict
 
 from packwork.readers.memory.values import Value
-from packwork.readers.words.word import Word
+from packwork.readers.words.options import Word
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 

@@ -27,7 +27,7 @@ pictures of rich drawings coarse, or refuses them. Chosen."""
 
 @dataclass
 class Budget:
-    """What is left for one file.
+    """Counted work that is left for one file.
 
     Examples
     --------
@@ -90,7 +90,7 @@ def spend(nanoseconds: float, what: str, account: Account = "shapes") -> None:
     Raises
     ------
     TooRichError
-        As for ``Budget.spend``.
+        If that is more than is left.
 
     Examples
     --------

@@ -65,7 +65,7 @@ def read_lines(path: str | Path, most: int, longest: int) -> Iterator[str]:
     Raises
     ------
     ReadError
-        As for ``read_bytes``, and if a line is longer.
+        If it cannot be read, is larger, or a line is longer.
 
     Examples
     --------
@@ -115,7 +115,7 @@ def read_text(path: str | Path, most: int) -> str:
     Raises
     ------
     ReadError
-        As for ``read_bytes``, and if it is not UTF-8.
+        If it cannot be read, is larger, or is not UTF-8.
 
     Examples
     --------

@@ -86,7 +86,7 @@ _LOG = logging.getLogger("packwork")
 
 @dataclass(frozen=True)
 class Listing:
-    """What a folder or a pattern holds.
+    """Files of a folder or a pattern.
 
     Parameters
     ----------
@@ -192,7 +192,7 @@ def _sorted_out(paths: Iterable[Path], endings: Collection[str]) -> Listing:
 
 @dataclass(frozen=True)
 class Sample:
-    """Which of many items are taken.
+    """Choice of some of many items.
 
     Parameters
     ----------

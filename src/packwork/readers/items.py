@@ -34,7 +34,7 @@ _READERS: dict[str, Callable[[str, Holes, ReadOptions], Read]] = {
 
 @dataclass(frozen=True)
 class ItemsRead:
-    """What came of reading.
+    """Items that were read, and files that were not.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class ItemsRead:
 
 @dataclass(frozen=True)
 class _Asked:
-    """What is asked of all files of a run."""
+    """Options of reading all files of a run."""
 
     holes: Holes
     reading: ReadOptions
@@ -63,7 +63,7 @@ class _Asked:
 
 @dataclass(frozen=True)
 class _Source:
-    """What a source stands for: items at once, or files that are yet to be read.
+    """Meaning of a source: items at once, or files that are yet to be read.
 
     ``listing`` is that of a folder or a pattern; a file without one must be usable.
     """

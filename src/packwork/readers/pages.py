@@ -19,7 +19,7 @@ _LOG = logging.getLogger("packwork")
 
 
 class PageFate(Enum):
-    """What became of the page behind a drawing; each value says it of one file."""
+    """Fate of the page behind a drawing; each value says it of one file."""
 
     NONE = ""
     """There is none, or the drawing is its own ground: clear beside it."""

@@ -78,8 +78,10 @@ def read_template(path: str | Path, *, allow_code: bool = False) -> dict[str, An
 
     Raises
     ------
-    ReadError, RecipeError
-        As for :func:`read_recipe`.
+    ReadError
+        If the file cannot be read or is not TOML.
+    RecipeError
+        If it names code that may not be run.
     """
     text = read_text(path, MAX_BYTES)
     check_nesting(path, text)

@@ -48,7 +48,7 @@ _SIMPLIFY_PX = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Quiet:
-    """What is found of a picture.
+    """Saliency of a picture and its quiet part.
 
     Parameters
     ----------
@@ -138,7 +138,7 @@ ReadRegion = Callable[[str, CanvasSize], Container]
 
 @dataclass(frozen=True)
 class QuietOptions:
-    """Which part of a picture is filled.
+    """Choice of the part of a picture that is filled.
 
     Parameters
     ----------

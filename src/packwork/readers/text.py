@@ -67,7 +67,7 @@ class Letter:
 
 @dataclass(frozen=True, eq=False)
 class _DrawnGlyph:
-    """What one glyph covers in its word, in ems."""
+    """Region of one glyph in its word, in ems."""
 
     region: Region
     cluster: int
@@ -111,7 +111,7 @@ def _letters(setting: Setting) -> Iterator[Letter]:
 
 
 def _joined(drawn: Sequence[_DrawnGlyph]) -> list[Region]:
-    """What glyphs cover, one after the other, those that join in one; marks join their letter."""
+    """Regions of glyphs, one after the other, those that join in one; marks join their letter."""
     groups: list[list[_DrawnGlyph]] = []
     for one in drawn:
         if groups and (one.cluster == groups[-1][-1].cluster or _is_near(one, groups[-1])):
@@ -147,7 +147,7 @@ def _is_seen(character: str) -> bool:
 
 @remembered_by_font(MOST_KNOWN)
 def _glyph_region(face: Typeface, number: int) -> Region:
-    """What a glyph covers about its origin, in ems."""
+    """Region of a glyph about its origin, in ems."""
     drawn = list(_unclosed(face.drawing(number)))
     rings = [ring / face.units for ring in rings_of(drawn, FLATTENING * face.units)]
     check_glyph(rings)
@@ -305,7 +305,7 @@ def _set_line(line: Sequence[Letter]) -> Region:
 
 
 def _push(before: Region, after: Region) -> float:
-    """How far right ``after`` must go to keep its distance from ``before``."""
+    """Distance by which ``after`` must go right to be clear of ``before``."""
     push, widest = 0.0, before.bounds[2] - after.bounds[0] + LETTER_GAP
     shapely.prepare(before)
     if not shapely.dwithin(before, after, LETTER_GAP):

@@ -16,11 +16,11 @@ _reading: ContextVar[str] = ContextVar("reading", default="")
 
 
 class UnfitError(Exception):
-    """What is wrong with the content being read; the reader adds the file's name."""
+    """A fault of the content being read; the reader adds the file's name."""
 
 
 class TooRichError(UnfitError):
-    """What takes too long to be computed from shapes; its picture may still be traced.
+    """A drawing that takes too long to be computed from shapes; its picture may still be traced.
 
     Parameters
     ----------

@@ -253,7 +253,7 @@ def groups_in_order(vectors: Vectors, names: Sequence[Sequence[str]]) -> tuple[s
 
 
 def _places(vectors: Vectors, names: Sequence[Sequence[str]]) -> Sequence[int | None]:
-    """Which row is that of each thing; None for none."""
+    """Row of each thing; None for none."""
     if vectors.names is None:
         if len(vectors.rows) != len(names):
             raise ReadError(

@@ -14,7 +14,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
 from packwork.readers.words.items import height_shares
-from packwork.readers.words.word import Word
+from packwork.readers.words.options import Word
 from packwork.scene.palette import palette_colours
 from packwork.uses.charts.grouped import unit_scales
 from packwork.uses.charts.recipe import chart_recipe

@@ -19,7 +19,7 @@ from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_shares
 from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import EM_PX, WORD_SPACE, ShapedWord, shaped_word
-from packwork.readers.words.word import Word
+from packwork.readers.words.options import Word
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout

@@ -1,4 +1,4 @@
-"""Where a cutter is to cut: the items' outlines, one line round each, or one at a distance.
+"""Lines for a cutter: the items' outlines, one line round each, or one at a distance.
 
 A line at a distance (a kiss cut, that leaves a rim of paper round a sticker) needs twice that
 distance between items. Arcs of such a line lie within the true offset, so that where the gap
@@ -45,7 +45,7 @@ Larger ones would leave little of its shape. Chosen."""
 
 @dataclass(frozen=True, kw_only=True)
 class CutOptions:
-    """Which lines are cut.
+    """Choice of the lines that are cut.
 
     Parameters
     ----------

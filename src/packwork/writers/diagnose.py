@@ -62,7 +62,7 @@ def diagnose_png(layout: Layout, longer_side_px: int) -> bytes:
 
 
 def _classes(layout: Layout, frame: PictureFrame, top: int, bottom: int) -> _Pixels:
-    """What each sample of the pixel rows ``top`` to ``bottom`` shows."""
+    """Class of each sample of the pixel rows ``top`` to ``bottom`` shows."""
     inside = _counts([layout.container.outline], frame, top, bottom) > 0
     items = _counts(layout.outlines, frame, top, bottom)
     classes = np.where(inside, CONTAINER, BACKGROUND).astype(np.uint8)

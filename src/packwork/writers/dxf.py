@@ -182,7 +182,7 @@ class LinePoints:
         return (self,)
 
     def dxfstr(self) -> str:
-        """What that one writes."""
+        """Text that is written in its place."""
         return " 10\n%s\n 20\n%s\n" * len(self.points) % tuple(self.points.ravel().tolist())
 
 

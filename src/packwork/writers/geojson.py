@@ -154,7 +154,7 @@ def _item_properties(layout: Layout, k: int, item: Item) -> dict[str, Any]:
 
 
 def _stands_for(item: Item) -> dict[str, Any]:
-    """What a mark of a chart says; nothing for other items."""
+    """Properties of a mark of a chart; nothing for other items."""
     if item.datum is None:
         return {}
     said = {key: value for key, value in asdict(item.datum).items() if value != ""}

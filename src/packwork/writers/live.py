@@ -21,7 +21,7 @@ the same with it, 0.985 to 0.994 without."""
 
 
 class LiveWords:
-    """What of a document's items is text, and the fonts that it carries.
+    """Items of a document that are text, and the fonts that it carries.
 
     Fonts that cannot be embedded are named in the log; their words are outlines.
 

@@ -94,7 +94,7 @@ def element(item: Item, own: Mapping[str, str], place: str, digits: int) -> str:
 
 
 def _told(item: Item, art: FlatArt | VectorArt | PictureArt, digits: int) -> dict[str, str]:
-    """What of an item's outline its drawing does not show, in the units of its markup."""
+    """Part of an item's outline that its drawing does not show, in the units of its markup."""
     matrix = affine.identity() if isinstance(art, FlatArt) else art.matrix
     finer = max(0, math.ceil(math.log10(np.linalg.norm(matrix[:, :2], 2))))
     back = affine.inverse(matrix)

@@ -1,4 +1,4 @@
-"""How layouts are drawn, of all formats together: what faces offer."""
+"""Options of drawing layouts, of all formats together: what faces offer."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ GONE_ON_WITH = ("flatten", "show_container", "cut", "kiss_cut")
 
 
 class DrawingOptions(Options):
-    """How a layout is drawn; each format heeds its own of these."""
+    """Options of drawing a layout; each format heeds its own of these."""
 
     offers = Offer(group=Group.WRITTEN, verbs=Verbs.EVERY)
 

@@ -137,7 +137,7 @@ def _fill(background: str | None) -> str:
 
 
 def without_text(layout: Layout) -> Layout:
-    """The same layout, drawings with text in it replaced by pictures of them."""
+    """Layout whose drawings with text are replaced by pictures of them."""
     px_per_cu = convert(1.0, layout.container.unit, "in") * PICTURE_DPI
     largest: dict[Item, float] = {}
     scales = layout.poses.axis_scales.max(axis=1).tolist()

@@ -20,7 +20,7 @@ softens what has no more than one. Larger takes longer and more memory. Tried by
 
 
 def printed(layout: Layout, px_per_cu: float) -> Layout:
-    """The same layout, its photos with that many pixels per canvas unit if they have them.
+    """Layout whose photos have that many pixels per canvas unit, if there are as many.
 
     One photo at a time is in memory; what stays of it is a file in text.
 

@@ -65,7 +65,7 @@ CONTAINER_STROKE_SHARE = 1 / 500
 
 @dataclass(frozen=True, kw_only=True)
 class SvgOptions:
-    """How a layout is drawn.
+    """Options of drawing a layout as SVG.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ class SvgOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class SheetSize:
-    """What a document's root states.
+    """Size that a document's root states.
 
     Parameters
     ----------
@@ -268,7 +268,7 @@ def _backdrop(backdrop: Backdrop | None) -> list[str]:
 
 
 def _halos(layout: Layout, digits: int) -> list[str]:
-    """What makes items stand out from a picture behind, under all of them."""
+    """Halos by which items stand out from a picture behind, under all of them."""
     width = f"{2 * HALO_SHARE * layout.container.side:.6g}"
     drawn = []
     for item, ink in zip(layout.items, layout.inks, strict=True):
@@ -319,7 +319,7 @@ def _note(note: Note) -> str:
 
 
 def _said(layout: Layout) -> dict[str, str]:
-    """What ``packwork measure`` cannot see of the items: what was promised of them."""
+    """Promises about the items that ``packwork measure`` cannot see."""
     gap, shares = promised(layout)
     return {
         "data-gap": gap,

@@ -16,7 +16,7 @@ from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.itemise import clusters, itemised, visual_order
 from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import word_item
-from packwork.readers.words.word import Word
+from packwork.readers.words.options import Word
 from packwork.scene.item import VectorArt
 from packwork.scene.recolour import has_one_colour
 

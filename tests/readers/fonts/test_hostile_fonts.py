@@ -27,7 +27,7 @@ from packwork.readers.fonts.guard import MAX_FONT_BYTES
 from packwork.readers.text import Letter, container_of_words, letters_of
 from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.items import word_item
-from packwork.readers.words.word import Word
+from packwork.readers.words.options import Word
 from packwork.scene.live_text import FontFile, LiveText, TextRun
 from packwork.writers.embedding import embedded_fonts
 

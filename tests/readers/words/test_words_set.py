@@ -13,8 +13,7 @@ from packwork.readers.fonts.face import Typeface, bundled_typeface
 from packwork.readers.fonts.fallback import open_fonts
 from packwork.readers.unfit import UnfitError
 from packwork.readers.words.items import EM_PX, read_word_items, word_item
-from packwork.readers.words.options import WordOptions
-from packwork.readers.words.word import Word
+from packwork.readers.words.options import Word, WordOptions
 
 
 def read(source: dict[str, float], **options):

@@ -123,7 +123,7 @@ def estimated_crossings(rings: Sequence[FloatArray]) -> float:
 
 
 def _crossings(a: FloatArray, b: FloatArray, c: FloatArray, d: FloatArray) -> int:
-    """How often an edge ``a`` to ``b`` and an edge ``c`` to ``d`` cross inside both."""
+    """Number of times that an edge ``a`` to ``b`` and an edge ``c`` to ``d`` cross inside both."""
     first, second = np.nonzero(_boxes_meet(a, b, c, d))
     a, b, c, d = a[first], b[first], c[second], d[second]
     parts = (_sides(a, b, c) * _sides(a, b, d) < 0) & (_sides(c, d, a) * _sides(c, d, b) < 0)

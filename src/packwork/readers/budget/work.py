@@ -45,7 +45,7 @@ _HIDDEN_SHARE = 0.05
 
 @dataclass(frozen=True)
 class Work:
-    """What there is to render.
+    """Counts of all that is to be rendered.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ class Work:
 
 
 def work_of(root: ET.Element, shapes: Sequence[Painted], page: Page | None) -> Work:
-    """What a clean drawing is to render, its shapes being known.
+    """Counts of a clean drawing whose shapes are known.
 
     Examples
     --------

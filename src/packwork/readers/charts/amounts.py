@@ -1,4 +1,4 @@
-"""How much the rows of a chart stand for, and how many marks that makes."""
+"""Amounts that rows of a chart stand for, and the numbers of marks that they make."""
 
 from __future__ import annotations
 

@@ -130,7 +130,7 @@ SHAPES = ("circle", "square", "triangle", "diamond", "star", "cross", "hexagon",
 
 @dataclass(frozen=True)
 class ChartKeys:
-    """What a chart's colours and keys go by: that of all its marks, whichever are shown.
+    """Values that a chart's colours and keys go by: of all its marks, whichever are shown.
 
     Parameters
     ----------

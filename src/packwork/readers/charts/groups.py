@@ -39,7 +39,7 @@ _DATE = re.compile(r"\d{4}-\d{2}(-\d{2}([T ][\d:.,+Z-]*)?)?")
 
 @dataclass(frozen=True, eq=False)
 class Groups:
-    """Which rows belong together.
+    """Rows that belong together.
 
     Parameters
     ----------
@@ -154,7 +154,7 @@ def _steps(table: Table, column: str, step: float, label_by: str | None) -> Grou
 
 
 def _step_name(begin: float, step: float, numbers: Sequence[float]) -> str:
-    """What people call the numbers from one multiple of the step up to the next.
+    """Name of the numbers from one multiple of the step up to the next.
 
     Examples
     --------

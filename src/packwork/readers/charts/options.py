@@ -1,4 +1,4 @@
-"""What a unit chart shows, and how."""
+"""Options of unit charts."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from pydantic import Field, field_validator, model_validator
 from packwork.errors import RecipeError
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options
-from packwork.readers.colours import check_colour
+from packwork.readers.options import check_colour
 
 SizeIs: TypeAlias = Literal["area", "height", "width"]
 
 
 class ChartOptions(Options):
-    """Where rows come from and what of a mark says what of them."""
+    """Source of the rows, and the columns that sizes, colours and labels of marks stand for."""
 
     offers = Offer(group=Group.MARKS, verbs=Verbs.CHART)
 

@@ -39,7 +39,7 @@ def part_of(item: Item, share: float) -> Item:
 
 
 def _cut(region: Region, share: float) -> float:
-    """Where a vertical line leaves that share of the area on its left."""
+    """Place of the vertical line that leaves that share of the area on its left."""
     # What it brings along takes a quarter of a second, and few charts cut a mark.
     from scipy.optimize import brentq
 
@@ -79,7 +79,7 @@ def _cut_art(item: Item, at: float, x: float, y: float) -> FlatArt | VectorArt:
 
 
 def markup_of(art: VectorArt | PictureArt) -> str:
-    """What draws it, in units that its matrix maps."""
+    """Markup of its drawing, in units that its matrix maps."""
     if isinstance(art, VectorArt):
         return art.markup
     data = base64.b64encode(art.png).decode("ascii")

@@ -134,7 +134,7 @@ class Typeface:
 
     @cached_property
     def identity(self) -> tuple[bytes, int, float | None]:
-        """What tells it from faces that draw otherwise: a hash of its file, its index, its weight.
+        """Key that faces share which draw alike: a hash of the file, the index, the weight.
 
         Examples
         --------
@@ -151,7 +151,7 @@ class Typeface:
 
     @cached_property
     def oddity(self) -> tuple[float, float]:
-        """How far it is from upright, and from the common width."""
+        """Distances from upright and from the common width."""
         tags = self._hb.StyleTag
         lean = float(self._font.get_style_value(tags.ITALIC) != 0)
         lean += abs(float(self._font.get_style_value(tags.SLANT_ANGLE)))

@@ -75,7 +75,7 @@ MOST_KNOWN = 4096
 
 @dataclass(frozen=True, eq=False)
 class ClearInk:
-    """What glyphs cover that stand clear of each other.
+    """Regions of glyphs that stand clear of each other.
 
     Parameters
     ----------
@@ -157,7 +157,7 @@ def glyph_path(face: Typeface, number: int) -> GlyphPath:
 
 @remembered_by_font(MOST_KNOWN)
 def glyph_ink(face: Typeface, number: int, tolerance: float) -> GlyphInk:
-    """What a glyph covers, its curves followed to ``tolerance``.
+    """Region of a glyph, its curves followed to ``tolerance``.
 
     Raises
     ------

@@ -56,7 +56,7 @@ def itemised(line: str) -> list[Piece]:
 
 
 def visual_order(pieces: Sequence[Piece]) -> list[int]:
-    """Which piece stands first from the left, which next: those read leftward come reversed.
+    """Numbers of the pieces from left to right: those read leftward come reversed.
 
     Examples
     --------

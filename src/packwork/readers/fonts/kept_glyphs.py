@@ -88,7 +88,7 @@ _HEAD = struct.Struct("<d5q")
 
 @dataclass(frozen=True, eq=False)
 class GlyphInk:
-    """What a glyph covers about its origin, in its font's units.
+    """Region of a glyph about its origin, in its font's units.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ class GlyphInk:
 
 
 def kept_glyph(what: tuple[Any, ...], draw: Callable[[], GlyphInk]) -> GlyphInk:
-    """What ``draw`` makes of a glyph, now or at an earlier time.
+    """Result of ``draw`` for a glyph, now or at an earlier time.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def packed(glyph: GlyphInk) -> bytes:
 
 
 def unpacked(data: bytes) -> GlyphInk | None:
-    """What a glyph covers, of bytes; None if they are none."""
+    """Region of a glyph out of bytes; None if they are none."""
     try:
         clearance, length, *sizes = _HEAD.unpack_from(data)
         begin = _HEAD.size + length

@@ -133,7 +133,7 @@ class Lettering:
 
     @cached_property
     def region(self) -> Region:
-        """What it covers, with holes and parts."""
+        """Region of all letters, with holes and parts."""
         return self.covered.ink.region if isinstance(self.covered, ClearInk) else self.covered
 
     @property
@@ -197,7 +197,7 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
 
 @dataclass(frozen=True, eq=False)
 class _DrawnWord:
-    """What a word's letters cover, in ems, and its curves, as a lettering has them."""
+    """Region of a word's letters, in ems, and its curves, as a lettering has them."""
 
     covered: ClearInk | Region
     curves: Curves
@@ -225,7 +225,7 @@ def _drawn(runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture]) -> _Draw
 def _covered(
     runs: Sequence[_GlyphRun], pictures: Sequence[GlyphPicture], tolerance: float, size: float
 ) -> ClearInk | Region:
-    """What glyphs and pictures cover, ``size`` times as large; curves followed to ``tolerance``."""
+    """Region of glyphs and pictures ``size`` times as large; curves followed to ``tolerance``."""
     glyphs = [glyph for run in runs for glyph in run.inks(tolerance)]
     places = np.array([place for run in runs for place in run.places()]).reshape(-1, 2)
     sizes = np.repeat([run.scale for run in runs], [len(run.glyphs) for run in runs])
@@ -259,7 +259,7 @@ class _GlyphRun:
         return [(glyph_path(self.face, glyph.number), self._place(glyph)) for glyph in self.glyphs]
 
     def inks(self, tolerance: float) -> list[GlyphInk]:
-        """What the glyphs cover about their origins, curves followed to ``tolerance``."""
+        """Regions of the glyphs about their origins, curves followed to ``tolerance``."""
         return [glyph_ink(self.face, glyph.number, tolerance / self.scale) for glyph in self.glyphs]
 
     def places(self) -> list[tuple[float, float]]:
@@ -287,7 +287,7 @@ class _GlyphRun:
 
 @dataclass(frozen=True)
 class _FontRun(_GlyphRun):
-    """The same with the text that it is."""
+    """A run of glyphs with the text that it is."""
 
     piece: Piece
     advance: float
@@ -323,7 +323,7 @@ def _line(line: Sequence[Setting], number: int, units: float, language: str) -> 
 
 
 def _tolerance(boxes: Sequence[FloatArray]) -> float:
-    """How far chords may lie from curves, in the word's units."""
+    """Largest distance of chords from curves, in the word's units."""
     if not boxes:
         return 1.0
     extent = float(np.ptp(np.concatenate(boxes), axis=0).max())

@@ -305,7 +305,7 @@ def _plain_attributes(node: Node, found: _Context, variables: Mapping[str, str])
 
 
 def _reference(node: Node, value: str, found: _Context) -> str | None:
-    """What an element refers to, if that lies inside the file."""
+    """Target of an element's reference, if that lies inside the file."""
     target = value.strip()
     if node.tag == "image":
         picture = one_picture(target)

@@ -203,7 +203,7 @@ class Arts:
         count
             Its number, from 1.
         drawn, source
-            As for :func:`place_and_art`.
+            Its element, and the one that draws it.
         label
             Link and tooltip; its name is found here.
         ink

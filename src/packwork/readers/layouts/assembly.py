@@ -54,7 +54,7 @@ class FoundItem:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FoundSheet:
-    """What a file says of all its items together.
+    """Sheet of a file, and what it states of all items together.
 
     Parameters
     ----------

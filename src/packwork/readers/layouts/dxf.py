@@ -270,5 +270,5 @@ def _region(lines: Sequence[DxfLine], height: float) -> Region:
 
 
 def _down(points: FloatArray, height: float) -> FloatArray:
-    """The same points, y down from the sheet's top."""
+    """Points of a file, y turned down from the sheet's top."""
     return np.column_stack([points[:, 0], height - points[:, 1]])

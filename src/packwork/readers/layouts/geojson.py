@@ -239,7 +239,7 @@ def _refusal(refused: ValidationError, where: str) -> str:
     if place in ((), ("properties",)):
         return f"{where}: must be a feature with properties"
     names = [where] if where else []
-    # After "properties" stands the role, by which the model was chosen.
+    # After "properties" stands the role: the tag of the union.
     names += map(str, place[2:] if place[0] == "properties" else place)
     met = None if error["type"] == "missing" else met
     is_number = isinstance(met, int | float) and not isinstance(met, bool)

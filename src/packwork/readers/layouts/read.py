@@ -110,7 +110,7 @@ def read_written(path: str | Path) -> Layout:
 
 
 def read_content(data: bytes, path: str | Path, *, outlines_only: bool = False) -> Layout:
-    """The same of what is, or is to be, such a file's content.
+    """Layout of what is, or is to be, such a file's content.
 
     Parameters
     ----------

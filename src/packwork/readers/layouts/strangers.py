@@ -49,7 +49,7 @@ def group_named(root: ET.Element, name: str) -> ET.Element | None:
 
 
 def unmeasured(root: ET.Element) -> tuple[str, ...]:
-    """What at the top of one of our files may paint and is measured nowhere, in a sentence.
+    """A sentence about elements at the top of a file that may paint and are measured nowhere.
 
     Examples
     --------

@@ -206,7 +206,7 @@ class _Drawings:
 
     @property
     def on_trust(self) -> tuple[str, ...]:
-        """What was not seen but taken from the file's words, a sentence each."""
+        """Sentences about all that was not seen but taken from the file's words."""
         if self._stated == 0:
             return ()
         return (
@@ -215,7 +215,7 @@ class _Drawings:
         )
 
     def item(self, drawn: ET.Element) -> Region:
-        """What shows of one item, in its own units."""
+        """Region of one item that shows, in its own units."""
         source = self.source(drawn)
         if source not in self._regions:
             own = place_and_art(source, drawn)[1]
@@ -258,7 +258,7 @@ class _Drawings:
         return _placed(seen, own)
 
     def _followed(self, elements: list[ET.Element], size: float) -> Region:
-        """What elements paint, in their own units, fine enough for a copy of that size."""
+        """Region that elements paint, in their own units, fine enough for a copy of that size."""
         if not size > 0:
             raise UnfitError(f"has an item without any size, {_NOT_OURS}")
         polygon = _polygon(elements[0]) if len(elements) == 1 else None
@@ -328,7 +328,7 @@ def _place(element: ET.Element) -> FloatArray:
 
 
 def _size(matrix: FloatArray) -> float:
-    """How many times as long as they are a map makes lengths, at most."""
+    """Largest factor by which a map makes lengths longer."""
     return float(np.linalg.norm(matrix[:, :2], 2))
 
 
@@ -355,7 +355,7 @@ def _canvas(root: ET.Element) -> tuple[float, float, Unit, float]:
 
 
 def _picture(image: ET.Element) -> Region:
-    """What an embedded picture shows, in the units of its element."""
+    """Region of an embedded picture, in the units of its element."""
     _, _, encoded = (image.get(LINK) or image.get("href") or "").partition("base64,")
     try:
         picture = decode_picture(base64.b64decode(encoded, validate=True), ART_PX)

@@ -1,4 +1,4 @@
-"""What in an SVG of ours is drawn otherwise than it is measured: looks and places added by others.
+"""Parts of an SVG of ours that are drawn otherwise than measured: looks and places added by others.
 
 Our files place each item by one ``transform`` and state what else they hold. Whatever a browser
 reads besides (styles, strokes and markers of a copy, clips round the items) is named, and a file
@@ -77,14 +77,16 @@ def examined(
     root: ET.Element, data: bytes, drawn: Sequence[ET.Element], sources: Sequence[ET.Element],
     container: Region, size: tuple[float, float],
 ) -> tuple[list[str], list[str]]:  # fmt: skip
-    """What was changed in a file, and what of it has to be believed, sentences each.
+    """Sentences about changes of a file, and about all of it that has to be believed.
 
     Of files without our groups, which promise nothing, only the latter.
 
     Parameters
     ----------
-    root, data, drawn, sources
-        As for :func:`changes`.
+    root, data
+        The file, parsed and as it is.
+    drawn, sources
+        The element of each item, and the one that draws it.
     container, size
         Region that was filled, and width and height of the page, canvas units.
 
@@ -107,7 +109,7 @@ def examined(
 def changes(
     root: ET.Element, data: bytes, drawn: Sequence[ET.Element], sources: Sequence[ET.Element]
 ) -> list[str]:
-    """What is drawn otherwise than it is measured, a sentence each.
+    """Sentences about parts that are drawn otherwise than they are measured.
 
     Parameters
     ----------
@@ -160,7 +162,7 @@ def cropped(container: Region, size: tuple[float, float]) -> list[str]:
 
 
 def believed(root: ET.Element) -> list[str]:
-    """What of a file of ours has to be believed: of films, of filters, of files without a count.
+    """Sentences about films, filters and missing counts, for which a file has to be believed.
 
     Examples
     --------
@@ -184,7 +186,7 @@ def _sentence(what: str, where: list[str]) -> str:
 
 
 def _of_document(root: ET.Element, data: bytes) -> Iterator[Met]:
-    """What acts on a whole file."""
+    """Changes that act on a whole file."""
     # Of files in UTF-16, too.
     plain = data.replace(b"\0", b"")
     if b"<?xml-stylesheet" in plain:
@@ -205,7 +207,7 @@ def _of_document(root: ET.Element, data: bytes) -> Iterator[Met]:
 
 
 def _of_frame(root: ET.Element) -> Iterator[Met]:
-    """What acts on the page, the groups, and the copies of items elsewhere."""
+    """Changes that act on the page, the groups, and the copies of items elsewhere."""
     yield from _odd(root, _OF_ROOT | _COLOURING, "the page")
     yield from _page(root)
     for name, more in (("container", _OF_LINES | {"stroke"}), ("items", frozenset[str]())):
@@ -263,7 +265,7 @@ def _of_items(
 
 
 def _of_drawing(source: ET.Element, first: Mapping[str, ET.Element]) -> Iterator[str]:
-    """What of an item's drawing is not followed."""
+    """Parts of an item's drawing that are not followed."""
     name = tag(source)
     if name not in _SOURCES:
         yield f"the <{name}>"

@@ -14,8 +14,15 @@ from PIL import Image
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.readers.memory.coverage import coverage_of_array, picture_of_array, png_of_picture
-from packwork.readers.memory.shapes import Columns, is_geometry, points_up, shapes_of
+from packwork.readers.memory.shapes import (
+    Columns,
+    coverage_of_array,
+    is_geometry,
+    picture_of_array,
+    png_of_picture,
+    points_up,
+    shapes_of,
+)
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.container import Container
@@ -150,7 +157,7 @@ _MOST_BLANKS = 1_000
 
 @dataclass
 class Handed:
-    """How values given in Python are taken, and where they are put.
+    """Names under which values given in Python are put into memory.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What photographs are placed and what becomes of their edges."""
+"""Options of photographs: their source, frames and edges."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pydantic import Field, field_validator
 from packwork.errors import RecipeError
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options
-from packwork.readers.colours import check_colour
+from packwork.readers.options import check_colour
 
 ROUNDED = "rounded"
 """Shape of a photo that keeps its proportions and loses its corners."""

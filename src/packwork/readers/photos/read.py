@@ -51,7 +51,7 @@ right angle, so that prints keep their corners."""
 
 @dataclass(frozen=True, eq=False)
 class PhotoCrop:
-    """What of a photo is shown, in its upright pixels.
+    """Part of a photo that is shown, in its upright pixels.
 
     Parameters
     ----------
@@ -127,7 +127,7 @@ def _shaped(shape: Region, full: Window) -> tuple[Window, Region]:
 
 
 def _cut_out(data: bytes, negative: Negative, threshold: float) -> Region:
-    """What is not clear of a photo."""
+    """Part of a photo that is not clear."""
     scale = min(1.0, CUT_OUT_PX / max(negative.width, negative.height))
     size = max(1, round(negative.width * scale)), max(1, round(negative.height * scale))
     full = (0.0, 0.0, float(negative.width), float(negative.height))
@@ -317,7 +317,7 @@ def read_photos(
 
 
 def _well(results: Iterable[Item | ReadError]) -> int:
-    """How many could be read."""
+    """Number of photos that could be read."""
     return sum(isinstance(result, Item) for result in results)
 
 
@@ -359,7 +359,7 @@ def _reading(
 
 
 def _here(read: Callable[P, R]) -> Callable[P, R]:
-    """The same in any thread: what is in memory is found in the context of now."""
+    """A reader for any thread: what is in memory is found in the context of now."""
     context = copy_context()
 
     def read_here(*args: P.args, **kwargs: P.kwargs) -> R:

@@ -76,7 +76,7 @@ def _fitted(points: FloatArray) -> tuple[FloatArray, FloatArray]:
 def _corner(
     at: FloatArray, before: tuple[FloatArray, FloatArray], after: tuple[FloatArray, FloatArray]
 ) -> FloatArray:
-    """Where two lines meet near ``at``; if they do not, the middle between them."""
+    """Point near ``at`` in which two lines meet; if they do not, the middle between them."""
     (p, u), (q, v) = before, after
     sine = u[0] * v[1] - u[1] * v[0]
     if abs(sine) > _PARALLEL:

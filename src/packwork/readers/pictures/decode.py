@@ -76,7 +76,7 @@ def shrunk(
 
 
 def orientation(image: Image.Image) -> int:
-    """How the picture lies in its file, 1 to 8 as EXIF has it; 1 is upright."""
+    """Orientation of the picture in its file, 1 to 8 as EXIF has it; 1 is upright."""
     found = image.getexif().get(ExifTags.Base.Orientation, 1)
     return found if found in _TURNS else 1
 

@@ -37,7 +37,7 @@ _CLEAR = ("RGBA", "LA", "PA", "La", "RGBa")
 
 @dataclass(frozen=True)
 class Negative:
-    """What the header of a photo says.
+    """Header of a photo.
 
     Parameters
     ----------
@@ -131,7 +131,7 @@ def _reduced(image: Image.Image, size: tuple[int, int]) -> Image.Image:
 
 
 def _resizable(image: Image.Image) -> Image.Image:
-    """The same picture in a mode whose values may be averaged."""
+    """Picture in a mode whose values may be averaged."""
     if image.mode in _CLEAR or "transparency" in image.info:
         # Pillow weighs colours by alpha only in this mode: else edges darken.
         return image.convert("RGBA").convert("RGBa")

@@ -98,7 +98,7 @@ def _turning(grey: FloatArray) -> BoolArray:
 
 
 def _greys(values: FloatArray) -> float:
-    """How many greys values spread over: the exponential of their entropy."""
+    """Number of greys that values spread over: the exponential of their entropy."""
     shares = np.bincount((255 * values).astype(int)) / values.size
     shares = shares[shares > 0]
     return float(np.exp(-(shares * np.log(shares)).sum()))
@@ -170,7 +170,7 @@ def mask_of_pixels(pixels: Pixels, alpha_threshold: float = HALF) -> TracedMask:
     Raises
     ------
     UnfitError
-        As for ``trace_mask``.
+        If they are too few or none is dark.
 
     Examples
     --------

@@ -40,7 +40,7 @@ _SPECIAL = frozenset({"mask", "filter"})
 
 @dataclass(frozen=True, eq=False)
 class _Layer:
-    """What one shape paints in one colour.
+    """Region that one shape paints in one colour.
 
     Parameters
     ----------
@@ -267,7 +267,7 @@ def _without_whites(drawing: PaintedDrawing, region: Region) -> Region:
 
 
 def _dark_part(root: ET.Element, page: Page) -> Region:
-    """What is dark on a page that is painted all over, in CSS pixels."""
+    """Dark region of a page that is painted all over, in CSS pixels."""
     pixels = decode_picture(page_picture(root, page), TRACE_PX).pixels
     traced = mask_of_pixels(pixels)
     return shapely.transform(traced.region, lambda points: points * (page.width / traced.width))

@@ -73,7 +73,7 @@ class PaintedDrawing:
 
     @cached_property
     def work(self) -> Work:
-        """What its solid twin is to render."""
+        """Counts of rendering its solid twin."""
         return work_of(solid_twin(self.root), self.shapes, self.page)
 
 
@@ -175,7 +175,7 @@ def _traced(
     Parameters
     ----------
     threshold
-        As for ``traced_ink``.
+        Opacity from which what is traced is inside, as a share of the most opaque place's.
     is_sure
         Whether ``shapes`` are all that it paints, so that what is too thin for a coarse
         picture is known from them.

@@ -273,7 +273,7 @@ def _read_anew(
 def _art(
     drawing: PaintedDrawing, outline: Outline, place: FloatArray, *, is_checked: bool
 ) -> VectorArt:
-    """What is written into files for an item: nothing beyond its outline."""
+    """Drawing that is written into files for an item: nothing beyond its outline."""
     root = with_short_arcs(without_glow(drawing))
     is_traced = isinstance(drawing.ink, TracedInk)
 

@@ -39,7 +39,7 @@ _LOG = logging.getLogger("packwork")
 def read_once(
     data: bytes, how: tuple[Any, ...], name: str, source: str, read: Callable[[], Read]
 ) -> Read:
-    """What ``read`` makes of a drawing, now or at an earlier time.
+    """Result of ``read`` for a drawing, now or at an earlier time.
 
     Parameters
     ----------

@@ -154,7 +154,7 @@ def _wider(near: Box, reach: Box) -> Box:
 
 
 def cut_by_outline(art: VectorArt, outline: Outline) -> VectorArt:
-    """The same art, clipped to the outline.
+    """Art clipped to the outline.
 
     Examples
     --------

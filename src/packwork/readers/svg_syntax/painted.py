@@ -136,7 +136,7 @@ def shown_box(shape: Painted, *, is_safe: bool = False) -> Box | None:
     shape
         In its place.
     is_safe
-        As for ``whole_box``.
+        Whether the box is to hold the farthest corners that the pen may draw.
 
     Raises
     ------

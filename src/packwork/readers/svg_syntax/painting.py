@@ -29,7 +29,7 @@ _WORDS = {
 
 @dataclass(frozen=True)
 class StrokeStyle:
-    """What a line is drawn with, in the units of the line.
+    """Pen of a line, in the units of the line.
 
     Parameters
     ----------

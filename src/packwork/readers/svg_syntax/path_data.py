@@ -145,7 +145,7 @@ class SubPath:
     is_closed: bool
 
     def placed(self, matrix: FloatArray) -> SubPath:
-        """The same piece under a map ``(2, 3)``."""
+        """The piece under a map ``(2, 3)``."""
         (x, y) = affine.apply(matrix, np.array([self.start]))[0].tolist()
         segments = affine.apply(matrix, self.segments.reshape(-1, 2)).reshape(-1, 4, 2)
         return SubPath(segments, (x, y), self.is_closed)

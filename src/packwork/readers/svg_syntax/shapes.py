@@ -19,7 +19,7 @@ Viewport = tuple[float, float]
 
 
 def diagonal(viewport: Viewport) -> float:
-    """What percentages of lengths that are neither widths nor heights refer to.
+    """Length to which percentages refer that are neither of widths nor of heights.
 
     Examples
     --------

@@ -196,7 +196,7 @@ gigabyte. Derived."""
 
 
 def read_json(file: str, asked: TableFormat) -> Any:
-    """What a JSON file holds.
+    """Value of a JSON file.
 
     Raises
     ------

@@ -90,7 +90,7 @@ def read_sheet(data: bytes, file: str, ending: str, asked: TableFormat) -> TextT
 
 
 def delimiter_of(text: str, file: str, usual: str) -> str:
-    r"""What parts the lines of a text into equally many cells.
+    r"""Delimiter that parts the lines of a text into equally many cells.
 
     Of several the one within whose cells the others stand in numbers alone, as the commas of
     ``bear;2,5`` do. Where none parts all lines alike, the usual one.

@@ -16,7 +16,7 @@ NAMES = {"tab": "\t", "\\t": "\t", "comma": ",", "semicolon": ";", "space": " ",
 
 
 class TableFormat(Options):
-    """How tables of text are written. Nothing has to be said of what is plain from a file."""
+    """Notation of tables of text. Nothing has to be said of what is plain from a file."""
 
     offers = Offer(group=Group.TABLES, verbs=Verbs.EVERY)
 

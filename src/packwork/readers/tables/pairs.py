@@ -55,7 +55,7 @@ class Pair:
         return bool(self.name) and math.isfinite(self.number) and self.number > 0
 
     def wanted(self, noun: str) -> str:
-        """What a row that is not sound should have.
+        """Words for what a row that is not sound should have.
 
         Examples
         --------
@@ -185,7 +185,7 @@ def _name(cell: Any) -> str:
 
 
 def _columns(row: Mapping[str, Any]) -> tuple[str, str]:
-    """Which column has the names, and which the numbers."""
+    """Columns of the names and of the numbers."""
     keys = list(row)
     by_name = {str(key).strip().lower(): key for key in keys}
     first = _first(NAME_COLUMNS, by_name) or (keys[0] if keys else "")

@@ -250,7 +250,7 @@ def rows_of_parquet(file: str, data: bytes, needed: Iterable[str] = ()) -> list[
 
 
 def _columns(metadata: Any, names: Sequence[str], needed: set[str]) -> list[str]:
-    """Which columns are read: all of a small file, else those that are needed."""
+    """Columns that are read: all of a small file, else those that are needed."""
     own = [name for name in dict.fromkeys(names) if not name.startswith(_INDEX)]
     if metadata.num_rows * len(own) <= ALL_COLUMNS_CELLS:
         return own

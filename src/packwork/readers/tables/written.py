@@ -59,7 +59,7 @@ class Written(str):
 
 @dataclass(frozen=True)
 class Figure:
-    """What is left of a written number without sign and unit.
+    """A written number without sign and unit.
 
     Parameters
     ----------
@@ -128,7 +128,7 @@ _WITH = {POINT: _pattern(POINT), COMMA: _pattern(COMMA)}
 
 
 def readings(body: str) -> dict[str, float]:
-    """What digits mean, by the sign that parts the fraction; only what can be.
+    """Possible meanings of digits, by the sign that parts the fraction.
 
     Examples
     --------
@@ -158,7 +158,7 @@ def is_number_like(text: str) -> bool:
 
 
 def shown_decimal(cells: Iterable[object]) -> str:
-    """What parts fractions in cells that know their numbers; a point where none tells.
+    """Sign that parts fractions in cells that know their numbers; a point where none tells.
 
     Examples
     --------
@@ -235,7 +235,7 @@ def _as_it_is(cell: object) -> float:
 def _decimal(
     texts: Iterable[str], figures: dict[str, Figure], file: str, column: str, usual: str
 ) -> str:
-    """What parts fractions, as the numbers that can be read in one way alone show."""
+    """Sign that parts fractions, as the numbers that can be read in one way alone show."""
     told: dict[str, str] = {}
     unclear = ""
     for text in dict.fromkeys(text for text in texts if text in figures):

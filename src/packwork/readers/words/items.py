@@ -22,10 +22,9 @@ from packwork.readers.fonts.lettering import MOST_WORDS, GlyphPicture, Lettering
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.unfit import UnfitError, naming
-from packwork.readers.words.options import WeightIs, WordOptions
+from packwork.readers.words.options import WeightIs, Word, WordOptions, lines_of
 from packwork.readers.words.source import ranked_words
 from packwork.readers.words.together import related
-from packwork.readers.words.word import Word, lines_of
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.label import Label
 from packwork.scene.live_text import LiveText
@@ -298,7 +297,7 @@ def _placed(drawn: Lettering, holes: Holes) -> tuple[Outline, Outline, FloatArra
 
 @lru_cache(MOST_WORDS)
 def _placed_clear(covered: ClearInk, holes: Holes) -> tuple[Outline, Outline, FloatArray]:
-    """The same of letters that stand clear of each other."""
+    """Word whose letters stand clear of each other."""
     outline = covered.silhouette if holes == "fill" else covered.ink
     x, y = centre_of_area(outline) * EM_PX
     place = affine.similarity(-x, -y, 0.0, 1.0)

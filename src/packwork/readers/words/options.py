@@ -1,10 +1,12 @@
-"""What words of a cloud are, how they are set and how large they are."""
+"""Options of words: their source, their fonts and their sizes."""
 
 from __future__ import annotations
 
 import math
 import re
+import unicodedata
 from collections.abc import Callable, Iterable, Mapping, Set
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated, Any, Literal, TypeAlias
 
@@ -13,8 +15,52 @@ from pydantic import BeforeValidator, Field, field_serializer, field_validator
 from packwork.errors import RecipeError
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.options import Options, number_or_auto
-from packwork.readers.colours import check_colour
-from packwork.readers.words.word import Word
+from packwork.readers.options import check_colour
+
+
+@dataclass(frozen=True)
+class Word:
+    """One word or phrase and its weight.
+
+    Parameters
+    ----------
+    text
+        As it is to be written; ``|`` begins a new line.
+    weight
+        Positive.
+    columns
+        What else a table says of it, by column.
+    """
+
+    text: str
+    weight: float
+    columns: Mapping[str, str] = field(default_factory=dict)
+
+
+def lines_of(text: str) -> list[str]:
+    """Lines of a word as it is written, none of them empty.
+
+    Examples
+    --------
+    >>> lines_of("polar |bear")
+    ['polar', 'bear']
+    """
+    lines = (" ".join(line.split()) for line in text.split("|"))
+    return [line for line in lines if line]
+
+
+def sound(text: str) -> str:
+    r"""Text without control characters, lone surrogates and idle spaces, composed.
+
+    Examples
+    --------
+    >>> sound("  a\x00b\n\ud800 c ")
+    'ab c'
+    """
+    spaced = "".join(" " if c.isspace() else c for c in text)
+    kept = (c for c in spaced if unicodedata.category(c) not in {"Cc", "Cs", "Cn"})
+    return " ".join(unicodedata.normalize("NFC", "".join(kept)).split())
+
 
 WeightIs: TypeAlias = Literal["height", "area", "ink"]
 
@@ -38,7 +84,7 @@ def _path_text(font: Any) -> Any:
 
 
 class WordOptions(Options):
-    """Where words come from and how they are set."""
+    """Source of words, and the setting of them."""
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.WORDS)
 

@@ -18,7 +18,7 @@ from packwork.readers.tables.delimited import ENDINGS
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import MOST_NAMED, Pair, Pairs, read_pairs
 from packwork.readers.tables.table import total_row
-from packwork.readers.words.options import WordOptions
+from packwork.readers.words.options import Word, WordOptions, sound
 from packwork.readers.words.tokens import (
     ENGLISH,
     guess_language,
@@ -28,7 +28,6 @@ from packwork.readers.words.tokens import (
     sentences,
     stop_words,
 )
-from packwork.readers.words.word import Word, sound
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +77,7 @@ def read_word_table(file: str, most_bytes: int, asked: TableFormat) -> TableRead
 
 
 def words_of(table: Pairs, file: str) -> TableRead:
-    """The same of a table that is read already.
+    """Words of a table that is read already.
 
     Raises
     ------
@@ -140,7 +139,7 @@ Sentences = Sequence[Sequence[str]]
 
 
 def count_forms(sentences: Sentences) -> Counter[str]:
-    """How often each written form stands in the sentences.
+    """Number of times that each written form stands in the sentences.
 
     Examples
     --------
@@ -186,7 +185,7 @@ def without_plurals(counts: Counter[str]) -> Counter[str]:
 
 
 def phrases(sentences: Sentences, most: int, stops: frozenset[str]) -> Counter[str]:
-    """How often up to ``most`` words that belong together stand together, as written.
+    """Number of times that up to ``most`` words that belong together stand together, as written.
 
     A phrase neither begins nor ends with a stop word, stands there ``LEAST_TOGETHER``
     times, and at ``PHRASE_SHARE`` of the places of its rarest word.
@@ -389,7 +388,7 @@ def _counted(text: str, options: WordOptions, own: frozenset[str]) -> Ranked:
 
 
 def _why_none(counts: Counter[str], kept: Counter[str], options: WordOptions) -> str:
-    """What became of all words of a text."""
+    """Reason why no word of a text is left."""
     if not kept:
         named = enumerated([word for word, _ in counts.most_common()])
         many = number_of(
@@ -438,7 +437,7 @@ def _text(source: str, asked: TableFormat) -> Decoded:
 
 
 def _piped(most: int) -> bytes:
-    """What is piped into the program, at most so many bytes."""
+    """Text that is piped into the program, at most so many bytes."""
     if sys.stdin is None:
         raise ReadError("standard input", "is closed; pipe a text in, or give a file")
     # What is called by another program may have none.

@@ -12,8 +12,8 @@ from packwork.phrasing import enumerated
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import pairs_of_rows
 from packwork.readers.tables.written import is_number_like
+from packwork.readers.words.options import Word
 from packwork.readers.words.source import MAX_BYTES, TableRead, read_word_table, words_of
-from packwork.readers.words.word import Word
 
 MOST_STEPS = 1_000
 """Steps of a series at most. Chosen."""
@@ -88,7 +88,7 @@ def read_word_steps(file: str, column: str, asked: TableFormat | None = None) ->
 
 
 def steps_of_rows(rows: Sequence[Mapping[str, Any]], column: str) -> WordSteps:
-    """The same of rows that a program holds.
+    """Steps of rows that a program holds.
 
     Raises
     ------

@@ -22,7 +22,7 @@ from typing import Any
 from packwork.errors import RecipeError
 from packwork.offspring import END_WITH_PARENT
 from packwork.readers.files import read_text
-from packwork.readers.words.word import sound
+from packwork.readers.words.options import sound
 
 MAX_BYTES = 2_000_000
 """Size of a file of stop words. Chosen."""
@@ -316,7 +316,7 @@ def sentences(text: str, *, include_numbers: bool = False) -> Iterator[list[str]
 
 
 def matches(text: str, pattern: str) -> Iterator[list[str]]:
-    r"""What a regular expression finds, line by line; control characters and idle spaces off.
+    r"""Matches of a regular expression, line by line; control characters and idle spaces off.
 
     Raises
     ------
@@ -343,7 +343,7 @@ def _runs(text: str) -> list[str]:
 
 
 def _in_words(character: str) -> str:
-    """What of a character is left in words: itself, nothing, a space or an end of the run."""
+    """A character in words: itself, nothing, a space or an end of the run."""
     if character in JOINERS or character == "'":
         return character
     category = unicodedata.category(character)

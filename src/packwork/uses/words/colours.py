@@ -18,8 +18,7 @@ from packwork.readers.pictures.decode import (
 )
 from packwork.readers.unfit import naming
 from packwork.readers.words.items import WordsRead
-from packwork.readers.words.options import ColourOf, WordOptions
-from packwork.readers.words.word import Word
+from packwork.readers.words.options import ColourOf, Word, WordOptions
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout

@@ -38,7 +38,7 @@ def tell_nobody(_: float) -> None:
 
 @dataclass(frozen=True, eq=False)
 class Film:
-    """What every format of a film is made from.
+    """Source of a film in every format.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class Film:
 
     @property
     def drawing(self) -> SvgOptions:
-        """How a frame is drawn, but for its items."""
+        """Drawing options of a frame, but for its items."""
         return SvgOptions(background=self.background, show_container=self.show_container)
 
     @property
@@ -92,7 +92,7 @@ class Film:
 
     @property
     def leaving(self) -> int:
-        """How many items of the layout before are shown besides."""
+        """Number of items of the layout before that are shown besides."""
         return 0 if self.layout.leaving is None else len(self.layout.leaving)
 
     @cached_property
@@ -111,7 +111,7 @@ class Film:
         return _softened(self._sampled, options.frames, reach)
 
     def _sampled(self, times: FloatArray) -> FloatArray:
-        """The same at times of the track; those beyond its ends are its ends."""
+        """Poses at times of the track; those beyond its ends are its ends."""
         numbers, leaving = self.track.sampled(times), self.layout.leaving
         if leaving is None:
             return numbers
@@ -119,7 +119,7 @@ class Film:
 
 
 def delays(options: FilmOptions, ticks: int) -> list[int]:
-    """How long each frame is shown, in whole ticks of so many to the second.
+    """Time for which each frame is shown, in whole ticks of so many to the second.
 
     Their sum is true to the film's length.
 

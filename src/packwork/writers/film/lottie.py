@@ -88,7 +88,7 @@ class _Scene:
         return {"ty": _IMAGE, "nm": name, "ks": moved, "refId": reference}
 
     def _picture(self, item: Item) -> tuple[list[float], float]:
-        """Where the item's origin lies in its picture, px, and units of the item per px."""
+        """Place of the item's origin in its picture, px, and units of the item per px."""
         key = shape_key(item)
         if key not in self._anchors:
             fineness = FINENESS * self._largest[key] * self._frame.px_per_cu

@@ -1,4 +1,4 @@
-"""How a film of a run is made."""
+"""Options of films."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ MAX_FRAMES = 20_000
 
 
 class FilmOptions(Options):
-    """How a film of a run is made."""
+    """Options of films."""
 
     offers = Offer(group=Group.FILM, verbs=Verbs.EVERY)
 

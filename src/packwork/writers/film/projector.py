@@ -111,7 +111,7 @@ def _frame(film: Film, is_even: bool) -> PictureFrame:
 
 
 def _sheet(film: Film, frame: PictureFrame) -> Picture:
-    """What lies under the items in every frame, premultiplied."""
+    """Picture under the items of every frame, premultiplied."""
     document = svg_document(without_items(film.layout), film.drawing, sheet_of(frame))
     return premultiplied(_pixels(drawn_png(document)))
 

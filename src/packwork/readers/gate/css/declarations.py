@@ -79,7 +79,7 @@ _COLOURING = re.compile(
 
 
 class UnknownValueError(Exception):
-    """What a value asks for that is not known here."""
+    """A part of a value that is not known here."""
 
 
 def _font(value: str) -> Longhands:
@@ -170,7 +170,7 @@ _HARMLESS = frozenset({"none", "auto", "normal", "initial", "0s", "1"})
 
 @dataclass(frozen=True)
 class Declarations:
-    """What a block sets.
+    """Properties that a block sets.
 
     Parameters
     ----------

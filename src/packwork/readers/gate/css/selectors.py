@@ -152,7 +152,7 @@ def _token() -> re.Pattern[str]:
 
 
 class UnknownSelectorError(Exception):
-    """What a selector asks for that is not known here."""
+    """A part of a selector that is not known here."""
 
 
 @dataclass(eq=False)
@@ -311,7 +311,7 @@ def split_outside(text: str, mark: str) -> list[str]:
 
 
 def _inside(text: str, place: int) -> tuple[str, int]:
-    """What stands between brackets, the first of which has been passed."""
+    """Text between brackets, the first of which has been passed."""
     depth = 1
     for k in range(place, len(text)):
         depth += (text[k] == "(") - (text[k] == ")")

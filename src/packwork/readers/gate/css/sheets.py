@@ -197,7 +197,7 @@ def _blocks(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _spans(text: str) -> Iterator[tuple[int, int]]:
-    """Where each outermost block opens and ends."""
+    """Places at which each outermost block opens and ends."""
     opening, depth = 0, 0
     for match in _MARK.finditer(text):
         mark = match.group()

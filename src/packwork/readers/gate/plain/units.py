@@ -11,7 +11,7 @@ import xml.etree.ElementTree as ET
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
-from packwork.readers.budget.dashes import DASHES, curve_length
+from packwork.readers.budget.expansion import DASHES, curve_length
 from packwork.readers.svg_syntax.lengths import PX_PER_UNIT, parse_length
 from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, Page, root_viewport, view_box
 from packwork.readers.svg_syntax.vocabulary import SHAPES
@@ -80,7 +80,7 @@ _STEPS = {"smaller": 1 / 1.2, "larger": 1.2}
 
 @dataclass(frozen=True)
 class Context:
-    """What lengths of an element refer to, in user units."""
+    """Lengths that those of an element refer to, in user units."""
 
     font: float
     root_font: float

@@ -58,7 +58,7 @@ def placed_texts(root: ET.Element, page: Page | None) -> list[PlacedText]:
     Raises
     ------
     UnfitError
-        As for ``painted_shapes``.
+        If numbers are not finite or absurd, or there are too many segments.
 
     Examples
     --------
@@ -84,7 +84,7 @@ def _walked(root: ET.Element, page: Page | None, most: int = MAX_SEGMENTS) -> _W
 
 @dataclass(frozen=True, eq=False)
 class _Surroundings:
-    """What surrounds an element."""
+    """Surroundings of an element that act on it."""
 
     matrix: FloatArray
     painting: Painting
@@ -209,7 +209,7 @@ class _Walk:
         return [Painted(pieces, inner.matrix, painting, None, element, inner.clips)]
 
     def _inherited_painting(self, element: ET.Element) -> Painting:
-        """What an element inherits where it stands, not from what refers to it."""
+        """Painting that an element inherits where it stands, not from what refers to it."""
         parent = self._parents.get(element)
         if parent is None:
             return Painting()

@@ -161,7 +161,7 @@ def dashed(
 
 
 def _spans(length: float, dashes: Sequence[float], offset: float) -> list[tuple[float, float]]:
-    """Where along the line each dash begins and ends."""
+    """Places along the line at which each dash begins and ends."""
     period = sum(dashes)
     turns = int(np.ceil((length + offset) / period))
     ends = np.cumsum(np.tile(np.asarray(dashes, dtype=np.float64), turns)) - offset
@@ -196,7 +196,7 @@ them is followed as any curve. Larger lets rich drawings take seconds. Chosen.""
 
 
 class FinePoints:
-    """How many of ``MAX_FINE_POINTS`` are left for a drawing.
+    """Number of ``MAX_FINE_POINTS`` that are left for a drawing.
 
     Examples
     --------
@@ -283,7 +283,7 @@ def open_stroke(fine: FloatArray, pen: StrokeStyle, tolerance: float) -> Region:
 
 
 def _end(line: FloatArray, corner: FloatArray) -> int:
-    """Where in a line the first chord of its thinned form ends; 1 if that is all of it."""
+    """Place in a line at which the first chord of its thinned form ends; 1 if that is all of it."""
     return int(np.flatnonzero((line == corner).all(axis=1))[0])
 
 

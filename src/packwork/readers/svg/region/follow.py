@@ -79,7 +79,7 @@ def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) ->
 
 
 def _are_edges(rings: Sequence[LinearRing]) -> BoolArray:
-    """Which of several rings part what is wound about from what is not.
+    """Rings that part what is wound about from what is not.
 
     They neither cross nor touch, so the winding number is the same all along a ring.
     """
@@ -137,7 +137,7 @@ class Follower:
         self._union_allowance = Allowance(MAX_UNION_CROSSINGS)
 
     def parts(self, shape: Painted, *, is_bridged: bool = False) -> list[Region]:
-        """What shows of the fill and of the stroke, each if there is one.
+        """Visible regions of the fill and of the stroke, each if there is one.
 
         Parameters
         ----------
@@ -169,11 +169,11 @@ class Follower:
         return union(several)
 
     def fill(self, shape: Painted) -> Region:
-        """What shows of the fill, whatever its paint."""
+        """Visible region of the fill, whatever its paint."""
         return self._shown(self._whole_fill(shape), shape)
 
     def stroke(self, shape: Painted, *, is_bridged: bool = False) -> Region:
-        """What shows of the stroke."""
+        """Visible region of the stroke."""
         return self._shown(self._whole_stroke(shape, is_bridged), shape)
 
     def is_cut(self, shape: Painted) -> bool:

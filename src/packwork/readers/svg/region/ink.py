@@ -26,7 +26,7 @@ that they have to cover. More tries cost time where nothing is hidden. Chosen.""
 
 
 class Ink(ABC):
-    """What a drawing covers, in CSS pixels; each region is computed when it is asked for."""
+    """Region of a drawing, in CSS pixels; each part is computed when it is asked for."""
 
     @property
     @abstractmethod
@@ -36,17 +36,17 @@ class Ink(ABC):
     @property
     @abstractmethod
     def body(self) -> Region:
-        """The same with the short gaps of dashed lines closed: what an outline goes round."""
+        """Region with the short gaps of dashed lines closed: what an outline goes round."""
 
     @property
     @abstractmethod
     def fills(self) -> Region:
-        """What is filled; possibly empty."""
+        """Region of all fills; possibly empty."""
 
     @property
     @abstractmethod
     def lines(self) -> Region:
-        """What is stroked of shapes without a fill; possibly empty."""
+        """Region of the strokes of shapes without a fill; possibly empty."""
 
     @property
     @abstractmethod
@@ -160,20 +160,20 @@ class PaintedInk(Ink):
 
     @cached_property
     def body(self) -> Region:
-        """The same with the short gaps of dashed lines closed."""
+        """Region with the short gaps of dashed lines closed."""
         is_dashed = any(shape.painting.pen.dashes for shape in self._shapes)
         return self._together(is_bridged=True) if is_dashed else self.whole
 
     @cached_property
     def fills(self) -> Region:
-        """What is filled."""
+        """Region of all fills."""
         return self._follower.united(
             self._follower.fill(s) for s in self._shapes if s.painting.has_fill
         )
 
     @cached_property
     def lines(self) -> Region:
-        """What is stroked of shapes without a fill, dashes as solid lines."""
+        """Region of the strokes of shapes without a fill, dashes as solid lines."""
         return self._follower.united(
             self._follower.stroke(shape, is_bridged=True)
             for shape in self._shapes

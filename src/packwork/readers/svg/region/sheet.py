@@ -117,7 +117,7 @@ def is_near_white(fill: str) -> bool:
 
 
 def _plain_parent(root: ET.Element, sheet: ET.Element) -> ET.Element | None:
-    """What an element stands in; None if anything refers to it or changes how it looks."""
+    """Parent of an element; None if anything refers to it or changes how it looks."""
     parents = {child: parent for parent in root.iter() for child in parent}
     element = sheet
     while element is not root:

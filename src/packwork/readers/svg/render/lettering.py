@@ -99,7 +99,7 @@ def _painted(element: ET.Element, paint: Paint) -> list[tuple[ET.Element, Paint]
 
 
 def _letters(element: ET.Element) -> str:
-    """What the element itself says, not its parts."""
+    """Text of the element itself, not of its parts."""
     return ((element.text or "") + "".join(child.tail or "" for child in element)).strip()
 
 

@@ -129,7 +129,7 @@ def traced_ink(
     threshold: float = HALF,
     shapes: Sequence[Painted] = (),
 ) -> TracedInk:
-    """Where a clean drawing is more opaque than not, in CSS pixels; possibly empty.
+    """Region in which a clean drawing is more opaque than not, in CSS pixels; possibly empty.
 
     Opacities above zero count as full: a faint shape is a shape.
 
@@ -190,7 +190,7 @@ def inked_part(root: ET.Element, page: Page, work: Work) -> View | None:
     Raises
     ------
     UnfitError
-        As for ``traced_ink``.
+        If resvg cannot render the drawing, or not in reasonable time.
 
     Examples
     --------
