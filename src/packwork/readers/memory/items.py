@@ -9,7 +9,8 @@ import shapely
 
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, united
-from packwork.readers.memory.shapes import CoverageArray, GivenShape, GivenShapes
+from packwork.readers.memory.coverage import CoverageArray
+from packwork.readers.memory.shapes import GivenShape, GivenShapes
 from packwork.readers.options import ReadOptions
 from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
 from packwork.readers.regions import Box, Holes, canvas_box, centred, clean_union

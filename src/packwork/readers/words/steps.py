@@ -13,7 +13,8 @@ from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import pairs_of_rows
 from packwork.readers.tables.written import is_number_like
 from packwork.readers.words.options import Word
-from packwork.readers.words.source import MAX_BYTES, TableRead, read_word_table, words_of
+from packwork.readers.words.source import MAX_BYTES
+from packwork.readers.words.table import TableRead, read_word_table, words_of
 
 MOST_STEPS = 1_000
 """Steps of a series at most. Chosen."""
