@@ -194,4 +194,4 @@ def test_a_run_is_certified_if_its_pdf_is(tmp_path: Path, monkeypatch: pytest.Mo
     done = CliRunner().invoke(app, line, catch_exceptions=False)
     assert (done.exit_code, "\ncertified" in done.output) == (1, False)
     assert "a.pdf: it lacks 1 shape that was measured, and has 1 path that was not" in done.output
-    assert json.loads((tmp_path / "a.json").read_text())["certified"] is False
+    assert json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))["certified"] is False

@@ -1,7 +1,4 @@
-"""One run as the command line makes it: check, run, write, show.
-
-Imported only when a run begins, since it imports the whole pipeline.
-"""
+"""One run as the command line makes it: check, run, write, show. Imported when a run begins."""
 
 from __future__ import annotations
 

@@ -240,22 +240,11 @@ class Session(Following):
         self.log.flush()
 
     def polish(self, trials: int, stop: Stop = never) -> int:
-        """Win back coverage where gestures have cost some, by turns of the items there.
+        """Win back coverage where gestures have cost some; the number of items that have moved.
 
-        For moments in which nobody touches anything: 2 ms a trial. Nothing is tried while something
-        is grabbed or not settled. The layout is as certified after it as before.
-
-        Parameters
-        ----------
-        trials
-            How many at most, 10,000 in one call.
-        stop
-            Asked before each batch; True leaves all as it was.
-
-        Returns
-        -------
-        int
-            How many items have moved.
+        By at most so many trials, 10,000 in one call, of 2 ms each, of turns of the items there.
+        None while something is grabbed or not settled, or once ``stop`` is true, which leaves all
+        as it was. The layout is as certified after it as before.
         """
         if trials < 1 or self._grabbed or self.marks.touched or not self.marks.rough:
             return 0
