@@ -33,8 +33,9 @@ def named_container(library: Library, container: Container) -> str:
     """Put a container into a library; its name there, which is that of its content."""
     canvas = f"{container.width!r} {container.height!r} {container.unit}".encode()
     walls = b"".join(wall.tobytes() for wall in container.walls or ())
-    has = f"{container.walls is None} {id(container.backdrop)}".encode()
-    parts = (container.name.encode(), canvas, _points(container.outline), walls, has)
+    behind, has = container.backdrop, f"{container.walls is None}".encode()
+    drawn = b"" if behind is None else _of_art(behind.art) + behind.matrix.tobytes()
+    parts = (container.name.encode(), canvas, _points(container.outline), walls, has, drawn)
     name = hashlib.sha256(b"\0".join(parts)).hexdigest()
     library.containers.setdefault(name, container)
     return name

@@ -127,7 +127,8 @@ def _is_beyond(shape: Painted, page: Page, bleed_px: float) -> bool:
 
 
 def _beyond_paths(layout: Layout) -> set[str]:
-    markups = {id(item.art): getattr(item.art, "markup", "") for item in layout.items}.values()
+    arts = dict.fromkeys(item.art for item in layout.items)
+    markups = [getattr(art, "markup", "") for art in arts]
     return {tag for tag in _BEYOND_PATHS for markup in markups if f"<{tag}" in markup}
 
 

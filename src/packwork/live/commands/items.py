@@ -172,13 +172,13 @@ class Recolour(Command):
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the colour."""
         colour = hex_colour(parse_colour("recolor", self.colour))
-        made: dict[int, Item] = {}
+        made: dict[Item, Item] = {}
         for number in self.items:
             k = index_of(document, number, "recolour")
             item = document.items[k]
-            if id(item) not in made:
-                made[id(item)] = recoloured(item, colour)
-            document = _with_item(document, k, made[id(item)])
+            if item not in made:
+                made[item] = recoloured(item, colour)
+            document = _with_item(document, k, made[item])
         return document
 
 

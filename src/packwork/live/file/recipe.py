@@ -154,7 +154,7 @@ def _names(document: Document) -> list[str]:
     taken: set[str] = set()
     names = []
     for k, item in enumerate(document.items):
-        key: object = ("held", k) if document.held[k].any() else id(item)
+        key: object = ("held", k) if document.held[k].any() else item
         if key not in known:
             plain = _NO_LETTER.sub("_", item.name).strip(" .")[:60] or "item"
             number, name = 1, plain

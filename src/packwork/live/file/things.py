@@ -99,7 +99,7 @@ class Things:
     def __init__(self) -> None:
         self.encoded: dict[str, bytes] = {}
         """By their path in a file, such as ``items/<hash>.json``."""
-        self._keys: dict[int, tuple[object, str]] = {}
+        self._keys: dict[object, str] = {}
 
     def item(self, item: Item) -> str:
         """Path of an item, which is encoded unless it has been.
@@ -122,14 +122,13 @@ class Things:
         return key
 
     def _put(self, kind: str, thing: object, record: Callable[[], BaseModel]) -> str:
-        known = self._keys.get(id(thing))
-        if known is None:
+        path = self._keys.get(thing)
+        if path is None:
             data = record().model_dump_json(exclude_none=True).encode()
             path = f"{kind}/{hashlib.sha256(data).hexdigest()}.json"
             self.encoded.setdefault(path, data)
-            # The thing is kept too, so that no other one gets its number.
-            known = self._keys[id(thing)] = (thing, path)
-        return known[1]
+            self._keys[thing] = path
+        return path
 
 
 def item_record(item: Item, things: Things) -> ItemRecord:

@@ -21,12 +21,10 @@ class Shapes:
 
     def __init__(self) -> None:
         self._covers = Covers()
-        self._known: dict[int, tuple[Outline, Outline]] = {}
+        self._known: dict[Outline, Outline] = {}
 
     def cover(self, outline: Outline) -> Outline:
         """The outline with fewer vertices, holding all of it; made once."""
-        if id(outline) not in self._known:
-            # The outline is kept too, so that no other one gets its number.
-            made = self._covers.cover(outline, FINE * outline.extent)
-            self._known[id(outline)] = (outline, made)
-        return self._known[id(outline)][1]
+        if outline not in self._known:
+            self._known[outline] = self._covers.cover(outline, FINE * outline.extent)
+        return self._known[outline]

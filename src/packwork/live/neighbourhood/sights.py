@@ -42,7 +42,7 @@ class Sights:
 
     def __init__(self) -> None:
         self._seen: dict[tuple[float, float], Seen] = {}
-        self._kept: dict[int, Outline] = {}
+        self._kept = set[Outline]()
         self._covers: tuple[Sequence[Outline], Sequence[float], list[Outline]] = ((), (), [])
         self._region: tuple[Container, float, Container] | None = None
         self._grounds: dict[int, Ground] = {}
@@ -75,9 +75,8 @@ class Sights:
     ) -> list[Outline]:
         """Outlines at a level, see :func:`packwork.solve.detail.seen_posed`."""
         if len(self._kept) > MOST:
-            self._seen, self._kept = {}, {}
-        # They are known by their places in memory, which others must not get.
-        self._kept.update((id(outline), outline) for outline in outlines)
+            self._seen, self._kept = {}, set()
+        self._kept.update(outlines)
         seen = self._seen.setdefault((px_per_cu, margin), Seen())
         # Of sizes that share an outline the first would tell which: here they are the same.
         rungs = np.rint(np.log2(poses.scale) * MARGIN_RUNGS) / MARGIN_RUNGS
@@ -86,10 +85,10 @@ class Sights:
 
 def _covered(outlines: Sequence[Outline], stretches: Sequence[float]) -> list[Outline]:
     """Covers; copies stretched alike are made once."""
-    covers, known = Covers(), dict[tuple[int, float], Outline]()
+    covers, known = Covers(), dict[tuple[Outline, float], Outline]()
     for outline, stretch in zip(outlines, stretches, strict=True):
-        key = (id(outline), stretch)
+        key = (outline, stretch)
         if key not in known:
             shape = outline.mapped(stretched(stretch))
             known[key] = covers.cover(shape, ROUGH * shape.extent)
-    return [known[id(o), s] for o, s in zip(outlines, stretches, strict=True)]
+    return [known[o, s] for o, s in zip(outlines, stretches, strict=True)]

@@ -85,8 +85,8 @@ class ChartRead:
         ``(n,)`` share of area of each.
     values
         ``(n,)`` what each stands for: in the unit of the size column, or a number of rows.
-    rows
-        Row of each; marks of one row share it.
+    rows, row_of
+        Row of each, and its number; marks of one row share both.
     marks
         Drawing of each category that has its own; under an empty name if all have one.
     colour_of
@@ -116,6 +116,7 @@ class ChartRead:
     areas: FloatArray
     values: FloatArray
     rows: tuple[Row, ...]
+    row_of: IntArray
     marks: Mapping[str, Item]
     colour_of: tuple[str, ...] | None
     is_ramp: bool
@@ -145,6 +146,7 @@ class ChartRead:
             areas=self.areas[marks],
             values=self.values[marks],
             rows=tuple(self.rows[k] for k in marks),
+            row_of=self.row_of[marks],
             colour_of=colours,
             group_of=self.group_of[marks],
         )
@@ -220,6 +222,7 @@ def read_chart(
         areas=_areas(items, values, shares, options),
         values=values,
         rows=tuple(rows[k] for k in owner),
+        row_of=np.asarray(owner, dtype=np.int64),
         marks=marks,
         colour_of=colour_of,
         is_ramp=is_ramp,
@@ -319,11 +322,11 @@ def _items(
     options: ChartOptions,
 ) -> tuple[Item, ...]:
     """One item per mark; whole ones of one drawing share its art."""
-    parts: dict[tuple[int, float], Item] = {}
+    parts: dict[tuple[Item, float], Item] = {}
     items = []
     for k, share in zip(owner, shares.tolist(), strict=True):
         drawn = drawings[k]
-        key = (id(drawn), share)
+        key = (drawn, share)
         if key not in parts:
             parts[key] = drawn if share == 1.0 else part_of(drawn, share)
         name, label = _said(rows[k], drawn, options)

@@ -186,11 +186,11 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
     shaped = [_line(line, k, units, language) for k, line in enumerate(lines)]
     runs = [run for line in shaped for run in line]
     pictures = tuple(picture for run in runs for picture in run.pictures())
-    faces = {id(run.face): run.face for run in runs}
+    faces = list(dict.fromkeys(run.face for run in runs))
     if pictures or len(faces) > 1:
         drawn = _drawn(runs, pictures)
     else:
-        [face] = faces.values()
+        [face] = faces
         drawn = _drawn_by(face, tuple((run.glyphs, run.x, run.y) for run in runs))
     return Lettering(drawn.covered, drawn.curves, units, tuple(run.text for run in runs), pictures)
 

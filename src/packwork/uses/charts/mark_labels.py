@@ -83,7 +83,7 @@ def mark_labels(chart: Chart, layout: Layout) -> tuple[Note, ...]:
         item = layout.items[k]
         if item.datum is None or item.label.name in ("", MISSING):
             continue
-        row = id(item.datum.row)
+        row = int(chart.read.row_of[k])
         if not rows.get(row):
             drawn = _label(item, layout.inks[k], ems)
             notes += drawn

@@ -94,7 +94,7 @@ def _step(whole: Job, chart: Chart, label: str, column: str, marks: IntArray) ->
     title = own.options.title
     if title is not None:
         title = title.replace(f"{{{column}}}", label)
-    rows = tuple({id(row): dict(row) for row in own.rows}.values())
+    rows = tuple(map(dict, dict(zip(own.row_of.tolist(), own.rows, strict=True)).values()))
     options = own.options.model_copy(update={"title": title})
     recipe = job.recipe.model_copy(
         update={
