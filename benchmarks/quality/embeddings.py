@@ -20,6 +20,7 @@ from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import DOCS, markdown_table
 from packwork import pipeline, uses
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.embedding import assigned
 from packwork.pipeline.result import Run
 from packwork.readers.container import read_container
 from packwork.readers.words.together import information, pairs_within, places_of
@@ -28,7 +29,6 @@ from packwork.recipe import make_recipe
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.start.first_poses import container_image
-from packwork.start.neighbour_embedding.assignment import assigned
 from packwork.start.stippling import stippled
 
 COUNTS, KINDS, NEAREST = (100, 400), 5, 5

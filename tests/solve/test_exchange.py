@@ -18,6 +18,7 @@ from scenes import disc, placed, poses, square, square_container, star
 
 Options = Callable[..., SolveOptions]
 ROW = poses([10.0, 30.0, 50.0, 70.0], [50.0, 50.5, 50.0, 50.5], 0.1, [9.0, 9.0, 8.0, 8.0])
+RNG = np.random.default_rng(0)
 KINDS = np.array([0, 0, 1, 1])
 
 
@@ -33,7 +34,7 @@ def beside_its_kind(outlines: list, where: object, kinds: np.ndarray) -> int:
 def test_a_row_of_pairs_becomes_a_row_in_turn() -> None:
     outlines = [disc(), disc(), square(), square()]
     after, moved = exchange(
-        square_container().outline, outlines, ROW, limits(), ROW.scale / 2, ROW.scale * 2
+        square_container().outline, outlines, ROW, limits(), ROW.scale / 2, ROW.scale * 2, RNG
     )
     assert beside_its_kind(outlines, ROW, KINDS) == 2
     assert beside_its_kind(outlines, after, KINDS) == 0
@@ -47,7 +48,9 @@ def test_a_row_of_pairs_becomes_a_row_in_turn() -> None:
 
 def test_sizes_that_are_fixed_stay() -> None:
     outlines = [disc(), disc(), square(), square()]
-    after, _ = exchange(square_container().outline, outlines, ROW, limits(), ROW.scale, ROW.scale)
+    after, _ = exchange(
+        square_container().outline, outlines, ROW, limits(), ROW.scale, ROW.scale, RNG
+    )
     np.testing.assert_array_equal(after.scale, ROW.scale)
     assert beside_its_kind(outlines, after, KINDS) == 0
 
@@ -55,7 +58,7 @@ def test_sizes_that_are_fixed_stay() -> None:
 def test_pinned_items_are_not_exchanged() -> None:
     held = limits(x=np.array([10.0, np.nan, np.nan, np.nan]))
     after, moved = exchange(
-        square_container().outline, [disc()] * 4, ROW, held, ROW.scale / 2, ROW.scale * 2
+        square_container().outline, [disc()] * 4, ROW, held, ROW.scale / 2, ROW.scale * 2, RNG
     )
     assert after.x[0] == 10.0
     assert 0 not in moved
@@ -66,17 +69,17 @@ def test_sketchy_items_are_shared_out_among_parts() -> None:
     outlines = [star(), star(), disc(), disc()]
     where = poses([10.0, 30.0, 70.0, 90.0], [50.0] * 4, 0.1, [9.0] * 4)
     region, bounds = Outline.from_region(tiles), (where.scale / 2, where.scale * 2)
-    after, moved = exchange(region, outlines, where, NO_LIMITS, *bounds)
+    after, moved = exchange(region, outlines, where, NO_LIMITS, *bounds, RNG)
     assert len(moved) == 2
     assert sorted(after.x[:2] < 50) == [False, True]
-    kept, nobody = exchange(region, outlines, where, NO_LIMITS, where.scale, where.scale)
+    kept, nobody = exchange(region, outlines, where, NO_LIMITS, where.scale, where.scale, RNG)
     assert nobody == []
     assert kept is where
 
 
 def test_without_kinds_nothing_happens() -> None:
     after, moved = exchange(
-        square_container().outline, [disc()] * 4, ROW, Limits.free(4), ROW.scale, ROW.scale
+        square_container().outline, [disc()] * 4, ROW, Limits.free(4), ROW.scale, ROW.scale, RNG
     )
     assert after is ROW
     assert moved == []

@@ -15,6 +15,7 @@ from itertools import combinations, pairwise
 import numpy as np
 import shapely
 
+from packwork.assignment.graph import unit_rows
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
@@ -32,7 +33,6 @@ from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.label import Label
 from packwork.scene.notation import matrix_text, path_data
-from packwork.start.neighbour_embedding.graph import unit_rows
 
 _LOG = logging.getLogger("packwork")
 

@@ -9,13 +9,13 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.conflicts import min_conflicts_order
 from packwork.forces.exchanges import exchanged
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
 from packwork.scene.balance import balanced, parts_of
 from packwork.scene.limits import Limits
-from packwork.scene.mixing import mixed
 from packwork.scene.neighbours import side_by_side
 from packwork.scene.pose import Poses
 
@@ -35,6 +35,7 @@ def exchange(
     limits: Limits,
     smallest: FloatArray,
     largest: FloatArray,
+    rng: np.random.Generator,
     forces: Forces = NO_FORCES,
 ) -> tuple[Poses, list[int]]:
     """Poses in which items have changed places, and the indices of those that were moved.
@@ -60,16 +61,20 @@ def exchange(
     if forces.acts:
         poses = change(_order_by_forces(forces, outlines, poses, groups, smallest, largest))
     if limits.keeps_kinds_apart:
-        poses = change(_order_apart(outlines, poses, limits.kinds, groups))
+        poses = change(_order_apart(outlines, poses, limits.kinds, groups, rng))
     return poses, sorted(moved)
 
 
 def _order_apart(
-    outlines: Sequence[Outline], poses: Poses, kinds: IntArray, groups: IntArray
+    outlines: Sequence[Outline],
+    poses: Poses,
+    kinds: IntArray,
+    groups: IntArray,
+    rng: np.random.Generator,
 ) -> IntArray:
-    """Order in which few items lie beside one of their kind; see ``scene.mixing``."""
+    """Order in which few items lie beside one of their kind; see ``assignment.conflicts``."""
     placed = [outline.mapped(poses.matrix(k)) for k, outline in enumerate(outlines)]
-    return mixed(kinds, side_by_side(placed, poses.x, poses.y), groups)
+    return min_conflicts_order(kinds, side_by_side(placed, poses.x, poses.y), groups, rng)
 
 
 def _order_by_forces(

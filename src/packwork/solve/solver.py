@@ -213,8 +213,9 @@ class _Solve:
         bounds = scale_bounds(self._nominal, poses.scale, self._options, self._limits)
         region = self._container.outline
         changed, items = exchange(
-            region, self._outlines, poses, self._limits, *bounds, self._forces
-        )
+            region, self._outlines, poses, self._limits, *bounds,
+            np.random.default_rng(self._done), self._forces,
+        )  # fmt: skip
         if items:
             self.motion.replace(changed, items)
 

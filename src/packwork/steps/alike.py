@@ -1,7 +1,7 @@
 """Similar items side by side: which item gets which place, by the vectors of ``--embeddings``.
 
 A neighbour embedding whose repulsion is that two items cannot lie in one place
-(:mod:`packwork.start.neighbour_embedding`). Items take each other's places before the levels, which
+(:mod:`packwork.assignment.embedding`). Items take each other's places before the levels, which
 then make room for their forms, draw like neighbours closer and unlike ones apart, and lift none
 into a void elsewhere, as the finish exchanges none.
 What is put one by one gets a point near which it had better lie.
@@ -15,6 +15,9 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
+from packwork.assignment.diffusion import likeness
+from packwork.assignment.embedding import assigned
+from packwork.assignment.graph import NeighbourGraph, unit_rows
 from packwork.forces.forces import BondForce, Forces
 from packwork.forces.ties import Ties
 from packwork.geometry.outline import Outline
@@ -24,9 +27,6 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_fit.homes import Homes
 from packwork.start.first_poses import disc_radii
-from packwork.start.neighbour_embedding.assignment import assigned
-from packwork.start.neighbour_embedding.diffusion import likeness
-from packwork.start.neighbour_embedding.graph import NeighbourGraph, unit_rows
 from packwork.steps.places import even_points
 
 FACTOR, KEPT_FACTOR = 1.6, 1.3
@@ -55,7 +55,7 @@ CENTRAL = 100.0
 """The same of what names those about it. Larger changes nothing. Chosen."""
 
 
-def placed_alike(
+def assign_by_embedding(
     job: Job, outlines: Sequence[Outline], poses: Poses, rng: np.random.Generator
 ) -> Poses:
     """First poses in which items have changed places; sizes and angles stay with the items."""
@@ -77,7 +77,7 @@ def placed_alike(
     return replace(poses, x=poses.x[at], y=poses.y[at])
 
 
-def tied_alike(job: Job, forces: Forces) -> Forces:
+def with_similarity_bond(job: Job, forces: Forces) -> Forces:
     """The forces, and one that draws like neighbours together in the levels, unlike ones apart."""
     like = _likeness(job)
     if like is None:

@@ -14,6 +14,7 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.local_search import cheapest
 from packwork.errors import ReadError, RecipeError
 from packwork.fields.geodesic import lengthwise
 from packwork.geometry.simplify import hull_areas
@@ -103,7 +104,7 @@ def measured(job: Job, by: str) -> FloatArray:
     return np.asarray(values, dtype=np.float64)
 
 
-def arranged(job: Job, poses: Poses, nominal: FloatArray) -> Poses:
+def assign_in_order(job: Job, poses: Poses, nominal: FloatArray) -> Poses:
     """First poses given out anew, so that items lie in the order asked for.
 
     Items that rules put somewhere stay; the others take each other's places and angles and, where
@@ -130,22 +131,16 @@ def homes_in_order(job: Job, region: Container, rng: np.random.Generator) -> Hom
     """
     if job.recipe.arrange is None or not job.keeps_order:
         return None
-    # An assignment is needed for arrangements alone.
-    from scipy.optimize import linear_sum_assignment
-
     asked, everything = parse_arrangement(job.recipe.arrange), np.arange(len(job.items))
     points = even_points(region, len(everything), rng)
     away = _away(job, asked, points, np.ones(len(points)), job.weights, everything)
     homes = np.empty_like(points)
-    homes[linear_sum_assignment(away)[1]] = points
+    homes[cheapest(away)] = points
     return Homes.of(homes, HOMEWARD)
 
 
 def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> IntArray:
     """Which of the movable items comes to each of their places."""
-    # An assignment is needed for arrangements alone.
-    from scipy.optimize import linear_sum_assignment
-
     hulls = hull_areas([job.items[k].outline for k in movable])
     areas = hulls * poses.scale[movable] ** 2
     points = np.column_stack([poses.x, poses.y])[movable]
@@ -155,7 +150,7 @@ def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> Int
     if job.plan.sizes != "free":
         sizes = np.log(areas) / 2
         unlike = unlike + UNLIKE_SIZE * (sizes[None] - sizes[:, None]) ** 2
-    return np.asarray(linear_sum_assignment(away + unlike)[1])
+    return cheapest(away + unlike)
 
 
 def _away(

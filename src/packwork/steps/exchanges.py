@@ -8,16 +8,16 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import IntArray
+from packwork.assignment.conflicts import min_conflicts_order
 from packwork.forces.exchanges import exchanged
 from packwork.pipeline.state import State
 from packwork.pipeline.step import RunStep
 from packwork.pipeline.watch import Watch
-from packwork.scene.mixing import mixed
 from packwork.scene.neighbours import neighbour_pairs
 from packwork.scene.pose import Poses
 from packwork.start.first_poses import disc_radii
-from packwork.steps.alike import placed_alike
-from packwork.steps.arranging import arranged
+from packwork.steps.alike import assign_by_embedding
+from packwork.steps.arranging import assign_in_order
 
 ALIKE = 1.3
 """Factor in radius between two items that may change places to come apart from others of
@@ -52,7 +52,7 @@ class AssignByEmbedding(RunStep):
         job = state.job
         with job.clock.time("start"):
             rng = np.random.default_rng(job.plan.seed)
-            poses = placed_alike(job, job.solid_outlines, state.poses, rng)
+            poses = assign_by_embedding(job, job.solid_outlines, state.poses, rng)
             return replace(state, poses=poses)
 
 
@@ -63,7 +63,7 @@ class AssignInOrder(RunStep):
     def run(self, state: State, watch: Watch) -> State:
         """State with places given out anew."""
         with state.job.clock.time("start"):
-            return replace(state, poses=arranged(state.job, state.poses, state.nominal))
+            return replace(state, poses=assign_in_order(state.job, state.poses, state.nominal))
 
 
 @final
@@ -78,7 +78,9 @@ class KindsApart(RunStep):
         with state.job.clock.time("start"):
             radii = disc_radii(state.job.solid_outlines, poses.scale)
             sizes = np.log(radii) / np.log(ALIKE)
-            order = mixed(limits.kinds, neighbour_pairs(poses.x, poses.y), limits.groups, sizes)
+            pairs = neighbour_pairs(poses.x, poses.y)
+            rng = np.random.default_rng(state.job.plan.seed)
+            order = min_conflicts_order(limits.kinds, pairs, limits.groups, rng, sizes)
             return replace(state, poses=_moved(poses, order))
 
 

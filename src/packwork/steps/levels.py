@@ -18,7 +18,7 @@ from packwork.recipe.levels import refined_levels
 from packwork.scene.layout import Layout
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
-from packwork.steps.alike import tied_alike
+from packwork.steps.alike import with_similarity_bond
 from packwork.steps.dress.colours import colours_seen
 from packwork.steps.earlier_layout import as_it_was, calmed, with_homes
 
@@ -63,7 +63,7 @@ class Levels(RunStep):
                 options = _with_colours(options, state)
             if state.goes_on:
                 options = calmed(options)
-            forces = with_homes(state) if job.plan.stays else tied_alike(job, forces)
+            forces = with_homes(state) if job.plan.stays else with_similarity_bond(job, forces)
             outcome = solve(
                 padded(job.container, job.plan.gap), job.solid_outlines, state.poses,
                 state.nominal, options, watch.heard_by(state.recorder).observer, watch.stop,

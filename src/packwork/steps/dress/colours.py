@@ -8,6 +8,8 @@ from typing import TypeAlias
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.clusters import clusters
+from packwork.assignment.conflicts import min_conflicts_order
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.asked import Asked
@@ -17,11 +19,9 @@ from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.label import Label
 from packwork.scene.layout import Layout
 from packwork.scene.light import channels_of
-from packwork.scene.mixing import mixed
 from packwork.scene.palette import palette_colours
 from packwork.scene.recolour import has_one_colour, recoloured
 from packwork.scene.swatch import mean_lights
-from packwork.start.neighbour_embedding.clusters import clusters
 from packwork.steps.dress.neighbours import beside
 from packwork.writers.shading import in_palette, shaded
 
@@ -48,7 +48,7 @@ def as_asked(job: Job, layout: Layout) -> Layout:
     if coloured is None and not any(palettes) and not any(_label(one) for one in job.asked):
         return layout
     is_mixed = not sees_colours(job.plan.losses)
-    colours = _colours(palettes, layout, is_mixed) if coloured is None else coloured
+    colours = _colours(palettes, layout, is_mixed, job.plan.seed) if coloured is None else coloured
     known: dict[tuple[Item, str | None, Label | None, bool], Item] = {}
     arts: _Arts = {}
     items = []
@@ -133,7 +133,9 @@ def _is_tinted(job: Job, item: Item) -> bool:
     return is_asked and not isinstance(item.art, PhotoArt)
 
 
-def _colours(palettes: list[tuple[str, ...]], layout: Layout, is_mixed: bool) -> list[str | None]:
+def _colours(
+    palettes: list[tuple[str, ...]], layout: Layout, is_mixed: bool, seed: int
+) -> list[str | None]:
     """One colour of each copy's palette, unlike its neighbours' where it is mixed."""
     several = sorted({palette for palette in palettes if palette})
     known = sorted({colour for palette in several for colour in palette})
@@ -147,5 +149,6 @@ def _colours(palettes: list[tuple[str, ...]], layout: Layout, is_mixed: bool) ->
         labels[members] = np.resize([numbers[colour] for colour in palette], len(members))
     if is_mixed and any(len(palette) > 1 for palette in several):
         pairs = beside(layout)
-        labels = labels[mixed(labels, pairs, groups)]
+        rng = np.random.default_rng(seed)
+        labels = labels[min_conflicts_order(labels, pairs, groups, rng)]
     return [known[label] if label < len(known) else None for label in labels]

@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from packwork.scene.mixing import mixed
+from packwork.assignment.conflicts import min_conflicts_order
 from packwork.scene.neighbours import neighbour_pairs
 from strategies import generators
 
@@ -21,7 +21,7 @@ def test_the_order_is_a_permutation_that_never_does_harm(
 ) -> None:
     labels, groups = rng.integers(kinds, size=count), rng.integers(-1, 3, size=count)
     pairs = neighbour_pairs(*rng.uniform(size=(2, count)))
-    order = mixed(labels, pairs, groups)
+    order = min_conflicts_order(labels, pairs, groups, rng)
     assert sorted(order) == list(range(count))
     assert conflicts(labels[order], pairs) <= conflicts(labels, pairs)
     np.testing.assert_array_equal(groups[order], groups)
@@ -32,20 +32,20 @@ def test_the_order_is_a_permutation_that_never_does_harm(
 def test_labels_stay_with_places_of_their_size(rng: np.random.Generator) -> None:
     labels, sizes = rng.integers(3, size=50), rng.uniform(0, 5, size=50)
     pairs = neighbour_pairs(*rng.uniform(size=(2, 50)))
-    order = mixed(labels, pairs, np.zeros(50, dtype=np.int64), sizes)
+    order = min_conflicts_order(labels, pairs, np.zeros(50, dtype=np.int64), rng, sizes)
     assert np.abs(sizes[order] - sizes).max() <= 1
 
 
 def test_with_five_labels_next_to_none_are_side_by_side(rng: np.random.Generator) -> None:
     labels = np.sort(np.arange(200) % 5)
     pairs = neighbour_pairs(*rng.uniform(size=(2, 200)))
-    after = labels[mixed(labels, pairs, np.zeros(200, dtype=np.int64))]
+    after = labels[min_conflicts_order(labels, pairs, np.zeros(200, dtype=np.int64), rng)]
     assert conflicts(labels, pairs) > 80
     assert conflicts(after, pairs) <= 3
 
 
-def test_one_label_alone_is_left_as_it_is() -> None:
+def test_one_label_alone_is_left_as_it_is(rng: np.random.Generator) -> None:
     pairs = np.array([[0, 1], [1, 2]])
     same = np.zeros(3, dtype=np.int64)
-    assert mixed(same, pairs, same).tolist() == [0, 1, 2]
-    assert mixed(same, pairs[:0], same).tolist() == [0, 1, 2]
+    assert min_conflicts_order(same, pairs, same, rng).tolist() == [0, 1, 2]
+    assert min_conflicts_order(same, pairs[:0], same, rng).tolist() == [0, 1, 2]

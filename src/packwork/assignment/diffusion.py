@@ -11,7 +11,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.start.neighbour_embedding.graph import NeighbourGraph
+from packwork.assignment.graph import NeighbourGraph
 
 STEPS = 3
 """Steps of each walk. More make clusters of chance neighbours alike too; fewer follow chance.

@@ -1,46 +1,14 @@
-"""Items assigned to places by what they are like: the kernel's twin, clusters, what is held."""
+"""Items assigned to places by what they are like: clusters, walks, what is held."""
 
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.start.neighbour_embedding import _kernels
-from packwork.start.neighbour_embedding.assignment import assigned
-from packwork.start.neighbour_embedding.clusters import clusters
-from packwork.start.neighbour_embedding.diffusion import likeness
-from packwork.start.neighbour_embedding.graph import NeighbourGraph
-
-
-def _cost(
-    at: IntArray, graph: NeighbourGraph, points: FloatArray, own: FloatArray, there: FloatArray
-) -> float:
-    """Slow twin: each edge's weighted length once, and what places are unlike."""
-    pulled = sum(
-        graph.weights[k] * np.linalg.norm(points[at[item]] - points[at[graph.partners[k]]])
-        for item in range(len(at))
-        for k in range(graph.starts[item], graph.starts[item + 1])
-    )
-    return float(pulled / 2 + ((own - there[at]) ** 2).sum())
-
-
-@pytest.mark.parametrize("heat", [1e-9, 0.7])
-def test_an_exchange_costs_what_the_twin_says(heat: float) -> None:
-    rng = np.random.default_rng(3)
-    count = 14
-    graph = NeighbourGraph.of(rng.standard_normal((count, 4)), rng, 3)
-    points, own, there = (rng.random((count, k)) for k in (2, 2, 2))
-    at = rng.permutation(count)
-    before = _cost(at, graph, points, own, there)
-    pairs = rng.integers(0, count, (60, 2))
-    gained = _kernels.anneal_exchanges(
-        at, graph.starts, graph.partners, graph.weights, points, own, there,
-        pairs, rng.random(60), heat,
-    )  # fmt: skip
-    assert sorted(at.tolist()) == list(range(count))
-    assert before - _cost(at, graph, points, own, there) == pytest.approx(gained, abs=1e-9)
-    assert heat > 0.1 or gained > 0
+from packwork.assignment.clusters import clusters
+from packwork.assignment.diffusion import likeness
+from packwork.assignment.embedding import assigned
+from packwork.assignment.graph import NeighbourGraph
 
 
 def _planted(count: int) -> tuple[IntArray, FloatArray]:

@@ -1,10 +1,7 @@
 """Items assigned to places so that those pulled towards each other come to lie side by side.
 
-A quadratic assignment problem (T. C. Koopmans and M. Beckmann, "Assignment problems and the
-location of economic activities", Econometrica 25 (1957), 53-76), begun with a split of items and
-places into halves along their longest axes, then solved by simulated annealing over exchanges (R.
-E. Burkard and F. Rendl, "A thermodynamically motivated simulation procedure for combinatorial
-optimization problems", European Journal of Operational Research 17 (1984), 169-174). Places
+A quadratic assignment whose flow is a graph of nearest neighbours, begun with a split of items and
+places into halves along their longest axes. Places
 repel nothing: that two items cannot have one takes the part of the repulsion in t-SNE and UMAP.
 """
 
@@ -13,8 +10,15 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
-from packwork.start.neighbour_embedding import _kernels
-from packwork.start.neighbour_embedding.graph import NeighbourGraph, unit_rows
+from packwork.assignment._kernels import Flow
+from packwork.assignment.graph import NeighbourGraph, unit_rows
+from packwork.assignment.local_search import improved
+from packwork.assignment.problem import (
+    Assignment,
+    kind_distance,
+    neighbour_flow,
+    point_distance,
+)
 
 STEPS, EXCHANGES = 80, 60
 """Temperatures, and exchanges tried at each for every item. More find a little more. Tried."""
@@ -35,13 +39,13 @@ covers less. Tried."""
 IMAGES = np.array([[x, y] for x in (1, -1, 2, -2) for y in (1, -1, 2, -2) if abs(x * y) < 4])
 """Of the places, along x and y: mirrored, and halved first along either."""
 
-SHARPENING, WARM, SHARPER_STEPS = 0.6, 0.5, 40
-"""Weight of neighbours that are alike, over that of distances, and the first temperature and
-their number where neighbours alone count. More of the first heeds sizes less. Tried."""
+SHARPENING, WARM, SHARPER_STEPS, SHARPER_TRIES = 0.6, 0.5, 40, 30
+"""Weight of neighbours that are alike, over that of distances; the first temperature, their number
+and exchanges tried for each item where neighbours alone count. More of the first heeds sizes less.
+Tried."""
 
-MOST_COMPARED = 4_000_000
-"""Items that exchanges of one such temperature look at. More take longer. Chosen: of up to 250
-items as many exchanges are tried as before."""
+REACH = 3.0
+"""Spacings within which places are near each other: beyond, a hundredth of it is left. Derived."""
 
 MOST_AXES = 64
 """Numbers of a vector that are looked at for its longest axes; of more, so many sums of them by
@@ -114,16 +118,20 @@ def assigned(
     # Of a squared difference nothing but the product depends on who is where.
     even = np.sqrt(DRAWN / 2)
     own, there = np.hstack([own, even * drawn]), np.hstack([there, even * along])
-    for heat in np.geomspace(HOT, COLD, STEPS):
-        tries = EXCHANGES * len(movable)
-        pairs = movable[rng.integers(0, len(movable), (tries, 2))]
-        _kernels.anneal_exchanges(
-            at, graph.starts, graph.partners, graph.weights, scaled, own, there,
-            pairs, rng.random(tries), float(heat),
-        )  # fmt: skip
-    if ties is not None:
-        _sharpen(at, SHARPENING * ties, scaled, own, there, movable, rng)
-    return at
+    groups = np.full(count, -1)
+    groups[movable] = 0
+    problem = Assignment.of(
+        count,
+        rows=own,
+        columns=there,
+        flow=Flow(graph.starts, graph.partners, graph.weights),
+        distance=point_distance(scaled),
+        groups=groups,
+    )
+    at = improved(problem, rng, np.geomspace(HOT, COLD, STEPS), EXCHANGES, at)
+    if ties is None:
+        return at
+    return _sharpened(at, SHARPENING * ties, scaled, own, there, groups, rng)
 
 
 def _eased(
@@ -134,24 +142,32 @@ def _eased(
     return own / np.maximum(spread, 1.0), there / np.maximum(spread, 1.0)
 
 
-def _sharpen(
+def _sharpened(
     at: IntArray,
     ties: FloatArray,
     points: FloatArray,
     own: FloatArray,
     there: FloatArray,
-    movable: IntArray,
+    groups: IntArray,
     rng: np.random.Generator,
-) -> None:
-    """Anneal an assignment again, by who lies about a spacing from whom."""
-    squares = ((points[:, None] - points) ** 2).sum(axis=2)
-    near = np.exp(-squares / 2)
-    tries = min(EXCHANGES * len(movable), MOST_COMPARED // len(at))
-    for heat in np.geomspace(WARM, COLD, SHARPER_STEPS):
-        pairs = movable[rng.integers(0, len(movable), (tries, 2))]
-        _kernels.anneal_neighbours(
-            at, ties, near, own, there, pairs, rng.random(tries), float(heat)
-        )
+) -> IntArray:
+    """Place of each item, annealed again by who lies about a spacing from whom."""
+    # A tree of points is needed for likeness alone.
+    from scipy.spatial import cKDTree
+
+    pairs = cKDTree(points).query_pairs(REACH, output_type="ndarray")
+    squares = ((points[pairs[:, 0]] - points[pairs[:, 1]]) ** 2).sum(axis=1)
+    # Places are the rows here: of these few are near each other, of items any may be alike.
+    problem = Assignment.of(
+        len(at),
+        rows=there,
+        columns=own,
+        flow=neighbour_flow(len(at), pairs.astype(np.int64), np.exp(-squares / 2)),
+        distance=kind_distance(np.arange(len(at)), -ties),
+        groups=groups,
+    )
+    heats = np.geomspace(WARM, COLD, SHARPER_STEPS)
+    return np.argsort(improved(problem, rng, heats, SHARPER_TRIES, np.argsort(at)))
 
 
 def _spacing(points: FloatArray) -> float:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.start.neighbour_embedding.graph import unit_rows
+from packwork.assignment.graph import unit_rows
 
 STARTS = 8
 """First centres that are tried. More find a little more. Chosen."""

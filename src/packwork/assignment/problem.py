@@ -1,0 +1,128 @@
+"""Quadratic assignment problem: which item comes to which place.
+
+T. C. Koopmans and M. Beckmann, "Assignment problems and the location of economic activities",
+Econometrica 25 (1957), 53-76: a flow between facilities times the distance between their locations,
+summed over all pairs, and a price of each facility at each location. Ours has a third kind of
+price, of weighted sums over all (what is seen of neighbours from afar, means of parts). A
+permutation has two sides: its *rows*, between which the flow is sparse, are the places or the
+items, as suits; its *columns* are the others.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.assignment._kernels import Blend, Distance, Flow
+
+
+def neighbour_flow(count: int, pairs: IntArray, weights: FloatArray | float = 1.0) -> Flow:
+    """Flow between each of ``(m, 2)`` pairs of rows.
+
+    Examples
+    --------
+    >>> neighbour_flow(3, np.array([[0, 1], [1, 2]])).partners.tolist()
+    [1, 0, 2, 1]
+    """
+    both = np.concatenate([pairs, pairs[:, ::-1]])
+    order = np.lexsort(both.T[::-1])
+    each = np.tile(np.broadcast_to(np.asarray(weights, dtype=np.float64), len(pairs)), 2)
+    begins = np.searchsorted(both[order, 0], np.arange(count + 1)).astype(np.int64)
+    return Flow(begins, both[order, 1].astype(np.int64), each[order])
+
+
+def kind_distance(kinds: IntArray, between: FloatArray) -> Distance:
+    """Distance ``between[kind, kind]`` of columns of ``(n,)`` kinds."""
+    return Distance(kinds, between, np.zeros((len(kinds), 0)))
+
+
+def point_distance(points: FloatArray) -> Distance:
+    """Euclidean distance of columns at ``(n, 2)`` points."""
+    return Distance(np.zeros(len(points), np.int64), np.zeros((1, 1)), points)
+
+
+@dataclass(frozen=True, eq=False)
+class Assignment:
+    """Prices of a permutation of n rows, and which exchanges are allowed.
+
+    Parameters
+    ----------
+    rows, columns
+        ``(n, s)`` features: the squared difference is the price of a row in a column. Of a product
+        of two such nothing else depends on the permutation.
+    staying
+        ``(n,)`` price of each row in any column but that of its own number.
+    flow, distance
+        Price of pairs.
+    blend
+        Price of weighted sums.
+    groups
+        ``(n,)`` rows exchange columns with those of one number, and never if it is negative.
+    sizes
+        ``(n,)`` of rows, and of columns: no row comes to a column whose size differs from its own
+        by more than 1.
+    """
+
+    rows: FloatArray
+    columns: FloatArray
+    staying: FloatArray
+    flow: Flow
+    distance: Distance
+    blend: Blend
+    groups: IntArray
+    sizes: FloatArray
+
+    @classmethod
+    def of(
+        cls,
+        count: int,
+        *,
+        rows: FloatArray | None = None,
+        columns: FloatArray | None = None,
+        staying: FloatArray | float = 0.0,
+        flow: Flow | None = None,
+        distance: Distance | None = None,
+        blend: Blend | None = None,
+        groups: IntArray | None = None,
+        sizes: FloatArray | None = None,
+    ) -> Assignment:
+        """Problem of ``count`` rows; what is not given costs nothing and forbids nothing."""
+        none = np.zeros((count, 0))
+        no_starts: IntArray = np.zeros(count + 1, np.int64)
+        no_one: IntArray = np.zeros(0, np.int64)
+        return cls(
+            none if rows is None else rows,
+            none if columns is None else columns,
+            np.broadcast_to(np.asarray(staying, dtype=np.float64), count).copy(),
+            Flow(no_starts, no_one, np.zeros(0)) if flow is None else flow,
+            point_distance(none) if distance is None else distance,
+            Blend(
+                no_starts, no_one, np.zeros((0, 0)), np.zeros((count, 0, 1)), np.zeros((0, 1)),
+                np.eye(1), np.eye(1), 1.0,
+            ) if blend is None else blend,
+            np.zeros(count, np.int64) if groups is None else groups,
+            np.zeros(count) if sizes is None else sizes,
+        )  # fmt: skip
+
+    def mixtures(self, at: IntArray) -> FloatArray:
+        """``(j, c)`` mixtures where row k has column ``at[k]``."""
+        blend = self.blend
+        mixed = np.zeros_like(blend.wanted)
+        rows = np.repeat(np.arange(len(at)), np.diff(blend.starts))
+        parts = np.einsum("mp,mpc->mc", blend.weights, blend.features[at[rows]])
+        np.add.at(mixed, blend.mixtures, parts)
+        return mixed
+
+    def random_pairs(self, count: int, rng: np.random.Generator) -> IntArray:
+        """``(count, 2)`` pairs of rows of one group each; none where no row may leave."""
+        members = np.argsort(self.groups, kind="stable")
+        members = members[self.groups[members] >= 0]
+        if len(members) == 0:
+            return np.zeros((0, 2), np.int64)
+        numbers = self.groups[members]
+        begins, ends = (np.searchsorted(numbers, numbers, side) for side in ("left", "right"))
+        first = rng.integers(0, len(members), count)
+        second = rng.integers(begins[first], ends[first])
+        return np.column_stack([members[first], members[second]])

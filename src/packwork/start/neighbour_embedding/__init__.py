@@ -1,1 +1,0 @@
-"""Similar items side by side: neighbour graphs of vectors, and their assignment to places."""
