@@ -27,6 +27,7 @@ from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table
 from packwork import pipeline, uses, writers
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.colour import GRID, order_by_colour
 from packwork.raster.coverage import coverage
 from packwork.readers.target import read_target
 from packwork.recipe import Recipe, make_recipe
@@ -36,7 +37,6 @@ from packwork.scene.light import channels_of, light_of
 from packwork.scene.recolour import recoloured
 from packwork.scene.swatch import patch_of
 from packwork.scene.target import blurred
-from packwork.start.colour_exchange.exchange import GRID, exchanged_by_colour
 
 ITEMS = 400
 SIZE_RATIO = 1.5
@@ -219,9 +219,9 @@ def of_squares(layout: Layout, file: Path) -> float:
     x, y = (one.ravel() for one in np.meshgrid(steps, steps))
     rng = np.random.default_rng(0)
     blurs = 3
-    order = exchanged_by_colour(
+    order = order_by_colour(
         order, np.column_stack([x, y, np.zeros(many**2)]), np.ones((many**2, 2)), patches,
-        at_cells(afar(wanted, many**2)), np.zeros((many**2, many**2)),
+        at_cells(afar(wanted, many**2)), np.zeros((many**2, 0)),
         AFAR * math.sqrt(blurs / 12), rng,
     )  # fmt: skip
     chance = np.mean([away(rng.permutation(many**2)) for _ in range(5)])

@@ -101,19 +101,21 @@ def _replace(row, gone, comer, blend, mixed):
 
 
 @helper
-def _blend_change(first, second, mark, at, blend, mixed, scratch, marks):
-    """Change of the price of mixtures by an exchange, which is made in ``mixed``."""
+def _blend_change(first, second, mark, at, blend, mixed, missed, trial, scratch):
+    """Change of the price of mixtures by an exchange, which is made in ``mixed``.
+
+    ``missed``: their prices now; ``trial``: those after it, and the exchange that was tried last.
+    """
+    _replace(first, at[first], at[second], blend, mixed)
+    _replace(second, at[second], at[first], blend, mixed)
     total = 0.0
-    for sign in (-1.0, 1.0):
-        for row in (first, second):
-            for k in range(blend.starts[row], blend.starts[row + 1]):
-                j = blend.mixtures[k]
-                if marks[j] != sign * mark:
-                    marks[j] = sign * mark
-                    total += sign * _missed(mixed[j], blend.wanted[j], blend, scratch)
-        if sign < 0.0:
-            _replace(first, at[first], at[second], blend, mixed)
-            _replace(second, at[second], at[first], blend, mixed)
+    for row in (first, second):
+        for k in range(blend.starts[row], blend.starts[row + 1]):
+            j = blend.mixtures[k]
+            if trial[j, 1] != mark:
+                trial[j, 1] = mark
+                trial[j, 0] = _missed(mixed[j], blend.wanted[j], blend, scratch)
+                total += trial[j, 0] - missed[j]
     return total
 
 
@@ -125,7 +127,10 @@ def exchange(at, pairs, chances, heat, rows, columns, staying, sizes, flow, dist
     exchanges were made, and how much cheaper all is.
     """
     made, gained = 0, 0.0
-    scratch, marks = np.empty(mixed.shape[1]), np.zeros(len(mixed))
+    scratch = np.empty(mixed.shape[1])
+    missed, trial = np.empty(len(mixed)), np.zeros((len(mixed), 2))
+    for j in range(len(mixed)):
+        missed[j] = _missed(mixed[j], blend.wanted[j], blend, scratch)
     for k in range(len(pairs)):
         first, second = pairs[k, 0], pairs[k, 1]
         here, there = at[first], at[second]
@@ -142,11 +147,14 @@ def exchange(at, pairs, chances, heat, rows, columns, staying, sizes, flow, dist
         cost -= _pair_price(first, second, here, at, flow, distance)
         cost -= _pair_price(second, first, there, at, flow, distance)
         if len(mixed) > 0:
-            cost += _blend_change(first, second, k + 1.0, at, blend, mixed, scratch, marks)
+            cost += _blend_change(first, second, k + 1.0, at, blend, mixed, missed, trial, scratch)
         if cost < 0.0 or (heat > 0.0 and chances[k] < math.exp(-cost / heat)):
             at[first], at[second] = there, here
             made += 1
             gained -= cost
+            for row in (first, second):
+                for part in range(blend.starts[row], blend.starts[row + 1]):
+                    missed[blend.mixtures[part]] = trial[blend.mixtures[part], 0]
         elif len(mixed) > 0:
             _replace(first, there, here, blend, mixed)
             _replace(second, here, there, blend, mixed)

@@ -17,6 +17,8 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.colour import GRID, order_by_colour
+from packwork.assignment.local_search import cheapest
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
 from packwork.pipeline.state import State
@@ -27,7 +29,6 @@ from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights, patch_of
 from packwork.scene.target import TargetPicture, blurred
-from packwork.start.colour_exchange.exchange import GRID, exchanged_by_colour
 from packwork.steps.places import exchanged, shapes
 
 UNLIKE = 0.06
@@ -76,9 +77,6 @@ class AssignByColour(RunStep):
 
 def _order(job: Job, places: Poses, movable: IntArray, target: TargetPicture) -> IntArray:
     """Which of the movable items comes to each of their places."""
-    # An assignment is needed for pictures alone.
-    from scipy.optimize import linear_sum_assignment
-
     items = [job.items[k] for k in movable]
     own = oklabs_of_light(mean_lights(items))
     wanted = oklabs_of_light(_light_at(target, places, len(job.items)))
@@ -86,11 +84,11 @@ def _order(job: Job, places: Poses, movable: IntArray, target: TargetPicture) ->
     own_shapes = shapes(job, movable)
     unlike = ((own_shapes[None] - own_shapes[:, None]) ** 2).sum(axis=2)
     weights = (hull_areas([one.outline for one in items]) * places.scale**2)[:, None]
-    order = np.asarray(linear_sum_assignment((away + UNLIKE * unlike) * weights)[1])
+    order = cheapest((away + UNLIKE * unlike) * weights)
     if job.tints[movable].any():
         # What takes on a part of the picture makes up for its neighbours by that.
         return order
-    return _exchanged(job, places, items, order, target, PRICE * unlike)
+    return _exchanged(job, places, items, order, target, np.sqrt(PRICE) * own_shapes)
 
 
 def _exchanged(
@@ -99,7 +97,7 @@ def _exchanged(
     items: Sequence[Item],
     order: IntArray,
     target: TargetPicture,
-    price: FloatArray,
+    forms: FloatArray,
 ) -> IntArray:
     """Order of items after exchanges by what neighbours show together."""
     container, count = job.container, len(job.items)
@@ -110,13 +108,13 @@ def _exchanged(
         light = blurred(light, BLUR, count)
     # The standard deviation of so many averages over squares.
     spread = BLUR * np.sqrt(container.width * container.height / count * BLURS / 12)
-    return exchanged_by_colour(
+    return order_by_colour(
         order,
         np.column_stack([places.x, places.y, places.angle]),
         sides,
         np.array([patch_of(one, GRID) for one in items]),
         _looked_up(light, target.px_per_cu, places),
-        price,
+        forms,
         float(spread),
         np.random.default_rng(job.plan.seed),
     )

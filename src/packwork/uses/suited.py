@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.local_search import cheapest
 from packwork.raster.coverage import coverage
 from packwork.readers.target import read_target
 from packwork.recipe import Recipe
@@ -51,12 +52,9 @@ def best_suited(lights: FloatArray, wanted: FloatArray) -> IntArray:
     >>> best_suited(lights, np.array([[1.0, 0, 0], [0.9, 0, 0]])).tolist()
     [0, 2]
     """
-    # An assignment is needed for pictures alone.
-    from scipy.optimize import linear_sum_assignment
-
     own, asked = oklabs_of_light(lights), oklabs_of_light(wanted)
     away = ((own[None] - asked[:, None]) ** 2).sum(axis=2)
-    return np.sort(linear_sum_assignment(away)[1])
+    return np.sort(cheapest(away))
 
 
 def _wanted(target: TargetPicture, container: Container, count: int) -> FloatArray:

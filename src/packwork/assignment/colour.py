@@ -11,8 +11,10 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment._kernels import Blend
+from packwork.assignment.local_search import improved
+from packwork.assignment.problem import Assignment
 from packwork.scene.contrast import CONES_OF_LIGHT, LAB_OF_CONES, oklabs_of_light
-from packwork.start.colour_exchange import _kernels
 
 GRID = 3
 """Colours of an item along each side. More take longer, and no more is seen from afar. Chosen."""
@@ -27,13 +29,13 @@ ROUNDS = 10
 """Rounds of them, of which one without any exchange is the last. Chosen."""
 
 
-def exchanged_by_colour(
+def order_by_colour(
     order: IntArray,
     places: FloatArray,
     sides: FloatArray,
     patches: FloatArray,
     wanted: FloatArray,
-    price: FloatArray,
+    shapes: FloatArray,
     blur: float,
     rng: np.random.Generator,
 ) -> IntArray:
@@ -51,8 +53,9 @@ def exchanged_by_colour(
         ``(n, GRID * GRID, 3)`` light of the items, row by row.
     wanted
         ``(n, 3)`` light of the picture at the places, blurred as much.
-    price
-        ``(places, items)`` what an item costs in a place, as a distance in Oklab.
+    shapes
+        ``(n, s)`` features of items, and of the places in which they lie first: the squared
+        difference is paid for as if it were a distance in Oklab.
     blur
         Standard deviation, in the unit of the places.
     rng
@@ -66,26 +69,18 @@ def exchanged_by_colour(
     areas = sides.prod(axis=1) / GRID**2
     near = cKDTree(points).query_ball_point(points, REACH * blur + sides.max() / 2)
     # Rows of places and the points at which they are seen; every point sees what is near it.
-    sizes = np.array([len(one) for one in near])
-    rows, seen = np.repeat(np.arange(count), sizes), np.concatenate([np.sort(one) for one in near])
+    counts = np.array([len(one) for one in near])
+    rows, seen = np.repeat(np.arange(count), counts), np.concatenate([np.sort(one) for one in near])
     away = ((parts[rows] - points[seen][:, None]) ** 2).sum(axis=2) / blur**2
     weights = areas[rows, None] * np.exp(-away / 2)
-    totals = np.bincount(seen, weights.sum(axis=1), count)
-    weights /= totals[seen][:, None]
-    shown = np.zeros((count, 3))
-    np.add.at(shown, seen, np.einsum("mp,mpc->mc", weights, patches[order[rows]]))
-    asked = oklabs_of_light(wanted)
-    missed = np.linalg.norm(oklabs_of_light(np.clip(shown, 0.0, 1.0)) - asked, axis=1)
-    order, starts = order.astype(np.int64), np.concatenate([[0], np.cumsum(sizes)])
-    for _ in range(ROUNDS):
-        pairs = rng.integers(0, count, (TRIES * count // ROUNDS, 2))
-        made = _kernels.exchange_by_colour(
-            order, starts, seen.astype(np.int64), weights, patches, shown, asked, missed, price,
-            pairs, CONES_OF_LIGHT, LAB_OF_CONES,
-        )  # fmt: skip
-        if made == 0:
-            break
-    return order
+    weights /= np.bincount(seen, weights.sum(axis=1), count)[seen][:, None]
+    starts = np.concatenate([[0], np.cumsum(counts)])
+    blend = Blend(
+        starts, seen.astype(np.int64), weights, patches, oklabs_of_light(wanted),
+        CONES_OF_LIGHT, LAB_OF_CONES, 1 / 3,
+    )  # fmt: skip
+    problem = Assignment.of(count, rows=shapes, columns=shapes, blend=blend)
+    return improved(problem, rng, [0.0] * ROUNDS, TRIES // ROUNDS, order)
 
 
 def _parts(places: FloatArray, sides: FloatArray) -> FloatArray:

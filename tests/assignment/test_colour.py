@@ -9,12 +9,12 @@ import pytest
 from PIL import Image
 
 from packwork.arrays import FloatArray
+from packwork.assignment.colour import GRID, order_by_colour
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.read import read_photos
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.light import light_of
 from packwork.scene.swatch import mean_light, patch_of
-from packwork.start.colour_exchange.exchange import GRID, exchanged_by_colour
 
 MANY = 6
 
@@ -29,12 +29,12 @@ def _patches(lights: FloatArray) -> FloatArray:
 
 
 def _exchanged(
-    patches: FloatArray, wanted: FloatArray, price: FloatArray | None = None, blur: float = 0.5
+    patches: FloatArray, wanted: FloatArray, shapes: FloatArray | None = None, blur: float = 0.5
 ) -> np.ndarray:
     count = len(patches)
-    return exchanged_by_colour(
+    return order_by_colour(
         np.arange(count), _places(), np.ones((count, 2)), patches, wanted,
-        np.zeros((count, count)) if price is None else price, blur, np.random.default_rng(0),
+        np.zeros((count, 0)) if shapes is None else shapes, blur, np.random.default_rng(0),
     )  # fmt: skip
 
 
@@ -97,11 +97,11 @@ def test_halves_are_seen_and_not_the_mean_alone() -> None:
     assert np.mean(order.reshape(MANY, MANY)[0] % 2 == 0) > 0.8
 
 
-def test_a_price_keeps_items_where_they_are() -> None:
+def test_unlike_shapes_keep_items_where_they_are() -> None:
     rng = np.random.default_rng(2)
     patches = rng.random((MANY**2, GRID**2, 3))
-    price = 100.0 * (1 - np.eye(MANY**2))
-    assert _exchanged(patches, rng.random((MANY**2, 3)), price).tolist() == list(range(MANY**2))
+    shapes = 10.0 * np.arange(MANY**2)[:, None]
+    assert _exchanged(patches, rng.random((MANY**2, 3)), shapes).tolist() == list(range(MANY**2))
 
 
 def test_patches_of_a_picture_are_its_parts(tmp_path: Path) -> None:
