@@ -9,12 +9,12 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.balance import balanced_order, parts_of
 from packwork.assignment.conflicts import min_conflicts_order
 from packwork.forces.exchanges import exchanged
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
-from packwork.scene.balance import balanced, parts_of
 from packwork.scene.limits import Limits
 from packwork.scene.neighbours import side_by_side
 from packwork.scene.pose import Poses
@@ -57,7 +57,7 @@ def exchange(
         return changed
 
     if shapely.get_num_geometries(container.region) > 1 and (smallest < largest).any():
-        poses = change(_order_among_parts(container, outlines, poses, groups))
+        poses = change(_order_among_parts(container, outlines, poses, groups, rng))
     if forces.acts:
         poses = change(_order_by_forces(forces, outlines, poses, groups, smallest, largest))
     if limits.keeps_kinds_apart:
@@ -98,7 +98,11 @@ def _order_by_forces(
 
 
 def _order_among_parts(
-    container: Outline, outlines: Sequence[Outline], poses: Poses, groups: IntArray
+    container: Outline,
+    outlines: Sequence[Outline],
+    poses: Poses,
+    groups: IntArray,
+    rng: np.random.Generator,
 ) -> IntArray:
     """Order in which items fill as much of their hulls in one part as in the others.
 
@@ -108,7 +112,7 @@ def _order_among_parts(
     hulls = hull_areas(outlines)
     solid = np.array([outline.area for outline in outlines]) / hulls
     sizes = np.log(np.sqrt(hulls) * poses.scale) / np.log(ALIKE)
-    return balanced(solid, parts_of(container, poses.x, poses.y), groups, sizes)
+    return balanced_order(solid, parts_of(container, poses.x, poses.y), groups, sizes, rng)
 
 
 def _changed_places(
