@@ -22,8 +22,9 @@ def price(problem: Assignment, at: IntArray) -> float:
     total = 0.0
     for row, column in enumerate(at):
         total += float(((problem.rows[row] - problem.columns[column]) ** 2).sum())
-        total += float(problem.staying[row]) if row != column else 0.0
-        for k in range(problem.flow.starts[row], problem.flow.starts[row + 1]):
+        total += problem.staying if row != column else 0.0
+        own = problem.flow.starts[row : row + 2]
+        for k in range(*own) if len(own) else ():
             there = at[problem.flow.partners[k]]
             kinds, points = problem.distance.kinds, problem.distance.points
             away = problem.distance.between[kinds[column], kinds[there]]
@@ -49,11 +50,11 @@ def made_problem(rng: np.random.Generator, exponent: float = 1.0) -> Assignment:
         rng.random((COUNT, 2, 3)), rng.random((5, 3)), rng.random((3, 3)), rng.random((3, 3)),
         exponent,
     )  # fmt: skip
-    return Assignment.of(
-        COUNT,
+    return Assignment(
+        np.zeros(COUNT, np.int64),
         rows=rng.random((COUNT, 2)),
         columns=rng.random((COUNT, 2)),
-        staying=rng.random(COUNT),
+        staying=0.3,
         flow=neighbour_flow(COUNT, pairs, rng.random(len(pairs))),
         distance=Distance(
             rng.integers(0, 3, COUNT), between + between.T, rng.random((COUNT, 2))
@@ -70,9 +71,8 @@ def test_an_exchange_gains_what_the_twin_says(heat: float, exponent: float) -> N
     at = rng.permutation(COUNT)
     before, mixed = price(problem, at), problem.mixtures(at)
     made, gained = _kernels.exchange(
-        at, problem.random_pairs(60, rng), rng.random(60), heat, problem.rows, problem.columns,
-        problem.staying, problem.sizes, problem.flow, problem.distance, problem.blend, mixed,
-    )  # fmt: skip
+        at, problem.random_pairs(60, rng), rng.random(60), heat, *problem[1:], mixed
+    )
     assert made > 0
     assert sorted(at.tolist()) == list(range(COUNT))
     assert before - price(problem, at) == pytest.approx(gained, abs=1e-9)
@@ -84,7 +84,7 @@ def test_an_exchange_gains_what_the_twin_says(heat: float, exponent: float) -> N
 def test_rows_keep_to_their_group_and_their_size(rng: np.random.Generator, count: int) -> None:
     groups, sizes = rng.integers(-1, 3, count), rng.uniform(0, 3, count)
     wishes = rng.random((2, count, 1))
-    problem = Assignment.of(count, rows=wishes[0], columns=wishes[1], groups=groups, sizes=sizes)
+    problem = Assignment(groups, sizes, rows=wishes[0], columns=wishes[1])
     at = improved(problem, rng, [1.0, 0.0], 20)
     assert sorted(at) == list(range(count))
     np.testing.assert_array_equal(groups[at], groups)
@@ -107,7 +107,7 @@ def test_descent_ends_where_no_exchange_gains() -> None:
 def test_prices_of_single_rows_are_best_by_linear_assignment() -> None:
     rng = np.random.default_rng(2)
     wishes = rng.random((2, COUNT, 3))
-    problem = Assignment.of(COUNT, rows=wishes[0], columns=wishes[1])
+    problem = Assignment(np.zeros(COUNT, np.int64), rows=wishes[0], columns=wishes[1])
     best = cheapest(((wishes[0][:, None] - wishes[1]) ** 2).sum(axis=2))
     assert price(problem, best) <= price(problem, improved(problem, rng, [0.0] * 9, 50)) + 1e-12
     assert improved(problem, rng, [0.0] * 9, 50, best).tolist() == best.tolist()

@@ -47,7 +47,7 @@ class Blend(NamedTuple):
 @helper
 def _own_price(row, column, rows, columns, staying):
     """Price of a row in a column."""
-    total = 0.0 if row == column else staying[row]
+    total = 0.0 if row == column else staying
     for k in range(rows.shape[1]):
         away = rows[row, k] - columns[column, k]
         total += away * away
@@ -120,7 +120,7 @@ def _blend_change(first, second, mark, at, blend, mixed, missed, trial, scratch)
 
 
 @kernel
-def exchange(at, pairs, chances, heat, rows, columns, staying, sizes, flow, distance, blend, mixed):
+def exchange(at, pairs, chances, heat, sizes, staying, rows, columns, flow, distance, blend, mixed):
     """Exchange the columns of pairs of rows where that costs less, or by a chance that heat allows.
 
     ``at[row]`` is its column; it and ``mixed``, the mixtures, are changed. Returns how many
@@ -134,27 +134,31 @@ def exchange(at, pairs, chances, heat, rows, columns, staying, sizes, flow, dist
     for k in range(len(pairs)):
         first, second = pairs[k, 0], pairs[k, 1]
         here, there = at[first], at[second]
-        if first == second or abs(sizes[first] - sizes[there]) > 1.0:
+        if first == second:
             continue
-        if abs(sizes[second] - sizes[here]) > 1.0:
-            continue
+        if len(sizes) > 0:
+            off = max(abs(sizes[first] - sizes[there]), abs(sizes[second] - sizes[here]))
+            if off > 1.0:
+                continue
         cost = _own_price(first, there, rows, columns, staying)
         cost += _own_price(second, here, rows, columns, staying)
         cost -= _own_price(first, here, rows, columns, staying)
         cost -= _own_price(second, there, rows, columns, staying)
-        cost += _pair_price(first, second, there, at, flow, distance)
-        cost += _pair_price(second, first, here, at, flow, distance)
-        cost -= _pair_price(first, second, here, at, flow, distance)
-        cost -= _pair_price(second, first, there, at, flow, distance)
+        if len(flow.weights) > 0:
+            cost += _pair_price(first, second, there, at, flow, distance)
+            cost += _pair_price(second, first, here, at, flow, distance)
+            cost -= _pair_price(first, second, here, at, flow, distance)
+            cost -= _pair_price(second, first, there, at, flow, distance)
         if len(mixed) > 0:
             cost += _blend_change(first, second, k + 1.0, at, blend, mixed, missed, trial, scratch)
         if cost < 0.0 or (heat > 0.0 and chances[k] < math.exp(-cost / heat)):
             at[first], at[second] = there, here
             made += 1
             gained -= cost
-            for row in (first, second):
-                for part in range(blend.starts[row], blend.starts[row + 1]):
-                    missed[blend.mixtures[part]] = trial[blend.mixtures[part], 0]
+            if len(mixed) > 0:
+                for row in (first, second):
+                    for part in range(blend.starts[row], blend.starts[row + 1]):
+                        missed[blend.mixtures[part]] = trial[blend.mixtures[part], 0]
         elif len(mixed) > 0:
             _replace(first, there, here, blend, mixed)
             _replace(second, here, there, blend, mixed)

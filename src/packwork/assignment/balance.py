@@ -66,7 +66,7 @@ def balanced_order(
     >>> full_or_sketchy, parts = np.array([1.0, 1, 0, 0]), np.array([0, 0, 1, 1])
     >>> rng = np.random.default_rng(0)
     >>> order = balanced_order(full_or_sketchy, parts, np.zeros(4, dtype=int), np.zeros(4), rng)
-    >>> full_or_sketchy[order][:2].sum()
+    >>> float(full_or_sketchy[order][:2].sum())
     1.0
     """
     count, spread = len(values), float(values.std())
@@ -81,6 +81,6 @@ def balanced_order(
     )  # fmt: skip
     order = np.arange(count)
     for staying in STAYING:
-        problem = Assignment.of(count, staying=staying, blend=blend, groups=groups, sizes=sizes)
+        problem = Assignment(groups, sizes, staying, blend=blend)
         order = improved(problem, rng, [0.0] * ROUNDS, TRIES, order)
     return order

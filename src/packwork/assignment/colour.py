@@ -79,7 +79,7 @@ def order_by_colour(
         starts, seen.astype(np.int64), weights, patches, oklabs_of_light(wanted),
         CONES_OF_LIGHT, LAB_OF_CONES, 1 / 3,
     )  # fmt: skip
-    problem = Assignment.of(count, rows=shapes, columns=shapes, blend=blend)
+    problem = Assignment(np.zeros(count, np.int64), rows=shapes, columns=shapes, blend=blend)
     return improved(problem, rng, [0.0] * ROUNDS, TRIES // ROUNDS, order)
 
 

@@ -64,12 +64,11 @@ def min_conflicts_order(
     numbers[several] = np.arange(len(several))
     same = np.eye(len(several) + 1)
     same[-1, -1] = 0.0
-    problem = Assignment.of(
-        count,
-        staying=STAYING,
+    problem = Assignment(
+        groups,
+        np.zeros(0) if sizes is None else sizes,
+        STAYING,
         flow=neighbour_flow(count, pairs),
         distance=kind_distance(numbers[kinds.ravel()], same),
-        groups=groups,
-        sizes=sizes,
     )
     return improved(problem, rng, HEATS, TRIES)

@@ -1,8 +1,8 @@
 """Items assigned to places so that those pulled towards each other come to lie side by side.
 
 A quadratic assignment whose flow is a graph of nearest neighbours, begun with a split of items and
-places into halves along their longest axes. Places
-repel nothing: that two items cannot have one takes the part of the repulsion in t-SNE and UMAP.
+places into halves along their longest axes. Places repel nothing: that two items cannot have one
+takes the part of the repulsion in t-SNE and UMAP.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ covers less. Tried."""
 IMAGES = np.array([[x, y] for x in (1, -1, 2, -2) for y in (1, -1, 2, -2) if abs(x * y) < 4])
 """Of the places, along x and y: mirrored, and halved first along either."""
 
-SHARPENING, WARM, SHARPER_STEPS, SHARPER_TRIES = 0.6, 0.5, 40, 30
+SHARPENING, WARM, SHARPER_STEPS, SHARPER_TRIES = 0.6, 0.5, 40, 60
 """Weight of neighbours that are alike, over that of distances; the first temperature, their number
 and exchanges tried for each item where neighbours alone count. More of the first heeds sizes less.
 Tried."""
@@ -120,13 +120,12 @@ def assigned(
     own, there = np.hstack([own, even * drawn]), np.hstack([there, even * along])
     groups = np.full(count, -1)
     groups[movable] = 0
-    problem = Assignment.of(
-        count,
+    problem = Assignment(
+        groups,
         rows=own,
         columns=there,
         flow=Flow(graph.starts, graph.partners, graph.weights),
         distance=point_distance(scaled),
-        groups=groups,
     )
     at = improved(problem, rng, np.geomspace(HOT, COLD, STEPS), EXCHANGES, at)
     if ties is None:
@@ -158,13 +157,12 @@ def _sharpened(
     pairs = cKDTree(points).query_pairs(REACH, output_type="ndarray")
     squares = ((points[pairs[:, 0]] - points[pairs[:, 1]]) ** 2).sum(axis=1)
     # Places are the rows here: of these few are near each other, of items any may be alike.
-    problem = Assignment.of(
-        len(at),
+    problem = Assignment(
+        groups,
         rows=there,
         columns=own,
         flow=neighbour_flow(len(at), pairs.astype(np.int64), np.exp(-squares / 2)),
         distance=kind_distance(np.arange(len(at)), -ties),
-        groups=groups,
     )
     heats = np.geomspace(WARM, COLD, SHARPER_STEPS)
     return np.argsort(improved(problem, rng, heats, SHARPER_TRIES, np.argsort(at)))

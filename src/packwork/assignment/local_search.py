@@ -59,8 +59,9 @@ def improved(
     --------
     >>> from packwork.assignment.problem import kind_distance, neighbour_flow
     >>> in_a_row, kinds = np.array([[0, 1], [1, 2], [2, 3]]), np.array([0, 0, 1, 1])
-    >>> alike = Assignment.of(
-    ...     4, flow=neighbour_flow(4, in_a_row), distance=kind_distance(kinds, np.eye(2)))
+    >>> alike = Assignment(
+    ...     np.zeros(4, int),
+    ...     flow=neighbour_flow(4, in_a_row), distance=kind_distance(kinds, np.eye(2)))
     >>> kinds[improved(alike, np.random.default_rng(0), [0.0], 20)].tolist() in (
     ...     [0, 1, 0, 1], [1, 0, 1, 0])
     True
@@ -71,9 +72,8 @@ def improved(
     for heat in heats:
         pairs = problem.random_pairs(many, rng)
         made, _ = _kernels.exchange(
-            at, pairs, rng.random(len(pairs)), float(heat), problem.rows, problem.columns,
-            problem.staying, problem.sizes, problem.flow, problem.distance, problem.blend, mixed,
-        )  # fmt: skip
+            at, pairs, rng.random(len(pairs)), float(heat), *problem[1:], mixed
+        )
         if heat == 0.0 and made == 0:
             break
     return at

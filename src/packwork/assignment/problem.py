@@ -10,7 +10,7 @@ items, as suits; its *columns* are the others.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -43,73 +43,51 @@ def point_distance(points: FloatArray) -> Distance:
     return Distance(np.zeros(len(points), np.int64), np.zeros((1, 1)), points)
 
 
-@dataclass(frozen=True, eq=False)
-class Assignment:
+NOTHING, NO_ONE = np.zeros((0, 0)), np.zeros(0, np.int64)
+NO_FLOW, NO_DISTANCE = Flow(NO_ONE, NO_ONE, np.zeros(0)), Distance(NO_ONE, NOTHING, NOTHING)
+NO_BLEND = Blend(
+    NO_ONE, NO_ONE, NOTHING, np.zeros((0, 0, 0)), NOTHING, NOTHING, NOTHING, 1.0
+)  # fmt: skip
+
+
+class Assignment(NamedTuple):
     """Prices of a permutation of n rows, and which exchanges are allowed.
+
+    What is not given costs nothing and forbids nothing.
 
     Parameters
     ----------
-    rows, columns
-        ``(n, s)`` features: the squared difference is the price of a row in a column. Of a product
-        of two such nothing else depends on the permutation.
-    staying
-        ``(n,)`` price of each row in any column but that of its own number.
-    flow, distance
-        Price of pairs.
-    blend
-        Price of weighted sums.
     groups
         ``(n,)`` rows exchange columns with those of one number, and never if it is negative.
     sizes
         ``(n,)`` of rows, and of columns: no row comes to a column whose size differs from its own
         by more than 1.
+    staying
+        Price of a row in any column but that of its own number.
+    rows, columns
+        ``(n, s)`` features: the squared difference is the price of a row in a column. Of a product
+        of two such nothing else depends on the permutation.
+    flow, distance
+        Price of pairs.
+    blend
+        Price of weighted sums.
     """
 
-    rows: FloatArray
-    columns: FloatArray
-    staying: FloatArray
-    flow: Flow
-    distance: Distance
-    blend: Blend
     groups: IntArray
-    sizes: FloatArray
-
-    @classmethod
-    def of(
-        cls,
-        count: int,
-        *,
-        rows: FloatArray | None = None,
-        columns: FloatArray | None = None,
-        staying: FloatArray | float = 0.0,
-        flow: Flow | None = None,
-        distance: Distance | None = None,
-        blend: Blend | None = None,
-        groups: IntArray | None = None,
-        sizes: FloatArray | None = None,
-    ) -> Assignment:
-        """Problem of ``count`` rows; what is not given costs nothing and forbids nothing."""
-        none = np.zeros((count, 0))
-        no_starts: IntArray = np.zeros(count + 1, np.int64)
-        no_one: IntArray = np.zeros(0, np.int64)
-        return cls(
-            none if rows is None else rows,
-            none if columns is None else columns,
-            np.broadcast_to(np.asarray(staying, dtype=np.float64), count).copy(),
-            Flow(no_starts, no_one, np.zeros(0)) if flow is None else flow,
-            point_distance(none) if distance is None else distance,
-            Blend(
-                no_starts, no_one, np.zeros((0, 0)), np.zeros((count, 0, 1)), np.zeros((0, 1)),
-                np.eye(1), np.eye(1), 1.0,
-            ) if blend is None else blend,
-            np.zeros(count, np.int64) if groups is None else groups,
-            np.zeros(count) if sizes is None else sizes,
-        )  # fmt: skip
+    sizes: FloatArray = np.zeros(0)
+    staying: float = 0.0
+    rows: FloatArray = NOTHING
+    columns: FloatArray = NOTHING
+    flow: Flow = NO_FLOW
+    distance: Distance = NO_DISTANCE
+    blend: Blend = NO_BLEND
 
     def mixtures(self, at: IntArray) -> FloatArray:
         """``(j, c)`` mixtures where row k has column ``at[k]``."""
         blend = self.blend
         mixed = np.zeros_like(blend.wanted)
+        if len(mixed) == 0:
+            return mixed
         rows = np.repeat(np.arange(len(at)), np.diff(blend.starts))
         parts = np.einsum("mp,mpc->mc", blend.weights, blend.features[at[rows]])
         np.add.at(mixed, blend.mixtures, parts)
