@@ -28,9 +28,9 @@ from benchmarks.quality import many
 from packwork import pipeline, uses
 from packwork.metrics.exact import exact_metrics
 from packwork.pipeline.job import Clock
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import run_steps
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -141,8 +141,8 @@ def measured(kit: Kit, container: Container, mode: str, effort: str, seed: int) 
     job = replace(uses.read(recipe, items, container), clock=clock)
     steps = placing(job, suits_first_fit=fits_first(job))
     finish = next(k for k, step in enumerate(steps) if isinstance(step, Finish))
-    levels = run_steps(steps[:finish], State.of(job), Watch())
-    result = run_steps(steps[finish:], levels, Watch())
+    levels = run_steps(steps[:finish], RunState.of(job), RunContext())
+    result = run_steps(steps[finish:], levels, RunContext())
     rough, exact = (
         exact_metrics(
             Layout(job.container, job.items, poses, job.weights).outlines, job.container.outline

@@ -23,7 +23,7 @@ Stage: TypeAlias = Literal["levels", "finish", "gaps", "pile", "done"]
 
 
 @dataclass(frozen=True)
-class Objective:
+class ObjectiveTerms:
     """Value of what the levels minimise, and of its terms.
 
     Parameters
@@ -86,10 +86,10 @@ class Step:
     is_last: bool = False
     ids: IntArray | None = None
     stage: Stage = "levels"
-    priced: Callable[[], Objective] = Objective
+    priced: Callable[[], ObjectiveTerms] = ObjectiveTerms
 
     @cached_property
-    def objective(self) -> Objective:
+    def objective(self) -> ObjectiveTerms:
         """What the levels minimise, after this epoch; of other stages no terms."""
         return self.priced()
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.assignment import _kernels
-from packwork.assignment._kernels import Blend, Distance
+from packwork.assignment._kernels import Blend, DistancePrices
 from packwork.assignment.local_search import cheapest, improved
 from packwork.assignment.problem import Assignment, neighbour_flow
 from strategies import generators
@@ -56,7 +56,7 @@ def made_problem(rng: np.random.Generator, exponent: float = 1.0) -> Assignment:
         columns=rng.random((COUNT, 2)),
         staying=0.3,
         flow=neighbour_flow(COUNT, pairs, rng.random(len(pairs))),
-        distance=Distance(
+        distance=DistancePrices(
             rng.integers(0, 3, COUNT), between + between.T, rng.random((COUNT, 2))
         ),
         blend=blend,

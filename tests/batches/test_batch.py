@@ -10,9 +10,9 @@ from typing import Any
 import pytest
 
 import packwork as pw
-from packwork.batches.plan import Plan, Template, Wanted, planned
+from packwork.batches.plan import BatchPlan, Template, Wanted, planned
 from packwork.batches.run import carried_out, standing
-from packwork.batches.task import Outcome
+from packwork.batches.task import RowOutcome
 from packwork.errors import ReadError, RecipeError, WriteError
 
 POSTER = {
@@ -30,7 +30,7 @@ def contents(folder: Path) -> dict[str, bytes]:
     return {path.name: path.read_bytes() for path in folder.iterdir() if path.suffix != ".json"}
 
 
-def plan_of(folder: Path, rows: list[dict[str, Any]] = ROWS) -> Plan:
+def plan_of(folder: Path, rows: list[dict[str, Any]] = ROWS) -> BatchPlan:
     return planned(
         Wanted(
             templates=[Template("poster", POSTER, folder)],
@@ -109,7 +109,7 @@ def test_workers_make_the_same_bytes_and_one_that_dies_takes_no_row_with_it(
     assert statuses(carried_out(plan, standing(plan), 1)) == ["made"] * 6
     plan, killed = plan_of(beside, rows), list[int]()
 
-    def kill_one(_: Outcome) -> None:
+    def kill_one(_: RowOutcome) -> None:
         for worker in multiprocessing.active_children()[: not killed]:
             worker.kill()
             killed.append(worker.pid or 0)
@@ -120,7 +120,7 @@ def test_workers_make_the_same_bytes_and_one_that_dies_takes_no_row_with_it(
 
 
 def test_a_batch_that_is_stopped_is_gone_on_with(tmp_path: Path) -> None:
-    plan, heard = plan_of(tmp_path), list[Outcome]()
+    plan, heard = plan_of(tmp_path), list[RowOutcome]()
     found = carried_out(plan, standing(plan), 1, heard.append, lambda: len(heard) > 0)
     assert statuses(found) == ["made", "stopped", "stopped"]
     assert [path.name for path in tmp_path.glob("*.svg")] == ["Ann.svg"]

@@ -13,9 +13,9 @@ import pytest
 import packwork as pw
 from batches.by_hand import Cluster
 from packwork.batches.cluster import parcel_of
-from packwork.batches.plan import Plan, Template, Wanted, planned
+from packwork.batches.plan import BatchPlan, Template, Wanted, planned
 from packwork.batches.run import carried_out, standing
-from packwork.batches.task import Outcome
+from packwork.batches.task import RowOutcome
 from packwork.errors import PackworkError
 from packwork.mirror import mirrored, names_like, place_in
 from packwork.readers.files import exists, is_folder, read_bytes
@@ -36,7 +36,7 @@ def home(tmp_path: Path) -> Path:
     return tmp_path
 
 
-def plan_of(home: Path, out: str, count: int = 6) -> Plan:
+def plan_of(home: Path, out: str, count: int = 6) -> BatchPlan:
     shapes = ["heart", "circle", "text:Z"]
     rows: list[dict[str, Any]] = [
         {"name": f"row{k}", "shape": shapes[k % 3], "art": "own.svg", "n": 4 + k}
@@ -99,9 +99,9 @@ def test_workers_far_away_make_the_same_bytes_from_what_they_are_sent(
 
 
 def test_a_worker_that_is_killed_costs_no_row(home: Path, cluster: Cluster) -> None:
-    plan, heard = plan_of(home, "far"), list[Outcome]()
+    plan, heard = plan_of(home, "far"), list[RowOutcome]()
 
-    def kill_one(outcome: Outcome) -> None:
+    def kill_one(outcome: RowOutcome) -> None:
         if not heard:
             cluster.workers[0].kill()
             cluster.workers.append(cluster.add_worker())
@@ -135,9 +135,9 @@ def test_a_scheduler_that_is_lost_ends_with_what_was_made(
     home: Path, cluster: Cluster, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("packwork.batches.cluster.LOST_SECONDS", 1.0)
-    plan, heard = plan_of(home, "far"), list[Outcome]()
+    plan, heard = plan_of(home, "far"), list[RowOutcome]()
 
-    def kill(outcome: Outcome) -> None:
+    def kill(outcome: RowOutcome) -> None:
         if not heard:
             cluster.scheduler.kill()
         heard.append(outcome)

@@ -95,7 +95,7 @@ def test_a_program_that_answers_is_left_to_end_by_itself() -> None:
 def test_after_all_is_written_nothing_is_said(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    mine = watch.Watch()
+    mine = watch.InterruptListener()
     monkeypatch.setattr(mine, "end", lambda: pytest.fail("must not end"))
     mine.finish()
     mine.press()

@@ -14,7 +14,7 @@ from packwork.arrays import FloatArray
 from packwork.errors import RecipeError, ShapeError
 from packwork.fit import fitted
 from packwork.fit.chains import flattened
-from packwork.fit.fitted import Ending, FittedOutline, fit_outline
+from packwork.fit.fitted import FitEnding, FittedOutline, fit_outline
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import signed_area
 from packwork.geometry.simplify import simplified
@@ -133,7 +133,7 @@ def test_a_coarser_fit_is_taken_where_the_finest_crosses_itself(
 
     monkeypatch.setattr(fitted, "without_loops", not_at_first)
     result = fitted.fit_anew(scenes.star(), 10)
-    assert result.ending is Ending.COARSER
+    assert result.ending is FitEnding.COARSER
     assert result.is_fitted
     assert len(result.controls[0]) == curves
 
@@ -143,7 +143,7 @@ def test_the_outline_itself_is_the_last_resort(monkeypatch: pytest.MonkeyPatch) 
     star = scenes.star()
     result = fitted.fit_anew(star, 10)
     assert_sound(result)
-    assert result.ending is Ending.SIMPLIFIED
+    assert result.ending is FitEnding.SIMPLIFIED
     assert not result.is_fitted
     expected = simplified(star, fitted.FALLBACK * star.extent)
     assert np.array_equal(result.outline.points, expected.points)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.forces.field import Group
+from packwork.forces.field import ItemGroup
 from packwork.forces.ties import Ties
 
 
@@ -18,8 +18,8 @@ def _tied(count: int) -> tuple[Ties, FloatArray, FloatArray]:
     return Ties(ties), rng.uniform(0, 2.0, (count, 2)), rng.uniform(0.5, 1.5, count)
 
 
-def _group(points: FloatArray, areas: FloatArray) -> Group:
-    return Group(points, areas, np.zeros(len(points), dtype=np.int64), 10.0)
+def _group(points: FloatArray, areas: FloatArray) -> ItemGroup:
+    return ItemGroup(points, areas, np.zeros(len(points), dtype=np.int64), 10.0)
 
 
 def test_slopes_are_those_of_the_height() -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import packwork as pw
 from packwork.live.document import Document
 from packwork.live.neighbourhood.flow import Flow
-from packwork.live.neighbourhood.sights import Sights
+from packwork.live.neighbourhood.sights import LevelCache
 from packwork.scene.pose import Poses
 
 
@@ -17,7 +17,7 @@ def _poses(scale: float) -> Poses:
 
 def test_what_was_asked_before_changes_nothing() -> None:
     outline = pw.fill("circle", "star", count=1, effort="draft", levels="50").items[0].outline
-    before, fresh = Sights(), Sights()
+    before, fresh = LevelCache(), LevelCache()
     before.outlines([outline], _poses(1.02), 2.0, 0.3)
     one, other = (
         sights.outlines([outline], _poses(0.98), 2.0, 0.3)[0] for sights in (before, fresh)

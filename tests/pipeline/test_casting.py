@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from packwork.pipeline.plan.expand_copies import Cast, expand_copies, turns
 
 from packwork.errors import RecipeError
-from packwork.pipeline.plan.cast import Cast, cast, turns
 from packwork.recipe import make_recipe
 from packwork.scene.item import Item
 from scenes import disc, flat_item
@@ -20,7 +20,7 @@ MIDDLE = {"x": "50%", "y": "50%"}
 
 
 def made(*rules: dict[str, Any], items: list[Item] = ITEMS, **options: Any) -> Cast:
-    return cast(make_recipe(container="heart", rules=rules, **options), items)
+    return expand_copies(make_recipe(container="heart", rules=rules, **options), items)
 
 
 def names(one: Cast) -> list[str]:

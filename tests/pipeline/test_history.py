@@ -14,7 +14,7 @@ from PIL import Image
 
 import packwork as pw
 from packwork.api.history import HistoryKeeper
-from packwork.progress import Objective, Step
+from packwork.progress import ObjectiveTerms, Step
 from scenes import poses
 
 QUICK: dict[str, Any] = {"epochs": 40, "levels": "32,64", "seed": 1}
@@ -117,7 +117,7 @@ def test_a_further_solve_is_numbered() -> None:
     for epoch in (1, 2, 1):
         keeper.on_step(
             Step(0, 1, 32, epoch, 0.0, poses([1.0], [1.0]), lambda: (0.0, 0.0, 0.0),
-                 priced=lambda: Objective(1.0, {"overlap": 2.0}))
+                 priced=lambda: ObjectiveTerms(1.0, {"overlap": 2.0}))
         )  # fmt: skip
     assert keeper.history()["solve"].tolist() == [1, 1, 2]
 

@@ -15,7 +15,7 @@ from packwork import pipeline, uses
 from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.errors import ReadError, RecipeError
 from packwork.pipeline.plan.limits import LEAD
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.progress import NOBODY, Step, never
 from packwork.recipe import make_recipe
 from packwork.scene.item import FlatArt, Item
@@ -107,7 +107,7 @@ def test_ranges_of_sizes_are_kept_and_used(finish: str) -> None:
     stars, hearts = only(met.layout, "star"), only(met.layout, "heart")
     # The typical size is the same in both runs: that of unruled items.
     job = uses.read(make_recipe(items=NAMES, count=15, **QUICK))
-    nominal = Setting(State.of(job), never).nominal
+    nominal = Setting(RunState.of(job), never).nominal
     small = [one.index for one in met.unplaced]
     # The last steps of a finish end a little off their bounds.
     off = 1e-9 if finish == "none" else SIZE_TOLERANCE

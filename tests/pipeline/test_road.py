@@ -11,7 +11,7 @@ import pytest
 
 import packwork as pw
 from packwork import uses
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import NOBODY, Step, together
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
@@ -53,13 +53,13 @@ def test_few_calls_lead_from_a_run_to_its_levels(monkeypatch: pytest.MonkeyPatch
 
 def test_several_that_are_tried_share_the_progress() -> None:
     told = Told()
-    for turn, _ in Watch(told).part(0.5, 1.0).turns("ab"):
+    for turn, _ in RunContext(told).part(0.5, 1.0).turns("ab"):
         turn.observer.on_step(step(1.0))
     assert told.progress == [0.75, 1.0]
 
 
 def test_after_a_stop_no_other_is_tried() -> None:
-    assert [one for _, one in Watch(stop=lambda: True).turns("abc")] == ["a"]
+    assert [one for _, one in RunContext(stop=lambda: True).turns("abc")] == ["a"]
 
 
 def test_nobody_is_told_of_anything_and_is_no_part_of_an_audience() -> None:
@@ -70,6 +70,6 @@ def test_nobody_is_told_of_anything_and_is_no_part_of_an_audience() -> None:
 
 
 def test_a_run_that_is_not_recorded_has_no_track() -> None:
-    assert not Watch().recorder().is_on
-    assert Watch(records=True).recorder().is_on
+    assert not RunContext().recorder().is_on
+    assert RunContext(records=True).recorder().is_on
     assert pw.fill("circle", "star", count=2, effort="draft", levels="50").track is None

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from packwork.pipeline.job import Job
-from packwork.pipeline.state import State
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.state import RunState
+from packwork.pipeline.watch import RunContext
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
 from packwork.steps.finish import DWARF, TellOfSmall, dwarfs_told_apart
@@ -24,15 +24,15 @@ def job_of(count: int, **options: object) -> Job:
     return read(make_recipe(container="circle", items=["star"], count=count, **QUICK, **options))
 
 
-def sized(job: Job, scales: list[float]) -> State:
+def sized(job: Job, scales: list[float]) -> RunState:
     """Items that came out at such scales, all of them below their least."""
     count = len(scales)
     poses = Poses(np.zeros(count), np.zeros(count), np.zeros(count), np.array(scales))
-    state = replace(State.of(job), poses=poses, nominal=np.ones(count))
+    state = replace(RunState.of(job), poses=poses, nominal=np.ones(count))
     return replace(state, undersized=tuple(range(count)))
 
 
-def told_apart(state: State) -> State:
+def told_apart(state: RunState) -> RunState:
     least = np.ones(len(state.poses))
     real, small = dwarfs_told_apart(state.job, least, state.poses, state.undersized)
     return replace(state, undersized=real, small=small)
@@ -45,7 +45,7 @@ def test_one_line_tells_of_all_that_are_smaller_than_free_sizes_go(
     assert found.undersized == ()
     # Of several attempts that of the one that is kept is told alone.
     assert not caplog.records
-    TellOfSmall().run(found, Watch())
+    TellOfSmall().run(found, RunContext())
     assert [record.getMessage() for record in caplog.records] == [
         "2 items are smaller than --size-ratio 2 allows, star by 50 %"
     ]

@@ -10,9 +10,9 @@ import pytest
 from PIL import Image
 
 from packwork import uses
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep, run_steps, share_of
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import Step
 from packwork.recipe import make_recipe
 from packwork.steps.control import BestOf, Replan, Retry, UnlessTight
@@ -77,7 +77,7 @@ class Grow(RunStep):
     def __init__(self, factor: float) -> None:
         self._factor = factor
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         poses = replace(state.poses, scale=state.poses.scale * self._factor)
         watch.observer.on_step(
             Step(0, 1, 1, 1, 1.0, poses, lambda: (0.0, 0.0, 0.0), stage="levels")
@@ -96,46 +96,46 @@ class Told:
 
 
 @pytest.fixture(scope="module")
-def state() -> State:
-    found = State.of(job())
+def state() -> RunState:
+    found = RunState.of(job())
     return replace(found, poses=replace(found.poses, scale=np.ones(3)))
 
 
-def largest(tried: Any, watch: Watch) -> State:
+def largest(tried: Any, watch: RunContext) -> RunState:
     del watch
     return max(tried, key=lambda one: one.poses.scale[0])
 
 
-def test_steps_share_the_progress(state: State) -> None:
+def test_steps_share_the_progress(state: RunState) -> None:
     told = Told()
-    found = run_steps([Grow(2.0), Grow(3.0)], state, Watch(told))
+    found = run_steps([Grow(2.0), Grow(3.0)], state, RunContext(told))
     assert told.progress == [0.5, 1.0]
     assert found.poses.scale.tolist() == [6.0, 6.0, 6.0]
     assert state.poses.scale.tolist() == [1.0, 1.0, 1.0]
 
 
-def test_the_best_list_is_gone_on_with_and_a_stop_leaves_the_first(state: State) -> None:
+def test_the_best_list_is_gone_on_with_and_a_stop_leaves_the_first(state: RunState) -> None:
     best = BestOf([[Grow(2.0)], [Grow(5.0)], [Grow(3.0)]], largest)
     assert share_of([best]) == 1.0
-    assert best.run(state, Watch()).poses.scale[0] == 5.0
-    assert best.run(state, Watch(stop=lambda: True)).poses.scale[0] == 2.0
+    assert best.run(state, RunContext()).poses.scale[0] == 5.0
+    assert best.run(state, RunContext(stop=lambda: True)).poses.scale[0] == 2.0
 
 
 @pytest.mark.parametrize(("will_do", "expected"), [(True, 2.0), (False, 4.0)])
 def test_a_second_try_begins_where_the_first_did(
-    state: State, will_do: bool, expected: float
+    state: RunState, will_do: bool, expected: float
 ) -> None:
     step = Retry([Grow(2.0)], [Grow(4.0)], lambda _: will_do, largest)
-    assert step.run(state, Watch()).poses.scale[0] == expected
+    assert step.run(state, RunContext()).poses.scale[0] == expected
 
 
-def test_what_is_tight_is_left_as_it_is(state: State) -> None:
+def test_what_is_tight_is_left_as_it_is(state: RunState) -> None:
     step = UnlessTight(Grow(2.0))
-    assert step.run(replace(state, is_tight=True), Watch()).poses.scale[0] == 1.0
-    assert step.run(state, Watch()).poses.scale[0] == 2.0
+    assert step.run(replace(state, is_tight=True), RunContext()).poses.scale[0] == 1.0
+    assert step.run(state, RunContext()).poses.scale[0] == 2.0
 
 
-def test_a_new_plan_leaves_the_recipe(state: State) -> None:
-    found = Replan(seed=9).run(state, Watch())
+def test_a_new_plan_leaves_the_recipe(state: RunState) -> None:
+    found = Replan(seed=9).run(state, RunContext())
     assert (found.job.plan.seed, state.job.plan.seed) == (9, 0)
     assert found.job.recipe is state.job.recipe

@@ -14,8 +14,8 @@ from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.metrics.shape import ShapeMetrics
 from packwork.pipeline.plan.counts import LEAST, MOST, items_needed
-from packwork.pipeline.state import State
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.state import RunState
+from packwork.pipeline.watch import RunContext
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
@@ -23,7 +23,7 @@ from packwork.scene.pose import Poses
 from packwork.steps.advice import Advise, advice
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.piles.recipe import pile_recipe
-from packwork.uses.room import Room
+from packwork.uses.room import KnownContainer
 from packwork.uses.words.recipe import words_recipe
 from packwork.uses.words.report import RemarkWords
 from scenes import round_container, square_container
@@ -78,19 +78,19 @@ def test_the_canvas_changes_nothing(factor: float) -> None:
 
 
 def test_a_number_that_is_given_stays() -> None:
-    assert Room(round_container()).counted(recipe(count=7), ()) is None
+    assert KnownContainer(round_container()).counted(recipe(count=7), ()) is None
     assert len(uses.read(recipe(count=7), container=round_container()).items) == 7
 
 
 def test_all_different_items_are_there() -> None:
     items = uses.read(recipe(), container=round_container()).items
-    found = Room(round_container()).counted(recipe(count="auto"), items)
+    found = KnownContainer(round_container()).counted(recipe(count="auto"), items)
     assert found == max(len(items), items_needed(round_container()).count)
 
 
 def test_without_a_container_there_is_nothing_to_count_by() -> None:
     with pytest.raises(RecipeError, match="count: auto needs a container"):
-        Room(None).counted(make_recipe(container="none", count="auto"), ())
+        KnownContainer(None).counted(make_recipe(container="none", count="auto"), ())
 
 
 def test_a_heap_leaves_room_above_it() -> None:
@@ -116,7 +116,7 @@ def test_auto_words_are_those_that_there_are() -> None:
     asked = words_recipe("heart", {"ox": 2, "bee": 1}, count="auto")
     job = uses.read(asked)
     assert [item.name for item in job.items] == ["ox", "bee"]
-    assert RemarkWords().run(State.of(job), Watch()).remarks == ("auto chose 2 words",)
+    assert RemarkWords().run(RunState.of(job), RunContext()).remarks == ("auto chose 2 words",)
 
 
 def test_a_good_result_gets_no_advice() -> None:

@@ -9,7 +9,7 @@ import packwork as pw
 from packwork.readers.words.items import EM_PX
 from packwork.uses import fill, read, words_recipe
 from packwork.uses.words.letters import Letters, readable_count
-from packwork.uses.words.use import Words, heaviest_of
+from packwork.uses.words.use import WordsUse, heaviest_of
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft"}
 WEIGHTS = {f"word{k}": 1.0 / k for k in range(1, 13)}
@@ -61,7 +61,7 @@ def test_words_that_are_left_out_leave_the_shares_of_kinds() -> None:
     bounds = {"smallest": "20pt", "share": share}
     job = read(words_recipe("circle", WEIGHTS, add=["star", "moon"], **bounds, **QUICK))
     heights = np.sqrt(job.weights / np.array([item.outline.area for item in job.items]))
-    assert isinstance(job.use, Words)
+    assert isinstance(job.use, WordsUse)
     sizes = EM_PX * heights / heights.max()
     count = readable_count(job.use.read, 26.7, sizes[: len(WEIGHTS)], 1)
     fewer = heaviest_of(job, count, sizes[: len(WEIGHTS)], 26.7)
@@ -72,7 +72,7 @@ def test_words_that_are_left_out_leave_the_shares_of_kinds() -> None:
 
 def test_letters_count_in_the_unit_of_the_canvas() -> None:
     job = read(words_recipe("circle", WEIGHTS, canvas="100mm", smallest="9pt", **QUICK))
-    assert isinstance(job.use, Words)
+    assert isinstance(job.use, WordsUse)
     assert job.use.letters == Letters(smallest=pytest.approx(9 * 25.4 / 72))
 
 
@@ -97,7 +97,7 @@ def test_each_attempt_keeps_fewer_words() -> None:
     poses = fill(job.recipe).layout.poses
     tiny = type(poses)(poses.x, poses.y, poses.angle, 0.9 * poses.scale)
     least = 0.95 * float(poses.scale[-1]) * EM_PX
-    assert isinstance(job.use, Words)
+    assert isinstance(job.use, WordsUse)
     words = job.use.read
     assert [readable_count(words, least, EM_PX * tiny.scale, k) for k in (1, 3)] == [11, 8]
     assert readable_count(words, least, EM_PX * poses.scale, 1) == len(words.items)

@@ -13,7 +13,7 @@ from packwork.batches.plan import Wanted, planned
 from packwork.batches.reading import table_of, templates_of
 from packwork.batches.report import rows_of
 from packwork.batches.run import carried_out, standing
-from packwork.batches.task import Outcome
+from packwork.batches.task import RowOutcome
 from packwork.display.extras import found
 from packwork.errors import RecipeError
 from packwork.progress import Stop, never
@@ -36,16 +36,16 @@ class Batch:
         ``metrics``, ``seconds``, ``said``.
     """
 
-    outcomes: tuple[Outcome, ...]
+    outcomes: tuple[RowOutcome, ...]
 
     def __len__(self) -> int:
         return len(self.outcomes)
 
-    def __iter__(self) -> Iterator[Outcome]:
+    def __iter__(self) -> Iterator[RowOutcome]:
         return iter(self.outcomes)
 
     @property
-    def failed(self) -> tuple[Outcome, ...]:
+    def failed(self) -> tuple[RowOutcome, ...]:
         """Rows of which nothing was made."""
         return tuple(one for one in self.outcomes if one.status == "failed")
 

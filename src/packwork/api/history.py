@@ -14,7 +14,7 @@ import numpy.typing as npt
 from packwork.api.frozen import ReadOnly
 from packwork.display.extras import found
 from packwork.errors import RecipeError
-from packwork.progress import Objective, Step
+from packwork.progress import ObjectiveTerms, Step
 
 if TYPE_CHECKING:
     from pandas import DataFrame
@@ -99,7 +99,7 @@ class HistoryKeeper:
     def __init__(self, every: int) -> None:
         self.every = every
         self._rows: list[dict[str, Any]] = []
-        self._met: list[Objective] = []
+        self._met: list[ObjectiveTerms] = []
         self._solve, self._epoch = 1, 0
 
     def on_step(self, step: Step) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from packwork.compiled import helper, kernel
 
 
-class Flow(NamedTuple):
+class FlowPrices(NamedTuple):
     """Sparse symmetric matrix over rows: partners of row k lie from ``starts[k]`` on."""
 
     starts: np.ndarray
@@ -18,7 +18,7 @@ class Flow(NamedTuple):
     weights: np.ndarray
 
 
-class Distance(NamedTuple):
+class DistancePrices(NamedTuple):
     """Distance of two columns: ``between`` their kinds, and Euclidean of their ``points``."""
 
     kinds: np.ndarray

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
-from packwork.assignment._kernels import Flow
+from packwork.assignment._kernels import FlowPrices
 from packwork.assignment.graph import NeighbourGraph, unit_rows
 from packwork.assignment.local_search import improved
 from packwork.assignment.problem import (
@@ -124,7 +124,7 @@ def assigned(
         groups,
         rows=own,
         columns=there,
-        flow=Flow(graph.starts, graph.partners, graph.weights),
+        flow=FlowPrices(graph.starts, graph.partners, graph.weights),
         distance=point_distance(scaled),
     )
     at = improved(problem, rng, np.geomspace(HOT, COLD, STEPS), EXCHANGES, at)

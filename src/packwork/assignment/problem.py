@@ -15,10 +15,10 @@ from typing import NamedTuple
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment._kernels import Blend, Distance, Flow
+from packwork.assignment._kernels import Blend, DistancePrices, FlowPrices
 
 
-def neighbour_flow(count: int, pairs: IntArray, weights: FloatArray | float = 1.0) -> Flow:
+def neighbour_flow(count: int, pairs: IntArray, weights: FloatArray | float = 1.0) -> FlowPrices:
     """Flow between each of ``(m, 2)`` pairs of rows.
 
     Examples
@@ -30,21 +30,24 @@ def neighbour_flow(count: int, pairs: IntArray, weights: FloatArray | float = 1.
     order = np.lexsort(both.T[::-1])
     each = np.tile(np.broadcast_to(np.asarray(weights, dtype=np.float64), len(pairs)), 2)
     begins = np.searchsorted(both[order, 0], np.arange(count + 1)).astype(np.int64)
-    return Flow(begins, both[order, 1].astype(np.int64), each[order])
+    return FlowPrices(begins, both[order, 1].astype(np.int64), each[order])
 
 
-def kind_distance(kinds: IntArray, between: FloatArray) -> Distance:
+def kind_distance(kinds: IntArray, between: FloatArray) -> DistancePrices:
     """Distance ``between[kind, kind]`` of columns of ``(n,)`` kinds."""
-    return Distance(kinds, between, np.zeros((len(kinds), 0)))
+    return DistancePrices(kinds, between, np.zeros((len(kinds), 0)))
 
 
-def point_distance(points: FloatArray) -> Distance:
+def point_distance(points: FloatArray) -> DistancePrices:
     """Euclidean distance of columns at ``(n, 2)`` points."""
-    return Distance(np.zeros(len(points), np.int64), np.zeros((1, 1)), points)
+    return DistancePrices(np.zeros(len(points), np.int64), np.zeros((1, 1)), points)
 
 
 NOTHING, NO_ONE = np.zeros((0, 0)), np.zeros(0, np.int64)
-NO_FLOW, NO_DISTANCE = Flow(NO_ONE, NO_ONE, np.zeros(0)), Distance(NO_ONE, NOTHING, NOTHING)
+NO_FLOW, NO_DISTANCE = (
+    FlowPrices(NO_ONE, NO_ONE, np.zeros(0)),
+    DistancePrices(NO_ONE, NOTHING, NOTHING),
+)
 NO_BLEND = Blend(
     NO_ONE, NO_ONE, NOTHING, np.zeros((0, 0, 0)), NOTHING, NOTHING, NOTHING, 1.0
 )  # fmt: skip
@@ -78,8 +81,8 @@ class Assignment(NamedTuple):
     staying: float = 0.0
     rows: FloatArray = NOTHING
     columns: FloatArray = NOTHING
-    flow: Flow = NO_FLOW
-    distance: Distance = NO_DISTANCE
+    flow: FlowPrices = NO_FLOW
+    distance: DistancePrices = NO_DISTANCE
     blend: Blend = NO_BLEND
 
     def mixtures(self, at: IntArray) -> FloatArray:

@@ -21,7 +21,7 @@ from pathlib import Path
 from typing import Any
 
 from packwork import pipeline, threads
-from packwork.batches.task import Drawn, Outcome, Task, draw, failed, make, write
+from packwork.batches.task import Drawn, RowOutcome, Task, draw, failed, make, write
 from packwork.display.extras import found
 from packwork.errors import PackworkError
 from packwork.installed import installed_version
@@ -74,7 +74,7 @@ class Parcel:
 
 def clustered(
     tasks: Sequence[Task], address: str, *, in_place: bool = False, stop: Stop = never
-) -> Iterator[tuple[Task, Outcome | Exception]]:
+) -> Iterator[tuple[Task, RowOutcome | Exception]]:
     """Outcomes of tasks by the workers of a cluster, as they come.
 
     Tasks that are not done when it is stopped, or the scheduler is lost, have none.
@@ -137,7 +137,7 @@ class _Dealer:
         self._heard = time.monotonic()
         self._counted, self._counted_at = 0, -math.inf
 
-    def outcomes(self) -> Iterator[tuple[Task, Outcome | Exception]]:
+    def outcomes(self) -> Iterator[tuple[Task, RowOutcome | Exception]]:
         """Outcomes as they come, until all are there, or it is stopped, or the scheduler lost."""
         while self._waiting or self._under_way:
             if self._stop() or self._is_lost():
@@ -163,7 +163,7 @@ class _Dealer:
         is_over = self._client.status == "closed"
         return is_over or time.monotonic() - self._heard > LOST_SECONDS
 
-    def _dealt(self) -> Iterator[tuple[Task, Outcome | Exception]]:
+    def _dealt(self) -> Iterator[tuple[Task, RowOutcome | Exception]]:
         """Send tasks as long as workers have few; outcomes of those that cannot be sent."""
         while self._waiting and len(self._under_way) < max(AHEAD * self._threads(), 1):
             if self._client.status != "running":
@@ -187,7 +187,7 @@ class _Dealer:
             self._counted_at = now
         return self._counted
 
-    def _taken(self, future: Any, task: Task) -> Outcome | Exception | None:
+    def _taken(self, future: Any, task: Task) -> RowOutcome | Exception | None:
         """Outcome of a task that is done; None if that is lost on its way here."""
         if future.status in {"cancelled", "lost"}:
             return None
@@ -261,7 +261,7 @@ def _read(name: str, *_: int) -> bytes:
     return Path(name).read_bytes()
 
 
-def draw_there(parcel: Parcel) -> Drawn | Outcome:
+def draw_there(parcel: Parcel) -> Drawn | RowOutcome:
     """Run a task on a worker, its files laid in a folder of the worker's own."""
     _check_version(parcel.version)
     with _ONE_AT_A_TIME, TemporaryFolder("cluster") as folder:
@@ -277,7 +277,7 @@ def draw_there(parcel: Parcel) -> Drawn | Outcome:
             return draw(parcel.task)
 
 
-def make_in_place(task: Task) -> Outcome:
+def make_in_place(task: Task) -> RowOutcome:
     """Run a task on a worker that sees the same files."""
     with _ONE_AT_A_TIME:
         _warm_up()

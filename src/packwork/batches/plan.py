@@ -11,7 +11,7 @@ from typing import Any
 from packwork import writers
 from packwork.batches.naming import identity_of, path_of
 from packwork.batches.record import record_path
-from packwork.batches.task import Outcome, Task, failed
+from packwork.batches.task import RowOutcome, Task, failed
 from packwork.batches.template import RECIPE, ROW, columns_of, filled
 from packwork.errors import PackworkError, RecipeError
 from packwork.phrasing import enumerated
@@ -83,7 +83,7 @@ class Wanted:
 
 
 @dataclass(frozen=True)
-class Plan:
+class BatchPlan:
     """Tasks of a batch, and rows of which there can be none.
 
     Parameters
@@ -95,11 +95,11 @@ class Plan:
     """
 
     tasks: tuple[Task, ...]
-    bad: tuple[Outcome, ...]
+    bad: tuple[RowOutcome, ...]
     outside: tuple[str, ...] = ()
 
 
-def planned(wanted: Wanted) -> Plan:
+def planned(wanted: Wanted) -> BatchPlan:
     """A task for each row, all checked before the first is run.
 
     Raises
@@ -111,7 +111,7 @@ def planned(wanted: Wanted) -> Plan:
     """
     _check(wanted)
     tasks: list[Task] = []
-    bad: list[Outcome] = []
+    bad: list[RowOutcome] = []
     taken: dict[str, int] = {}
     outside: dict[str, None] = {}
     pairs = itertools.product(wanted.templates, wanted.rows)
@@ -126,7 +126,7 @@ def planned(wanted: Wanted) -> Plan:
             continue
         tasks.append(task)
         outside |= dict.fromkeys(files_outside(task.options, [template.home, Path.cwd()]))
-    return Plan(tuple(tasks), tuple(bad), tuple(outside))
+    return BatchPlan(tuple(tasks), tuple(bad), tuple(outside))
 
 
 def _check(wanted: Wanted) -> None:

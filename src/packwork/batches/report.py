@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from packwork.batches.task import Outcome
+from packwork.batches.task import RowOutcome
 from packwork.errors import WriteError
 
 SEEN = (".svg", ".png", ".jpg", ".jpeg", ".webp")
@@ -28,12 +28,12 @@ _STYLE = (
 )
 
 
-def rows_of(outcomes: Iterable[Outcome]) -> list[dict[str, Any]]:
+def rows_of(outcomes: Iterable[RowOutcome]) -> list[dict[str, Any]]:
     """Plain rows, metrics among their columns.
 
     Examples
     --------
-    >>> rows_of([Outcome(row=1, name="Ann", status="made", metrics={"LC": 0.8})])[0]["LC"]
+    >>> rows_of([RowOutcome(row=1, name="Ann", status="made", metrics={"LC": 0.8})])[0]["LC"]
     0.8
     """
     return [
@@ -67,7 +67,7 @@ def flat(metrics: Mapping[str, Any], before: str = "") -> dict[str, Any]:
     return found
 
 
-def report_bytes(path: Path, outcomes: Sequence[Outcome]) -> bytes:
+def report_bytes(path: Path, outcomes: Sequence[RowOutcome]) -> bytes:
     """Table of a batch as CSV or JSON, by the file's ending.
 
     Raises
@@ -95,7 +95,7 @@ def _cell(value: Any) -> Any:
     return f"'{value}" if isinstance(value, str) and value.startswith(_FORMULA) else value
 
 
-def index_bytes(path: Path, outcomes: Sequence[Outcome]) -> bytes:
+def index_bytes(path: Path, outcomes: Sequence[RowOutcome]) -> bytes:
     """A page of all rows, their pictures beside it; it runs no code and loads nothing else."""
     home = Path(os.path.abspath(path)).parent  # noqa: PTH100
     figures = "\n".join(_figure(one, home) for one in outcomes)
@@ -110,7 +110,7 @@ def index_bytes(path: Path, outcomes: Sequence[Outcome]) -> bytes:
     ).encode()
 
 
-def _figure(one: Outcome, home: Path) -> str:
+def _figure(one: RowOutcome, home: Path) -> str:
     paths = [quote(Path(os.path.relpath(path, home)).as_posix()) for path in one.outputs]
     seen = [p for ending in SEEN for p in paths if p.lower().endswith(ending)]
     name = html.escape(one.name)

@@ -5,17 +5,17 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from packwork.batches.plan import Plan
+from packwork.batches.plan import BatchPlan
 from packwork.batches.pool import results, worker_count
 from packwork.batches.record import is_done
-from packwork.batches.task import Outcome, Task, failed, make
+from packwork.batches.task import RowOutcome, Task, failed, make
 from packwork.progress import Stop, never
 
-Told = Callable[[Outcome], object]
+Told = Callable[[RowOutcome], object]
 
 
 @dataclass(frozen=True)
-class Standing:
+class BatchProgress:
     """How far a batch is.
 
     Parameters
@@ -27,10 +27,10 @@ class Standing:
     """
 
     to_do: tuple[Task, ...]
-    kept: tuple[Outcome, ...]
+    kept: tuple[RowOutcome, ...]
 
 
-def standing(plan: Plan, *, anew: bool = False) -> Standing:
+def standing(plan: BatchPlan, *, anew: bool = False) -> BatchProgress:
     """What of a plan is made already.
 
     Parameters
@@ -45,7 +45,7 @@ def standing(plan: Plan, *, anew: bool = False) -> Standing:
             to_do.append(task)
         else:
             kept.append(
-                Outcome(
+                RowOutcome(
                     row=task.row,
                     name=task.name,
                     status="kept" if found.get("status") == "made" else "short",
@@ -55,18 +55,18 @@ def standing(plan: Plan, *, anew: bool = False) -> Standing:
                     said=str(found.get("said", "")),
                 )
             )
-    return Standing(tuple(to_do), tuple(kept))
+    return BatchProgress(tuple(to_do), tuple(kept))
 
 
 def carried_out(
-    plan: Plan,
-    now: Standing,
+    plan: BatchPlan,
+    now: BatchProgress,
     workers: int | None = None,
     told: Told = lambda _: None,
     stop: Stop = never,
     scheduler: str | None = None,
     in_place: bool = False,
-) -> list[Outcome]:
+) -> list[RowOutcome]:
     """Outcomes of all rows, in their order; of those that were stopped too.
 
     Parameters
@@ -80,8 +80,8 @@ def carried_out(
     in_place
         Whether those see the same files, and write the outputs themselves.
     """
-    found: list[Outcome] = [*plan.bad, *now.kept]
-    made_by: Iterable[tuple[Task, Outcome | Exception]]
+    found: list[RowOutcome] = [*plan.bad, *now.kept]
+    made_by: Iterable[tuple[Task, RowOutcome | Exception]]
     if scheduler is None or not now.to_do:
         made_by = results(now.to_do, make, worker_count(workers, len(now.to_do)), stop)
     else:
@@ -97,5 +97,5 @@ def carried_out(
     return sorted(found, key=lambda one: one.row)
 
 
-def _stopped(tasks: Iterable[Task]) -> list[Outcome]:
-    return [Outcome(row=task.row, name=task.name, status="stopped") for task in tasks]
+def _stopped(tasks: Iterable[Task]) -> list[RowOutcome]:
+    return [RowOutcome(row=task.row, name=task.name, status="stopped") for task in tasks]

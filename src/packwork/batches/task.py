@@ -54,7 +54,7 @@ class Task:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Outcome:
+class RowOutcome:
     """What has become of a row.
 
     Parameters
@@ -86,9 +86,9 @@ class Outcome:
         return self.status in {"made", "kept"}
 
 
-def failed(row: int, name: str, why: object) -> Outcome:
+def failed(row: int, name: str, why: object) -> RowOutcome:
     """Outcome of a row of which nothing was made, in one line."""
-    return Outcome(row=row, name=name, status="failed", said=" ".join(str(why).split())[:500])
+    return RowOutcome(row=row, name=name, status="failed", said=" ".join(str(why).split())[:500])
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -113,20 +113,20 @@ class Drawn:
     notices: tuple[str, ...] = ()
 
 
-def make(task: Task, stop: Stop = never) -> Outcome:
+def make(task: Task, stop: Stop = never) -> RowOutcome:
     """Run a row and write its files, all or none."""
     found = draw(task, stop)
     return write(task, found) if isinstance(found, Drawn) else found
 
 
-def draw(task: Task, stop: Stop = never) -> Drawn | Outcome:
+def draw(task: Task, stop: Stop = never) -> Drawn | RowOutcome:
     """Run a row and draw its files; what became of it where there is nothing to draw."""
     began = time.perf_counter()
     try:
         with noting_inputs() as noted, hearing() as heard, threads.using(1):
             run = pipeline.run(uses.read(make_recipe(**task.options)), NOBODY, stop)
             if stop():
-                return Outcome(row=task.row, name=task.name, status="stopped")
+                return RowOutcome(row=task.row, name=task.name, status="stopped")
             options = writers.write_options(**task.drawing)
             files = tuple(writers.encoded(run.layout, path, options) for path in task.outputs)
             pipeline.tell_coarse(run.layout, options.dpi)
@@ -139,7 +139,7 @@ def draw(task: Task, stop: Stop = never) -> Drawn | Outcome:
     return Drawn(files=files, told=told, read=read, notices=tuple(dict.fromkeys(heard)))
 
 
-def write(task: Task, found: Drawn) -> Outcome:
+def write(task: Task, found: Drawn) -> RowOutcome:
     """Write the files of a row and its record, all or none."""
     try:
         with noting_inputs():
@@ -152,7 +152,7 @@ def write(task: Task, found: Drawn) -> Outcome:
         writers.write_all([*drawn, (record_path(task.outputs), writers.json_bytes(told))])
     except PackworkError as error:
         return failed(task.row, task.name, error)
-    return Outcome(
+    return RowOutcome(
         row=task.row,
         name=task.name,
         status=told["status"],

@@ -18,9 +18,9 @@ from packwork.errors import RecipeError, WriteError
 from packwork.phrasing import enumerated, number_of
 
 if TYPE_CHECKING:
-    from packwork.batches.plan import Plan
-    from packwork.batches.run import Standing
-    from packwork.batches.task import Outcome, Status
+    from packwork.batches.plan import BatchPlan
+    from packwork.batches.run import BatchProgress
+    from packwork.batches.task import RowOutcome, Status
     from packwork.display.bar import TerminalBar
 
 MOST_NAMED = 20
@@ -203,7 +203,7 @@ class Beside:
         if self.report is not None:
             report_bytes(self.report, [])
 
-    def check_plan(self, plan: Plan) -> None:
+    def check_plan(self, plan: BatchPlan) -> None:
         """Refuse files that rows have too, and a sheet of what shows nothing.
 
         Raises
@@ -221,7 +221,7 @@ class Beside:
         if self.contact_sheet and plan.tasks and shown_of(plan.tasks[0].outputs) is None:
             raise RecipeError("contact_sheet", f"needs rows' files of {enumerated(SEEN, 9)}")
 
-    def write(self, found: Sequence[Outcome]) -> list[Path]:
+    def write(self, found: Sequence[RowOutcome]) -> list[Path]:
         """Write what is asked for; which files these are."""
         from packwork import writers
         from packwork.batches.report import index_bytes, report_bytes
@@ -247,7 +247,7 @@ class _Teller:
         self._done = self._failed = 0
         self._began = time.monotonic()
 
-    def __call__(self, outcome: Outcome) -> None:
+    def __call__(self, outcome: RowOutcome) -> None:
         """Count one more."""
         self._done += 1
         self._failed += outcome.status == "failed"
@@ -271,7 +271,7 @@ def _spoken(seconds: float) -> str:
 
 
 def _carried_out(
-    plan: Plan, now: Standing, by: Mapping[str, Any], beside: Beside, quiet: bool
+    plan: BatchPlan, now: BatchProgress, by: Mapping[str, Any], beside: Beside, quiet: bool
 ) -> int:
     """Make what is to be made, and tell of it; the exit code."""
     from packwork import threads
@@ -299,7 +299,7 @@ def _carried_out(
     return 0 if all(one.is_well for one in found) else SHORTFALL
 
 
-def _say_what_would_be(plan: Plan, now: Standing, quiet: bool) -> None:
+def _say_what_would_be(plan: BatchPlan, now: BatchProgress, quiet: bool) -> None:
     """Tell of a dry run."""
     if not quiet:
         for task in now.to_do[:MOST_NAMED]:
@@ -313,7 +313,7 @@ def _say_what_would_be(plan: Plan, now: Standing, quiet: bool) -> None:
     _name_bad(plan.bad)
 
 
-def _say_what_came(found: Sequence[Outcome], written: Sequence[Path], quiet: bool) -> None:
+def _say_what_came(found: Sequence[RowOutcome], written: Sequence[Path], quiet: bool) -> None:
     """Tell what has become of the rows, and name those that are not as asked."""
     notices = Counter(notice for one in found for notice in one.notices)
     for notice, times in notices.most_common(MOST_NOTICES):
@@ -329,7 +329,7 @@ def _say_what_came(found: Sequence[Outcome], written: Sequence[Path], quiet: boo
             typer.echo(printable(f"wrote {', '.join(map(str, written))}"))
 
 
-def _name_bad(bad: Sequence[Outcome]) -> None:
+def _name_bad(bad: Sequence[RowOutcome]) -> None:
     for one in bad[:MOST_NAMED]:
         is_made = one.status == "short"
         say(f"row {one.row} ({one.name}): {'made, but ' if is_made else ''}{one.said}")

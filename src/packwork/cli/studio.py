@@ -74,12 +74,12 @@ def studio(
             found(module, "all that the studio needs: pip install '.[studio]'")
         from packwork.live.face.opening import Opening, opening_of
         from packwork.studio import desks
-        from packwork.studio.serving import Place, serve
+        from packwork.studio.serving import Address, serve
 
         if again and (inputs or count is not None):
             raise RecipeError("again", "goes on with what was there; leave all else out")
         opening = opening_of(inputs or [], count, seed=seed)
-        kept: desks.Kept | None
+        kept: desks.KeptDesk | None
         if again:
             kept = desks.last()
             opening = Opening(file=kept.file)
@@ -88,5 +88,5 @@ def studio(
         else:
             kept = desks.new()
             opening = replace(opening, kept_in=None if kept is None else kept.file)
-        place = Place(host="127.0.0.1" if host == "localhost" else host, port=port)
+        place = Address(host="127.0.0.1" if host == "localhost" else host, port=port)
         serve(opening, place, kept, browses=browser, tell=typer.echo)

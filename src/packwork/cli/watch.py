@@ -26,7 +26,7 @@ INTERRUPTED = 130
 """Exit code after Ctrl-C."""
 
 
-class Watch:
+class InterruptListener:
     """How often Ctrl-C was pressed, and whether the program ends."""
 
     def __init__(self) -> None:
@@ -90,5 +90,5 @@ class Watch:
                     threading.Thread(target=self.press, daemon=True).start()
 
 
-WATCH = Watch()
+WATCH = InterruptListener()
 """That of this process; it listens where the program was started by a person."""

@@ -45,7 +45,7 @@ REMEMBERED = 256
 """Results kept by the process: about 50 kB each. Chosen."""
 
 
-class Ending(Enum):
+class FitEnding(Enum):
     """How a fit ended."""
 
     FITTED = "fitted as asked"
@@ -79,13 +79,13 @@ class FittedOutline:
     controls: tuple[FloatArray, ...]
     outline: Outline
     iou: float
-    ending: Ending
+    ending: FitEnding
     kept: int
 
     @property
     def is_fitted(self) -> bool:
         """Whether the curves are fitted, and not the outline's own, simplified edges."""
-        return self.ending is not Ending.SIMPLIFIED
+        return self.ending is not FitEnding.SIMPLIFIED
 
 
 def fit_outline(outline: Outline, curves: int = 20) -> FittedOutline:
@@ -158,10 +158,10 @@ def fit_anew(outline: Outline, curves: int) -> FittedOutline:
         return found
     fewer = _fit(outline, max(curves - CURVES_LESS, FEWEST))
     if fewer:
-        return replace(fewer, ending=Ending.COARSER)
+        return replace(fewer, ending=FitEnding.COARSER)
     rest = simplified(outline, FALLBACK * outline.extent)
     edges = [straight_chain(ring) for ring in rest.rings]
-    return _result(outline, edges, rest, Ending.SIMPLIFIED, 0)
+    return _result(outline, edges, rest, FitEnding.SIMPLIFIED, 0)
 
 
 def _fit(outline: Outline, curves: int) -> FittedOutline | None:
@@ -214,15 +214,15 @@ def _sound_outline(outline: Outline, chains: Sequence[FloatArray]) -> Outline | 
 
 def _ending(
     is_finest: bool, drawn: Sequence[FloatArray], mended: Sequence[FloatArray | None]
-) -> Ending:
+) -> FitEnding:
     if not is_finest:
-        return Ending.COARSER
+        return FitEnding.COARSER
     same = all(np.array_equal(a, b) for a, b in zip(drawn, mended, strict=True) if b is not None)
-    return Ending.FITTED if same else Ending.TRIMMED
+    return FitEnding.FITTED if same else FitEnding.TRIMMED
 
 
 def _result(
-    outline: Outline, chains: Sequence[FloatArray], found: Outline, ending: Ending, kept: int
+    outline: Outline, chains: Sequence[FloatArray], found: Outline, ending: FitEnding, kept: int
 ) -> FittedOutline:
     shared = intersection(outline.region, found.region).area
     iou = shared / (outline.area + found.area - shared)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.forces.field import Group
+from packwork.forces.field import ItemGroup
 
 NARROW = 0.1
 """Share of the canvas' side by which an item has to lie off the line of an alignment to be drawn
@@ -54,7 +54,7 @@ class Alignment:
 
     Examples
     --------
-    >>> two = Group(np.array([[0.0, 0], [4, 2]]), np.ones(2), np.zeros(2, int), 10.0)
+    >>> two = ItemGroup(np.array([[0.0, 0], [4, 2]]), np.ones(2), np.zeros(2, int), 10.0)
     >>> parts, slopes = Alignment(1)(two)
     >>> parts.tolist(), slopes.tolist()
     ([0.5, 0.5], [[0.0, -1.0], [0.0, 1.0]])
@@ -62,12 +62,12 @@ class Alignment:
 
     axis: int
 
-    def __call__(self, group: Group) -> tuple[FloatArray, FloatArray]:
+    def __call__(self, group: ItemGroup) -> tuple[FloatArray, FloatArray]:
         """Spread across the line."""
         across = group.points * (np.arange(2) == self.axis)
         return _about(across, group.areas, NARROW * group.side)
 
-    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+    def changes(self, group: ItemGroup, places: FloatArray) -> FloatArray:
         """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         across, there = (at * (np.arange(2) == self.axis) for at in (group.points, places))
         return _about_elsewhere(across, group.areas, NARROW * group.side, there)
@@ -88,14 +88,14 @@ class Together:
 
     Examples
     --------
-    >>> two = Group(np.array([[0.0, 0], [4, 0]]), np.ones(2), np.zeros(2, int), 10.0)
+    >>> two = ItemGroup(np.array([[0.0, 0], [4, 0]]), np.ones(2), np.zeros(2, int), 10.0)
     >>> Together()(two)[1].tolist()
     [[-0.2, 0.0], [0.2, 0.0]]
     """
 
     is_one: bool = False
 
-    def __call__(self, group: Group) -> tuple[FloatArray, FloatArray]:
+    def __call__(self, group: ItemGroup) -> tuple[FloatArray, FloatArray]:
         """Spread of each kind about its own centre of mass."""
         kinds: IntArray = np.zeros_like(group.kinds) if self.is_one else group.kinds
         parts, slopes = np.zeros(len(kinds)), np.zeros((len(kinds), 2))
@@ -104,7 +104,7 @@ class Together:
             parts[own], slopes[own] = _about(group.points[own], group.areas[own], group.side)
         return parts, slopes
 
-    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+    def changes(self, group: ItemGroup, places: FloatArray) -> FloatArray:
         """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         kinds: IntArray = np.zeros_like(group.kinds) if self.is_one else group.kinds
         found = np.zeros((len(kinds), len(places)))
@@ -129,20 +129,20 @@ class Home:
 
     Examples
     --------
-    >>> two = Group(np.array([[0.0, 0], [4, 2]]), np.ones(2), np.zeros(2, int), 10.0)
+    >>> two = ItemGroup(np.array([[0.0, 0], [4, 2]]), np.ones(2), np.zeros(2, int), 10.0)
     >>> Home(np.array([[1.0, 0], [np.nan, np.nan]]))(two)[1].tolist()
     [[-0.1, 0.0], [0.0, 0.0]]
     """
 
     places: FloatArray
 
-    def __call__(self, group: Group) -> tuple[FloatArray, FloatArray]:
+    def __call__(self, group: ItemGroup) -> tuple[FloatArray, FloatArray]:
         """Area times squared distance from home over twice the side."""
         off = np.nan_to_num(group.points - self.places)
         parts = group.areas * (off**2).sum(axis=1) / (2 * group.side)
         return parts, group.areas[:, None] * off / group.side
 
-    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+    def changes(self, group: ItemGroup, places: FloatArray) -> FloatArray:
         """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         before = (np.nan_to_num(group.points - self.places) ** 2).sum(axis=1)
         after = np.nan_to_num(_squares(self.places, places))
@@ -164,21 +164,21 @@ class Balance:
 
     Examples
     --------
-    >>> two = Group(np.array([[0.0, 0], [4, 2]]), np.ones(2), np.zeros(2, int), 10.0)
+    >>> two = ItemGroup(np.array([[0.0, 0], [4, 2]]), np.ones(2), np.zeros(2, int), 10.0)
     >>> Balance(np.array([1.0, np.nan]))(two)[1].tolist()
     [[0.1, 0.0], [0.1, 0.0]]
     """
 
     point: FloatArray
 
-    def __call__(self, group: Group) -> tuple[FloatArray, FloatArray]:
+    def __call__(self, group: ItemGroup) -> tuple[FloatArray, FloatArray]:
         """Whole area times squared distance of the centre of mass over twice the side."""
         off = np.nan_to_num(np.average(group.points, axis=0, weights=group.areas) - self.point)
         # A moment is shared by all that make it, by their areas.
         parts = group.areas * (off @ off) / (2 * group.side)
         return parts, group.areas[:, None] * off / group.side
 
-    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+    def changes(self, group: ItemGroup, places: FloatArray) -> FloatArray:
         """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         whole = group.areas.sum()
         off = np.nan_to_num(np.average(group.points, axis=0, weights=group.areas) - self.point)

@@ -20,7 +20,7 @@ class Field(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Group:
+class ItemGroup:
     """Items that belong together, as a force sees them.
 
     Parameters
@@ -44,14 +44,14 @@ class Group:
 class Bond(Protocol):
     """A height of a group of items, which depends on where the others are."""
 
-    def __call__(self, group: Group) -> tuple[FloatArray, FloatArray]:
+    def __call__(self, group: ItemGroup) -> tuple[FloatArray, FloatArray]:
         """Each item's part of the height ``(n,)``, area times canvas units, and slopes.
 
         Slopes ``(n, 2)`` are those of the sum of all parts.
         """
         ...
 
-    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+    def changes(self, group: ItemGroup, places: FloatArray) -> FloatArray:
         """How the height would change if one item lay elsewhere and the others as they do.
 
         ``(n, m)``, area times canvas units: item by item for each of the places ``(m, 2)``.

@@ -9,7 +9,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
 from packwork.forces.distance import Distance
-from packwork.forces.field import Bond, Field, Group
+from packwork.forces.field import Bond, Field, ItemGroup
 
 FORCE_WEIGHT = 30.0
 """Weight of a force of strength 1: an item that is drawn across the whole canvas pays for
@@ -120,7 +120,7 @@ class Forces:
             slopes += weight[:, None] * slope
         for bond in self.bonds:
             own = bond.strengths != 0
-            group = Group(points[own], areas[own], self.kinds[own], self.side)
+            group = ItemGroup(points[own], areas[own], self.kinds[own], self.side)
             if own.any():
                 part, slope = bond.bond(group)
                 # One strength for all of a group: its mean.
@@ -173,7 +173,7 @@ class Forces:
             found += (force.strengths * areas)[:, None] * change
         for bond in self.bonds:
             own = bond.strengths != 0
-            group = Group(points[own], areas[own], self.kinds[own], self.side)
+            group = ItemGroup(points[own], areas[own], self.kinds[own], self.side)
             if own.any():
                 found[own] += bond.strengths[own].mean() * bond.bond.changes(group, places)
         return np.asarray(FORCE_WEIGHT / self.side * found)

@@ -8,7 +8,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.forces import _kernels
-from packwork.forces.field import Group
+from packwork.forces.field import ItemGroup
 
 REACH = 1.1
 """Reach of a tie, over the side of a square of an item's mean area: next neighbours feel it most.
@@ -29,14 +29,14 @@ class Ties:
 
     Examples
     --------
-    >>> two = Group(np.array([[0.0, 0], [1, 0]]), np.ones(2), np.zeros(2, int), 10.0)
+    >>> two = ItemGroup(np.array([[0.0, 0], [1, 0]]), np.ones(2), np.zeros(2, int), 10.0)
     >>> [Ties(np.array([[0.0, s], [s, 0]]))(two)[1].round(3).tolist() for s in (1, -1)]
     [[[-0.066, 0.0], [0.066, 0.0]], [[0.066, 0.0], [-0.066, 0.0]]]
     """
 
     ties: FloatArray
 
-    def __call__(self, group: Group) -> tuple[FloatArray, FloatArray]:
+    def __call__(self, group: ItemGroup) -> tuple[FloatArray, FloatArray]:
         """Less where like items lie near, more where unlike ones do."""
         points = np.ascontiguousarray(group.points)
         parts, slopes = np.zeros(len(points)), np.zeros((len(points), 2))
@@ -45,7 +45,7 @@ class Ties:
         unit = float(group.areas.mean()) / group.side
         return unit * parts, unit * slopes
 
-    def changes(self, group: Group, places: FloatArray) -> FloatArray:
+    def changes(self, group: ItemGroup, places: FloatArray) -> FloatArray:
         """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
         reach = _reach(group)
         here, there = (self.ties @ _felt(group.points, at, reach) for at in (group.points, places))
@@ -57,7 +57,7 @@ class Ties:
         return np.zeros(len(points))
 
 
-def _reach(group: Group) -> float:
+def _reach(group: ItemGroup) -> float:
     return REACH * float(np.sqrt(group.areas.mean()))
 
 

@@ -18,7 +18,7 @@ from packwork.live.document import Document
 from packwork.live.pins import pin_of
 from packwork.live.running import Shown, run_shown
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import Asked, Voice
+from packwork.pipeline.plan.asked import ItemRules, RuleSource
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.progress import Stop, never
 from packwork.recipe import Recipe, make_recipe
@@ -30,7 +30,7 @@ from packwork.scene.pose import Poses
 BY_TEXT = FROM_TEXT
 """Stands for vectors that are made from the text of the words."""
 
-HOLD = Voice("hold")
+HOLD = RuleSource("hold")
 """What asks for pins, where a message says it."""
 
 
@@ -78,13 +78,13 @@ def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
     return uses.read(recipe, _weighed(document), document.container)
 
 
-def _asked(document: Document) -> tuple[Asked, ...]:
+def _asked(document: Document) -> tuple[ItemRules, ...]:
     """What holds ask of each item, as pins do."""
     rules = [pin_of(document, k) for k in range(len(document))]
     return tuple(
-        Asked().heard(Rule(items=(item.name,), pin=Pin.model_validate(pin)), HOLD)
+        ItemRules().heard(Rule(items=(item.name,), pin=Pin.model_validate(pin)), HOLD)
         if pin
-        else Asked()
+        else ItemRules()
         for item, pin in zip(document.items, rules, strict=True)
     )
 

@@ -14,7 +14,7 @@ from packwork.live.assets import named_item
 from packwork.live.commands.command import Command, Library, made
 from packwork.live.commands.items import Add, Remove, Replace, Weigh
 from packwork.live.document import Document
-from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.neighbourhood.shapes import ShapeCache
 from packwork.live.neighbourhood.voids import widest_places
 from packwork.phrasing import enumerated
 from packwork.readers.words.items import WordsRead, read_word_items
@@ -31,7 +31,7 @@ ALIKE = 0.003
 
 
 def brought(
-    document: Document, library: Library, shapes: Shapes, items: Iterable[Item]
+    document: Document, library: Library, shapes: ShapeCache, items: Iterable[Item]
 ) -> Iterator[Add]:
     """Commands that bring items to where most room is, as large as it is good for.
 
@@ -45,7 +45,7 @@ def brought(
 
 
 def weighed(
-    document: Document, library: Library, shapes: Shapes, pairs: Iterable[tuple[Item, float]]
+    document: Document, library: Library, shapes: ShapeCache, pairs: Iterable[tuple[Item, float]]
 ) -> Iterator[Add]:
     """The same for items with weights in the document's unit."""
     places = widest_places(document, shapes)
@@ -82,7 +82,9 @@ def first_area(document: Document, radius: float, weight: float) -> float:
     return float(np.clip(np.pi * radius**2, least, usual))
 
 
-def counted(document: Document, library: Library, shapes: Shapes, count: int) -> Iterator[Command]:
+def counted(
+    document: Document, library: Library, shapes: ShapeCache, count: int
+) -> Iterator[Command]:
     """Commands after which there are so many items.
 
     What is most there goes first, the last of it, and nothing that is held; of what is least there
@@ -125,7 +127,7 @@ def words_of(document: Document, source: object, options: Mapping[str, Any]) -> 
 
 
 def worded(
-    document: Document, library: Library, shapes: Shapes, read: WordsRead, *, is_lettered: bool
+    document: Document, library: Library, shapes: ShapeCache, read: WordsRead, *, is_lettered: bool
 ) -> Iterator[Command]:
     """Commands after which the words are those of another list, with its weights.
 

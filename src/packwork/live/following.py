@@ -16,8 +16,8 @@ from packwork.live.marks import Marks
 from packwork.live.neighbourhood.flow import Flow
 from packwork.live.neighbourhood.nearest import brought_inside
 from packwork.live.neighbourhood.settle import settle
-from packwork.live.neighbourhood.shapes import Shapes
-from packwork.live.neighbourhood.sights import Sights
+from packwork.live.neighbourhood.shapes import ShapeCache
+from packwork.live.neighbourhood.sights import LevelCache
 from packwork.metrics.violations import Violation
 from packwork.progress import Stop
 from packwork.scene.pose import Poses
@@ -47,11 +47,11 @@ class Following:
 
     def __init__(self, document: Document, *, record: bool = False) -> None:
         self._document = self._base = document
-        self.shapes = Shapes()
+        self.shapes = ShapeCache()
         """Covers of the outlines."""
         self.marks = Marks()
         """What has been done to which items."""
-        self._sights = Sights()
+        self._sights = LevelCache()
         self._grabbed: tuple[int, ...] = ()
         self._flow: Flow | None = None
         self._certificate = Certificate()

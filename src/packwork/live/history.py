@@ -11,7 +11,7 @@ MOST_ENTRIES = 1_000
 """Documents that can be gone back to. Of a thousand items each holds about 0.1 MB. Chosen."""
 
 
-class History:
+class UndoHistory:
     """Documents that can be gone back to, and forward to again.
 
     Parameters

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from packwork.live.document import Document
-from packwork.live.history import History
+from packwork.live.history import UndoHistory
 from packwork.live.marks import Marks
 
 
@@ -27,5 +27,5 @@ class Kept:
 
     document: Document
     base: Document
-    history: History
+    history: UndoHistory
     marks: Marks

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from packwork.errors import RecipeError
 from packwork.live.commands.items import Recolour
-from packwork.live.commands.together import Together
+from packwork.live.commands.together import Combined
 from packwork.live.document import Document
 from packwork.readers.target import read_target
 from packwork.scene.item import PhotoArt
 from packwork.steps.dress.likeness import colours_under
 
 
-def showing(document: Document, source: str) -> Together:
+def showing(document: Document, source: str) -> Combined:
     """Commands that give each item the colour of the picture under it; photographs keep theirs.
 
     For gaps of any colour: what ``--picture`` makes up for is that of a ground of its own.
@@ -40,4 +40,4 @@ def showing(document: Document, source: str) -> Together:
         raise RecipeError(
             "picture", "needs items whose colours may change; photographs keep theirs"
         )
-    return Together(commands=commands)
+    return Combined(commands=commands)

@@ -17,12 +17,12 @@ from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.placing import Scale
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.following import Following, beyond
-from packwork.live.history import History
+from packwork.live.history import UndoHistory
 from packwork.live.kept import Kept
 from packwork.live.log import MOST_TRIALS, Entry, Log
 from packwork.live.neighbourhood.flow import Flow
 from packwork.live.neighbourhood.settle import made_smaller, polish, sizes_are_common
-from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.neighbourhood.shapes import ShapeCache
 from packwork.live.refilling import advice_of, is_other_cloud, refilled
 from packwork.live.requests import Requests
 from packwork.progress import Stop, never
@@ -80,7 +80,7 @@ class Session(Following):
         super().__init__(document, record=record)
         self.library = library or Library()
         self.log = log or Log()
-        self.history = History()
+        self.history = UndoHistory()
         self._before: Document | None = None
         self._poured: tuple[str, ...] = ()
         self._requests = Requests()
@@ -357,7 +357,7 @@ class Session(Following):
         """Take over what a file holds, nothing else: so that the same follows wherever it is."""
         self._document, self._base = kept.document, kept.base
         self.history, self.marks = kept.history, kept.marks
-        self.shapes, self._certificate = Shapes(), Certificate()
+        self.shapes, self._certificate = ShapeCache(), Certificate()
         self._grabbed, self._before, self._flow = (), None, None
         self._requests.forget()
         if self.marks.touched:

@@ -35,7 +35,7 @@ def matched(now: Sequence[str], then: Sequence[str]) -> IntArray:
     return np.array(found, dtype=np.int64)
 
 
-def who_is_who(job: Job, earlier: Layout) -> IntArray:
+def match_items(job: Job, earlier: Layout) -> IntArray:
     """``(n,)`` which item of an earlier layout each is; -1 for one that is new."""
     return matched([item.name for item in job.items], [item.name for item in earlier.items])
 
@@ -44,4 +44,4 @@ def new_items(job: Job) -> IntArray:
     """Items that an earlier layout does not have; none if there is no such layout."""
     if job.earlier is None:
         return np.arange(0)
-    return np.flatnonzero(who_is_who(job, job.earlier) < 0)
+    return np.flatnonzero(match_items(job, job.earlier) < 0)

@@ -22,7 +22,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, difference
 from packwork.geometry.polygon import Region
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import Asked, Voice
+from packwork.pipeline.plan.asked import ItemRules, RuleSource
 from packwork.pipeline.plan.limits import pinned_scales
 from packwork.raster.membership import centre_count
 from packwork.recipe.rules import Pin, Rotation, Rule
@@ -47,7 +47,7 @@ Larger looks in vain, smaller misses places as narrow as a pixel. Chosen."""
 STEPS = (2.0, 1.0, 0.5, 0.25, 0.1)
 """Pixels that a place is moved by in turn while more of the item comes to lie inside. Chosen."""
 
-HERO = Voice("hero")
+HERO = RuleSource("hero")
 
 _AROUND = [(math.cos(turn), math.sin(turn)) for turn in np.arange(8) * math.pi / 4]
 
@@ -74,7 +74,7 @@ def placed_hero(job: Job) -> Job:
     return replace(job, asked=tuple(asked))
 
 
-def _plain(one: Asked) -> Asked:
+def _plain(one: ItemRules) -> ItemRules:
     """The same without what makes it the hero."""
     pin = {key: v for key, v in one.pin.items() if one.voices.get(f"pin.{key}") != HERO}
     return replace(one, pin=pin, voices={k: v for k, v in one.voices.items() if v != HERO})

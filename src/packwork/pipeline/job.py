@@ -14,7 +14,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.errors import PackworkError
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
-from packwork.pipeline.plan.asked import Asked
+from packwork.pipeline.plan.asked import ItemRules
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.plan import Plan
 from packwork.pipeline.plan.regions import Region
@@ -92,7 +92,7 @@ class Job:
     use: Use
     container: Container
     items: tuple[Item, ...]
-    asked: tuple[Asked, ...]
+    asked: tuple[ItemRules, ...]
     weights: FloatArray
     regions: tuple[Region, ...] = ()
     fillers: tuple[Item, ...] = ()

@@ -23,7 +23,7 @@ from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
 from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import Asked, Voice
+from packwork.pipeline.plan.asked import ItemRules, RuleSource
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.readers.container import read_parts
 from packwork.readers.fonts.fallback import Fonts, open_fonts
@@ -65,7 +65,7 @@ PLACES, SIZES = 25, 5
 Chosen."""
 
 DIGITS = 6
-VOICE = Voice("label_regions")
+VOICE = RuleSource("label_regions")
 
 
 def labelled(job: Job) -> Job:
@@ -122,7 +122,7 @@ def _with_parts(job: Job, parts: Sequence[tuple[str, Region]]) -> Job:
 
 
 def _joined(
-    job: Job, items: Sequence[Item], asked: Sequence[Asked], told: Sequence[ReadError]
+    job: Job, items: Sequence[Item], asked: Sequence[ItemRules], told: Sequence[ReadError]
 ) -> Job:
     for error in told:
         _LOG.warning("%s", error)
@@ -238,10 +238,10 @@ def _place(plate: _Plate, region: Region, side: float) -> tuple[float, float, fl
     return None
 
 
-def _asked(job: Job, plate: _Plate, em: float, at: tuple[float, float] | None = None) -> Asked:
+def _asked(job: Job, plate: _Plate, em: float, at: tuple[float, float] | None = None) -> ItemRules:
     unit = job.container.unit
     pin = {"size": f"{plate.longest * em:.17g}{unit}"}
     if at is not None:
         pin |= {"x": f"{at[0]:.17g}{unit}", "y": f"{at[1]:.17g}{unit}"}
     voices = dict.fromkeys(("rotate", "color", *(f"pin.{key}" for key in pin)), VOICE)
-    return Asked({"rotate": "none", "color": OWN_COLOURS}, pin, voices, is_central=at is None)
+    return ItemRules({"rotate": "none", "color": OWN_COLOURS}, pin, voices, is_central=at is None)

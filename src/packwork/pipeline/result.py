@@ -15,7 +15,7 @@ from packwork.losses.registry import by_name
 from packwork.metrics.measure import LayoutMetrics
 from packwork.pipeline.findings import Filling, Unplaced, WordsFound, plain
 from packwork.pipeline.plan.resolution import photo_pixels
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.scene.layout import Layout
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.solve.detail import seen_posed
@@ -96,7 +96,7 @@ class Run:
     advice: tuple[str, ...] = ()
 
     @classmethod
-    def of(cls, state: State) -> Run:
+    def of(cls, state: RunState) -> Run:
         """Result of a run that has been measured."""
         job, (layout, metrics) = state.job, state.measured
         return cls(
@@ -199,7 +199,7 @@ def _solved(options: SolveOptions) -> dict[str, Any]:
     }
 
 
-def manifest(state: State) -> dict[str, Any]:
+def manifest(state: RunState) -> dict[str, Any]:
     """Manifest of a measured state: what repeats the run, and what it measured."""
     job, (layout, metrics) = state.job, state.measured
     said: dict[str, Any] = {

@@ -8,9 +8,9 @@ from packwork import threads
 from packwork.errors import ReadError, UnresolvedError
 from packwork.pipeline.job import Job
 from packwork.pipeline.result import Run
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import run_steps
-from packwork.pipeline.watch import Onward, Watch
+from packwork.pipeline.watch import MonotonicProgress, RunContext
 from packwork.progress import NOBODY, Observer, Stop, never
 
 
@@ -33,10 +33,12 @@ def run(job: Job, observer: Observer = NOBODY, stop: Stop = never, record: bool 
     RecipeError
         If an option has no meaning for these files.
     """
-    onward = Onward(observer)
+    onward = MonotonicProgress(observer)
     try:
         with threads.using(job.recipe.threads):
-            state = run_steps(job.use.steps(job), State.of(job), Watch(onward, stop, record))
+            state = run_steps(
+                job.use.steps(job), RunState.of(job), RunContext(onward, stop, record)
+            )
     except (UnresolvedError, GEOSException) as error:
         why = error if isinstance(error, UnresolvedError) else f"cannot be resolved: {error}"
         raise ReadError(job.container.source, str(why)) from error

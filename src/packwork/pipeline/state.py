@@ -23,7 +23,7 @@ from packwork.solve.solver import Ending, LevelReport
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class State:
+class RunState:
     """What a step takes and gives.
 
     Parameters
@@ -118,7 +118,7 @@ class State:
     recorder: Recorder = field(default_factory=Recorder.off)
 
     @classmethod
-    def of(cls, job: Job) -> State:
+    def of(cls, job: Job) -> RunState:
         """Before the first step: no item has a place or a size yet."""
         count = len(job.items)
         nowhere = np.zeros(count)

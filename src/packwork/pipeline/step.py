@@ -5,8 +5,8 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 
-from packwork.pipeline.state import State
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.state import RunState
+from packwork.pipeline.watch import RunContext
 
 
 class RunStep(ABC):
@@ -19,7 +19,7 @@ class RunStep(ABC):
     """Part of the progress that it takes, beside those of the other steps of its list."""
 
     @abstractmethod
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """Next state; items, recipe and plan of the one before stay as they are."""
 
 
@@ -28,7 +28,7 @@ def share_of(steps: Sequence[RunStep]) -> float:
     return sum(step.share for step in steps)
 
 
-def run_steps(steps: Sequence[RunStep], state: State, watch: Watch) -> State:
+def run_steps(steps: Sequence[RunStep], state: RunState, watch: RunContext) -> RunState:
     """State after all steps, one after another; each tells of its part of the progress."""
     whole, done = share_of(steps) or 1.0, 0.0
     for step in steps:

@@ -20,7 +20,7 @@ Tried = TypeVar("Tried")
 
 
 @dataclass(frozen=True, eq=False)
-class Watch:
+class RunContext:
     """What a run, or a part of it, tells and asks.
 
     Parameters
@@ -34,7 +34,7 @@ class Watch:
 
     Examples
     --------
-    >>> [part.observer.every for part, _ in Watch().turns("ab")] == [NOBODY.every] * 2
+    >>> [part.observer.every for part, _ in RunContext().turns("ab")] == [NOBODY.every] * 2
     True
     """
 
@@ -42,11 +42,11 @@ class Watch:
     stop: Stop = never
     records: bool = False
 
-    def part(self, begin: float, end: float, stage: Stage | None = None) -> Watch:
+    def part(self, begin: float, end: float, stage: Stage | None = None) -> RunContext:
         """Watch of one stage of several, which goes from ``begin`` to ``end``."""
-        return replace(self, observer=_Part(self.observer, begin, end, stage))
+        return replace(self, observer=_Subrange(self.observer, begin, end, stage))
 
-    def turns(self, tried: Sequence[Tried]) -> Iterator[tuple[Watch, Tried]]:
+    def turns(self, tried: Sequence[Tried]) -> Iterator[tuple[RunContext, Tried]]:
         """A part for each of several that are tried in turn; the first alone after a stop."""
         count = len(tried)
         for number, one in enumerate(tried):
@@ -58,14 +58,14 @@ class Watch:
         """Recorder of the way that begins now; one that keeps nothing unless that is asked."""
         return Recorder() if self.records else Recorder.off()
 
-    def heard_by(self, recorder: Recorder) -> Watch:
+    def heard_by(self, recorder: Recorder) -> RunContext:
         """The same, told to a recorder, too."""
         if not recorder.is_on:
             return self
         return replace(self, observer=together(self.observer, recorder))
 
 
-class Onward:
+class MonotonicProgress:
     """Passes steps of all stages on as those of one run, whose progress never goes back.
 
     Parameters
@@ -96,7 +96,7 @@ class Onward:
         )  # fmt: skip
 
 
-class _Part:
+class _Subrange:
     """Passes steps of a stage on, whose progress is a part of that of another."""
 
     def __init__(self, observer: Observer, begin: float, end: float, stage: Stage | None) -> None:

@@ -21,7 +21,7 @@ from packwork.readers.fonts.glyph_ink import rings_of
 from packwork.readers.fonts.guard import check_glyph
 from packwork.readers.fonts.itemise import clusters, script_of, visual_order
 from packwork.readers.fonts.kept_glyphs import remembered_by_font
-from packwork.readers.fonts.lettering import Setting, picture_of
+from packwork.readers.fonts.lettering import TypeSetting, picture_of
 from packwork.readers.options import TEXT_PREFIX
 from packwork.readers.regions import clean_union
 from packwork.readers.unfit import UnfitError, naming
@@ -73,7 +73,7 @@ class _DrawnGlyph:
     cluster: int
 
 
-def letters_of(line: Sequence[Setting]) -> list[Letter]:
+def letters_of(line: Sequence[TypeSetting]) -> list[Letter]:
     """Letters of one line, from left to right.
 
     Raises
@@ -85,7 +85,7 @@ def letters_of(line: Sequence[Setting]) -> list[Letter]:
     --------
     >>> from packwork.readers.fonts.face import bundled_typeface
     >>> from packwork.readers.fonts.itemise import Piece
-    >>> found = letters_of([Setting(Piece("o x"), bundled_typeface())])
+    >>> found = letters_of([TypeSetting(Piece("o x"), bundled_typeface())])
     >>> [letter.region.is_empty for letter in found]
     [False, True, False]
     """
@@ -93,7 +93,7 @@ def letters_of(line: Sequence[Setting]) -> list[Letter]:
     return [letter for k in order for letter in _letters(line[k])]
 
 
-def _letters(setting: Setting) -> Iterator[Letter]:
+def _letters(setting: TypeSetting) -> Iterator[Letter]:
     text, face, is_leftward = setting.piece.text, setting.face, setting.piece.is_leftward
     script = script_of(text)
     is_alone = not script or script in STAND_ALONE

@@ -30,7 +30,7 @@ _EXAMPLE = "use a way and a measure, as in right by=weight, outwards by=ages.csv
 
 
 @dataclass(frozen=True)
-class Arrangement:
+class Ordering:
     """An order of items, as it was written.
 
     Parameters
@@ -48,7 +48,7 @@ class Arrangement:
     angle: float = 0.0
 
 
-def parse_arrangement(text: str) -> Arrangement:
+def parse_arrangement(text: str) -> Ordering:
     """Arrangement of its text.
 
     Raises
@@ -75,10 +75,10 @@ def parse_arrangement(text: str) -> Arrangement:
     degrees = _DEGREES.fullmatch(way)
     if degrees or way in DIRECTIONS:
         angle = float(degrees.group(1)) if degrees else DIRECTIONS[way]
-        return Arrangement("right", by, angle % 360.0)
+        return Ordering("right", by, angle % 360.0)
     if way not in WAYS:
         raise RecipeError("arrange", f"there is no way {way[:40]!r}; {_meant(way, WAYS)}")
-    return Arrangement(way, by)
+    return Ordering(way, by)
 
 
 def _measure(by: str) -> str:

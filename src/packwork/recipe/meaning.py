@@ -64,7 +64,7 @@ def parse_anchor(text: str) -> Anchor:
     return Anchor(float(degrees.group(1)) % 360 if degrees else DIRECTIONS[where], name)
 
 
-class Meant(Options):
+class EmbeddingOptions(Options):
     """Which items are alike, and come to lie together."""
 
     offers = Offer(group=Group.ORDER, verbs=Verbs.COLLAGES)
@@ -101,7 +101,7 @@ class Meant(Options):
         return value
 
     @model_validator(mode="after")
-    def _anchors_of_vectors(self) -> Meant:
+    def _anchors_of_vectors(self) -> EmbeddingOptions:
         if self.anchors and self.embeddings is None:
             raise RecipeError("anchors", "are of vectors; say which: --embeddings FILE or auto")
         return self

@@ -12,7 +12,7 @@ from packwork.options import Options
 from packwork.units import parse_share
 
 
-class Shown(Options):
+class MosaicOptions(Options):
     """The picture that a layout shows from afar, and how."""
 
     offers = Offer(group=Group.COLOURS, verbs=Verbs.COLLAGES)
@@ -51,7 +51,7 @@ class Shown(Options):
         return value
 
     @model_validator(mode="after")
-    def _of_a_picture(self) -> Shown:
+    def _of_a_picture(self) -> MosaicOptions:
         for key in ("tint", "detail", "ground"):
             if self.picture is None and getattr(self, key) is not None:
                 raise RecipeError(key, "is of --picture; say which picture is shown")

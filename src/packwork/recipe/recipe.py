@@ -23,8 +23,8 @@ from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
 from packwork.recipe.arrangement import Ordered
 from packwork.recipe.levels import checked_levels
-from packwork.recipe.meaning import Meant
-from packwork.recipe.mosaic import Shown
+from packwork.recipe.meaning import EmbeddingOptions
+from packwork.recipe.mosaic import MosaicOptions
 from packwork.recipe.pictures import Pictured, check_no_names, known_palette
 from packwork.recipe.piles import Moving
 from packwork.recipe.reading import Interpreted
@@ -91,7 +91,7 @@ _ADDED = Offer(
 )  # fmt: skip
 
 
-class Recipe(Ordered, Meant, Shown, Pictured, Moving, TableFormat, Interpreted):
+class Recipe(Ordered, EmbeddingOptions, MosaicOptions, Pictured, Moving, TableFormat, Interpreted):
     """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.EVERY)

@@ -15,7 +15,7 @@ from packwork.losses.evenness import evenness
 from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
 from packwork.losses.registry import by_name, find_loss, find_pose_loss
 from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, Term, checked_term
-from packwork.progress import Objective
+from packwork.progress import ObjectiveTerms
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
@@ -141,7 +141,7 @@ class Level:
         weights: Mapping[str | ImageLoss, float],
         recall: float = 0.0,
         force: float = 1.0,
-    ) -> Objective:
+    ) -> ObjectiveTerms:
         """What :meth:`gradient` differentiates, over the canvas's area, and its terms.
 
         Parameters are those of :meth:`gradient`.
@@ -163,7 +163,7 @@ class Level:
             terms["forces"] = self._forces.cost(centres, self._areas_of(poses)).value / canvas
             factors["forces"] = force
         total = sum((factors[name] * value for name, value in terms.items()), 0.0)
-        return Objective(total, terms, factors)
+        return ObjectiveTerms(total, terms, factors)
 
     def _value(self, loss: str | ImageLoss | SeenInColour, poses: Poses, density: Image) -> float:
         """Value of one loss; ``density``: that of the last sweep, which has these poses."""

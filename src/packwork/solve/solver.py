@@ -18,7 +18,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
-from packwork.progress import NOBODY, Objective, Observer, Step, Stop, never
+from packwork.progress import NOBODY, ObjectiveTerms, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
@@ -226,7 +226,7 @@ class _Solve:
             return
         poses, progress = self.motion.poses, self.pace.progress()
 
-        def priced() -> Objective:
+        def priced() -> ObjectiveTerms:
             return level.objective(poses, *self._weights(progress))
 
         observer.on_step(

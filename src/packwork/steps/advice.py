@@ -11,9 +11,9 @@ from packwork.metrics.shape import ShapeMetrics
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.plan.plan import VoidPlan
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.pipeline.widest import lines_width
 
 MOST_BARE = 0.05
@@ -36,7 +36,7 @@ CLEARLY_MORE = 1.15
 class Advise(RunStep):
     """Advice on a layout that does not show the container's shape."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with the advice."""
         layout, metrics = state.measured
         said = advice(state.job, len(layout.items), metrics.seen)

@@ -20,7 +20,7 @@ from packwork.fields.geodesic import lengthwise
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
 from packwork.readers.tables.pairs import read_pairs
-from packwork.recipe.arrangement import FILES, MEASURES, Arrangement, parse_arrangement
+from packwork.recipe.arrangement import FILES, MEASURES, Ordering, parse_arrangement
 from packwork.scene.container import Container
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.pose import Poses
@@ -139,7 +139,7 @@ def homes_in_order(job: Job, region: Container, rng: np.random.Generator) -> Hom
     return Homes.of(homes, HOMEWARD)
 
 
-def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> IntArray:
+def _order(job: Job, asked: Ordering, poses: Poses, movable: IntArray) -> IntArray:
     """Which of the movable items comes to each of their places."""
     hulls = hull_areas([job.items[k].outline for k in movable])
     areas = hulls * poses.scale[movable] ** 2
@@ -155,7 +155,7 @@ def _order(job: Job, asked: Arrangement, poses: Poses, movable: IntArray) -> Int
 
 def _away(
     job: Job,
-    asked: Arrangement,
+    asked: Ordering,
     points: FloatArray,
     rooms: FloatArray,
     areas: FloatArray,
@@ -180,7 +180,7 @@ def _away(
     return np.asarray((_shares(values, areas)[None] - _shares(along, rooms)[:, None]) ** 2)
 
 
-def _along(asked: Arrangement, off: FloatArray) -> FloatArray:
+def _along(asked: Ordering, off: FloatArray) -> FloatArray:
     """``(n,)`` how far along the way places lie, by their way from the middle ``(n, 2)``."""
     if asked.way == "right":
         turn = math.radians(asked.angle)
@@ -205,7 +205,7 @@ def _lengthwise(job: Job, places: FloatArray) -> FloatArray:
 
 def _away_around(
     job: Job,
-    asked: Arrangement,
+    asked: Ordering,
     values: FloatArray,
     off: FloatArray,
     rooms: FloatArray,

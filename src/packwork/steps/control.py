@@ -6,11 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias, final
 
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep, run_steps, share_of
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 
-Choice: TypeAlias = Callable[[Sequence[State], Watch], State]
+Choice: TypeAlias = Callable[[Sequence[RunState], RunContext], RunState]
 """Takes what came of several lists, gives the best."""
 
 
@@ -27,7 +27,7 @@ class Replan(RunStep):
     def __init__(self, **fields: Any) -> None:
         self._fields = fields
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """The same state under the new plan."""
         job = replace(state.job, plan=replace(state.job.plan, **self._fields))
         return replace(state, job=job, asked_for=job)
@@ -51,7 +51,7 @@ class BestOf(RunStep):
         self._lists, self._choice = lists, choice
         self.share = share_of(lists[0])
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """What came of the best list."""
         tried = [run_steps(steps, state, part) for part, steps in watch.turns(self._lists)]
         return self._choice(tried, watch)
@@ -75,14 +75,14 @@ class Retry(RunStep):
         self,
         first: Sequence[RunStep],
         again: Sequence[RunStep],
-        will_do: Callable[[State], bool],
+        will_do: Callable[[RunState], bool],
         choice: Choice,
     ) -> None:
         self._first, self._again = first, again
         self._will_do, self._choice = will_do, choice
         self.share = share_of(first)
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """What came of the first list, or the better one of both."""
         found = run_steps(self._first, state, watch)
         if watch.stop() or self._will_do(found):
@@ -104,6 +104,6 @@ class UnlessTight(RunStep):
         self._steps = steps
         self.share = share_of(steps)
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State after the steps; as it is where nothing overlaps."""
         return state if state.is_tight else run_steps(self._steps, state, watch)

@@ -16,10 +16,10 @@ from packwork.errors import RecipeError
 from packwork.forces.bonds import Home
 from packwork.forces.forces import BondForce, Forces
 from packwork.geometry.overlay import symmetric_difference
-from packwork.pipeline.earlier import new_items, who_is_who
+from packwork.pipeline.earlier import match_items, new_items
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import held_to
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.recipe.rules import Rotation
 from packwork.scene.canvas import brought_over
 from packwork.scene.layout import Layout
@@ -62,7 +62,7 @@ class FromLayout(Start):
     def __init__(self, earlier: Layout) -> None:
         self._earlier = earlier
 
-    def find(self, setting: Setting) -> State:
+    def find(self, setting: Setting) -> RunState:
         """Poses as near the earlier ones as the recipe, rules and pins allow."""
         job = setting.job
         poses = _poses_of(job, self._earlier, setting.nominal)
@@ -95,7 +95,7 @@ def needs_no_levels(job: Job) -> bool:
     return bool(changed < SAME * now.outline.area)
 
 
-def with_homes(state: State) -> Forces:
+def with_homes(state: RunState) -> Forces:
     """The forces of a state, and one that holds each item near where it begins."""
     poses, forces = state.poses, state.forces
     homes = np.column_stack([poses.x, poses.y])
@@ -113,7 +113,7 @@ def as_it_was(job: Job, poses: Poses) -> Poses:
     """
     if not job.plan.stays or job.earlier is None:
         return poses
-    found = who_is_who(job, job.earlier)
+    found = match_items(job, job.earlier)
     known = np.flatnonzero(found >= 0)
     before = brought_over(job.earlier.poses, job.earlier.container, job.container)
     return poses.with_some(known, before.some(found[known]))
@@ -146,7 +146,7 @@ def _poses_of(job: Job, earlier: Layout, nominal: FloatArray) -> Poses:
     poses = brought_over(earlier.poses, earlier.container, job.container)
     if plan.stays:
         poses = _of_now(job, earlier, poses, nominal)
-    elif len(poses) == len(nominal) and (found := who_is_who(job, earlier)).min() >= 0:
+    elif len(poses) == len(nominal) and (found := match_items(job, earlier)).min() >= 0:
         poses = poses.some(found)
     if len(poses) != len(nominal):
         raise RecipeError(
@@ -168,7 +168,7 @@ def _poses_of(job: Job, earlier: Layout, nominal: FloatArray) -> Poses:
 
 def _of_now(job: Job, earlier: Layout, poses: Poses, nominal: FloatArray) -> Poses:
     """Poses of the items of now; those that are new lie in the middle, upright."""
-    found = who_is_who(job, earlier)
+    found = match_items(job, earlier)
     known = found >= 0
     if not known.any():
         raise RecipeError("start", f"{job.recipe.start} has none of these items; leave --stay out")

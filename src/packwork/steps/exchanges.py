@@ -10,9 +10,9 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.assignment.conflicts import min_conflicts_order
 from packwork.forces.exchanges import exchanged
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.scene.neighbours import neighbour_pairs
 from packwork.scene.pose import Poses
 from packwork.start.first_poses import disc_radii
@@ -32,7 +32,7 @@ large or too small there the levels still mend. Larger leaves them more to mend.
 class ExchangeByForces(RunStep):
     """Items change places to where forces would have them."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with places given out anew."""
         outlines, poses = state.job.solid_outlines, state.poses
         with state.job.clock.time("start"):
@@ -47,7 +47,7 @@ class ExchangeByForces(RunStep):
 class AssignByEmbedding(RunStep):
     """Items change places so that what is alike lies together."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with places given out anew."""
         job = state.job
         with job.clock.time("start"):
@@ -60,7 +60,7 @@ class AssignByEmbedding(RunStep):
 class AssignInOrder(RunStep):
     """Items change places so that they lie in the order asked for."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with places given out anew."""
         with state.job.clock.time("start"):
             return replace(state, poses=assign_in_order(state.job, state.poses, state.nominal))
@@ -70,7 +70,7 @@ class AssignInOrder(RunStep):
 class KindsApart(RunStep):
     """Items of about one size change places, away from their kind."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with places given out anew."""
         poses, limits = state.poses, state.limits
         if not limits.keeps_kinds_apart:

@@ -25,9 +25,9 @@ from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.padding import check_found
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import LEVELS, Watch
+from packwork.pipeline.watch import LEVELS, RunContext
 from packwork.progress import Observer, Step, until_over
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
@@ -100,7 +100,7 @@ class Finish(RunStep):
     def __init__(self, *, may_fail: bool = False) -> None:
         self._may_fail = may_fail
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with exact poses near those of the levels.
 
         Raises
@@ -120,7 +120,7 @@ class Finish(RunStep):
 class FinishThinner(RunStep):
     """Line drawings with lines of one width, which leave room for all to grow into."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State whose drawings are thinner, grown; as it is where no line gets thinner."""
         job = state.job
         with job.clock.time("finish"):
@@ -135,14 +135,14 @@ class FinishThinner(RunStep):
 class TellOfSmall(RunStep):
     """A notice of items a little smaller than free sizes go."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """The same state."""
         if state.small:
             _LOG.warning("%s", state.small)
         return state
 
 
-def finished(state: State, watch: Watch, *, grows: bool = False) -> State:
+def finished(state: RunState, watch: RunContext, *, grows: bool = False) -> RunState:
     """State with exact poses near those it has, of the true outlines.
 
     Items pinned in place stay as they are and count as wall. Those that a zone holds come
@@ -229,7 +229,7 @@ def _one_factor(before: Poses, poses: Poses, limits: Limits) -> Poses:
     return replace(poses, scale=np.where(is_free, before.scale * common, poses.scale))
 
 
-def scale_ranges(state: State) -> tuple[FloatArray, FloatArray]:
+def scale_ranges(state: RunState) -> tuple[FloatArray, FloatArray]:
     """Smallest and largest scale of each item, ``(n,)`` each."""
     job, poses, limits = state.job, state.poses, state.limits
     options = job.plan.solve_options()
@@ -244,7 +244,7 @@ def scale_ranges(state: State) -> tuple[FloatArray, FloatArray]:
 
 
 def _options(
-    state: State, items: IntArray, smallest: FloatArray, largest: FloatArray
+    state: RunState, items: IntArray, smallest: FloatArray, largest: FloatArray
 ) -> FinishOptions:
     job, limits = state.job, state.limits
     plan, rotation = job.plan, job.plan.rotation
@@ -319,7 +319,7 @@ def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
     return job.plan.gap + bulge
 
 
-def unfinished(state: State) -> tuple[Unplaced, ...]:
+def unfinished(state: RunState) -> tuple[Unplaced, ...]:
     """Items that are still in conflict, or smaller than they may be, and why."""
     job, found = state.job, dict[int, str]()
     for conflict in state.conflicts:

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.arrays import IntArray
-from packwork.pipeline.earlier import who_is_who
+from packwork.pipeline.earlier import match_items
 from packwork.pipeline.job import Job
 from packwork.scene.canvas import brought_over
 from packwork.scene.item import FlatArt, Item
@@ -38,7 +38,7 @@ def left_behind(job: Job, placed: IntArray) -> Leaving | None:
     before = job.earlier
     if before is None or not (job.plan.stays or job.use.goes_on):
         return None
-    found = who_is_who(job, before)[placed]
+    found = match_items(job, before)[placed]
     gone = np.setdiff1d(np.arange(len(before.items)), found)
     if len(gone) == 0:
         return None

@@ -11,9 +11,9 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.own_losses import in_colours, sees_colours
 from packwork.pipeline.plan.padding import padded
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import LEVELS, Watch
+from packwork.pipeline.watch import LEVELS, RunContext
 from packwork.recipe.levels import refined_levels
 from packwork.scene.layout import Layout
 from packwork.solve.options import SolveOptions
@@ -34,7 +34,7 @@ class StartRecording(RunStep):
     Of what was put one by one it keeps the largest first.
     """
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with a recorder, if the run is recorded."""
         recorder, poses = watch.recorder(), state.poses
         if not recorder.is_on:
@@ -54,7 +54,7 @@ class Levels(RunStep):
 
     share = LEVELS
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with the poses that the levels found."""
         job, forces = state.job, state.forces
         with job.clock.time("levels"):
@@ -74,7 +74,7 @@ class Levels(RunStep):
             )
 
 
-def _with_colours(options: SolveOptions, state: State) -> SolveOptions:
+def _with_colours(options: SolveOptions, state: RunState) -> SolveOptions:
     """Options whose losses see the items in colours."""
     job = state.job
     layout = Layout(job.container, job.items, state.poses, state.nominal)

@@ -10,9 +10,9 @@ import numpy as np
 from packwork.phrasing import number_of
 from packwork.pipeline.earlier import new_items
 from packwork.pipeline.plan.counts import items_needed
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.scene.leaving import grown_in
 from packwork.scene.target import TargetPicture
 from packwork.steps.dress.colours import as_asked
@@ -26,7 +26,7 @@ from packwork.steps.left_behind import left_behind
 class Dress(RunStep):
     """Colours, names and links as rules, palette and data ask."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State whose layout is dressed."""
         layout, _ = state.measured
         with state.job.clock.time("measure"):
@@ -46,7 +46,7 @@ class ShowPicture(RunStep):
     def __init__(self, target: TargetPicture) -> None:
         self._target = target
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State whose layout is recoloured."""
         layout, _ = state.measured
         with state.job.clock.time("measure"):
@@ -59,7 +59,7 @@ class ShowPicture(RunStep):
 class StandOut(RunStep):
     """Colours and halos by which items stand out from a picture behind them."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State whose layout can be told from what is behind it."""
         layout, _ = state.measured
         with state.job.clock.time("measure"):
@@ -70,7 +70,7 @@ class StandOut(RunStep):
 class KeepTrack(RunStep):
     """The way of the items, as a recorder kept it."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State whose layout has a track; as it is where nothing was recorded."""
         if not state.recorder.is_on:
             return state
@@ -88,7 +88,7 @@ class KeepTrack(RunStep):
 class RemarkCount(RunStep):
     """A sentence about the number of items that the run chose."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with the remark."""
         job = state.job
         width = items_needed(job.container, job.plan.sizes, job.plan.size_ratio).width_cu

@@ -11,9 +11,9 @@ from packwork.metrics.certificate import Promise, broken, unclean
 from packwork.metrics.measure import measure
 from packwork.pipeline.plan.resolution import resolution_faults
 from packwork.pipeline.result import find_unplaced
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.scene.layout import Layout
 from packwork.steps.dress.line_weights import evened
 from packwork.steps.dress.neighbours import same_kind_beside
@@ -25,7 +25,7 @@ from packwork.steps.shortfalls import specks
 class EvenLines(RunStep):
     """Line drawings of all sizes with lines of one width, and notices of those that keep theirs."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State whose drawings are thinner."""
         with state.job.clock.time("finish"):
             job = evened(state.job, state.poses)
@@ -36,7 +36,7 @@ class EvenLines(RunStep):
 class Measure(RunStep):
     """Measures of the layout; without what cannot be certified."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with a layout, its metrics and certificate."""
         job, plan = state.job, state.job.plan
         # Areas of drawings whose lines are thinner are in shares no more.
@@ -68,7 +68,7 @@ class Measure(RunStep):
 class CountBeside(RunStep):
     """Number of pairs of one kind that lie side by side, where they were not to."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with that number."""
         layout, _ = state.measured
         if not state.limits.binds:
@@ -77,7 +77,7 @@ class CountBeside(RunStep):
             return replace(state, beside=same_kind_beside(layout))
 
 
-def _measured(state: State) -> State:
+def _measured(state: RunState) -> RunState:
     """State with the layout of its items, and faults of geometry alone."""
     job = state.job
     layout = Layout(job.container, job.items, state.poses, job.weights)
@@ -86,7 +86,7 @@ def _measured(state: State) -> State:
     return replace(state, layout=layout, metrics=metrics, faults=tuple(faults))
 
 
-def _without_faulty(state: State) -> State:
+def _without_faulty(state: RunState) -> RunState:
     """State without the items that keep the layout from its promise."""
     job, (layout, _) = state.job, state.measured
     held = [one.is_placed for one in job.asked]

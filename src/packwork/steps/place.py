@@ -17,9 +17,9 @@ from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.limits import check_poses, item_limits, pinned_scales
 from packwork.pipeline.plan.padding import check_padding, padded
 from packwork.pipeline.plan.sizes import given_scales
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import Stop
 from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
@@ -43,7 +43,7 @@ class Setting:
         Asked on the way.
     """
 
-    def __init__(self, state: State, stop: Stop) -> None:
+    def __init__(self, state: RunState, stop: Stop) -> None:
         job = state.job
         self.state, self.job, self.stop, self.forces = state, job, stop, state.forces
         self.region = padded(job.container, job.plan.gap)
@@ -67,7 +67,9 @@ class Setting:
             limits = item_limits(self.job, self.nominal, self.scales, angles)
         return limits, np.clip(self.scales, limits.smallest, limits.largest)
 
-    def placed(self, poses: Poses, method: str, limits: Limits, *, is_tight: bool = False) -> State:
+    def placed(
+        self, poses: Poses, method: str, limits: Limits, *, is_tight: bool = False
+    ) -> RunState:
         """State in which items have these first poses."""
         return replace(
             self.state, poses=poses, method=method, limits=limits, is_tight=is_tight,
@@ -112,7 +114,7 @@ class Start(ABC):
     """One way of finding first poses."""
 
     @abstractmethod
-    def find(self, setting: Setting) -> State | None:
+    def find(self, setting: Setting) -> RunState | None:
         """State with first poses; None where this way does not suit."""
 
 
@@ -129,7 +131,7 @@ class Place(RunStep):
     def __init__(self, starts: Sequence[Start]) -> None:
         self._starts = starts
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with first poses of the outlines that the solver will see.
 
         Raises

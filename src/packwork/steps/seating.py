@@ -21,9 +21,9 @@ from packwork.assignment.colour import GRID, order_by_colour
 from packwork.assignment.local_search import cheapest
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
@@ -65,7 +65,7 @@ class AssignByColour(RunStep):
     def __init__(self, target: TargetPicture) -> None:
         self._target = target
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with places given out anew."""
         job, poses = state.job, state.poses
         movable = job.seated

@@ -13,11 +13,11 @@ from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.hero import HERO
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import Asked
+from packwork.pipeline.plan.asked import ItemRules
 from packwork.pipeline.plan.limits import pinned_scales
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.pipeline.widest import lines_width, widest_cu
 from packwork.scene.layout import Layout
 
@@ -35,12 +35,12 @@ passes letters that nobody can read. Chosen."""
 class TellShortfalls(RunStep):
     """Sentences about items that came out smaller than they were asked to be."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with these faults."""
         return replace(state, faults=(*state.faults, *shortfalls(state)))
 
 
-def shortfalls(state: State) -> tuple[str, ...]:
+def shortfalls(state: RunState) -> tuple[str, ...]:
     """A sentence about each size that was asked for and not met."""
     job, nominal = state.job, state.nominal
     side, scales = job.container.side, state.poses.scale
@@ -69,7 +69,7 @@ def shortfalls(state: State) -> tuple[str, ...]:
     return (*said, *_dwarfs(job, dwarfs, nominal, scales))
 
 
-def _no_place(one: Asked) -> str:
+def _no_place(one: ItemRules) -> str:
     """Whether it has been looked for a place at that size, and none was found."""
     is_free_hero = one.voices.get("pin.size") == HERO and not one.is_put
     return "it has no place at that size, turned as it may be; " if is_free_hero else ""

@@ -26,7 +26,7 @@ from packwork.pipeline.job import Job
 from packwork.pipeline.plan.leaning import job_leanings
 from packwork.pipeline.plan.limits import held_to
 from packwork.pipeline.plan.shares import kinds_of
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.progress import until_over
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.leaning import turn_sides
@@ -155,7 +155,7 @@ class AlongThread(Start):
     No image of the levels shows such a container, and items of usual sizes have no place in it.
     """
 
-    def find(self, setting: Setting) -> State | None:
+    def find(self, setting: Setting) -> RunState | None:
         """Poses at which discs round the items fit; None in a container of any other form."""
         job, angles = setting.job, setting.angles
         radii = disc_radii(setting.outlines, setting.nominal)
@@ -185,7 +185,7 @@ class ByDetail(Start):
     def __init__(self, target: TargetPicture) -> None:
         self._target = target
 
-    def find(self, setting: Setting) -> State:
+    def find(self, setting: Setting) -> RunState:
         """A place for each item, the heaviest ones where the picture has least to show."""
         job, rng, angles = setting.job, setting.rng, setting.angles
         count = len(job.items)
@@ -208,7 +208,7 @@ class ByDetail(Start):
 class ByFirstFit(Start):
     """One item after another, each where it fits, at the largest common size."""
 
-    def find(self, setting: Setting) -> State | None:
+    def find(self, setting: Setting) -> RunState | None:
         """Poses in which nothing overlaps; None where no size is found."""
         job, plan = setting.job, setting.job.plan
         limits, scales = setting.limits(setting.angles)
@@ -244,7 +244,7 @@ class ByFirstFit(Start):
 class ByMethod(Start):
     """Places by the method that the plan names, or by the distance field."""
 
-    def find(self, setting: Setting) -> State:
+    def find(self, setting: Setting) -> RunState:
         """Poses of all items, which may overlap."""
         limits, scales = setting.limits(setting.angles)
         found = first_poses(

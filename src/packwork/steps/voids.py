@@ -16,10 +16,10 @@ from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Filling
-from packwork.pipeline.plan.asked import Asked
-from packwork.pipeline.state import State
+from packwork.pipeline.plan.asked import ItemRules
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import Observer, Stop, until_over
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
@@ -69,13 +69,15 @@ class GapEnding(Enum):
     NO_VOID = "no void holds an item of {smallest:.3g} {unit}"
 
 
-FillerScales: TypeAlias = Callable[[State, FloatArray, FloatArray], tuple[FloatArray, FloatArray]]
+FillerScales: TypeAlias = Callable[
+    [RunState, FloatArray, FloatArray], tuple[FloatArray, FloatArray]
+]
 """Smallest and largest scale of each sort of filler, ``(m,)`` each, from those that the plan
 gives."""
 
 
 def as_planned(
-    state: State, smallest: FloatArray, largest: FloatArray
+    state: RunState, smallest: FloatArray, largest: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
     """The scales that the plan gives."""
     del state
@@ -101,7 +103,7 @@ class FillVoids(RunStep):
     def __init__(self, scales: FillerScales = as_planned) -> None:
         self._scales = scales
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with fillers among its items; what was placed stays."""
         job, watch = state.job, watch.part(0.0, 1.0, "gaps").heard_by(state.recorder)
         with job.clock.time("gaps"):
@@ -114,7 +116,9 @@ class FillVoids(RunStep):
 class _Filling:
     """State of one gap filling between its rounds."""
 
-    def __init__(self, state: State, scales: FillerScales, observer: Observer, stop: Stop) -> None:
+    def __init__(
+        self, state: RunState, scales: FillerScales, observer: Observer, stop: Stop
+    ) -> None:
         job, voids = state.job, state.job.plan.voids
         self._state, self._job, self._voids = state, job, voids
         self._observer, self._stop, self._rounds = observer, stop, 0
@@ -157,13 +161,13 @@ class _Filling:
         own = np.array([outline.area for outline in self._all_outlines()])
         return float((own * self.poses.scale**2).sum()) / self._job.container.outline.area
 
-    def result(self, ending: GapEnding) -> State:
+    def result(self, ending: GapEnding) -> RunState:
         """What was placed, with all that was put into voids."""
         job = self._job
         own = dict(zip(job.items, job.asked, strict=True))
         by_name = dict(zip((item.name for item in job.items), job.asked, strict=True))
         new = [self._sorts[k] for k in self.added]
-        asked = [_styled(own.get(i) or by_name.get(i.name, Asked())) for i in new]
+        asked = [_styled(own.get(i) or by_name.get(i.name, ItemRules())) for i in new]
         filling = Filling(len(new), self._said(ending), self.coverage(), self._voids.target)
         return joined_by(self._state, new, asked, self.poses, self._ids, filling)
 
@@ -242,7 +246,7 @@ class _Filling:
     def _closing(self, movers: IntArray) -> Closing:
         # The number of rounds is not known beforehand: each takes half of the bar that is left.
         begun, self._rounds = 1.0 - 0.5**self._rounds, self._rounds + 1
-        watch = Watch(self._observer).part(begun, 1.0 - 0.5**self._rounds)
+        watch = RunContext(self._observer).part(begun, 1.0 - 0.5**self._rounds)
         return Closing(watch.observer, self.poses, movers, self._ids)
 
     def _all_outlines(self) -> list[Outline]:
@@ -257,13 +261,13 @@ class _Filling:
 
 
 def joined_by(
-    state: State,
+    state: RunState,
     new: Sequence[Item],
-    asked: Sequence[Asked],
+    asked: Sequence[ItemRules],
     poses: Poses,
     numbers: IntArray,
     filling: Filling,
-) -> State:
+) -> RunState:
     """State with items that were put between: their poses come last.
 
     Parameters
@@ -310,6 +314,6 @@ def corner_pairs(outlines: Sequence[Outline], poses: Poses) -> float:
     return float((corners[first] * corners[second])[first < second].sum())
 
 
-def _styled(asked: Asked) -> Asked:
+def _styled(asked: ItemRules) -> ItemRules:
     """What rules say of how an item looks and where it leads."""
-    return Asked(values={key: value for key, value in asked.values.items() if key in STYLE})
+    return ItemRules(values={key: value for key, value in asked.values.items() if key in STYLE})

@@ -31,7 +31,7 @@ _KEY = re.compile("[0-9a-f]{64}")
 
 
 @dataclass(frozen=True)
-class Kept:
+class KeptDesk:
     """A desk on disk.
 
     Parameters
@@ -68,14 +68,14 @@ class Kept:
                     json.dump({"port": port, "key": key}, out)
 
 
-def of_file(file: Path) -> Kept:
+def of_file(file: Path) -> KeptDesk:
     """Desk of a session file that somebody has named."""
     folder = private_folder("studio")
     name = hashlib.sha256(str(file.absolute()).encode()).hexdigest()[:16]
-    return Kept(file, None if folder is None else folder / f"{name}.json")
+    return KeptDesk(file, None if folder is None else folder / f"{name}.json")
 
 
-def new() -> Kept | None:
+def new() -> KeptDesk | None:
     """A desk that nothing is on, or the one left alone for longest; None if none may be kept.
 
     None that somebody works at, however long it was left alone.
@@ -90,11 +90,11 @@ def new() -> Kept | None:
             os.utime(lock_of(file))
             for one in (file, file.with_name(file.name + ".log")):
                 one.unlink(missing_ok=True)
-            return Kept(file, file.with_suffix(".json"))
+            return KeptDesk(file, file.with_suffix(".json"))
     return None
 
 
-def last() -> Kept:
+def last() -> KeptDesk:
     """The desk that was used last.
 
     Raises
@@ -105,7 +105,7 @@ def last() -> Kept:
     found = max(_known(), key=_last_used, default=None)
     if found is None:
         raise PackworkError("there is no desk to go on with; leave --again out")
-    return Kept(found, found.with_suffix(".json"))
+    return KeptDesk(found, found.with_suffix(".json"))
 
 
 def _known() -> Iterator[Path]:

@@ -19,7 +19,7 @@ from packwork.live.face.opening import Opening
 from packwork.studio.app import guarded
 from packwork.studio.connections import BoundedProtocol
 from packwork.studio.desk import Desk
-from packwork.studio.desks import Kept
+from packwork.studio.desks import KeptDesk
 from packwork.studio.proof import Secret
 from packwork.studio.uploads import Uploads
 from packwork.studio.wire import MOST_TEXT
@@ -37,7 +37,7 @@ shorter costs the session time. Tried."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Place:
+class Address:
     """Where the studio listens.
 
     Parameters
@@ -54,8 +54,8 @@ class Place:
 
 def serve(
     opening: Opening,
-    place: Place,
-    kept: Kept | None,
+    place: Address,
+    kept: KeptDesk | None,
     *,
     browses: bool,
     tell: Callable[[str], object],
@@ -80,7 +80,7 @@ def serve(
     """
     port, key_before = (place.port, "") if kept is None or place.port else kept.address
     try:
-        bound = _bound(Place(host=place.host, port=port))
+        bound = _bound(Address(host=place.host, port=port))
     except PackworkError:
         if port == place.port:
             raise
@@ -127,7 +127,7 @@ def _leading_to(address: str, folder: Path) -> Path:
     return file
 
 
-def _bound(place: Place) -> socket.socket:
+def _bound(place: Address) -> socket.socket:
     """Socket that listens there."""
     family = socket.AF_INET6 if ":" in place.host else socket.AF_INET
     bound = socket.socket(family, socket.SOCK_STREAM)

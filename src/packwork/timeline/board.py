@@ -34,7 +34,7 @@ SIZES = (1.0, 0.9, 0.8, 0.65, 0.5, 0.35, 0.2)
 Chosen."""
 
 
-class Board:
+class WordBoard:
     """Pixels of a container, each taken or not.
 
     Parameters

@@ -21,7 +21,7 @@ from packwork.finish.options import FinishOptions
 from packwork.progress import Stop, never
 from packwork.scene.pose import Poses
 from packwork.steps.finish import gap_with_bulge
-from packwork.timeline.board import Board
+from packwork.timeline.board import WordBoard
 from packwork.timeline.step import SeriesStep
 from packwork.uses.words.graded import angles_of
 
@@ -113,16 +113,16 @@ def _anew(step: SeriesStep, target: FloatArray, known: Places) -> Poses:
     return _put(step, _board(step), poses, np.arange(count), known)
 
 
-def _board(step: SeriesStep) -> Board:
+def _board(step: SeriesStep) -> WordBoard:
     job = step.job
-    return Board(
+    return WordBoard(
         job.container,
         np.random.default_rng(job.plan.seed),
         job.plan.gap + HAIR * job.container.side,
     )
 
 
-def _put(step: SeriesStep, board: Board, poses: Poses, items: IntArray, known: Places) -> Poses:
+def _put(step: SeriesStep, board: WordBoard, poses: Poses, items: IntArray, known: Places) -> Poses:
     """Poses with some items put on the board; what finds no place at all lies in the middle."""
     job = step.job
     rng = np.random.default_rng(job.plan.seed)

@@ -14,9 +14,9 @@ from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
 from packwork.pipeline.plan.limits import item_limits
 from packwork.pipeline.result import Run
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import run_steps
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import NOBODY, Stop, never
 from packwork.scene.pose import Poses
 from packwork.timeline.follow import followed, places_of
@@ -147,11 +147,11 @@ def _measured(step: SeriesStep, poses: Poses) -> Run:
     """Run of a step whose poses are known, measured and certified as any."""
     job = step.job
     limits = item_limits(job, poses.scale, poses.scale, poses.angle) if job.is_limited else None
-    state = State.of(job)
+    state = RunState.of(job)
     state = replace(
         state, poses=poses, nominal=poses.scale, method="layout", limits=limits or state.limits
     )
-    return Run.of(run_steps(job.use.report(job), state, Watch()))
+    return Run.of(run_steps(job.use.report(job), state, RunContext()))
 
 
 def _between(before: tuple[SeriesStep, Run], after: tuple[SeriesStep, Run]) -> FloatArray:

@@ -20,7 +20,7 @@ from packwork.uses.charts.grouped import unit_scales
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.charts.steps import read_steps
 from packwork.uses.words.recipe import PALETTE, words_recipe
-from packwork.uses.words.use import Words
+from packwork.uses.words.use import WordsUse
 
 IDLE: Mapping[str, tuple[Any, ...]] = {
     "sizes": ("auto", "shared"),
@@ -183,7 +183,7 @@ class _Colours:
 def _heights(job: Job) -> FloatArray:
     """``(n,)`` scales at which heights of letters are as the weights say."""
     use = job.use
-    if not isinstance(use, Words) or use.read.items != job.items:
+    if not isinstance(use, WordsUse) or use.read.items != job.items:
         raise RecipeError("series", "is of words alone")
     weights = np.array([word.weight for word in use.read.words])
     return height_shares(use.read.items, weights, use.options.weight_is)

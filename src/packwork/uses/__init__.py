@@ -23,7 +23,7 @@ from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.steps.arranging import check_arranged
 from packwork.uses.icons import read_icons
-from packwork.uses.room import NO_CONTAINER, Room
+from packwork.uses.room import NO_CONTAINER, KnownContainer
 
 if TYPE_CHECKING:
     from packwork.uses.charts.recipe import chart_recipe
@@ -108,17 +108,19 @@ def _material(
     if recipe.pile is not None:
         from packwork.uses.piles.pile import Heap
         from packwork.uses.piles.room import PileRoom
-        from packwork.uses.piles.use import Pile
+        from packwork.uses.piles.use import PileUse
 
         room = PileRoom.of_recipe(recipe, recipe.pile, container)
         material = _content(recipe, room, items)
         heap = Heap(recipe.pile, room.mouths)
-        return replace(material, use=Pile(heap, material.use))
+        return replace(material, use=PileUse(heap, material.use))
     is_open = container is None and recipe.container == NO_CONTAINER and recipe.chart is not None
-    return _content(recipe, Room(None if is_open else read_room(recipe, container)), items)
+    return _content(
+        recipe, KnownContainer(None if is_open else read_room(recipe, container)), items
+    )
 
 
-def _content(recipe: Recipe, room: Room, items: Sequence[Item] | None) -> Material:
+def _content(recipe: Recipe, room: KnownContainer, items: Sequence[Item] | None) -> Material:
     if recipe.chart is not None:
         from packwork.uses.charts.use import read_marks
 

@@ -13,9 +13,9 @@ import numpy as np
 
 from packwork.pipeline.job import Job
 from packwork.pipeline.recorder import Recorder
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.recipe.rules import Rotation
 from packwork.steps.advice import Advise
 from packwork.steps.control import BestOf, Replan, UnlessTight
@@ -175,7 +175,7 @@ def may_stand_upright(job: Job) -> bool:
     return plan.is_exact and not plan.voids.fills
 
 
-def as_good_upright(tried: Sequence[State], watch: Watch) -> State:
+def as_good_upright(tried: Sequence[RunState], watch: RunContext) -> RunState:
     """What was placed upright if it is clean and about as large as the turned one; else that."""
     turned = tried[0]
     for upright in tried[1:]:
@@ -187,16 +187,16 @@ def as_good_upright(tried: Sequence[State], watch: Watch) -> State:
     return turned
 
 
-def most_promising(tried: Sequence[State], watch: Watch) -> State:
+def most_promising(tried: Sequence[RunState], watch: RunContext) -> RunState:
     """Of what levels made of several starts, that from which most comes to be covered."""
     if len(tried) == 1 or watch.stop():
         return tried[0]
 
-    def worth(state: State) -> tuple[bool, float]:
+    def worth(state: RunState) -> tuple[bool, float]:
         """Whether a finish without trials comes out clean, and the area that is covered then."""
         job = _replanned(state.job, effort="draft")
         quick = replace(state, job=job, recorder=Recorder.off())
-        exact = finished(quick, Watch(stop=watch.stop))
+        exact = finished(quick, RunContext(stop=watch.stop))
         own = np.array([item.outline.area for item in state.job.items])
         return not exact.conflicts, float(own @ exact.poses.scale**2)
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from typing import final
 
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.cast import cast
+from packwork.pipeline.plan.cast import expand_copies
 from packwork.pipeline.read import Material, drawn_first, read_named
 from packwork.pipeline.step import RunStep
 from packwork.pipeline.use import Use
@@ -14,11 +14,11 @@ from packwork.recipe import Recipe
 from packwork.scene.item import Item
 from packwork.steps.starts import fits_first
 from packwork.uses.collage import filling, placing, reporting
-from packwork.uses.room import Room
+from packwork.uses.room import KnownContainer
 
 
 @final
-class Icons(Use):
+class IconsUse(Use):
     """Items whose files say all about them."""
 
     def steps(self, job: Job) -> Sequence[RunStep]:
@@ -31,12 +31,14 @@ class Icons(Use):
         return reporting(job, is_dressed=False)
 
 
-def read_icons(recipe: Recipe, room: Room, given: Sequence[Item] | None) -> Material:
+def read_icons(recipe: Recipe, room: KnownContainer, given: Sequence[Item] | None) -> Material:
     """Items of a recipe, as often as it says."""
-    return material_of(Icons(), recipe, room, given)
+    return material_of(IconsUse(), recipe, room, given)
 
 
-def material_of(use: Use, recipe: Recipe, room: Room, given: Sequence[Item] | None) -> Material:
+def material_of(
+    use: Use, recipe: Recipe, room: KnownContainer, given: Sequence[Item] | None
+) -> Material:
     """Items and photographs that a recipe names, for a use that reads nothing else."""
     named = read_named(recipe, given)
     items = named.items
@@ -47,7 +49,7 @@ def material_of(use: Use, recipe: Recipe, room: Room, given: Sequence[Item] | No
         items = suited_first(recipe, room.known, items)
     if given is None and items is named.items:
         items = drawn_first(recipe, items)
-    chosen = cast(recipe, items, room.counted(recipe, items))
+    chosen = expand_copies(recipe, items, room.counted(recipe, items))
     return Material(
         use=use,
         container=room.of(chosen),

@@ -17,7 +17,7 @@ NO_CONTAINER = "none"
 
 
 @dataclass(frozen=True, eq=False)
-class Room:
+class KnownContainer:
     """The container of a run.
 
     Parameters

@@ -123,14 +123,14 @@ class colormap_color_func:  # noqa: N801 - the other package's name
 GOLDEN = (5**0.5 - 1) / 2
 
 
-class Spread(Random):
+class ColourSpread(Random):
     """Numbers from 0 to 1, each far from those just before, the first drawn by another.
 
     Drawn one by one, three of the four largest words of a cloud may well look alike.
 
     Examples
     --------
-    >>> spread = Spread(Random(0))
+    >>> spread = ColourSpread(Random(0))
     >>> [round(spread.random(), 2) for _ in range(4)]
     [0.46, 0.08, 0.7, 0.32]
     """
@@ -199,10 +199,10 @@ def chances(color_func: ColourFunction, drawn: Random | None) -> Random | None:
 
     Examples
     --------
-    >>> isinstance(chances(own_color_func("white"), None), Spread), chances(random_color_func, None)
-    (True, None)
+    >>> isinstance(chances(own_color_func("white"), None), ColourSpread)
+    True
     """
-    return Spread(drawn or Random()) if isinstance(color_func, legible_color_func) else drawn
+    return ColourSpread(drawn or Random()) if isinstance(color_func, legible_color_func) else drawn
 
 
 def rgba(colour: Any) -> tuple[int, int, int, int]:

@@ -205,7 +205,7 @@ def placed(
     >>> (found.poses.scale * EM_PX).tolist()
     [20.0, 10.0]
     """
-    read = _Reading(asked, words, steps, random)
+    read = _ReadCloud(asked, words, steps, random)
     container = _with_edge(asked)
     largest = asked.largest or float(asked.container.height)
     rng = np.random.default_rng(random.randrange(2**31))
@@ -238,7 +238,7 @@ def _image_side(container: Container, count: int) -> int:
     return round(round(times) * container.side) if times >= WHOLE else side
 
 
-class _Reading:
+class _ReadCloud:
     """Words that are set when their turn comes: most of a long text finds no room.
 
     Parameters

@@ -21,7 +21,7 @@ from packwork.live.file.documents import (
 )
 from packwork.live.file.records import ContainerRecord, ItemRecord
 from packwork.live.file.things import Shared, Things, container_of, decoded, item_of
-from packwork.live.history import MOST_ENTRIES, History
+from packwork.live.history import MOST_ENTRIES, UndoHistory
 from packwork.live.kept import Kept
 from packwork.live.marks import Marks
 from packwork.options import Options
@@ -88,7 +88,7 @@ def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
     """
     past, future = kept.history.past, kept.history.future
     while True:
-        record = _record(replace(kept, history=History(past, future)), things, follows)
+        record = _record(replace(kept, history=UndoHistory(past, future)), things, follows)
         first = record.model_dump_json(exclude_none=True).encode()
         if (is_read(first) and rows_of(record.documents) <= MOST_ROWS) or not (past or future):
             break
@@ -175,7 +175,7 @@ def _read(parts: Mapping[str, bytes]) -> SessionFile:
     if record.present >= len(documents):
         raise UnfitError(f"holds {len(documents)} documents and no number {record.present}")
     document = documents[record.present]
-    history = History(documents[: record.present], documents[record.present + 1 :])
+    history = UndoHistory(documents[: record.present], documents[record.present + 1 :])
     marks = _marks_of(record.marks)
     marks.keep(set(document.ids.tolist()))
     return SessionFile(Kept(document, base or document, history, marks), record.follows)

@@ -16,7 +16,7 @@ from packwork.arrays import BoolArray, IntArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.document import Document
-from packwork.live.neighbourhood.sights import Sights
+from packwork.live.neighbourhood.sights import LevelCache
 from packwork.live.neighbourhood.touching import Touching
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.limits import Limits
@@ -96,8 +96,8 @@ class Flow:
         What levels see, kept from flow to flow.
     """
 
-    def __init__(self, document: Document, sights: Sights | None = None) -> None:
-        self._sights = sights or Sights()
+    def __init__(self, document: Document, sights: LevelCache | None = None) -> None:
+        self._sights = sights or LevelCache()
         self.touching = Touching(document, self._sights)
         self.turn_to(document)
 

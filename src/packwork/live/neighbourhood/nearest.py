@@ -17,7 +17,7 @@ from packwork.geometry.polygon import Region
 from packwork.geometry.simplify import hull
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.neighbourhood.settle import gap_of
-from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.neighbourhood.shapes import ShapeCache
 
 HALVINGS = 7
 """Sizes that are tried where an item is too large for all places. More come nearer to the largest,
@@ -28,7 +28,7 @@ MARGIN = 1e-4
 asked, smaller leaves nothing to the rounding of what follows. Chosen."""
 
 
-def brought_inside(document: Document, rows: IntArray, shapes: Shapes) -> Document:
+def brought_inside(document: Document, rows: IntArray, shapes: ShapeCache) -> Document:
     """A document whose items ``(m,)`` lie in the room that what is held leaves them.
 
     Those that stick out come to the nearest place; what is too large for every place is made
@@ -49,7 +49,7 @@ def brought_inside(document: Document, rows: IntArray, shapes: Shapes) -> Docume
     return document
 
 
-def _room(document: Document, rows: IntArray, shapes: Shapes) -> Region:
+def _room(document: Document, rows: IntArray, shapes: ShapeCache) -> Region:
     """What the container leaves, gaps taken off, once everything that is held is too."""
     gap = gap_of(document, rows)
     region = valid(document.container.outline.region)

@@ -28,7 +28,7 @@ from packwork.geometry.overlay import (
 )
 from packwork.live.change import differing
 from packwork.live.document import Document
-from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.neighbourhood.shapes import ShapeCache
 from packwork.live.neighbourhood.touching import Touching
 from packwork.options import SizeMode
 from packwork.progress import Stop, never
@@ -77,7 +77,7 @@ def settle(
     touched: IntArray,
     given: IntArray,
     touching: Touching,
-    shapes: Shapes,
+    shapes: ShapeCache,
     stop: Stop = never,
 ) -> Settled:
     """Finish what a gesture has touched, and no more than that needs.
@@ -118,14 +118,19 @@ def sizes_are_common(document: Document) -> bool:
     return document.options.sizes == "shared" and not document.held[:, [0, 2]].any()
 
 
-def made_smaller(document: Document, shapes: Shapes, stop: Stop) -> Settled:
+def made_smaller(document: Document, shapes: ShapeCache, stop: Stop) -> Settled:
     """All items finished in one, as much smaller as that takes: sizes stay in proportion."""
     everything = np.arange(len(document))
     return _finished(document, everything, shapes, stop, sizes="shared")
 
 
 def polish(
-    document: Document, items: IntArray, trials: int, seed: int, shapes: Shapes, stop: Stop = never
+    document: Document,
+    items: IntArray,
+    trials: int,
+    seed: int,
+    shapes: ShapeCache,
+    stop: Stop = never,
 ) -> Settled:
     """Try turns of items ``(m,)`` in conflict with nothing; those that gain are kept.
 
@@ -142,7 +147,7 @@ def polish(
 def _finished(
     document: Document,
     movable: IntArray,
-    shapes: Shapes,
+    shapes: ShapeCache,
     stop: Stop,
     trials: int = 0,
     seed: int = 0,
@@ -173,7 +178,7 @@ def _finished(
     return Settled(document.with_poses(poses), moved, result.clean and not dwarfs.any())
 
 
-def room_of(document: Document, movable: IntArray, shapes: Shapes) -> Container | None:
+def room_of(document: Document, movable: IntArray, shapes: ShapeCache) -> Container | None:
     """The container about some items, less all that stands there; None where that is nothing."""
     boxes = np.array([outline.bounds for outline in _placed(document, movable, shapes)])
     areas = document.own_areas * document.poses.scale**2
@@ -216,7 +221,7 @@ def _is_used(part: shapely.Polygon, boxes: np.ndarray) -> bool:
     return bool((meets & (top <= boxes[:, 3])).any())
 
 
-def _placed(document: Document, items: IntArray, shapes: Shapes) -> list[Outline]:
+def _placed(document: Document, items: IntArray, shapes: ShapeCache) -> list[Outline]:
     covers = [shapes.cover(document.items[k].outline) for k in items]
     return [c.mapped(document.poses.matrix(int(k))) for c, k in zip(covers, items, strict=True)]
 

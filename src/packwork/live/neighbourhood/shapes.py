@@ -7,14 +7,14 @@ from packwork.compaction.detail import FINE
 from packwork.geometry.outline import Outline
 
 
-class Shapes:
+class ShapeCache:
     """Covers of outlines, as fine as the last rounds of an exact finish have them.
 
     Examples
     --------
     >>> import numpy as np
     >>> tile = Outline.from_rings([np.array([[0.0, 0], [4, 0], [4, 4], [2, 4.0001], [0, 4]])])
-    >>> shapes = Shapes()
+    >>> shapes = ShapeCache()
     >>> len(shapes.cover(tile).points), shapes.cover(tile) is shapes.cover(tile)
     (4, True)
     """

@@ -28,13 +28,13 @@ MOST = 10_000
 """Outlines that are kept at most; then all is made anew. Chosen."""
 
 
-class Sights:
+class LevelCache:
     """Outlines and containers as levels see them, each made once.
 
     Examples
     --------
     >>> from packwork.readers.builtin import builtin_container, builtin_item
-    >>> sights, star = Sights(), builtin_item("star").outline
+    >>> sights, star = LevelCache(), builtin_item("star").outline
     >>> one = Poses(*np.ones((4, 1)))
     >>> sights.outlines([star], one, 1.0, 0.0)[0] is sights.outlines([star], one, 1.0, 0.0)[0]
     True

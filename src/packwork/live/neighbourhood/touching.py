@@ -8,7 +8,7 @@ from packwork.arrays import FloatArray, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.kernels.distances import pairs_of
 from packwork.live.document import Document
-from packwork.live.neighbourhood.sights import Sights
+from packwork.live.neighbourhood.sights import LevelCache
 from packwork.scene.pose import Poses
 
 REACH = 0.6
@@ -28,8 +28,8 @@ class Touching:
         Where covers are kept.
     """
 
-    def __init__(self, document: Document, sights: Sights | None = None) -> None:
-        self._sights = sights = sights or Sights()
+    def __init__(self, document: Document, sights: LevelCache | None = None) -> None:
+        self._sights = sights = sights or LevelCache()
         poses = document.poses
         shapes = [item.outline for item in document.items]
         outlines = sights.covers(shapes, poses.stretch.tolist())

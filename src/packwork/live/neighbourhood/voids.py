@@ -9,7 +9,7 @@ import shapely
 
 from packwork.geometry.overlay import buffered, difference, union_of_layout, valid
 from packwork.live.document import Document
-from packwork.live.neighbourhood.shapes import Shapes
+from packwork.live.neighbourhood.shapes import ShapeCache
 
 FINENESS = 0.005
 """How far the middle of the largest disc may be off, shares of the canvas. Chosen."""
@@ -19,7 +19,7 @@ EMPTY = 1e-6
 """Share of the container's area that is no room any more. Chosen."""
 
 
-def widest_places(document: Document, shapes: Shapes) -> Iterator[tuple[float, float, float]]:
+def widest_places(document: Document, shapes: ShapeCache) -> Iterator[tuple[float, float, float]]:
     """Middles and radii of the largest discs that no item and no disc before lies in.
 
     Without end: where nothing is free any more, items are taken for not there.
@@ -28,7 +28,7 @@ def widest_places(document: Document, shapes: Shapes) -> Iterator[tuple[float, f
     --------
     >>> from packwork import fill
     >>> layout = fill("square", "circle", count=1, epochs=20, levels="50")
-    >>> x, y, radius = next(widest_places(Document.of(layout), Shapes()))
+    >>> x, y, radius = next(widest_places(Document.of(layout), ShapeCache()))
     >>> 0 < radius < 300
     True
     """

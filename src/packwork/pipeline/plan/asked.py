@@ -14,7 +14,7 @@ from packwork.recipe.rules import Pin, Rotation, Rule, hero_rule
 
 
 @dataclass(frozen=True)
-class Voice:
+class RuleSource:
     """Option of a recipe that asks for something, for messages.
 
     Parameters
@@ -33,14 +33,14 @@ class Voice:
 
         Examples
         --------
-        >>> print(Voice("rules", "rule 2: ").error("asks too much"))
+        >>> print(RuleSource("rules", "rule 2: ").error("asks too much"))
         rules: rule 2: asks too much
         """
         return RecipeError(self.key, f"{self.place}{problem}")
 
 
 @dataclass(frozen=True)
-class Asked:
+class ItemRules:
     """What rules ask of one copy: of two that speak of one thing the later one holds.
 
     Parameters
@@ -59,24 +59,24 @@ class Asked:
 
     values: Mapping[str, Any] = field(default_factory=dict)
     pin: Mapping[str, Any] = field(default_factory=dict)
-    voices: Mapping[str, Voice] = field(default_factory=dict)
+    voices: Mapping[str, RuleSource] = field(default_factory=dict)
     is_read: bool = False
     is_central: bool = False
 
-    def heard(self, rule: Rule, voice: Voice) -> Asked:
+    def heard(self, rule: Rule, voice: RuleSource) -> ItemRules:
         """The same after one more rule.
 
         Examples
         --------
-        >>> first = Asked().heard(Rule(items="a", color="red", weight=2), Voice("rules"))
-        >>> dict(first.heard(Rule(items="a", color="blue"), Voice("rules")).values)
+        >>> first = ItemRules().heard(Rule(items="a", color="red", weight=2), RuleSource("rules"))
+        >>> dict(first.heard(Rule(items="a", color="blue"), RuleSource("rules")).values)
         {'weight': 2.0, 'color': 'blue'}
         """
         said = {key: value for key, value in rule if key not in {"items", "count", "pin"}}
         said = {key: value for key, value in said.items() if value is not None}
         pinned = {k: v for k, v in rule.pin or Pin() if v is not None}
         speaks = [*said, *(f"pin.{key}" for key in pinned)]
-        return Asked(
+        return ItemRules(
             values={**self.values, **said},
             pin={**self.pin, **pinned},
             voices={**self.voices, **dict.fromkeys(speaks, voice)},
@@ -114,18 +114,20 @@ class Asked:
         return Rotation.parse(text).of_words if self.is_read else Rotation.parse(text)
 
     @property
-    def to_be_read(self) -> Asked:
+    def to_be_read(self) -> ItemRules:
         """The same of a word, which is never upside down."""
         return replace(self, is_read=True)
 
 
-def voices(recipe: Recipe) -> list[tuple[Voice, Rule]]:
+def voices(recipe: Recipe) -> list[tuple[RuleSource, Rule]]:
     """All rules of a recipe in the order in which they are heard, the hero's last."""
-    said = [(Voice("rules", f"rule {k}: "), rule) for k, rule in enumerate(recipe.rules, start=1)]
-    return said if recipe.hero is None else [*said, (Voice("hero"), hero_rule(recipe.hero))]
+    said = [
+        (RuleSource("rules", f"rule {k}: "), rule) for k, rule in enumerate(recipe.rules, start=1)
+    ]
+    return said if recipe.hero is None else [*said, (RuleSource("hero"), hero_rule(recipe.hero))]
 
 
-def named(rule: Rule, voice: Voice, names: Sequence[str]) -> list[int]:
+def named(rule: Rule, voice: RuleSource, names: Sequence[str]) -> list[int]:
     """Which of the items a rule names.
 
     Raises
@@ -135,13 +137,13 @@ def named(rule: Rule, voice: Voice, names: Sequence[str]) -> list[int]:
 
     Examples
     --------
-    >>> named(Rule(items=["b*", "fox"]), Voice("rules"), ["bear", "fox", "owl", "bee"])
+    >>> named(Rule(items=["b*", "fox"]), RuleSource("rules"), ["bear", "fox", "owl", "bee"])
     [0, 1, 3]
     """
     return matching(rule.items, voice, names)
 
 
-def matching(patterns: Sequence[str], voice: Voice, names: Sequence[str]) -> list[int]:
+def matching(patterns: Sequence[str], voice: RuleSource, names: Sequence[str]) -> list[int]:
     """Which of the names match one of the patterns.
 
     Raises
@@ -151,7 +153,7 @@ def matching(patterns: Sequence[str], voice: Voice, names: Sequence[str]) -> lis
 
     Examples
     --------
-    >>> matching(["b*"], Voice("force"), ["bear", "fox", "bee"])
+    >>> matching(["b*"], RuleSource("force"), ["bear", "fox", "bee"])
     [0, 2]
     """
     found: set[int] = set()

@@ -11,7 +11,7 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.phrasing import number_of
-from packwork.pipeline.plan.asked import Asked, Voice, named, voices
+from packwork.pipeline.plan.asked import ItemRules, RuleSource, named, voices
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.pairs import read_weights
 from packwork.recipe import Recipe
@@ -37,11 +37,11 @@ class Cast:
     """
 
     items: tuple[Item, ...]
-    asked: tuple[Asked, ...]
+    asked: tuple[ItemRules, ...]
     weights: FloatArray
 
 
-def cast(
+def expand_copies(
     recipe: Recipe,
     items: Sequence[Item],
     total: int | None = None,
@@ -70,8 +70,8 @@ def cast(
     said = voices(recipe)
     members_of = [_members(rule, voice, items) for voice, rule in said]
     which = turns(_counts(said, members_of, len(items)), total)
-    asked = [Asked() for _ in which]
-    taken: dict[int, Voice] = {}
+    asked = [ItemRules() for _ in which]
+    taken: dict[int, RuleSource] = {}
     for (voice, rule), members in zip(said, members_of, strict=True):
         for member in members:
             copies = [int(k) for k in np.flatnonzero(which == member)]
@@ -161,7 +161,7 @@ def kinds(items: Sequence[Item]) -> IntArray:
     return np.asarray(numbers, dtype=np.int64)
 
 
-def _weights(shares: FloatArray, asked: Sequence[Asked]) -> FloatArray:
+def _weights(shares: FloatArray, asked: Sequence[ItemRules]) -> FloatArray:
     """Shares of the copies, weights of the rules in their place, not too far apart."""
     pairs = zip(asked, shares.tolist(), strict=True)
     found = np.array([one.values.get("weight", weight) for one, weight in pairs])
@@ -174,7 +174,7 @@ def _weights(shares: FloatArray, asked: Sequence[Asked]) -> FloatArray:
     return found
 
 
-def _members(rule: Rule, voice: Voice, items: Sequence[Item]) -> list[int]:
+def _members(rule: Rule, voice: RuleSource, items: Sequence[Item]) -> list[int]:
     members = named(rule, voice, [item.name for item in items])
     if voice.key != "hero":
         return members
@@ -185,7 +185,7 @@ def _members(rule: Rule, voice: Voice, items: Sequence[Item]) -> list[int]:
 
 
 def _counts(
-    said: Sequence[tuple[Voice, Rule]], members_of: Sequence[Sequence[int]], items: int
+    said: Sequence[tuple[RuleSource, Rule]], members_of: Sequence[Sequence[int]], items: int
 ) -> list[int | None]:
     """Copies of each item where rules count them; a hero stands alone if others can."""
     counts: list[int | None] = [None] * items
@@ -198,7 +198,9 @@ def _counts(
     return counts
 
 
-def _free_copy(copies: Sequence[int], taken: Mapping[int, Voice], name: str, voice: Voice) -> int:
+def _free_copy(
+    copies: Sequence[int], taken: Mapping[int, RuleSource], name: str, voice: RuleSource
+) -> int:
     """The first copy that has no place yet."""
     free = [k for k in copies if k not in taken]
     if free:

@@ -17,7 +17,7 @@ from packwork.forces.field import Bond, Field
 from packwork.forces.forces import BondForce, FieldForce, Forces
 from packwork.forces.inward import Inward
 from packwork.forces.spec import ForceSpec, parse_force
-from packwork.pipeline.plan.asked import Voice, matching
+from packwork.pipeline.plan.asked import RuleSource, matching
 from packwork.pipeline.plan.cast import kinds
 from packwork.readers.svg.curve import read_curve
 from packwork.scene.container import Container
@@ -65,7 +65,7 @@ def _strengths(spec: ForceSpec, items: Sequence[Item], weights: FloatArray) -> F
     if spec.items:
         names = [item.name for item in items]
         acted_on = np.zeros(len(items), dtype=bool)
-        acted_on[matching(spec.items, Voice("force"), names)] = True
+        acted_on[matching(spec.items, RuleSource("force"), names)] = True
         strengths[~acted_on] = 0.0
     return strengths
 

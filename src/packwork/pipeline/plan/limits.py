@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.overlay import difference, intersection
 from packwork.geometry.polygon import Region
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import Voice
+from packwork.pipeline.plan.asked import RuleSource
 from packwork.pipeline.plan.cast import kinds
 from packwork.pipeline.plan.resolution import largest_scales
 from packwork.scene.container import Container
@@ -183,7 +183,7 @@ def _scale_ranges(
 def _below_the_hero(job: Job, nominal: FloatArray) -> FloatArray:
     """``(n,)`` scales at which items stay well below the hero, if there is one."""
     extents = np.array([item.outline.extent for item in job.items])
-    heroes = [one.voices.get("pin.size", Voice("")).key == "hero" for one in job.asked]
+    heroes = [one.voices.get("pin.size", RuleSource("")).key == "hero" for one in job.asked]
     sizes = (nominal * extents)[heroes]
     return np.where(heroes, np.inf, np.min(LEAD * sizes, initial=np.inf) / extents)
 

@@ -13,7 +13,7 @@ from packwork.errors import ShapeError
 from packwork.geometry import polygon
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import intersection
-from packwork.pipeline.plan.asked import Asked, Voice
+from packwork.pipeline.plan.asked import ItemRules, RuleSource
 from packwork.readers.container import read_container
 from packwork.readers.options import AS_DRAWN
 from packwork.scene.container import Container
@@ -36,11 +36,11 @@ class Region:
     """
 
     zone: Zone
-    voice: Voice
+    voice: RuleSource
     words: str
 
 
-def read_regions(asked: Sequence[Asked], container: Container) -> tuple[Region, ...]:
+def read_regions(asked: Sequence[ItemRules], container: Container) -> tuple[Region, ...]:
     """Regions of all copies that have one, one for each that is named.
 
     Raises

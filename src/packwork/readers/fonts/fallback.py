@@ -14,7 +14,7 @@ from packwork.readers.files import exists, read_bytes
 from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Typeface, bundled_typeface
 from packwork.readers.fonts.guard import MAX_FONT_BYTES
 from packwork.readers.fonts.itemise import Piece, clusters, itemised
-from packwork.readers.fonts.lettering import Lettering, Setting, lettering_of
+from packwork.readers.fonts.lettering import Lettering, TypeSetting, lettering_of
 from packwork.readers.unfit import UnfitError, naming
 
 MOST_NAMED = 6
@@ -61,7 +61,7 @@ class Fonts:
         """
         return lettering_of(self.settings(lines), self._language)
 
-    def settings(self, lines: Sequence[str]) -> list[list[Setting]]:
+    def settings(self, lines: Sequence[str]) -> list[list[TypeSetting]]:
         """Pieces of lines, each with the font that draws it: the first that has all characters.
 
         Where none has all, each part is drawn by the first font that has it.
@@ -79,7 +79,7 @@ class Fonts:
         """
         pieces = [itemised(line) for line in lines]
         for face in self._asked("".join(lines)):
-            whole = [[Setting(piece, face) for piece in line] for line in pieces]
+            whole = [[TypeSetting(piece, face) for piece in line] for line in pieces]
             if self._is_drawn(whole):
                 return whole
         mixed = [[part for piece in line for part in self._parts(piece)] for line in pieces]
@@ -91,7 +91,7 @@ class Fonts:
     def _language(self) -> str:
         return self.language or UNKNOWN_LANGUAGE
 
-    def _is_drawn(self, lines: Sequence[Sequence[Setting]]) -> bool:
+    def _is_drawn(self, lines: Sequence[Sequence[TypeSetting]]) -> bool:
         return all(
             one.face.draws(
                 one.piece.text, is_leftward=one.piece.is_leftward, language=self._language
@@ -100,16 +100,16 @@ class Fonts:
             for one in line
         )
 
-    def _parts(self, piece: Piece) -> list[Setting]:
+    def _parts(self, piece: Piece) -> list[TypeSetting]:
         """A piece, cut where its font changes."""
-        found: list[Setting] = []
+        found: list[TypeSetting] = []
         for cluster in clusters(piece.text):
             face = next((face for face in self._asked(cluster) if face.has(_seen(cluster))), None)
             if face is None:
                 raise UnfitError(self._lacking(cluster if self.is_open else piece.text))
             if found and found[-1].face is face:
                 cluster = found.pop().piece.text + cluster
-            found.append(Setting(replace(piece, text=cluster), face))
+            found.append(TypeSetting(replace(piece, text=cluster), face))
         return found
 
     def _asked(self, text: str) -> Iterator[Typeface]:

@@ -155,14 +155,16 @@ class Curves:
 
 
 @dataclass(frozen=True)
-class Setting:
+class TypeSetting:
     """A piece of a line and the font that draws it."""
 
     piece: Piece
     face: Typeface
 
 
-def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LANGUAGE) -> Lettering:
+def lettering_of(
+    lines: Sequence[Sequence[TypeSetting]], language: str = UNKNOWN_LANGUAGE
+) -> Lettering:
     """Word of one or several centred lines, each piece drawn by its own font.
 
     Curves are followed to ``FLATTENING`` of the word's extent.
@@ -176,7 +178,7 @@ def lettering_of(lines: Sequence[Sequence[Setting]], language: str = UNKNOWN_LAN
     --------
     >>> from packwork.readers.fonts.face import bundled_typeface
     >>> face = bundled_typeface()
-    >>> word = lettering_of([[Setting(Piece("o"), face), Setting(Piece("x"), face)]])
+    >>> word = lettering_of([[TypeSetting(Piece("o"), face), TypeSetting(Piece("x"), face)]])
     >>> [run.text for run in word.runs], word.runs[0].x < word.runs[1].x
     (['o', 'x'], True)
     >>> len(word.region.geoms), word.path[:1]
@@ -307,7 +309,7 @@ class _FontRun(_GlyphRun):
         )
 
 
-def _line(line: Sequence[Setting], number: int, units: float, language: str) -> list[_FontRun]:
+def _line(line: Sequence[TypeSetting], number: int, units: float, language: str) -> list[_FontRun]:
     """Runs of one line beside each other, centred about 0 by what they draw."""
     runs: dict[int, _FontRun] = {}
     x = 0.0

@@ -12,7 +12,7 @@ from packwork.assignment.clusters import clusters
 from packwork.assignment.conflicts import min_conflicts_order
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import Asked
+from packwork.pipeline.plan.asked import ItemRules
 from packwork.pipeline.plan.own_losses import sees_colours
 from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.item import Art, Item, PhotoArt
@@ -90,7 +90,7 @@ def _dressed(
     return item if label is None else replace(item, label=label)
 
 
-def _label(one: Asked) -> Label | None:
+def _label(one: ItemRules) -> Label | None:
     said = {key: one.values[key] for key in ("name", "link", "title") if key in one.values}
     return Label(**said) if said else None
 

@@ -15,7 +15,7 @@ from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import NOBODY, Observer, Stop
 from packwork.readers.charts.chart import ChartRead
 from packwork.readers.charts.columns import MISSING, as_number
@@ -54,7 +54,7 @@ it looks on a grid of 16 to their diameter. Derived, and tried."""
 DOWN = np.pi / 2
 
 
-def fill_bars(job: Job, chart: Chart, watch: Watch) -> Grouped:
+def fill_bars(job: Job, chart: Chart, watch: RunContext) -> Grouped:
     """Heaps side by side, at the largest scale at which the highest has room.
 
     Marks of one colour lie together, the most frequent one at the bottom; colours that are

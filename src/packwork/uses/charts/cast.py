@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from packwork.errors import RecipeError
-from packwork.pipeline.plan.cast import Cast, cast
+from packwork.pipeline.plan.cast import Cast, expand_copies
 from packwork.readers.charts.chart import ChartRead
 from packwork.recipe import Recipe
 
@@ -16,9 +16,9 @@ def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:
     Raises
     ------
     RecipeError
-        As for :func:`cast`, and if a rule would make sizes or numbers of marks untrue.
+        As for :func:`expand_copies`, and if a rule would make sizes or numbers of marks untrue.
     """
-    chosen = cast(recipe, chart.items)
+    chosen = expand_copies(recipe, chart.items)
     for one in chosen.asked:
         untrue = [key for key in ("weight", "scale") if key in one.values]
         untrue += ["size"] if "size" in one.pin else []

@@ -15,9 +15,9 @@ from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.padding import check_padding
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import run_steps
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import Step, Stop
 from packwork.recipe import Effort
 from packwork.scene.container import Container
@@ -42,11 +42,11 @@ class _Filled:
 
     own: IntArray
     offset: FloatArray
-    placed: State
+    placed: RunState
     scale: float
 
 
-def fill_copies(job: Job, chart: Chart, pattern: Container, watch: Watch) -> Grouped:
+def fill_copies(job: Job, chart: Chart, pattern: Container, watch: RunContext) -> Grouped:
     """Marks of each group in its copy, at the largest scale at which all groups fit.
 
     Each group is packed as tightly as it goes; the tightest gives the scale, and marks of all
@@ -58,7 +58,7 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, watch: Watch) -> Gro
     zero = np.zeros(len(job.items))
     poses, before = Poses(zero, zero, zero, zero), np.arange(0)
     groups: list[_Filled] = []
-    known: dict[tuple[tuple[Outline, float], ...], State] = {}
+    known: dict[tuple[tuple[Outline, float], ...], RunState] = {}
     found = zip(chart.cells, chart.members, strict=True)
     corner = np.array(single.outline.bounds[:2])
     pairs = [(np.array(cell.room.bounds[:2]) - corner, own) for cell, own in found if len(own)]
@@ -69,7 +69,7 @@ def fill_copies(job: Job, chart: Chart, pattern: Container, watch: Watch) -> Gro
         part = _part(job, single, own, len(job.items) - len(before))
         found_before = known.get(_alike(part))
         if found_before is None:
-            group = _filled(part, own, offset, groups, Watch(steps, watch.stop))
+            group = _filled(part, own, offset, groups, RunContext(steps, watch.stop))
         else:
             group = _as_before(part, own, offset, found_before, steps)
         groups.append(group)
@@ -93,7 +93,7 @@ def _filled(
     own: IntArray,
     offset: FloatArray,
     before: Sequence[_Filled],
-    watch: Watch,
+    watch: RunContext,
 ) -> _Filled:
     """One group, filled as hard as it takes to be no tighter than those before."""
     efforts: list[Effort] = [part.plan.effort]
@@ -102,7 +102,7 @@ def _filled(
     for effort in efforts:
         tried = replace(part, plan=replace(part.plan, effort=effort))
         placed = run_steps(
-            placing(tried, suits_first_fit=fits_first(tried)), State.of(tried), watch
+            placing(tried, suits_first_fit=fits_first(tried)), RunState.of(tried), watch
         )
         scale = float(np.median(placed.poses.scale / unit_scales(part)))
         is_clean = placed.is_clean or not part.plan.is_exact
@@ -119,7 +119,7 @@ def _alike(part: Job) -> tuple[tuple[Outline, float], ...]:
 
 
 def _as_before(
-    part: Job, own: IntArray, offset: FloatArray, before: State, steps: GroupSteps
+    part: Job, own: IntArray, offset: FloatArray, before: RunState, steps: GroupSteps
 ) -> _Filled:
     """A group whose marks lie as those of another, which are alike."""
     placed = replace(before, job=part)
@@ -169,7 +169,7 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
         gap = job.plan.gap
         if find_conflicts(job.container, outlines, poses, gap):
             fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
-            placed = finished(replace(placed, job=fixed, poses=poses), Watch(stop=stop))
+            placed = finished(replace(placed, job=fixed, poses=poses), RunContext(stop=stop))
             poses = placed.poses
     faults = [replace(one, index=int(group.own[one.index])) for one in unfinished(placed)]
     return poses, faults

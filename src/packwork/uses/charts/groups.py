@@ -7,9 +7,9 @@ from typing import final
 
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.scene.limits import Limits
 from packwork.solve.solver import Ending
 from packwork.uses.charts.bars import fill_bars
@@ -32,7 +32,7 @@ class FillGroups(RunStep):
     def __init__(self, chart: Chart) -> None:
         self._chart = chart
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State of the marks that have a place."""
         job, chart = state.job, self._chart
         recorder = watch.recorder()

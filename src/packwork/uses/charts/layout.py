@@ -34,7 +34,7 @@ LEAST_ASPECT = 0.12
 
 
 @dataclass(frozen=True, eq=False)
-class Spread:
+class ChartLayout:
     """What a chart is laid out on.
 
     Parameters
@@ -55,7 +55,7 @@ class Spread:
     single: Container | None = None
 
 
-def spread_out(recipe: Recipe, chart: ChartRead, single: Container | None) -> Spread:
+def spread_out(recipe: Recipe, chart: ChartRead, single: Container | None) -> ChartLayout:
     """Places for all that a chart shows.
 
     Parameters
@@ -73,7 +73,7 @@ def spread_out(recipe: Recipe, chart: ChartRead, single: Container | None) -> Sp
     size = recipe.canvas_size
     if single is not None and not chart.groups:
         plain = framed(single, recipe, chart, size)
-        return Spread(plain.container, plain.frame)
+        return ChartLayout(plain.container, plain.frame)
     aspect = _aspect(recipe, chart, ROWS_ASPECT if single is not None else _bars_aspect(chart))
     if single is None:
         unit: Unit = "px" if size is None else size.unit
@@ -84,7 +84,7 @@ def spread_out(recipe: Recipe, chart: ChartRead, single: Container | None) -> Sp
         size = size or CanvasSize(single.side, None, single.unit)
     about = framed(whole, recipe, chart, size)
     placed = tuple(cell.mapped(about.place) for cell in cells)
-    return Spread(about.container, about.frame, placed, single)
+    return ChartLayout(about.container, about.frame, placed, single)
 
 
 def _bars_aspect(chart: ChartRead) -> float:

@@ -20,7 +20,7 @@ from packwork.uses.charts.cast import cast_chart
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.colours import chart_colours, check_palette
 from packwork.uses.charts.layout import spread_out
-from packwork.uses.charts.use import Marks
+from packwork.uses.charts.use import ChartUse
 from packwork.uses.room import NO_CONTAINER
 
 
@@ -74,7 +74,7 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
     spread = spread_out(recipe, read, read_room(recipe, None))
     chart = Chart(read, spread.frame, (), None)
     material = Material(
-        use=Marks(chart),
+        use=ChartUse(chart),
         container=spread.container,
         cast=cast_chart(recipe, read),
         fillers=(),
@@ -102,7 +102,7 @@ def _step(whole: Job, chart: Chart, label: str, column: str, marks: IntArray) ->
             "palette": _colours_of_all(job.recipe, own),
         }
     )
-    use = Marks(replace(chart, read=replace(own, options=options)))
+    use = ChartUse(replace(chart, read=replace(own, options=options)))
     return ChartStep(label, replace(job, recipe=recipe, use=use), mark_names(own))
 
 

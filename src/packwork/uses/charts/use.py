@@ -11,10 +11,10 @@ from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import LEAST, items_needed
 from packwork.pipeline.read import Material
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
 from packwork.pipeline.use import Use
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.readers.charts.chart import read_chart
 from packwork.readers.charts.options import ChartOptions
 from packwork.recipe import Recipe
@@ -33,7 +33,7 @@ from packwork.uses.collage import filling, placing, reporting
 
 @final
 @dataclass(frozen=True, eq=False)
-class Marks(Use):
+class ChartUse(Use):
     """Marks of a chart."""
 
     chart: Chart
@@ -57,9 +57,9 @@ class Marks(Use):
         shows_shape = not self.chart.cells
         return [*reporting(job, is_dressed=True, shows_shape=shows_shape), Annotate()]
 
-    def some(self, kept: IntArray) -> Marks:
+    def some(self, kept: IntArray) -> ChartUse:
         """The same of some of the marks."""
-        return Marks(self.chart.some(kept))
+        return ChartUse(self.chart.some(kept))
 
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours that stand for data; None if marks keep their own."""
@@ -78,10 +78,10 @@ class Marks(Use):
 class Annotate(RunStep):
     """Labels on marks, title, names of groups and legend."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State whose layout has these notes."""
         use, (layout, _) = state.job.use.inner, state.measured
-        assert isinstance(use, Marks)  # noqa: S101 - it is on lists of charts alone
+        assert isinstance(use, ChartUse)  # noqa: S101 - it is on lists of charts alone
         legend = legend_notes(state.job.recipe, use.chart, layout)
         notes = (*mark_labels(use.chart, layout), *legend)
         return replace(state, layout=replace(layout, notes=notes))
@@ -107,7 +107,7 @@ def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> M
     chosen = cast_chart(recipe, read)
     spread = spread_out(recipe, read, room)
     return Material(
-        use=Marks(Chart(read, spread.frame, spread.cells, spread.single)),
+        use=ChartUse(Chart(read, spread.frame, spread.cells, spread.single)),
         container=spread.container,
         cast=chosen,
         fillers=(),

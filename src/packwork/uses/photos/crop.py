@@ -16,13 +16,13 @@ from packwork.geometry.overlay import buffered
 from packwork.metrics.certificate import HAIR
 from packwork.pipeline.findings import Filling, Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import Asked
+from packwork.pipeline.plan.asked import ItemRules
 from packwork.pipeline.plan.padding import check_padding
 from packwork.pipeline.plan.plan import void_plan
 from packwork.pipeline.recorder import Recorder
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep, run_steps, share_of
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import Observer, Step
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
@@ -143,7 +143,7 @@ def with_room(job: Job, share: float) -> tuple[Job, float]:
     return replace(job, plan=plan, container=room, regions=regions, asked=asked), depth
 
 
-def _moved(one: Asked, container: Container, depth: float) -> Asked:
+def _moved(one: ItemRules, container: Container, depth: float) -> ItemRules:
     """What is asked of an item, in lengths of the grown canvas."""
     wholes = {"x": container.width, "y": container.height, "size": container.side}
     pin = dict(one.pin)
@@ -257,7 +257,7 @@ class CropAtEdge(RunStep):
         self._listed = listed
         self.share = share_of(listed(job))
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State of those items of which enough is seen."""
         job, tries = state.job, []
         for number, share in enumerate(DEPTHS):
@@ -265,7 +265,7 @@ class CropAtEdge(RunStep):
             # The number of tries is not known beforehand.
             turn = watch.part(1 - ANOTHER_TRY**number, 1 - ANOTHER_TRY ** (number + 1))
             turn = replace(turn, observer=Back(turn.observer, depth))
-            solved = run_steps(self._listed(room), State.of(room), turn)
+            solved = run_steps(self._listed(room), RunState.of(room), turn)
             # Photos were placed at more even sizes than they may have: the rest is for the edge.
             is_bound = solved.limits.binds
             spare = 1.0 if is_bound else job.plan.size_ratio / room.plan.size_ratio
@@ -321,7 +321,7 @@ class CutRecorder(Recorder):
         return followed(track, found, which, self._depth)
 
 
-def lost(found: Cropped, placed: State) -> tuple[Unplaced, ...]:
+def lost(found: Cropped, placed: RunState) -> tuple[Unplaced, ...]:
     """Items, fillers not among them, of which too little would be seen."""
     items, ids, given = placed.job.items, placed.numbers, len(placed.asked_for.items)
     gone = np.setdiff1d(np.arange(len(items)), found.kept)
@@ -329,7 +329,7 @@ def lost(found: Cropped, placed: State) -> tuple[Unplaced, ...]:
     return tuple(Unplaced(items[k].name, int(ids[k]), reason) for k in gone if ids[k] < given)
 
 
-def refilled(placed: State, found: Cropped) -> Filling | None:
+def refilled(placed: RunState, found: Cropped) -> Filling | None:
     """How voids were filled, in the container that was asked for."""
     if placed.filling is None:
         return None

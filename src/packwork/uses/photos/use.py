@@ -15,7 +15,7 @@ from packwork.scene.item import Item
 from packwork.uses.collage import filling, placing, reporting
 from packwork.uses.icons import material_of
 from packwork.uses.photos.crop import CropAtEdge, crops
-from packwork.uses.room import Room
+from packwork.uses.room import KnownContainer
 
 PHOTO_STARTS = ("distance-field", "medial-axis", "scatter")
 """Starts that are tried of photos. Each takes 0.7 s of 60; what a short finish makes of its
@@ -26,7 +26,7 @@ these with six, in 4.5 s. Measured."""
 
 @final
 @dataclass(frozen=True)
-class Photos(Use):
+class PhotosUse(Use):
     """Photographs; ``is_cut`` for those at the container's edge."""
 
     is_cut: bool
@@ -58,6 +58,6 @@ def starts_tried(job: Job) -> tuple[str, ...]:
     return PHOTO_STARTS if is_open and is_patient and plan.sizes == "free" and plan.is_exact else ()
 
 
-def read_collage(recipe: Recipe, room: Room, given: Sequence[Item] | None) -> Material:
+def read_collage(recipe: Recipe, room: KnownContainer, given: Sequence[Item] | None) -> Material:
     """Photographs of a recipe, and the items among them."""
-    return material_of(Photos(crops(recipe)), recipe, room, given)
+    return material_of(PhotosUse(crops(recipe)), recipe, room, given)

@@ -18,9 +18,9 @@ from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.sizes import given_scales
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.recipe.piles import PileOptions
 from packwork.scene.canvas import brought_over
 from packwork.scene.layout import Layout
@@ -84,7 +84,7 @@ class HeapUp(RunStep):
     def __init__(self, heap: Heap) -> None:
         self._heap = heap
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State of those items that found room."""
         if len(state.job.items) > MANY:
             _LOG.warning(
@@ -98,7 +98,7 @@ class HeapUp(RunStep):
         return _without_those_left(self._heap.options, found, piled)
 
 
-def _heaped_to_fit(job: Job, heap: Heap, watch: Watch) -> tuple[Job, Piled]:
+def _heaped_to_fit(job: Job, heap: Heap, watch: RunContext) -> tuple[Job, Piled]:
     """The heap, of sizes at which all find room unless sizes were given."""
     if not is_size_open(job, heap.options):
         return _heaped(job, heap, 1.0, watch)
@@ -111,7 +111,7 @@ def _heaped_to_fit(job: Job, heap: Heap, watch: Watch) -> tuple[Job, Piled]:
     return done, piled
 
 
-def _heaped(job: Job, heap: Heap, factor: float, watch: Watch) -> tuple[Job, Piled]:
+def _heaped(job: Job, heap: Heap, factor: float, watch: RunContext) -> tuple[Job, Piled]:
     """The heap of items whose sizes are multiplied by a factor, and the job in its container."""
     clock, asked = job.clock, heap.options
     with clock.time("start"):
@@ -197,7 +197,7 @@ def _options(job: Job, poses: Poses) -> SettleOptions:
     )
 
 
-def _without_those_left(asked: PileOptions, state: State, heap: Piled) -> State:
+def _without_those_left(asked: PileOptions, state: RunState, heap: Piled) -> RunState:
     """State of those items that found room, and the others named."""
     job, kept, total = state.job, heap.placed, len(state.job.items)
     left = np.setdiff1d(np.arange(total), kept)

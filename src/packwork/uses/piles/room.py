@@ -21,11 +21,11 @@ from packwork.scene.item import Item
 from packwork.units import DEFAULT_SIDE, CanvasSize, Unit
 from packwork.uses.piles.opening import nowhere
 from packwork.uses.piles.sizes import heap_needed
-from packwork.uses.room import NO_CONTAINER, Room
+from packwork.uses.room import NO_CONTAINER, KnownContainer
 
 
 @dataclass(frozen=True, eq=False)
-class PileRoom(Room):
+class PileRoom(KnownContainer):
     """What a pile lies in.
 
     Parameters

@@ -9,10 +9,10 @@ from typing import final
 from packwork.arrays import IntArray
 from packwork.phrasing import number_of
 from packwork.pipeline.job import Job
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
 from packwork.pipeline.use import Use
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.steps.advice import Advise
@@ -22,7 +22,7 @@ from packwork.uses.piles.pile import Heap, HeapUp, check_pile
 
 @final
 @dataclass(frozen=True, eq=False)
-class Pile(Use):
+class PileUse(Use):
     """A heap of what another use reads.
 
     Parameters
@@ -57,7 +57,7 @@ class Pile(Use):
         """Words among the items."""
         return self.content.words
 
-    def some(self, kept: IntArray) -> Pile:
+    def some(self, kept: IntArray) -> PileUse:
         """The same of some of the items."""
         return replace(self, content=self.content.some(kept))
 
@@ -84,7 +84,7 @@ class Pile(Use):
 class RemarkPile(RunStep):
     """A sentence about the number of items that the run chose."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with the remark."""
         said = f"auto chose {number_of(len(state.job.items), 'item')}"
         return replace(state, remarks=(*state.remarks, said))

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from packwork.errors import RecipeError
-from packwork.pipeline.plan.cast import Cast, cast
+from packwork.pipeline.plan.cast import Cast, expand_copies
 from packwork.readers.words.items import WordsRead
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
@@ -24,7 +24,7 @@ def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item]) -> Cast:
     Raises
     ------
     RecipeError
-        As for :func:`cast`, and if the recipe has a table of weights besides.
+        As for :func:`expand_copies`, and if the recipe has a table of weights besides.
     """
     if recipe.weights is not None:
         raise RecipeError(
@@ -34,7 +34,7 @@ def cast_words(recipe: Recipe, words: WordsRead, added: Sequence[Item]) -> Cast:
     others = tuple(added)
     middling = BOX_OVER_INK * float(np.median(words.areas))
     areas = np.append(words.areas, np.full(len(others), middling))
-    found = cast(recipe, (*words.items, *others), areas=areas)
+    found = expand_copies(recipe, (*words.items, *others), areas=areas)
     spoken = set(words.items)
     pairs = zip(found.items, found.asked, strict=True)
     asked = (one.to_be_read if item in spoken else one for item, one in pairs)

@@ -6,7 +6,7 @@ from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.read import AUTO
 from packwork.readers.words.options import WordOptions
 from packwork.scene.container import Container
-from packwork.uses.room import Room
+from packwork.uses.room import KnownContainer
 
 FEWEST_WORDS = 60
 """Words that a cloud has at least: fewer look like a list. Chosen by eye."""
@@ -18,7 +18,7 @@ def words_needed(container: Container) -> int:
     return max(items_needed(container).count, FEWEST_WORDS)
 
 
-def words_counted(asked: WordOptions, room: Room) -> WordOptions:
+def words_counted(asked: WordOptions, room: KnownContainer) -> WordOptions:
     """Options of a recipe's words, with a number in place of ``auto``."""
     if asked.count != AUTO:
         return asked

@@ -11,10 +11,10 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import Voice
-from packwork.pipeline.state import State
+from packwork.pipeline.plan.asked import RuleSource
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep, run_steps, share_of
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.uses.words.letters import at_sizes
 
 MOST_RUNS = 1
@@ -44,7 +44,7 @@ class LedByHero(RunStep):
         self._listed = listed
         self.share = share_of(listed(False))
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State of the cloud, measured."""
         job, found = state.job, run_steps(self._listed(False), state, watch)
         hero = hero_of(job)
@@ -60,7 +60,7 @@ class LedByHero(RunStep):
             share = np.minimum(most / np.maximum(scales, most), 1.0) ** 2
             share[hero] = 1.0
             job = replace(job, weights=job.weights * share)
-            found = run_steps(self._listed(number == MOST_RUNS), State.of(job), watch)
+            found = run_steps(self._listed(number == MOST_RUNS), RunState.of(job), watch)
             sizes, has_led = _sizes(job, found), True
         pairs = zip(job.items, sizes, strict=True)
         larger = [item.name for item, size in pairs if size > sizes[hero]]
@@ -75,7 +75,7 @@ class LedByHero(RunStep):
 class BelowHero(RunStep):
     """All words, in proportion, smaller than the hero."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with exact poses of such sizes."""
         hero, poses = hero_of(state.job), state.poses
         sizes = _extents(state.job) * poses.scale
@@ -88,7 +88,7 @@ class BelowHero(RunStep):
 
 def hero_of(job: Job) -> int | None:
     """Row of the hero; None if there is none."""
-    voices = (one.voices.get("pin.size", Voice("")) for one in job.asked)
+    voices = (one.voices.get("pin.size", RuleSource("")) for one in job.asked)
     return next((k for k, voice in enumerate(voices) if voice.key == "hero"), None)
 
 
@@ -96,7 +96,7 @@ def _extents(job: Job) -> FloatArray:
     return np.array([item.outline.extent for item in job.items])
 
 
-def _sizes(job: Job, found: State) -> FloatArray:
+def _sizes(job: Job, found: RunState) -> FloatArray:
     """``(n,)`` longer sides as they came out; what found no place has none."""
     # Items of a layout have colours of their own, and copies come last.
     layout, _ = found.measured

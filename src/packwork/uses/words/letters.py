@@ -14,9 +14,9 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Sizes
@@ -125,7 +125,7 @@ class LettersAtMost(RunStep):
     def __init__(self, largest: float) -> None:
         self._largest = largest
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with exact poses of such sizes."""
         most = float(letters_of(state.poses, len(state.job.use.words)).max())
         if most <= self._largest:
@@ -133,7 +133,7 @@ class LettersAtMost(RunStep):
         return at_sizes(state, state.poses.scale * (self._largest / most), watch)
 
 
-def at_sizes(state: State, scale: FloatArray, watch: Watch) -> State:
+def at_sizes(state: RunState, scale: FloatArray, watch: RunContext) -> RunState:
     """State with exact poses at smaller scales ``(n,)``.
 
     A smaller copy may meet others, where letters stand in each other's bays.

@@ -12,15 +12,15 @@ from packwork.recipe import Recipe
 from packwork.recipe.meaning import FROM_TEXT
 from packwork.scene.item import Item
 from packwork.uses.photos.crop import crops
-from packwork.uses.room import Room
+from packwork.uses.room import KnownContainer
 from packwork.uses.words.cast import cast_words
 from packwork.uses.words.colours import check_colours
 from packwork.uses.words.counts import words_counted
 from packwork.uses.words.letters import Letters
-from packwork.uses.words.use import Words
+from packwork.uses.words.use import WordsUse
 
 
-def nesting(asked: WordOptions, recipe: Recipe, room: Room) -> WordOptions:
+def nesting(asked: WordOptions, recipe: Recipe, room: KnownContainer) -> WordOptions:
     """Options that say whether words stand in counters: unless asked, where sizes give way."""
     if asked.nest is not None or room.container is None:
         return asked
@@ -28,7 +28,7 @@ def nesting(asked: WordOptions, recipe: Recipe, room: Room) -> WordOptions:
 
 
 def read_cloud(
-    recipe: Recipe, asked: WordOptions, room: Room, given: Sequence[Item] | None
+    recipe: Recipe, asked: WordOptions, room: KnownContainer, given: Sequence[Item] | None
 ) -> Material:
     """Words of a recipe, and the items and photographs among them."""
     # Refuses cut photographs among words.
@@ -42,7 +42,7 @@ def read_cloud(
     chosen = cast_words(recipe, words, named.items)
     container = room.of(chosen)
     return Material(
-        use=Words(words, asked, Letters.of(asked, container, recipe.sizes)),
+        use=WordsUse(words, asked, Letters.of(asked, container, recipe.sizes)),
         container=container,
         cast=chosen,
         fillers=words.items,

@@ -8,10 +8,10 @@ import numpy as np
 
 from packwork.compaction.options import HAIR
 from packwork.pipeline.findings import Filling
-from packwork.pipeline.plan.asked import Asked
-from packwork.pipeline.state import State
+from packwork.pipeline.plan.asked import ItemRules
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.progress import Stop
 from packwork.readers.words.items import EM_PX, INK
 from packwork.recipe.rules import OWN_COLOURS
@@ -58,7 +58,7 @@ class RepeatWords(RunStep):
     def __init__(self, letters: Letters, paper: str) -> None:
         self._letters, self._paper = letters, paper
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with the copies last among its items; as it is where that is not clean."""
         if not state.is_clean:
             return state
@@ -66,7 +66,7 @@ class RepeatWords(RunStep):
         return with_repeats(state, count, self._letters, self._paper, watch.stop)
 
 
-def with_repeats(state: State, words: int, letters: Letters, paper: str, stop: Stop) -> State:
+def with_repeats(state: RunState, words: int, letters: Letters, paper: str, stop: Stop) -> RunState:
     """State with copies of its first items, the words, between them.
 
     Parameters
@@ -115,7 +115,7 @@ def with_repeats(state: State, words: int, letters: Letters, paper: str, stop: S
     return joined_by(
         state,
         new,
-        [Asked(values={"color": OWN_COLOURS})] * len(new),
+        [ItemRules(values={"color": OWN_COLOURS})] * len(new),
         poses,
         np.append(numbers, after + np.arange(len(new))),
         Filling(len(new), ending, covered, None),

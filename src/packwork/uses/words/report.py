@@ -10,25 +10,25 @@ from packwork.pipeline.findings import Unplaced, WordsFound
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.plan import found_sizes
 from packwork.pipeline.read import AUTO
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.readers.words.items import MOST_SHOWN
 
 if TYPE_CHECKING:
-    from packwork.uses.words.use import Words
+    from packwork.uses.words.use import WordsUse
 
 
-def words_of(job: Job) -> Words:
+def words_of(job: Job) -> WordsUse:
     """The use of a job whose items are words; steps of words are on lists of no other."""
-    return cast("Words", job.use.inner)
+    return cast("WordsUse", job.use.inner)
 
 
 @final
 class ReportWords(RunStep):
     """Words that the source holds, and those that could not be drawn."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with these among what is unplaced, numbered after the items."""
         use, (layout, _) = words_of(state.job), state.measured
         undrawn = tuple(
@@ -44,7 +44,7 @@ class ReportWords(RunStep):
 class RemarkWords(RunStep):
     """Sentences about words that were left out since they say little, and sizes that give way."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with the remarks."""
         job, use, said = state.job, words_of(state.job), list[str]()
         if use.options.count == AUTO:
@@ -63,7 +63,7 @@ class RemarkWords(RunStep):
 class RemarkGap(RunStep):
     """A sentence about a gap that is narrower than usual, for there are so many words."""
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State with the remark."""
         job, unit = state.job, state.job.container.unit
         usual = job.recipe.padding_cu(job.container)

@@ -19,10 +19,10 @@ from packwork.pipeline.plan.shares import shared_out
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.pipeline.read import AUTO
 from packwork.pipeline.result import Run
-from packwork.pipeline.state import State
+from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep, run_steps, share_of
 from packwork.pipeline.use import Use
-from packwork.pipeline.watch import Watch
+from packwork.pipeline.watch import RunContext
 from packwork.readers.vectors import Vectors
 from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
@@ -75,7 +75,7 @@ and then counts as not met. Tried."""
 
 @final
 @dataclass(frozen=True, eq=False)
-class Words(Use):
+class WordsUse(Use):
     """Words that are read, and what else is asked of them.
 
     Parameters
@@ -160,7 +160,7 @@ class Words(Use):
         return steps
 
     def _filler_scales(
-        self, state: State, smallest: FloatArray, largest: FloatArray
+        self, state: RunState, smallest: FloatArray, largest: FloatArray
     ) -> tuple[FloatArray, FloatArray]:
         """Copies of words are to be read, and smaller than the words themselves."""
         job = state.job
@@ -253,14 +253,14 @@ def close_gap(job: Job) -> float:
     return min(job.plan.gap, most)
 
 
-def fills_container(state: State) -> bool:
+def fills_container(state: RunState) -> bool:
     """Whether words in proportion make a full cloud, or are too few to."""
     _, metrics = state.measured
     is_full = metrics.seen.bare <= MOST_BARE and metrics.seen.shape >= LEAST_SHOWN
     return is_full or len(words_of(state.job).read.items) < MANY
 
 
-def fuller(tried: Sequence[State], watch: Watch) -> State:
+def fuller(tried: Sequence[RunState], watch: RunContext) -> RunState:
     """Of a cloud in proportion and one whose sizes give way, the second if it is plainly better."""
     found, graded = tried
     seen, more = found.measured[1].seen, graded.measured[1].seen
@@ -283,7 +283,7 @@ class GradedPlaces(RunStep):
     def __init__(self, letters: Letters) -> None:
         self._letters = letters
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State of the words that find a place; the others count as not drawn."""
         job, words = state.job, words_of(state.job)
         with job.clock.time("start"):
@@ -306,7 +306,7 @@ class GradedPlaces(RunStep):
         )
         check_padding(job.container, job.plan.gap, len(smaller.items))
         return replace(
-            State.of(smaller), poses=places.poses, nominal=places.poses.scale,
+            RunState.of(smaller), poses=places.poses, nominal=places.poses.scale,
             limits=places.limits, method="first-fit", is_tight=True, is_only_refined=True,
         )  # fmt: skip
 
@@ -333,7 +333,7 @@ class FewerWords(RunStep):
         self._listed, self._smallest = listed, smallest
         self.share = share_of(listed(job))
 
-    def run(self, state: State, watch: Watch) -> State:
+    def run(self, state: RunState, watch: RunContext) -> RunState:
         """State of the words whose letters are large enough; others count as not drawn."""
         use = words_of(state.job)
         # Some could not even be large enough in the fullest cloud.
@@ -341,7 +341,7 @@ class FewerWords(RunStep):
         hopeful = int(np.count_nonzero(sizes >= self._smallest))
         job = heaviest_of(state.job, hopeful, sizes, self._smallest)
         for attempt in count(1):
-            found = run_steps(self._listed(job), State.of(job), watch)
+            found = run_steps(self._listed(job), RunState.of(job), watch)
             read = words_of(found.job).read
             sizes = letters_of(found.poses, len(read.items))
             enough = readable_count(read, self._smallest, sizes, attempt)
