@@ -68,7 +68,9 @@ def test_what_is_no_row_of_a_mark_is_refused(layout: pw.Layout, tmp_path: Path) 
     layout.save(file)
     text = file.read_text(encoding="utf-8")
     file.write_text(text.replace('"datum":{"row":{', '"datum":{"raw":{', 1), encoding="utf-8")
-    with pytest.raises(pw.ReadError, match=r"features\[1\].datum: must be an object with a row"):
+    with pytest.raises(
+        pw.ReadError, match=r"features\[1\].datum.row: must be an object with a row; there is none"
+    ):
         pw.Layout.load(file)
 
 

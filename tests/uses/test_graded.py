@@ -9,8 +9,7 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.pipeline.result import Run
-from packwork.pipeline.watch import RunContext
+from packwork.pipeline import Run, run
 from packwork.readers.words.items import EM_PX
 from packwork.uses import read, words_recipe
 from packwork.uses.words.graded import graded_places
@@ -208,7 +207,7 @@ def _run(container: str, count: int, **options: object) -> Run:
     """A cloud of so many words whose weights fall slowly."""
     weights = {f"{NAMES[k % 5]}{k}": (k + 3.0) ** -0.6 for k in range(count)}
     job = read(words_recipe(container, weights, count=count, **{**QUICK, **options}))
-    return job.use.run(job, RunContext())
+    return run(job)
 
 
 def test_many_words_stand_closer_unless_a_gap_is_asked_for(bar: str) -> None:

@@ -110,7 +110,7 @@ def test_labels_are_in_the_geojson_and_come_back(labelled: Layout, tmp_path: Pat
     ("key", "value", "problem"),
     [
         ("link", "javascript:alert(1)", r"features\[1\]\.link: must begin with http:"),
-        ("link", 3, r"features\[1\]\.link: must be text, not '3'"),
+        ("link", 3, r"features\[1\]\.link: must be text, not 3"),
         ("title", ["a"], r"features\[1\]\.title: must be text"),
     ],
 )

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import signal
 import socket
+import sys
 import threading
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
@@ -70,6 +71,13 @@ class InterruptListener:
             self._is_ending = True
             raise KeyboardInterrupt
 
+        def unraisable(dropped: sys.UnraisableHookArgs) -> None:
+            # What is raised inside a callback of a library is dropped there, and :meth:`press` ends
+            # the program: nobody who pressed Ctrl-C is to read a traceback.
+            if not isinstance(dropped.exc_value, KeyboardInterrupt):
+                hook(dropped)
+
+        hook, sys.unraisablehook = sys.unraisablehook, unraisable
         here, there = socket.socketpair()
         there.setblocking(False)
         wakeup = signal.set_wakeup_fd(there.fileno(), warn_on_full_buffer=False)
@@ -78,6 +86,7 @@ class InterruptListener:
         try:
             yield
         finally:
+            sys.unraisablehook = hook
             signal.signal(signal.SIGINT, before)
             signal.set_wakeup_fd(wakeup)
             self.finish()

@@ -106,7 +106,7 @@ def picture_frame(container: Container, longer_side_px: int) -> PictureFrame:
     >>> from packwork.geometry.outline import Outline
     >>> tile = Outline.from_rings([[[0, 0], [9, 0], [9, 4]]])
     >>> picture_frame(Container("tile", "tile", tile, 10.0, 4.1), 100)
-    Frame(rows=41, columns=100, px_per_cu=10.0)
+    PictureFrame(rows=41, columns=100, px_per_cu=10.0)
     """
     check_side(longer_side_px)
     rows, columns = image_shape(container.width, container.height, longer_side_px)

@@ -194,18 +194,8 @@ def read_chart(
         rows, owner, shares, [marks[kind] for kind in kinds or [""] * len(rows)], options
     )
     colour_of = _per_mark(colours, owner)
-    everything = tuple(
-        dict.fromkeys(
-            (
-                *table.notices,
-                *shown_rows.notices,
-                *(groups.notices if groups else ()),
-                *oddities(table, options),
-                *more,
-                *told,
-            )
-        )
-    )
+    of_rows = (*table.notices, *shown_rows.notices, *(groups.notices if groups else ()))
+    everything = tuple(dict.fromkeys((*of_rows, *oddities(table, options), *more, *told)))
     lost = tuple(dict.fromkeys((*shown_rows.lost, *(groups.lost if groups else ()))))
     for notice in everything:
         _LOG.warning("%s", f"{table.name}: {notice}" if notice in table.notices else notice)

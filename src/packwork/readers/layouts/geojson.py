@@ -241,11 +241,12 @@ def _refusal(refused: ValidationError, where: str) -> str:
     names = [where] if where else []
     # After "properties" stands the role: the tag of the union.
     names += map(str, place[2:] if place[0] == "properties" else place)
-    met = None if error["type"] == "missing" else met
     is_number = isinstance(met, int | float) and not isinstance(met, bool)
     must = _MUST.get(names[-1], _NUMBER)
     if error["type"] == "float_type" and not is_number:
         must = "must be a number"
+    if error["type"] == "missing":
+        return f"{'.'.join(names)}: {must}; there is none"
     shown = f"{met:g}" if isinstance(met, float) else str(met)[:20]
     return f"{'.'.join(names)}: {must}, not {shown if is_number else repr(shown)}"
 

@@ -15,7 +15,7 @@ from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg, read_svg
 from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.region.ink import PaintedInk, TracedInk
-from packwork.readers.svg.render.compare import Comparison, excess
+from packwork.readers.svg.render.compare import Comparison, excess, side_by_side
 from packwork.readers.svg_syntax.page import read_page
 from packwork.readers.unfit import TooRichError
 
@@ -107,8 +107,9 @@ def test_agreement_is_the_share_of_areas(share):
 def test_excess_counts_what_lies_beyond():
     root = admit(svg('<rect width="60" height="60"/>'))
     page = read_page(root)
-    assert excess(shapely.box(0, 0, 60, 60), root, page, 64) == 0
-    assert excess(shapely.box(0, 0, 40, 60), root, page, 64) == pytest.approx(0.5, abs=0.1)
+    whole, part = shapely.box(0, 0, 60, 60), shapely.box(0, 0, 40, 60)
+    assert excess(*side_by_side(whole, root, page, 64)) == 0
+    assert excess(*side_by_side(part, root, page, 64)) == pytest.approx(0.5, abs=0.1)
 
 
 def test_solid_twin_keeps_what_is_seen_only():
