@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import packwork as pw
-from packwork import pipeline, uses
+from packwork import pipeline, precompile, uses
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry.simplify import hull
 from packwork.losses.term import Term
@@ -278,7 +278,7 @@ def test_item_weights_follow_names_not_places() -> None:
 
 
 def test_warming_up_changes_nothing_that_is_seen() -> None:
-    pipeline.warm_up()
+    precompile.warm_up()
 
 
 def test_padding_keeps_items_apart_and_off_the_edge() -> None:

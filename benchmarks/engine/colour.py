@@ -20,7 +20,7 @@ from benchmarks.kit import frozen
 from benchmarks.kit.epochs import EDGES, spread_out
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import Timing, markdown_table, timed
-from packwork import pipeline, threads
+from packwork import precompile, threads
 from packwork.arrays import FloatArray, Image
 from packwork.raster.colour import ColourImage
 from packwork.raster.coverage import Rasteriser
@@ -151,7 +151,7 @@ def pulled_row(seed: int) -> list[str]:
 
 
 def main() -> None:
-    pipeline.warm_up()
+    precompile.warm_up()
     cost = []
     with threads.using(1):
         for count in COUNTS:

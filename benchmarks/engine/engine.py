@@ -25,7 +25,7 @@ from benchmarks.kit.measuring import (
     timed_in_turn,
 )
 from benchmarks.kit.runs import EA, EXACT_OO, LC, LNU, OO, SECONDS, on_frozen_set
-from packwork import pipeline
+from packwork import precompile
 from packwork.arrays import FloatArray
 from packwork.losses.fused import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
@@ -206,7 +206,7 @@ def target_rows(
 def main() -> None:
     """Measure, print, write docs/benchmarks/engine.md."""
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     epochs = timed_epochs(
         {"without evenness": {**WEIGHTS, "evenness": 0.0}, "with evenness": WEIGHTS}
     )

@@ -32,7 +32,7 @@ from benchmarks.kit.epochs import epoch_of
 from benchmarks.kit.manifests import Manifest, known, stamp, write_manifest, write_text
 from benchmarks.kit.measuring import DOCS, machine, timed_in_turn
 from benchmarks.pages import overview
-from packwork import pipeline, uses
+from packwork import precompile, uses
 from packwork.readers.container import read_container
 from packwork.recipe import make_recipe
 
@@ -61,7 +61,7 @@ def child(count: int, side: int, seed: int) -> Manifest:
     items = list(islice(cycle(frozen.items()[: len(frozen.ICONS)]), count))
     options = {"levels": str(side), "epochs": EPOCHS, "finish": "none"} if side else {}
     recipe = make_recipe(container="round", items=["-"], seed=seed, **options)
-    pipeline.warm_up()
+    precompile.warm_up()
     before = _peak()
     began = time.process_time()
     run = uses.fill(recipe, items, container)
@@ -201,7 +201,7 @@ def main(words: list[str]) -> None:
         print(json.dumps(child(*map(int, words[1:]))))
         return
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     given = [int(word.split("=")[1]) for word in words if word.startswith("most=")]
     is_short = "short" in words
     chosen = sections(is_short, given[0] if given else max(COUNTS))

@@ -17,7 +17,7 @@ import shapely
 
 from benchmarks.kit import frozen
 from benchmarks.kit.measuring import machine, markdown_table
-from packwork import pipeline
+from packwork import precompile
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull_areas
@@ -192,7 +192,7 @@ def bad_rows(epochs: int) -> list[list[str]]:
 def main(parts: list[str]) -> None:
     """Measure and print."""
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     tables = []
     header = ["container", "auto chose", *METHODS]
     if "good" in parts:

@@ -23,7 +23,7 @@ from benchmarks.kit.published import COMPARISONS, Comparison
 from benchmarks.pages import overview
 from benchmarks.paper import cases, resolution
 from benchmarks.quality import evenness
-from packwork import pipeline, uses
+from packwork import precompile, uses
 from packwork.recipe import make_recipe
 
 SEEDS = (0, 1, 2, 3, 4)
@@ -167,7 +167,7 @@ def main(words: list[str]) -> None:
     sections = [name for name in SECTIONS if name in words] or list(SECTIONS)
     is_short = "short" in words
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     if "cases" in sections:
         manifest = {**stamp(), **measure(SEEDS[:1] if is_short else SEEDS)}
         if is_short:

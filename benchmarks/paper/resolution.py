@@ -19,7 +19,7 @@ from benchmarks.kit.manifests import Manifest, stamp, write_manifest, write_text
 from benchmarks.kit.measuring import machine, markdown_table, ranged
 from benchmarks.kit.published import RESOLUTIONS
 from benchmarks.kit.runs import EA, LC, MEASURES, OO, SECONDS, on_frozen_set
-from packwork import pipeline
+from packwork import precompile
 from packwork.arrays import FloatArray
 
 SEEDS = (0, 1, 2)
@@ -109,7 +109,7 @@ def main(words: list[str]) -> None:
     """Measure, print, write the manifest and docs/benchmarks/resolution.md."""
     seeds = SEEDS[:1] if "short" in words else SEEDS
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     manifest = {**stamp(), **measure(seeds)}
     if seeds == SEEDS:
         write_text("resolution.md", page(write_manifest("resolution", manifest)))

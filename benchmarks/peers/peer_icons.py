@@ -18,7 +18,7 @@ import shapely
 from benchmarks.kit import frozen
 from benchmarks.kit.manifests import Manifest
 from benchmarks.peers.peering import RUNS, entry, missing, version
-from packwork import pipeline, uses
+from packwork import precompile, uses
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.simplify import hull
@@ -125,7 +125,7 @@ def measure(seconds: int = SECONDS, seeds: int = RUNS) -> list[Manifest]:
         return [missing("spyrrow", "pip install packwork[bench]")]
     theirs: dict[str, list[Result]] = {name: [] for name in STEPS}
     mine = []
-    pipeline.warm_up()
+    precompile.warm_up()
     for seed in range(seeds):
         lengths = []
         for name, angles in STEPS.items():

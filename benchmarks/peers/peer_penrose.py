@@ -17,7 +17,7 @@ from benchmarks.kit import frozen, node
 from benchmarks.kit.circles import RADIUS, circle
 from benchmarks.kit.manifests import Manifest
 from benchmarks.peers.peering import entry, missing, repeated, timed_out, version
-from packwork import pipeline, uses
+from packwork import precompile, uses
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.recipe import make_recipe
@@ -58,7 +58,7 @@ def measure(
     """Both tasks, more and more items, until one is too many."""
     known = node.version("@penrose/core")
     found = [] if known else [missing("Penrose", "packwork bench peers install")]
-    pipeline.warm_up()
+    precompile.warm_up()
     for task, some in (counts or COUNTS).items():
         found += [_ours(task, count) for count in ours]
         if known:

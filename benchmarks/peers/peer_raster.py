@@ -19,7 +19,7 @@ from benchmarks.kit.epochs import EDGES, epoch_of
 from benchmarks.kit.manifests import Manifest
 from benchmarks.kit.measuring import timed
 from benchmarks.peers.peering import RUNS, entry, missing, version
-from packwork import pipeline, uses
+from packwork import precompile, uses
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.metrics.pixel import pixel_metrics
@@ -55,7 +55,7 @@ def measure(
     """An epoch by items and pixels, ours and theirs, and one whole run of each."""
     known = version("torch")
     found = [] if known else [missing("PyTorch, soft masks", "pip install packwork[torch]")]
-    pipeline.warm_up()
+    precompile.warm_up()
     for count in counts:
         for px in resolutions:
             task = f"epoch, {px} px"

@@ -24,7 +24,7 @@ from benchmarks.words.clouds import (
     proportional_peer,
     vocabulary,
 )
-from packwork import pipeline
+from packwork import precompile
 from packwork.readers.container import read_container
 from packwork.scene.container import Container
 
@@ -44,7 +44,7 @@ ALONE = 100
 def measure() -> list[Manifest]:
     """All programs, the same words."""
     weights = vocabulary(COUNT)
-    pipeline.warm_up()
+    precompile.warm_up()
     found = []
     peers: dict[str, Callable[[Container, dict[str, float]], Cloud]] = {}
     if version("wordcloud") is None:

@@ -16,7 +16,7 @@ from scipy.stats import spearmanr
 
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table
-from packwork import pipeline, uses
+from packwork import precompile, uses
 from packwork.arrays import FloatArray
 from packwork.recipe import make_recipe
 from packwork.scene.contrast import oklabs_of_light
@@ -62,7 +62,7 @@ def in_order(layout: Layout, way: str) -> float:
 def main() -> None:
     asked = dict(word.split("=", 1) for word in sys.argv[1:])
     count = int(asked.get("items", ITEMS))
-    pipeline.warm_up()
+    precompile.warm_up()
     rows = []
     for container in CONTAINERS:
         plain = uses.fill(make_recipe(container=container, count=count))

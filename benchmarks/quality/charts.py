@@ -20,7 +20,7 @@ import numpy as np
 
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table, ranged
-from packwork import pipeline, uses, writers
+from packwork import pipeline, precompile, uses, writers
 from packwork.readers.layouts.read import read_written
 
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -113,7 +113,7 @@ def labelled(run: pipeline.Run) -> int:
 
 def main() -> None:
     seeds = tuple(map(int, sys.argv[1:])) or SEEDS
-    pipeline.warm_up()
+    precompile.warm_up()
     found = []
     with tempfile.TemporaryDirectory() as name:
         for chart in CHARTS:

@@ -18,7 +18,7 @@ from scipy.spatial import cKDTree
 
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import DOCS, markdown_table
-from packwork import pipeline, uses
+from packwork import precompile, uses
 from packwork.arrays import FloatArray, IntArray
 from packwork.assignment.embedding import assigned
 from packwork.pipeline.result import Run
@@ -143,7 +143,7 @@ def word_row(shape: str, name: str, file: Path) -> list[str]:
 
 
 def main() -> None:
-    pipeline.warm_up()
+    precompile.warm_up()
     icons, clouds = list[list[str]](), list[list[str]]()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

@@ -21,7 +21,7 @@ from benchmarks.kit.epochs import BLOCKS, EpochTiming, frozen_edges, timed_epoch
 from benchmarks.kit.manifests import Manifest, stamp, write_manifest, write_text
 from benchmarks.kit.measuring import Timing, machine, markdown_table
 from benchmarks.kit.runs import EA, LC, LNU, MEASURES, OO, on_frozen_set
-from packwork import pipeline
+from packwork import precompile
 from packwork.arrays import FloatArray
 from packwork.recipe.presets import PRESETS
 
@@ -188,7 +188,7 @@ def main(words: list[str]) -> None:
     """Measure, print, write the manifest and docs/benchmarks/evenness.md."""
     seeds = SEEDS[:1] if "short" in words else SEEDS
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     manifest = {**stamp(), **measure(seeds)}
     if seeds == SEEDS:
         write_text("evenness.md", page(write_manifest("evenness", manifest)))

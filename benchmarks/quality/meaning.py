@@ -25,7 +25,7 @@ from PIL import Image
 
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table
-from packwork import pipeline, uses, writers
+from packwork import precompile, uses, writers
 from packwork.arrays import FloatArray, IntArray
 from packwork.assignment.colour import GRID, order_by_colour
 from packwork.raster.coverage import coverage
@@ -258,7 +258,7 @@ def _shuffled(layout: Layout) -> Layout:
 def main() -> None:
     asked = dict(word.split("=", 1) for word in sys.argv[1:])
     count = int(asked.get("items", ITEMS))
-    pipeline.warm_up()
+    precompile.warm_up()
     rows = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)

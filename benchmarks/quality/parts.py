@@ -19,7 +19,7 @@ import shapely
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import machine, markdown_table, ranged
 from benchmarks.kit.runs import timed_fill
-from packwork import pipeline
+from packwork import precompile
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.metrics.exact import exact_coverage
@@ -110,7 +110,7 @@ def main(words: list[str]) -> None:
     """Measure, print, write docs/benchmarks/parts.md."""
     seeds = SEEDS[:1] if "short" in words else SEEDS
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     rows, parts = [], []
     for count in COUNTS:
         for name, options in WAYS.items():

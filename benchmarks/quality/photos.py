@@ -22,7 +22,7 @@ from PIL import Image
 
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table, ranged
-from packwork import pipeline, uses
+from packwork import pipeline, precompile, uses
 
 CONTAINERS = ("moon", "fish", "heart")
 RATIOS = (2.0, 2**0.5)
@@ -127,7 +127,7 @@ def main() -> None:
         print("\n\n".join(memory()))
         return
     seeds = tuple(map(int, arguments)) or SEEDS
-    pipeline.warm_up()
+    precompile.warm_up()
     with tempfile.TemporaryDirectory() as name:
         album(Path(name), COUNT, 0.5)
         found = markdown_table(HEADER, rows(Path(name), seeds))

@@ -25,7 +25,7 @@ from benchmarks.kit import frozen, others
 from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import machine, markdown_table, ranged
 from benchmarks.quality import many
-from packwork import pipeline, uses
+from packwork import precompile, uses
 from packwork.metrics.exact import exact_metrics
 from packwork.pipeline.job import Clock
 from packwork.pipeline.state import RunState
@@ -220,7 +220,7 @@ def main(words: list[str]) -> None:
     """Measure, print, write docs/benchmarks/quality.md."""
     asked = Asked(tuple(words))
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     told, made = " ".join(["quality", *words]), []
     for table in tables(asked):
         print(table, flush=True)

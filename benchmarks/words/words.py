@@ -22,7 +22,7 @@ from benchmarks.kit.measuring import machine
 from benchmarks.words import clouds, drop_in, examples, pairs
 from benchmarks.words.thin_shapes import thin_shapes
 from benchmarks.words.words_page import page
-from packwork import pipeline
+from packwork import precompile
 
 FAT = ("bird", "bear", "dragon", "cat", "heart")
 COUNTS = (100, 400)
@@ -74,7 +74,7 @@ def main(words: list[str]) -> None:
     _check({*asked, *paths})
     is_short = "short" in words
     print(machine(), flush=True)
-    pipeline.warm_up()
+    precompile.warm_up()
     for name in asked or ([] if paths else list(SECTIONS)):
         _keep(name, SECTIONS[name](is_short=is_short), is_short)
     if "examples" in paths:

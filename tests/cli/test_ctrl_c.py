@@ -134,7 +134,7 @@ def test_ctrl_c_before_there_is_anything_says_so(
     def interrupted(*_: object, **__: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("packwork.pipeline.warm_up", interrupted)
+    monkeypatch.setattr("packwork.precompile.warm_up", interrupted)
     result = packwork("fill circle star -o out.svg")
     assert result.exit_code == 130
     assert result.stderr == "packwork: stopped before there was anything to write\n"

@@ -233,12 +233,12 @@ def warm_up() -> None:
     import packwork.cli.running
     import packwork.writers.dxf
     import packwork.writers.pdf  # noqa: F401
-    from packwork import pipeline
+    from packwork import precompile
     from packwork.cli.commands import Commands
 
     for command in Commands().values():
         assert command.name
-    pipeline.warm_up()
+    precompile.warm_up()
 
 
 def typed(line: Line) -> dict[str, Any]:

@@ -14,7 +14,8 @@ from packwork.api.keywords import ChartKeywords, WordsKeywords
 from packwork.api.layout import Layout, public
 from packwork.batches.sheet import THUMB_PX, sheet_bytes
 from packwork.errors import RecipeError
-from packwork.pipeline import tell_coarse, warm_up_once
+from packwork.pipeline import tell_coarse
+from packwork.precompile import warm_up_once
 from packwork.progress import Stop, never
 from packwork.readers.layouts.read import is_session
 from packwork.readers.memory.values import Value

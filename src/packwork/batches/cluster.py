@@ -20,7 +20,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from packwork import pipeline, threads
+from packwork import precompile, threads
 from packwork.batches.task import Drawn, RowOutcome, Task, draw, failed, make, write
 from packwork.display.extras import found
 from packwork.errors import PackworkError
@@ -286,7 +286,7 @@ def make_in_place(task: Task) -> RowOutcome:
 
 def _warm_up() -> None:
     with threads.using(1):
-        pipeline.warm_up_once()
+        precompile.warm_up_once()
 
 
 def _check_version(wanted: str) -> None:

@@ -17,7 +17,7 @@ from concurrent.futures.process import BrokenProcessPool
 from multiprocessing.synchronize import Event
 from typing import Generic, TypeVar
 
-from packwork import pipeline, threads
+from packwork import precompile, threads
 from packwork.errors import PackworkError
 from packwork.offspring import end_with_parent
 from packwork.progress import Stop, never
@@ -136,7 +136,7 @@ def _begin(stopped: Event) -> None:
     _stopped = stopped
     threading.Thread(target=_follow_parent, daemon=True).start()
     with threads.using(1):
-        pipeline.warm_up_once()
+        precompile.warm_up_once()
 
 
 def _follow_parent() -> None:

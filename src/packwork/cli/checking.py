@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import asdict, replace
 from pathlib import Path
 
-from packwork import pipeline, writers
+from packwork import pipeline, verify, writers
 from packwork.scene.layout import Layout
 
 
@@ -17,16 +17,14 @@ def faults_in(
     return [
         f"{path.name}: {fault}"
         for path, data in drawn
-        for fault in pipeline.faults_in_file(data, path, layout, options)
+        for fault in verify.faults_in_file(data, path, layout, options)
     ]
 
 
 def on_trust_in(drawn: Sequence[tuple[Path, bytes]], layout: Layout) -> list[str]:
     """What of the files is not held against what was measured, a sentence each."""
     return [
-        f"{path.name}: {one}"
-        for path, _ in drawn
-        for one in pipeline.on_trust_in_file(path, layout)
+        f"{path.name}: {one}" for path, _ in drawn for one in verify.on_trust_in_file(path, layout)
     ]
 
 
@@ -45,9 +43,9 @@ def painted_in(
 ) -> dict[str, int] | None:
     """Pixels that the first SVG paints outside or twice, and a line where a certified one does."""
     data = next((data for path, data in drawn if path.suffix.lower() == ".svg"), None)
-    if data is None or len(data) > pipeline.PAINTED_BYTES:
+    if data is None or len(data) > verify.PAINTED_BYTES:
         return None
-    painted = pipeline.painted_pixels(data, run.layout, is_own=True)
+    painted = verify.painted_pixels(data, run.layout, is_own=True)
     if run.certified and (painted.outside or painted.double):
         advice.append(f"{painted}")
     return asdict(painted)

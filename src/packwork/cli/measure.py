@@ -13,8 +13,8 @@ from packwork.cli.failure import SHORTFALL, clear_errors
 from packwork.cli.terminal import say
 
 if TYPE_CHECKING:
-    from packwork.pipeline.painted import PaintedPixels
     from packwork.scene.layout import Layout
+    from packwork.verify.paint import PaintedPixels
 
 
 @shared.by_name
@@ -111,10 +111,10 @@ def _painted(path: Path, layout: Layout) -> PaintedPixels:
     ReadError
         If it is no SVG.
     """
-    from packwork.pipeline import painted_pixels
     from packwork.readers.files import read_bytes
     from packwork.readers.gate.door import MAX_BYTES
     from packwork.readers.unfit import UnfitError, naming
+    from packwork.verify import painted_pixels
 
     with naming(str(path)):
         if path.suffix.lower() != ".svg":

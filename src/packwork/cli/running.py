@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 import typer
 from rich.console import Console
 
-from packwork import pipeline, threads, uses, writers
+from packwork import pipeline, precompile, threads, uses, writers
 from packwork.cli.checking import held_against_files, on_trust_in, painted_in
 from packwork.cli.choosing import check_choosing, run_chosen, seeded, sheet_of
 from packwork.cli.cutting import check_bleed, check_room, with_room
@@ -298,11 +298,11 @@ def compile_kernels(bar: TerminalBar) -> None:
     """Compile what no earlier run has, with a bar that counts."""
 
     def tell(done: int) -> None:
-        of = pipeline.KERNELS
+        of = precompile.KERNELS
         bar.tell(done / of, f"compiling, on the first run only: {done} of {of} kernels")
 
     with bar.showing():
-        pipeline.warm_up(tell, second=True)
+        precompile.warm_up(tell, second=True)
 
 
 def _filmed(

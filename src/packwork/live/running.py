@@ -9,8 +9,9 @@ import numpy as np
 
 from packwork import threads
 from packwork.arrays import IntArray
-from packwork.pipeline import run, warm_up_once
+from packwork.pipeline import run
 from packwork.pipeline.job import Job
+from packwork.precompile import warm_up_once
 from packwork.progress import Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.item import Item

@@ -16,7 +16,7 @@ from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.read import Material, job_of, read_room
 from packwork.pipeline.result import Run
 from packwork.pipeline.run import run
-from packwork.pipeline.warming import warm_up_once
+from packwork.precompile import warm_up_once
 from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container

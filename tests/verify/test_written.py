@@ -9,11 +9,11 @@ from dataclasses import replace
 import pytest
 
 import packwork as pw
-from packwork.pipeline.painted import painted_pixels, sets_apart
-from packwork.pipeline.written import faults_in_file
 from packwork.readers.layouts.read import read_content
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.unfit import UnfitError
+from packwork.verify.paint import painted_pixels, sets_apart
+from packwork.verify.text import faults_in_file
 from packwork.writers.registry import encoded
 
 QUICK = {"effort": "draft", "levels": "24", "epochs": 6, "seed": 1}

@@ -15,11 +15,11 @@ from typer.testing import CliRunner
 import packwork as pw
 from packwork.cli import app
 from packwork.cli.checking import on_trust_in
-from packwork.pipeline.written import faults_in_file
 from packwork.readers.layouts.pdf import printed_page
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.unfit import UnfitError
 from packwork.scene.item import Item
+from packwork.verify.text import faults_in_file
 from packwork.writers import pdf, registry
 from packwork.writers.registry import encoded, write_options
 

@@ -76,7 +76,7 @@ Counted = Callable[[int], None]
 
 _HELPER = (
     END_WITH_PARENT + "import json; sys.path[:] = json.loads(sys.argv[1])\n"
-    "from packwork.pipeline.warming import help_out; help_out(sys.argv[2])"
+    "from packwork.precompile import help_out; help_out(sys.argv[2])"
 )
 
 
