@@ -16,7 +16,7 @@ class PackworkError(Exception):
     """Root of every error this package raises on purpose."""
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """How it is pickled and copied: by what it holds, whatever it was made of."""
+        """Pickled and copied by its contents, whatever it was made of."""
         return _again, (type(self), self.args, self.__dict__)
 
 

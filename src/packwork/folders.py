@@ -54,8 +54,6 @@ class Store:
 
     Parameters
     ----------
-    name
-        Of the folder, inside ours.
     most_bytes
         Size of all entries, beyond which those that were not used for longest go.
     variable
@@ -74,7 +72,7 @@ class Store:
 
     @property
     def folder(self) -> Path | None:
-        """Where the entries lie; None where none can be kept."""
+        """Folder of the entries; None where none can be kept."""
         return private_folder(self._name, self._variable)
 
     def get(self, key: str) -> bytes | None:
@@ -142,8 +140,6 @@ def private_folder(name: str, variable: str | None = None) -> Path | None:
 
     Parameters
     ----------
-    name
-        Of the folder, inside ours.
     variable
         Another environment variable that may name the folder in which ours lies.
 

@@ -64,12 +64,10 @@ _OTHER_GENERIC = frozenset(
 
 @dataclass(frozen=True, kw_only=True)
 class FontChoice:
-    """What the letters of a document are set in.
+    """Fonts that the letters of a document are set in.
 
     Parameters
     ----------
-    files
-        Font files to choose from.
     serif, sans_serif, monospace
         Families that the generic names stand for; ``serif`` also stands in for a family
         that is not there and like no other.
@@ -278,7 +276,7 @@ def _font_files(folders: Iterable[Path]) -> list[str]:
 
 
 def _folders() -> list[Path]:
-    """Where fonts are looked for: as the environment says, else where this system has them."""
+    """Font folders: as the environment says, else where this system has them."""
     if own := os.environ.get(FOLDERS):
         return [Path(folder) for folder in own.split(os.pathsep) if folder]
     # Folders that are not there are passed over.

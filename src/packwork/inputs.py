@@ -1,4 +1,4 @@
-"""Which files a program has read, so that no result is written over one of them.
+"""Files that a program has read, so that no result is written over one of them.
 
 Readers note what they open, writers ask before they write: nothing has to be foreseen of
 folders, patterns or files that name other files. Only programs that say so keep notes.
@@ -85,7 +85,7 @@ def check_no_input(path: str | Path) -> None:
 
 
 def _identities(file: str | Path | int) -> list[_Identity]:
-    """What tells a file from others: its number on the disk, and its path where disks have none."""
+    """Identities of a file: its number on the disk, and its path where disks have none."""
     try:
         found = os.stat(file)  # noqa: PTH116 - descriptors too
     except (OSError, ValueError):

@@ -27,7 +27,7 @@ def mirrored(folder: Path) -> Iterator[None]:
 
 
 def here_of(path: str | Path) -> Path:
-    """Where what is called so lies on this machine; the path itself unless it was mirrored.
+    """Path of this machine for one that is mirrored; the path itself unless it was mirrored.
 
     Examples
     --------
@@ -42,7 +42,7 @@ def here_of(path: str | Path) -> Path:
 
 
 def place_in(folder: Path, path: str | PurePath) -> Path:
-    """Where a file of that name lies in a mirror: inside it, whatever the name.
+    """Path of a file of that name in a mirror: inside it, whatever the name.
 
     Examples
     --------
@@ -70,7 +70,7 @@ def names_like(pattern: str) -> list[str]:
 
 
 def _name_in(folder: Path, copy: Path) -> str:
-    """What a mirrored file is called: the inverse of :func:`place_in`."""
+    """Name of a mirrored file: the inverse of :func:`place_in`."""
     first, *rest = copy.relative_to(folder).parts
     if first.startswith("^") and first != "^^":
         first = f"{first[1:]}:\\" if first[1:] else "/"

@@ -1,4 +1,4 @@
-"""Where an option is offered: heading, verbs, flags; and its type, bounds and default for faces."""
+"""Offers of options: heading, verbs, flags; and type, bounds and default for faces."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ class Verbs(Flag):
 
 @dataclass(frozen=True, kw_only=True)
 class Offer:
-    """Where and how an option is offered; type, default and bounds stand in its field.
+    """Offer of an option on the command line; type, default and bounds stand in its field.
 
     Parameters
     ----------
@@ -104,12 +104,8 @@ class Offered:
 
     Parameters
     ----------
-    name
-        Name of the field, and key of recipe files.
     offer
         Where and how it is offered; group and verbs of its model are filled in.
-    field
-        Type, bounds, default and docstring.
     """
 
     name: str

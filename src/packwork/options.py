@@ -1,4 +1,4 @@
-"""What all options are: frozen values that refuse unknown keys and say what they mean.
+"""Base of all options: frozen values that refuse unknown keys and say what they mean.
 
 A field is the only place of an option: name, type, bounds, default, docstring and, where it is
 offered otherwise than its neighbours, a :class:`packwork.offers.Offer`. Command lines, signatures

@@ -203,7 +203,7 @@ def _may_have_help() -> bool:
 
 
 def _mark() -> str | None:
-    """What is kept beside the kernels once all parts are; None where texts are not to be had."""
+    """Mark beside the kernels once all parts are there; None where texts are not to be had."""
     try:
         return compiled.mark_of(MODULES)
     except OSError:
@@ -258,7 +258,7 @@ def images() -> None:
 
 
 def contacts() -> None:
-    """What keeps items apart."""
+    """Contacts, which keep items apart."""
     near = _arrangement()
     steps.rows_of(near.board, np.arange(1), near.pairs(1.0), 0.1, 0.0, 0.01)
 
@@ -290,7 +290,7 @@ def trials() -> None:
 
 
 def neighbourhoods() -> None:
-    """Which trials may be made at once."""
+    """Neighbourhoods: trials that may be made at once."""
     near = _arrangement()
     distances.nearby(near.board.boxes, np.arange(1), 1.0)
     moved, places = np.array([[0, -1]]), np.zeros((1, 2, 4))

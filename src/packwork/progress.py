@@ -1,4 +1,4 @@
-"""What a stage tells and asks: steps, observers, stopping."""
+"""Progress of a stage: steps, observers, stopping."""
 
 from __future__ import annotations
 
@@ -90,7 +90,7 @@ class Step:
 
     @cached_property
     def objective(self) -> ObjectiveTerms:
-        """What the levels minimise, after this epoch; of other stages no terms."""
+        """Objective that the levels minimise, after this epoch; of other stages no terms."""
         return self.priced()
 
     @cached_property
@@ -109,7 +109,7 @@ class Step:
 
     @property
     def outside(self) -> float:
-        """What is covered outside the container, as a share of it."""
+        """Area that is covered outside the container, as a share of it."""
         return self._shares[2]
 
 

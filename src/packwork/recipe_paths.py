@@ -1,4 +1,4 @@
-"""Where a recipe names files: one list for reading, writing and checking recipes.
+"""Paths in recipes: one list for reading, writing and checking them.
 
 A recipe file's names are seen from its own folder. Which texts are names of files, and where
 they stand inside longer ones (``towards curve.svg``), is known here alone.

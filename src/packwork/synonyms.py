@@ -1,4 +1,4 @@
-"""What people type for options and commands that go by other names here.
+"""Synonyms that people type for options and commands that go by other names here.
 
 Spelling finds ``cuont``; only meaning finds ``gap``. Names of other programs are among them.
 """
@@ -91,14 +91,12 @@ _COMMANDS: Mapping[str, str] = {
 
 
 def option_meant(typed: str, known: Iterable[str]) -> str | None:
-    """What would do for an option that is not known, as a flag or an argument; None if nothing.
+    """Option in place of an unknown one, as a flag or an argument; None if there is none.
 
     Parameters
     ----------
     typed
         With or without dashes.
-    known
-        Names of the options that there are.
 
     Examples
     --------

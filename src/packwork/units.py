@@ -149,7 +149,7 @@ def parse_share(value: object) -> object:
 
 @dataclass(frozen=True)
 class CanvasSize:
-    """What is asked of a canvas.
+    """Size of a canvas, as it was asked.
 
     Parameters
     ----------

@@ -34,14 +34,10 @@ def photos(
 
     Parameters
     ----------
-    container
-        As for :func:`packwork.fill`.
     sources
         Photos (JPEG, PNG, WebP), folders of them or patterns; pictures, arrays and bytes too.
     add
         Items that are placed among the photos, as for :func:`packwork.fill`.
-    y_up, observer, stop, progress, record, history
-        As for :func:`packwork.fill`.
     options
         As on the command line, by the names in the signature.
 

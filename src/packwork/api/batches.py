@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, repr=False)
 class Batch:
-    """What a batch came to.
+    """Outcome of a batch: its rows, and what became of each.
 
     Parameters
     ----------

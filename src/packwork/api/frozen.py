@@ -1,4 +1,4 @@
-"""What makes layouts values: mappings and arrays that nobody changes."""
+"""Immutable mappings and arrays, of which layouts are made."""
 
 from __future__ import annotations
 
@@ -42,15 +42,7 @@ class ReadOnly(dict[str, Any]):
 
 
 class Manifest(ReadOnly):
-    """What a run did, and which layout it is true of.
-
-    Parameters
-    ----------
-    values
-        As :class:`packwork.scene.layout.Layout` has them.
-    parts
-        Container, items, poses and weights that it is of.
-    """
+    """Record of what a run did, and of the layout that it is true of."""
 
     def __init__(self, values: Mapping[str, Any], parts: tuple[Any, ...]) -> None:
         super().__init__(values)

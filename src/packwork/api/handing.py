@@ -1,4 +1,4 @@
-"""What users hand over in memory, wherever an option names files."""
+"""Values that users hand over in memory, wherever an option names files."""
 
 from __future__ import annotations
 

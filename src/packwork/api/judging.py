@@ -83,8 +83,6 @@ def finish(
         How many turns and exchanges of items are tried, so that they can grow more.
     seed
         Of those trials.
-    observer, stop
-        As for :func:`fill`.
 
     Raises
     ------

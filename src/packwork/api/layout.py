@@ -123,8 +123,6 @@ class Layout(scene.Layout):
 
         Parameters
         ----------
-        path
-            The file.
         items
             Drawings to have in place of shapes of the same names, as :func:`read_items` gives them.
 
@@ -227,7 +225,7 @@ class Layout(scene.Layout):
         return self._encoded("png", options)
 
     def to_geojson(self) -> dict[str, Any]:
-        """What the GeoJSON holds that :meth:`save` writes: canvas units, y down.
+        """GeoJSON as :meth:`save` writes it: canvas units, y down.
 
         Examples
         --------
@@ -263,8 +261,6 @@ class Layout(scene.Layout):
         ----------
         path
             Its ending picks the format: .svg, .gif, .apng, .webp, .mp4, .webm, .json (Lottie).
-        background, show_container, progress
-            As for :meth:`save` and :func:`fill`.
         options
             As on the command line: ``fps``, ``seconds``, ``hold``, ``loop``, ``easing`` ...
 

@@ -10,7 +10,7 @@ from packwork.scene.item import Item
 
 
 class Pose(NamedTuple):
-    """Where one item is: canvas units and radians, as in :class:`packwork.Poses`."""
+    """Pose of one item: canvas units and radians, as in :class:`packwork.Poses`."""
 
     x: float
     y: float
@@ -25,10 +25,6 @@ class Placement:
 
     Parameters
     ----------
-    item
-        What was placed.
-    pose
-        Where it is.
     outline
         Its outline there, canvas units.
     weight
@@ -42,7 +38,7 @@ class Placement:
 
     @property
     def name(self) -> str:
-        """What people call the item."""
+        """Name of the item, as people read it."""
         return self.item.name
 
     @property

@@ -40,8 +40,6 @@ def run(
     allow_code
         Run code that a recipe file names, as losses ``module:function``: only if you trust
         whoever wrote both.
-    observer, stop, progress, record, history
-        As for :func:`packwork.fill`.
     options
         In place of the recipe's.
 

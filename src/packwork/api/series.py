@@ -37,8 +37,6 @@ class Series:
     ----------
     column
         What the steps are called by in names of files.
-    labels
-        Of the steps.
     layouts
         Of each; the film's is :attr:`film`.
     """
@@ -111,8 +109,6 @@ def series(
 
     Parameters
     ----------
-    container
-        As for :func:`fill`.
     table
         Words and weights with a column of steps: a file (.csv, .tsv, .json), a data frame, rows as
         dicts; or by step a dict of weights by word.
@@ -165,8 +161,6 @@ def chart_series(
 
     Parameters
     ----------
-    container, data
-        As for :func:`chart`.
     column
         Of steps; with ``by_step`` so many of its numbers go together.
     stop

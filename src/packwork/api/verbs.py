@@ -118,17 +118,11 @@ def words(
 
     Parameters
     ----------
-    container
-        As for :func:`fill`.
-    y_up
-        As for :func:`fill`.
     source
         A text or the file that holds it, a table ``word,weight`` (.csv, .tsv, .json), or
         weights by word: a dict, a ``Counter``, a pandas Series.
     add
         Items that are placed among the words: files, folders or built-in names.
-    observer, stop, progress, record, history
-        As for :func:`fill`.
     options
         As on the command line, by the names in the signature. ``color_by`` may be a function
         of a word; a ``background`` is to be given to ``save`` too.
@@ -179,8 +173,6 @@ def pile(
     container
         As for :func:`fill`; an SVG of open paths is open where they are, and ``"none"``
         lets items lie anywhere.
-    items, y_up, observer, stop, progress, record, history
-        As for :func:`fill`.
     options
         As on the command line, by the names in the signature.
 
@@ -225,8 +217,6 @@ def chart(
     ----------
     container
         As for :func:`fill`; ``"none"`` shows the groups of ``by`` as bars.
-    y_up, observer, stop, progress, record, history
-        As for :func:`fill`.
     data
         A table (.csv, .tsv, .json, with pandas .parquet), a data frame, rows as dicts, or a
         dict of columns.
@@ -273,14 +263,10 @@ def read_items(
     name_by, weight_by
         Columns of a frame, or properties of GeoJSON, that say what each item is called and what
         share of area it asks for. None: those called name and weight, where there are such.
-    y_up
-        As for :func:`fill`.
     holes
         ``"keep"`` lets small items sit in the holes of large ones.
     strict
         Refuse a folder with an unusable file.
-    keep_page, alpha_threshold
-        As for :func:`fill`.
 
     Raises
     ------
@@ -320,17 +306,11 @@ def read_container(
 
     Parameters
     ----------
-    source
-        As for :func:`fill`.
-    y_up
-        As for :func:`fill`.
     canvas
         Its longer side (``600``, ``"200mm"``, ``"8in"``) or a sheet (``"200x150mm"``,
         ``"A4"``). None: an SVG in mm, cm, in or pt keeps its size, any other is 600 px.
     font
         Font file or installed family for ``text:WORD``; the bundled one if None.
-    trim, close_gaps, alpha_threshold
-        As for :func:`fill`.
 
     Raises
     ------

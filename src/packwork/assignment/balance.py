@@ -53,8 +53,6 @@ def balanced_order(
         ``(n,)`` number of the part in which each item stands first.
     groups, sizes
         As those of an ``Assignment``.
-    rng
-        The only source of randomness.
 
     Returns
     -------

@@ -58,8 +58,6 @@ def order_by_colour(
         difference is paid for as if it were a distance in Oklab.
     blur
         Standard deviation, in the unit of the places.
-    rng
-        The only source of randomness.
     """
     # A tree of points is needed for pictures alone.
     from scipy.spatial import cKDTree

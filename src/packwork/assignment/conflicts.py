@@ -39,8 +39,6 @@ def min_conflicts_order(
         ``(m, 2)`` places that are neighbours, each pair once.
     groups, sizes
         Of places and of the labels that stand there first, as those of an ``Assignment``.
-    rng
-        The only source of randomness.
 
     Returns
     -------

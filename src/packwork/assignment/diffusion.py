@@ -1,4 +1,4 @@
-"""How alike items are, by where short random walks over their neighbour graph end.
+"""Likeness of items by diffusion distance: where short random walks over their graph end.
 
 Diffusion maps without the map: R. R. Coifman and S. Lafon, "Diffusion maps", Applied and
 Computational Harmonic Analysis 21 (2006), 5-30. Items of one cluster are all alike by it, as walks

@@ -72,8 +72,6 @@ def assigned(
         ``(n, d)`` of the items; only their directions count.
     points
         ``(n, 2)`` the places, in any unit. Item k stands at place k first.
-    rng
-        The only source of randomness.
     own, there
         ``(n, s)`` what items and places are like: the squared difference is paid for, in
         spacings of the places; less if it is what like items have in common.

@@ -30,7 +30,7 @@ AT_ONCE = 512
 
 @dataclass(frozen=True, eq=False)
 class NeighbourGraph:
-    """Who pulls whom, as rows of a sparse symmetric matrix.
+    """Neighbour graph with weights, as rows of a sparse symmetric matrix.
 
     Parameters
     ----------

@@ -43,10 +43,6 @@ def improved(
 
     Parameters
     ----------
-    problem
-        The prices.
-    rng
-        The only source of randomness.
     heats
         Temperatures, one after another, in the unit of the prices: 0 makes no exchange for the
         worse, and is the last where it makes none at all.

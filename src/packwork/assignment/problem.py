@@ -70,10 +70,6 @@ class Assignment(NamedTuple):
     rows, columns
         ``(n, s)`` features: the squared difference is the price of a row in a column. Of a product
         of two such nothing else depends on the permutation.
-    flow, distance
-        Price of pairs.
-    blend
-        Price of weighted sums.
     """
 
     groups: IntArray

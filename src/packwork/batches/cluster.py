@@ -56,8 +56,6 @@ class Parcel:
 
     Parameters
     ----------
-    task
-        As it is.
     files
         Content by name, as the task's options have it.
     folders

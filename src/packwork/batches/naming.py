@@ -47,7 +47,7 @@ def path_of(template: str, row: Mapping[str, Any]) -> Path:
 
 
 def identity_of(path: Path) -> str:
-    """What two names of one file have in common on the least careful of file systems.
+    """Key that all names of one file share on the least careful of file systems.
 
     Examples
     --------

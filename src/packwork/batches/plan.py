@@ -1,4 +1,4 @@
-"""What a batch is to make: a task for each row of a table, or why there is none."""
+"""Plan of a batch: a task for each row of a table, or the reason why there is none."""
 
 from __future__ import annotations
 
@@ -51,20 +51,14 @@ class Template:
 
 @dataclass(frozen=True, kw_only=True)
 class Wanted:
-    """What a batch is made of.
+    """Inputs of a batch.
 
     Parameters
     ----------
     templates
         Each is run for each row.
-    rows
-        Cells by column.
-    columns
-        All there are.
     outputs
         Names of files with places for columns.
-    drawing
-        How they are drawn.
     allows_code
         Whether losses of the recipes may be code.
     """
@@ -194,7 +188,7 @@ def _take(task: Task, taken: dict[str, int]) -> None:
 
 
 def _name_of(row: Mapping[str, Any], wanted: Wanted) -> str:
-    """What a row is called."""
+    """Name of a row."""
     known = {column.casefold(): column for column in reversed(wanted.columns)}
     first = next(iter(wanted.columns), RECIPE)
     column = next((known[name] for name in NAMING if name in known), first)

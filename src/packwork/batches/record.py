@@ -1,4 +1,4 @@
-"""What is kept beside the files of a row: what they were made of, so that it is not made twice."""
+"""Record beside the files of a row: its inputs, so that it is not made twice."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MOST_BYTES = 4_000_000
 
 
 def record_path(outputs: Iterable[Path]) -> Path:
-    """Where the record of a row stands.
+    """Path of the record of a row.
 
     Examples
     --------

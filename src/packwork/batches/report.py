@@ -1,4 +1,4 @@
-"""What a batch came to: a table of all rows, and a page to look through."""
+"""Report of a batch: a table of all rows, and a page to look through."""
 
 from __future__ import annotations
 

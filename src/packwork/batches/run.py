@@ -16,7 +16,7 @@ Told = Callable[[RowOutcome], object]
 
 @dataclass(frozen=True)
 class BatchProgress:
-    """How far a batch is.
+    """Progress of a batch.
 
     Parameters
     ----------
@@ -31,13 +31,7 @@ class BatchProgress:
 
 
 def standing(plan: BatchPlan, *, anew: bool = False) -> BatchProgress:
-    """What of a plan is made already.
-
-    Parameters
-    ----------
-    anew
-        Make all again.
-    """
+    """Progress of a plan before it is run: rows whose files are made already."""
     to_do, kept = [], []
     for task in plan.tasks:
         found = None if anew else is_done(task.key, task.outputs)
@@ -73,8 +67,6 @@ def carried_out(
     ----------
     workers
         Processes; None for one a core.
-    told
-        Hears of each outcome as it comes.
     scheduler
         Address of that of a cluster, whose workers make all; None for processes of this machine.
     in_place

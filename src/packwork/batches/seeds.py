@@ -80,10 +80,6 @@ def best_of(
     ----------
     by
         ``coverage``, ``evenness`` or a metric of the report, with a minus where less is better.
-    record
-        Whether tracks are recorded, for films.
-    told
-        Hears how many are done.
 
     Raises
     ------
@@ -133,7 +129,7 @@ def check_metric(by: str) -> None:
 
 
 def score_of(run: Run, by: str) -> float:
-    """What a run is worth, more is better.
+    """Score of a run, more is better.
 
     Raises
     ------

@@ -25,18 +25,14 @@ Status: TypeAlias = Literal["made", "short", "kept", "failed", "stopped"]
 
 @dataclass(frozen=True, kw_only=True)
 class Task:
-    """What a row asks for; plain values, so that it goes to any process.
+    """Request of a row; plain values, so that it goes to any process.
 
     Parameters
     ----------
     row
         Its number, from 1.
-    name
-        What it is called in messages.
     options
         Of the recipe, the row's cells in it, files by paths that the process finds.
-    outputs
-        Files to write.
     drawing
         How they are drawn: fields of ``DrawingOptions``.
     """
@@ -55,7 +51,7 @@ class Task:
 
 @dataclass(frozen=True, kw_only=True)
 class RowOutcome:
-    """What has become of a row.
+    """Outcome of a row.
 
     Parameters
     ----------
@@ -63,12 +59,8 @@ class RowOutcome:
         As above; outputs are those that are there.
     metrics
         Of the layout; empty if there is none.
-    seconds
-        That it took.
     said
         Why it failed, or is not as asked; empty else.
-    notices
-        What was told on the way.
     """
 
     row: int
@@ -93,19 +85,7 @@ def failed(row: int, name: str, why: object) -> RowOutcome:
 
 @dataclass(frozen=True, kw_only=True)
 class Drawn:
-    """What a row came to, before it is written; plain values, so that it comes from any machine.
-
-    Parameters
-    ----------
-    files
-        Bytes of the outputs.
-    told
-        What the record says of the run.
-    read
-        Names of the files that were read.
-    notices
-        What was told on the way.
-    """
+    """Result of a row before it is written; plain values, so that it comes from any machine."""
 
     files: tuple[bytes, ...]
     told: Mapping[str, Any]
@@ -197,7 +177,7 @@ class _Ear(logging.Handler):
 
 
 def _told(task: Task, run: pipeline.Run, seconds: float) -> dict[str, Any]:
-    """What is kept of a run."""
+    """Figures that are kept of a run."""
     report = run.report()
     lacks = [f"{one['item']} is not placed: {one['reason']}" for one in report["unplaced"]]
     lacks += [*report["broken"], *report["skipped"]]

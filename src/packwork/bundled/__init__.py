@@ -1,4 +1,4 @@
-"""What travels with the package: `icons/` to place, `containers/` to fill, `fonts/` to write in.
+"""Files of the package: `icons/` to place, `containers/` to fill, `fonts/` to write in.
 
 The drawings are our own but for the outlines of countries, which are from maps in the public
 domain; the font has a licence of its own (see `LICENCE.txt`). A file's stem is the picture's

@@ -169,13 +169,7 @@ def batch(
 
 @dataclass(frozen=True, kw_only=True)
 class Beside:
-    """What is written of all rows together; None for none.
-
-    Parameters
-    ----------
-    report, contact_sheet, index
-        As the options.
-    """
+    """File that is written of all rows together; None for none."""
 
     report: Path | None = None
     contact_sheet: Path | None = None

@@ -22,7 +22,7 @@ def faults_in(
 
 
 def on_trust_in(drawn: Sequence[tuple[Path, bytes]], layout: Layout) -> list[str]:
-    """What of the files is not held against what was measured, a sentence each."""
+    """Parts of the files that are not held against what was measured, a sentence each."""
     return [
         f"{path.name}: {one}" for path, _ in drawn for one in verify.on_trust_in_file(path, layout)
     ]

@@ -41,21 +41,7 @@ def run_chosen(
     record: bool,
     quiet: bool,
 ) -> tuple[pipeline.Run, tuple[pipeline.Run, ...]]:
-    """A run, or the best of several, and all that were tried then.
-
-    Parameters
-    ----------
-    job
-        What to run.
-    choosing
-        Of how many seeds, and by which measure.
-    bar, interrupt
-        Told how far it is; asked whether Ctrl-C was pressed.
-    record
-        Whether frames of a film are kept.
-    quiet
-        Whether a single run tells nobody.
-    """
+    """A run, or the best of several, and all that were tried then."""
     if choosing.best_of == 1:
         return pipeline.run(job, NOBODY if quiet else bar, interrupt, record), ()
     from packwork.batches.seeds import best_of

@@ -27,7 +27,7 @@ _OF_MANY = frozenset({"remove", "hold", "recolor"})
 
 
 def planned(session: NamedSession, flag: str, spec: str) -> Callable[[], None]:
-    """What one option asks for, of items that are there now."""
+    """Edit that one option asks for, of items that are there now."""
     which, sign, value = _parted(session, spec)
     if flag not in {"remove", "hold"} and not (sign and which and value):
         raise RecipeError(flag, f"must be {_FORMS[flag]}, not {spec[:60]!r}")

@@ -53,7 +53,7 @@ def clear_errors(recipe: Path | None = None) -> Iterator[None]:
 
 
 def _flag(key: str) -> str:
-    """What an option is called on the command line, or in recipe files if it is no flag."""
+    """Flag of an option, or its key in recipe files if it has none."""
     from packwork.recipe.verbs import VERBS, options_of
 
     known = {option.name: option for verb in VERBS for option in options_of(verb)}

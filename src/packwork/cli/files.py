@@ -49,7 +49,7 @@ class SideFiles(Options):
 
 
 class Choosing(Options):
-    """How many are tried."""
+    """Number of runs to choose from."""
 
     offers = Offer(group=Group.SOLVED, verbs=Verbs.EVERY)
 
@@ -86,7 +86,7 @@ class SerialMarks(Options):
 
 
 class Terminal(Options):
-    """What is printed."""
+    """Output on the terminal."""
 
     offers = Offer(verbs=Verbs.EVERY)
 

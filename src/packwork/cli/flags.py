@@ -17,8 +17,6 @@ def flag(option: Offered, default: Any, *, shown: str | None = None) -> inspect.
 
     Parameters
     ----------
-    option
-        The option.
     default
         Value if the flag is not given; None leaves the option unset, and gives a switch a form
         that says no. Options that may be given several times are unset in any case.

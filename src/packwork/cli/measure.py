@@ -104,7 +104,7 @@ def measure(
 
 
 def _painted(path: Path, layout: Layout) -> PaintedPixels:
-    """What a file's picture shows.
+    """Pixels that a file's picture paints.
 
     Raises
     ------

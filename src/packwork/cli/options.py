@@ -42,13 +42,7 @@ def of_verb(verb: Verbs) -> Callable[[Command], Command]:
 
 
 def of_any_recipe(without: Collection[str]) -> Callable[[Command], Command]:
-    """Replace a command's ``**asked`` by the options of ``fill``, unset, and all of files.
-
-    Parameters
-    ----------
-    without
-        Names of options to leave out.
-    """
+    """Replace a command's ``**asked`` by the options of ``fill``, unset, and all of files."""
     changes = [option for option in offered(Recipe) if Verbs.FILL in option.verbs]
     drawn = [option for model in WRITTEN for option in offered(model)]
     after = (*offered(Choosing), *offered(SideFiles), *offered(Terminal))

@@ -50,19 +50,9 @@ class Outputs:
 
     Parameters
     ----------
-    files
-        Layouts, each in the format of its ending.
-    options
-        How they are drawn.
-    films, filming
-        Films of the run, and how they are made.
     report, diagnose, recipe, saliency
         Measures (JSON), the diagnostic picture (PNG), the recipe (TOML), what stands out of the
         container's picture (PNG); None for none.
-    keeps_files
-        Whether what is there already stays.
-    choosing
-        How many seeds are tried, and by what the best is kept.
     drawing
         The options of these as they were asked for, by name.
     """
@@ -87,7 +77,7 @@ class Outputs:
 
     @property
     def sides(self) -> list[Path]:
-        """What is written beside the layouts."""
+        """Files that are written beside the layouts."""
         sheet = self.choosing.contact_sheet
         sides = (self.report, self.diagnose, self.recipe, self.saliency, sheet)
         return [side for side in sides if side is not None]
@@ -155,8 +145,6 @@ def carry_out(recipe: Recipe, asked: Mapping[str, Any], default: Path) -> NoRetu
 
     Parameters
     ----------
-    recipe
-        What to run.
     asked
         All options of the command by name.
     default
@@ -169,12 +157,10 @@ def carry_out(recipe: Recipe, asked: Mapping[str, Any], default: Path) -> NoRetu
 def outputs_asked(
     asked: Mapping[str, Any], default: Path, recipes: FilmOptions | None = None
 ) -> Outputs:
-    """What the options of a command ask to be written.
+    """Outputs that the options of a command ask for.
 
     Parameters
     ----------
-    asked, default
-        As for :func:`carry_out`.
     recipes
         How the recipe makes films; None if it does not say.
     """
@@ -363,7 +349,7 @@ def _drawn(
 
 
 def _hard_to_see(run: pipeline.Run, outputs: Outputs) -> list[str]:
-    """What is said of items that are like the background, if any are drawn on one."""
+    """Warning of items that are like the background, if any are drawn on one."""
     options = outputs.options
     is_drawn = any(path.suffix.lower() in DRAWN for path in outputs.files)
     if options.halo != "none" or not is_drawn or run.layout.ground:

@@ -111,7 +111,7 @@ def _check(asked: Mapping[str, Any]) -> None:
 
 
 class _Files:
-    """What a series is to write, checked before it is made.
+    """Output files of a series, checked before it is made.
 
     Parameters
     ----------
@@ -119,8 +119,6 @@ class _Files:
         All options of the command by name.
     verb
         What files are called by where no file of any kind is named.
-    column, labels
-        Of the steps.
     """
 
     def __init__(
@@ -223,7 +221,7 @@ def _made(steps: Sequence[SeriesStep], quiet: bool) -> Solved:
 
 
 def told(series: Solved, kind: str) -> str:
-    """What a series came to, in one line; ``kind`` is what its items are called."""
+    """Summary of a series in one line; ``kind`` is what its items are called."""
     certified = sum(run.certified for run in series.runs)
     many = len(series.runs)
     of = "all certified" if certified == many else f"{certified} certified"

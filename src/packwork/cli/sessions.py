@@ -19,8 +19,6 @@ def told(layout: Layout, background: str | None, drawing: Mapping[str, Any]) -> 
 
     Parameters
     ----------
-    background
-        Colour behind it; None for none.
     drawing
         All ways of drawing that were asked for, by name.
     """

@@ -52,10 +52,6 @@ def show_results(
 
     Parameters
     ----------
-    results
-        A report.
-    written
-        Files' names, as they are to be read.
     unit
         What one canvas unit is.
     """
@@ -110,7 +106,7 @@ def metrics_table(metrics: Mapping[str, Any], unit: str = "px") -> Table:
 
 
 def certificate_line(was_promised: bool, certified: bool, *, changed: bool = False) -> str:
-    """Whether a layout is certified, on one line; of a file that was changed, that it was.
+    """Certificate of a layout on one line; of a file that was changed, that it was.
 
     Examples
     --------
@@ -144,7 +140,7 @@ def _percent(share: float | None) -> str:
 
 
 def filling_line(filling: Mapping[str, Any]) -> str:
-    """What was put into voids, and why no more.
+    """Items that were put into voids, and why no more.
 
     Examples
     --------
@@ -162,7 +158,7 @@ def filling_line(filling: Mapping[str, Any]) -> str:
 
 
 def words_line(words: Mapping[str, int]) -> str:
-    """How many of a source's words were to be set.
+    """Number of a source's words that were to be set.
 
     Examples
     --------
@@ -173,7 +169,7 @@ def words_line(words: Mapping[str, int]) -> str:
 
 
 def beside_line(pairs: int) -> str:
-    """How often two of one kind lie side by side.
+    """Number of pairs of one kind that lie side by side.
 
     Examples
     --------
@@ -184,7 +180,7 @@ def beside_line(pairs: int) -> str:
 
 
 def pile_line(pile: Mapping[str, Any]) -> str:
-    """How a heap came to rest, and how tight it is if that was asked.
+    """End of a heap's settling, and how tight it is if that was asked.
 
     Examples
     --------

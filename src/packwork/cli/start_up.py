@@ -1,4 +1,4 @@
-"""What a process takes before its first stage: Python, what is imported, compiled kernels."""
+"""Start of a process before its first stage: Python, imports, compiled kernels."""
 
 from __future__ import annotations
 

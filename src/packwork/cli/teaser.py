@@ -29,10 +29,6 @@ class TeaserLetter:
     ----------
     name
         The letter, and what is shown with it: part of its files' names.
-    items
-        What fills it.
-    options
-        Of its recipe.
     is_pile
         Whether its items are of given sizes and heaped.
     """
@@ -44,7 +40,7 @@ class TeaserLetter:
 
     @property
     def recipe(self) -> Recipe:
-        """What to run."""
+        """Recipe to run."""
         from packwork.uses import pile_recipe
 
         make = pile_recipe if self.is_pile else make_recipe

@@ -92,7 +92,7 @@ def is_no_flag(command: str, typed: str) -> str | None:
 
 
 def _meant(error: Any, context: Any) -> str | None:
-    """What is wrong with an option or a command that is not known, and what may be meant."""
+    """Message for an unknown option or command, with the one that may be meant."""
     option = getattr(error, "option_name", None)
     if type(error).__name__ == "NoSuchOption" and option and context is not None:
         if line := is_no_flag(context.command.name, option):
@@ -110,7 +110,7 @@ def _meant(error: Any, context: Any) -> str | None:
 
 
 def _line(error: Any) -> str:
-    """What is wrong, and where to look up what would do."""
+    """Error in one line, with where to look up what would do."""
     said = " ".join(str(error.format_message()).replace("Value error, ", "").split()).rstrip(".")
     context = getattr(error, "ctx", None)
     said = _meant(error, context) or said

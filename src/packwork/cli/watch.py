@@ -28,7 +28,7 @@ INTERRUPTED = 130
 
 
 class InterruptListener:
-    """How often Ctrl-C was pressed, and whether the program ends."""
+    """Counter of Ctrl-C: the first asks the run to stop, a later one ends the program."""
 
     def __init__(self) -> None:
         self.keeps_results = False

@@ -59,8 +59,6 @@ def colours(found: list[IntArray], boxes: FloatArray, reach: float) -> list[list
 
     Parameters
     ----------
-    found
-        Blocks.
     boxes
         ``(n, 4)`` left, top, right, bottom of all items.
 

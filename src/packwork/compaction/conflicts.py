@@ -26,8 +26,6 @@ class Conflict:
 
     Parameters
     ----------
-    item, other
-        Which.
     overlap_cu2
         Area that they share, or that lies outside the container.
     gap_cu

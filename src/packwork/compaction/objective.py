@@ -167,7 +167,7 @@ class FixedSize(CommonSize):
 
 
 def turn_ranges(angle: FloatArray, options: MoveOptions) -> tuple[FloatArray, FloatArray]:
-    """How far items at these angles may turn back and on, ``(n,)`` each.
+    """Ranges in which items at these angles may turn back and on, ``(n,)`` each.
 
     Examples
     --------

@@ -62,27 +62,12 @@ def shared(function: Any = None, /, **options: Any) -> Any:
     """Compile a function once for all kernels that call its machine code; Python cannot call it.
 
     For what is long and what several kernels call: a call costs some 50 ns more than a helper's.
-
-    Parameters
-    ----------
-    function
-        What is compiled; None where options are given.
-    **options
-        Of ``numba.njit``, beside ``OUTER``.
     """
     return kernel(function, no_cpython_wrapper=True, **options)
 
 
 def helper(function: Any = None, /, **options: Any) -> Any:
-    """Compile a function into the kernels that call it, which keep it; Python cannot call it.
-
-    Parameters
-    ----------
-    function
-        What is compiled; None where options are given.
-    **options
-        Of ``numba.njit``, beside ``OUTER``.
-    """
+    """Compile a function into the kernels that call it, which keep it; Python cannot call it."""
     if function is None:
         return functools.partial(helper, **options)
     inner: dict[str, Any] = {"no_cpython_wrapper": True}

@@ -48,15 +48,7 @@ if missing := [name for owner, name in _NEEDED if not hasattr(owner, name)]:
 
 
 class KernelCache(NullCache):  # type: ignore[misc]
-    """What Numba asks for a kernel before it compiles one, and gives it afterwards.
-
-    Parameters
-    ----------
-    function
-        The kernel, not compiled.
-    options
-        How it is compiled.
-    """
+    """Cache that Numba asks for a kernel before it compiles one, and fills afterwards."""
 
     def __init__(self, function: Callable[..., Any], options: dict[str, Any]) -> None:
         self._function = function
@@ -122,7 +114,7 @@ _kernels: dict[str, Call] = {}
 
 @final
 class NoCode:
-    """What a kernel adds to another that calls it: nothing, it is found by its symbol."""
+    """Empty code library: a kernel adds nothing to its callers, it is found by its symbol."""
 
     def clone(self) -> Any:
         """LLVM's module, as Numba links it into another one."""
@@ -139,7 +131,7 @@ class HelperLibrary(JITCodeLibrary):  # type: ignore[misc]
 
     @property
     def codegen(self) -> Any:
-        """What takes the helper's environment, which its kernels take over."""
+        """Code generator with the helper's environment, which its kernels take over."""
         return NoEnvironments()
 
     def get_pointer_to_function(self, name: str) -> int:
@@ -202,7 +194,7 @@ class Unpickler(pickle.Unpickler):
     """
 
     def find_class(self, module: str, name: str, /) -> Any:
-        """What a name in the entry means."""
+        """Object that a name in the entry stands for."""
         return _environment if name == "_rebuild_env" else super().find_class(module, name)
 
 
@@ -219,7 +211,7 @@ def _environment(module: str, constants: list[Any], name: str) -> Any:
 
 
 def _state(compiled: Any) -> tuple[Any, ...]:
-    """What is needed to call a kernel."""
+    """State that is needed to call a kernel."""
     library, *rest = compiled._reduce()
     name, kind, (machine_code, _) = library
     names = compiled.fndesc.llvm_func_name, compiled.fndesc.llvm_cpython_wrapper_name

@@ -1,4 +1,4 @@
-"""Who is told of kernels that are compiled."""
+"""Listeners that are told of kernels that are compiled."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""What a Python session shows by itself: a layout's picture, a run's progress."""
+"""Displays of a Python session: a layout's picture, a run's progress."""

@@ -17,11 +17,6 @@ INSTEAD = "save a picture"
 def drawn_on(layout: Layout, ax: Any = None) -> Any:
     """Axes with a patch for each item, in canvas units, y down.
 
-    Parameters
-    ----------
-    ax
-        Axes to draw on; new ones without ticks and frame if None.
-
     Raises
     ------
     PackworkError

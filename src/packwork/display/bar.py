@@ -48,8 +48,6 @@ def bar_for(wanted: bool | None, observer: Observer | None = None) -> Bar | None
     ----------
     wanted
         None: in a notebook only.
-    observer
-        One of one's own, told too.
 
     Examples
     --------
@@ -149,8 +147,6 @@ class TerminalBar:
     ----------
     console
         Where the bar is drawn; if that is none or no terminal, standard error is asked.
-    is_quiet
-        Show nothing at all.
     """
 
     every = EPOCHS_BETWEEN

@@ -108,7 +108,7 @@ def _number(text: str) -> float:
 
 
 def _ours(layout: Layout) -> dict[str, Any]:
-    """What we know of each item, by the name of its column."""
+    """Our data of each item, by the name of its column."""
     poses, data = layout.poses, [item.datum for item in layout.items]
     said: dict[str, Any] = {}
     if any(data):

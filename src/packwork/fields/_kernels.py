@@ -131,7 +131,7 @@ def _nearest_in_row(rows, r, away, columns):
 
 @helper
 def _is_hidden(left, middle, right, away):
-    """Whether no point of the row is nearest to the middle one of three columns."""
+    """True if no point of the row is nearest to the middle one of three columns."""
     a, b = middle - left, right - middle
     return (a + b) * (away[middle] - a * b) > b * away[left] + a * away[right]
 

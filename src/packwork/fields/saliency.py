@@ -25,7 +25,7 @@ _FLOOR = 1e-6
 
 
 def spectral_residual(picture: FloatArray) -> FloatArray:
-    """How much each pixel stands out, 0..1; zeros for a picture of one colour.
+    """Saliency of each pixel, 0..1; zeros for a picture of one colour.
 
     The logarithm of a picture's spectrum is smooth but for what is peculiar to it; what is left
     once the smooth part is off leads back to where that is.

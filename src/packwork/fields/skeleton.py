@@ -35,11 +35,6 @@ def medial_axis(mask: BoolArray) -> BoolArray:
     has the same axis, and the staircases of slanting edges grow no branches. Every part
     of the region keeps at least one pixel. What lies off the image counts as outside.
 
-    Parameters
-    ----------
-    mask
-        The region, ``[row, col]``.
-
     Examples
     --------
     >>> medial_axis(np.ones((3, 6), dtype=bool)).any(axis=1).tolist()

@@ -19,7 +19,7 @@ take longer. Chosen."""
 
 @dataclass(frozen=True, eq=False)
 class Thickness:
-    """What remains of a region for discs of several radii.
+    """Morphological openings of a region by discs of several radii.
 
     Parameters
     ----------

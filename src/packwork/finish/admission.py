@@ -34,14 +34,10 @@ def admitted(
 
     Parameters
     ----------
-    container
-        The region that items must stay in.
     outlines
         One per item, item units.
     poses
         Of all items; without the fillers they have no conflicts.
-    fillers
-        How many.
     gap_cu
         Gap between items and to the container's edge; a hair is added, as in the finish.
 

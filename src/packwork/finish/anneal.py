@@ -116,19 +116,11 @@ def anneal(
         Changed in place.
     objective_at
         Objective and bounds at places ``(n, 4)``; asked again after each trial.
-    trials
-        How many.
-    lengths
-        Lengths.
-    rng
-        The only source of randomness.
     stop
         Asked before each batch of trials that are made at once, and before each group of blocks
         of the rounds over all items; True ends the search.
     tell
         Called with the number of each trial, once it has been kept or undone.
-    pulling
-        Forces that count beside sizes; None for none.
     exchanges
         Share of trials that exchange items; with 0 each stays about where it is.
     """
@@ -238,7 +230,7 @@ class _Search:
         return found
 
     def _gain(self, trial: Trial, allowed: float) -> float:
-        """What a trial gained, though it may lose what is allowed; -inf if it was undone."""
+        """Gain of a trial, though it may lose what is allowed; -inf if it was undone."""
         return made(
             self._arrangement, self._objective, trial, self._rounds, self._lengths, allowed,
             self._least,

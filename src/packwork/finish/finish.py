@@ -104,18 +104,10 @@ def finish(
 
     Parameters
     ----------
-    container
-        The region that items must stay in; its holes are walls.
     outlines
         One per item, item units, origin where the poses have it.
     poses
         An almost clean layout.
-    options
-        Gap, sizes, turns, rounds.
-    observer
-        Told of each round.
-    stop
-        Asked before each round; True ends with what there is, which is clean as well.
     is_enough
         Asked before each trial; True ends the trials, so that the last rounds have time.
     forces
@@ -338,7 +330,7 @@ class _Finish:
         return replace(self._poses, x=x.copy(), y=y.copy(), angle=angle, scale=scale)
 
     def level(self) -> None:
-        """Where sizes are shared, bring all to one common factor without a conflict."""
+        """Bring shared sizes to one common factor without a conflict."""
         if not isinstance(self._sizing, SharedSize):
             return
         for back in BACK:

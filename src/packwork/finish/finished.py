@@ -14,18 +14,12 @@ class Finished:
 
     Parameters
     ----------
-    poses
-        Where the items are now.
     clean
         Whether no two items, and no item and the edge, are nearer than was asked.
-    conflicts
-        What is still in conflict; empty if clean.
     undersized
         Items that found no room at the size that they should have at least.
     rounds
         Linear programmes for each item.
-    seconds
-        Time taken.
     """
 
     poses: Poses

@@ -1,4 +1,4 @@
-"""What a finish is asked to do."""
+"""Options of the finish."""
 
 from __future__ import annotations
 

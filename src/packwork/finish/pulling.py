@@ -23,8 +23,6 @@ class Pulling:
 
     Parameters
     ----------
-    forces
-        On as many items.
     areas
         ``(n,)`` how much each counts: its area at the begin, so that none is shrunk for
         lying where it should not.

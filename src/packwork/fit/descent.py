@@ -30,12 +30,8 @@ def drawn_to(target: Outline, chain: FloatArray, counts: Sequence[int]) -> list[
 
     Parameters
     ----------
-    target
-        The outline to be met.
     chain
         Controls to start from, the chains of all rings one after another.
-    counts
-        Curves in each chain.
 
     Examples
     --------

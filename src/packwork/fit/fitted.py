@@ -46,7 +46,7 @@ REMEMBERED = 256
 
 
 class FitEnding(Enum):
-    """How a fit ended."""
+    """Ending of a fit."""
 
     FITTED = "fitted as asked"
     TRIMMED = "fitted, and small loops cut off"
@@ -70,8 +70,6 @@ class FittedOutline:
         The curves flattened to ``FLATNESS`` of the extent; simple, always.
     iou
         Area shared with the true outline over that of both together, exact.
-    ending
-        How the fit ended.
     kept
         Rings kept as they were, because there were not enough curves for all.
     """
@@ -101,8 +99,6 @@ def fit_outline(outline: Outline, curves: int = 20) -> FittedOutline:
 
     Parameters
     ----------
-    outline
-        Simple, as outlines are.
     curves
         In all rings together, from 4 to ``MOST_CURVES``.
 

@@ -1,4 +1,4 @@
-"""Where a closed curve is best cut into a given number of cubics: dynamic programming.
+"""Best knots of a closed curve for a given number of cubics: dynamic programming.
 
 Over the sites that are offered the result is the best there is, for one cut held; as in
 Perez and Vidal, "Optimum polygonal approximation of digitized curves" (1994), with cubics

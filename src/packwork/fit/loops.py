@@ -24,7 +24,7 @@ curve more than it must, larger takes more rounds. Chosen."""
 
 
 class Crossing(NamedTuple):
-    """Where curve ``one`` at ``t_one`` meets curve ``two`` at ``t_two``, no earlier."""
+    """Crossing of curve ``one`` at ``t_one`` and curve ``two`` at ``t_two``, no earlier."""
 
     one: int
     t_one: float

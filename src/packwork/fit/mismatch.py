@@ -1,4 +1,4 @@
-"""How far a chain's picture is from the target's, and the gradient by its controls."""
+"""Distance of a chain's picture from the target's, and the gradient by its controls."""
 
 from __future__ import annotations
 
@@ -29,8 +29,6 @@ class Mismatch:
 
     Parameters
     ----------
-    target
-        The outline to be met.
     counts
         Curves in the chain of each ring.
     resolution

@@ -50,8 +50,6 @@ def lowest(
         Point to value and gradient, all of one shape ``(n,)``.
     start
         Where to begin, in units in which a step of length one is a cautious first step.
-    iterations
-        At most.
     least_gain
         Ends when an iteration lowers the value by less.
 

@@ -1,4 +1,4 @@
-"""How many curves each ring of an outline gets."""
+"""Number of curves for each ring of an outline."""
 
 from __future__ import annotations
 

@@ -42,8 +42,6 @@ def exchanged(
 
     Parameters
     ----------
-    forces
-        What counts.
     places
         ``(n, 2)``; item k stands at place k first.
     areas

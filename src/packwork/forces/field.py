@@ -52,7 +52,7 @@ class Bond(Protocol):
         ...
 
     def changes(self, group: ItemGroup, places: FloatArray) -> FloatArray:
-        """How the height would change if one item lay elsewhere and the others as they do.
+        """Change of the height if one item lay elsewhere and the others as they do.
 
         ``(n, m)``, area times canvas units: item by item for each of the places ``(m, 2)``.
         """

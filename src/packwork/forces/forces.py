@@ -48,8 +48,6 @@ class FieldForce:
 
     Parameters
     ----------
-    field
-        The height.
     strengths
         ``(n,)`` one per item of the run: 0 for those that it does not act on, negative
         for those that it pushes off.
@@ -83,8 +81,6 @@ class Forces:
 
     Parameters
     ----------
-    fields, bonds
-        Those that act.
     kinds
         ``(n,)`` items of one number are copies of one thing.
     side

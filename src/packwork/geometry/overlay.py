@@ -77,7 +77,7 @@ def valid(shape: Region) -> Region:
 
 
 def union(shapes: Iterable[Region]) -> Region:
-    """What any of the regions covers.
+    """Union of the regions.
 
     Examples
     --------
@@ -99,7 +99,7 @@ def union_of_layout(shapes: Iterable[Region]) -> Region:
 
 
 def intersection(first: Region, second: Region) -> Region:
-    """What both regions cover; of arrays, one by one.
+    """Intersection of both regions; of arrays, one by one.
 
     Examples
     --------
@@ -111,7 +111,7 @@ def intersection(first: Region, second: Region) -> Region:
 
 
 def difference(first: Region, second: Region) -> Region:
-    """What the first region covers and the second does not; of arrays, one by one.
+    """Difference: the first region without the second; of arrays, one by one.
 
     Examples
     --------
@@ -122,7 +122,7 @@ def difference(first: Region, second: Region) -> Region:
 
 
 def part_about(whole: Region, shape: Region, reach: float = 0.0) -> Region:
-    """What a region has within the box about a shape, grown by ``reach``; of arrays, one by one.
+    """Part of a region in the box about a shape, grown by ``reach``; of arrays, one by one.
 
     A set operation with a shape takes as long as the region has vertices: five seconds with a
     spiral of 270,000, a millisecond with the part of it.
@@ -144,7 +144,7 @@ def part_about(whole: Region, shape: Region, reach: float = 0.0) -> Region:
 
 
 def symmetric_difference(first: Region, second: Region) -> Region:
-    """What one of the regions covers and not the other.
+    """Symmetric difference: covered by one of the regions and not by the other.
 
     Examples
     --------
@@ -156,11 +156,6 @@ def symmetric_difference(first: Region, second: Region) -> Region:
 
 def buffered(shape: Region, distance: float, **style: Any) -> Region:
     """The region grown by a distance all round, or shrunk by a negative one.
-
-    Parameters
-    ----------
-    **style
-        Of ``shapely.buffer``.
 
     Examples
     --------

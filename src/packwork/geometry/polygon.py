@@ -187,7 +187,7 @@ def _without_repeats(ring: FloatArray) -> FloatArray:
 
 
 def _winding_numbers(queries: FloatArray, rings: Sequence[FloatArray]) -> np.ndarray[Any, Any]:
-    """How often the closed ``rings`` go round each query point; signed.
+    """Winding number of the closed ``rings`` about each query point; signed.
 
     Counts the edges that a ray to the right of the point crosses; an index over the
     edges keeps that near linear for compound paths of thousands of rings.

@@ -79,7 +79,7 @@ def job_again(document: Document, seed: int, asked: Mapping[str, Any]) -> Job:
 
 
 def _asked(document: Document) -> tuple[ItemRules, ...]:
-    """What holds ask of each item, as pins do."""
+    """Rules that holds make for each item, as pins do."""
     rules = [pin_of(document, k) for k in range(len(document))]
     return tuple(
         ItemRules().heard(Rule(items=(item.name,), pin=Pin.model_validate(pin)), HOLD)

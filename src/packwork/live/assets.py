@@ -1,4 +1,4 @@
-"""What commands bring into a document, under names of their content."""
+"""Assets that commands bring into a document, under names of their content."""
 
 from __future__ import annotations
 

@@ -16,7 +16,7 @@ from packwork.steps.left_out import reason
 
 @dataclass(frozen=True)
 class Settlement:
-    """What a settle came to.
+    """Result of a settle.
 
     Parameters
     ----------
@@ -24,8 +24,6 @@ class Settlement:
         Whether exact geometry finds nothing wrong with the layout now.
     in_the_way
         What it finds, a sentence each.
-    moved
-        How many items are elsewhere than before.
     """
 
     certified: bool
@@ -34,7 +32,7 @@ class Settlement:
 
 
 class Certificate:
-    """What exact geometry finds of one document after another.
+    """Exact certificate of one document after another.
 
     Examples
     --------
@@ -49,11 +47,11 @@ class Certificate:
         self._standing: Standing | None = None
 
     def violations(self, document: Document) -> tuple[Violation, ...]:
-        """What is in conflict, items by their numbers."""
+        """Conflicts of a document, items by their numbers."""
         return self._brought_to(document).violations
 
     def in_the_way(self, document: Document) -> tuple[str, ...]:
-        """What keeps a document from its certificate, a sentence each."""
+        """Reasons that keep a document from its certificate, a sentence each."""
         place = {number: k for k, number in enumerate(document.ids.tolist())}
         said = []
         for one in self._brought_to(document).violations:

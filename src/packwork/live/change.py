@@ -1,4 +1,4 @@
-"""What a command has changed, and how much of a session is stale by it."""
+"""Changes that a command makes, and how much of a session is stale by them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from packwork.scene.pose import Poses
 
 
 class Stale(IntEnum):
-    """How much has to be made anew, from nothing to everything."""
+    """Amount that has to be made anew, from nothing to everything."""
 
     NOTHING = 0
     DRAWING = 1
@@ -34,8 +34,6 @@ class Change:
 
     Parameters
     ----------
-    stale
-        How much of a session has to be made anew.
     items
         Numbers of the items that changed, came or went.
     """
@@ -45,7 +43,7 @@ class Change:
 
     @classmethod
     def between(cls, before: Document, after: Document) -> Change:
-        """What differs."""
+        """Difference of two documents."""
         is_pulled = any(
             getattr(after.options, name) != getattr(before.options, name)
             for name in ("force", "evenness")

@@ -1,4 +1,4 @@
-"""What takes several commands: another number of items, another list of words."""
+"""Changes that take several commands: another number of items, another list of words."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def weighed(
 
 
 def _unit_of(document: Document) -> float:
-    """What an item's own weight is multiplied by: words weigh what they cover."""
+    """Factor of items' own weights: words weigh what they cover."""
     own = sum(item.weight for item in document.items)
     total = float(document.weights.sum())
     return total / own if own > 0 and total > 0 else 1.0
@@ -100,11 +100,6 @@ def counted(
 
 def words_of(document: Document, source: object, options: Mapping[str, Any]) -> WordsRead:
     """Words of a text or a table, set as the run did that made the layout.
-
-    Parameters
-    ----------
-    options
-        Of words, in place of that run's.
 
     Raises
     ------

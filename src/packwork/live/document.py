@@ -33,24 +33,16 @@ class Document:
 
     Parameters
     ----------
-    container
-        The region to fill.
     items
         One per number; copies repeat the same ``Item``.
     ids
         ``(n,)`` numbers by which commands call the items; an item keeps its own for ever.
-    poses
-        As many as items.
     weights
         ``(n,)`` share of area asked for each.
     smallest, largest
         ``(n,)`` scales between which an item's size may vary.
     held
         ``(n, 3)`` whether place, angle and size stay exactly as they are.
-    options
-        Gap, sizes and turns.
-    next_id
-        Number of the next item that is added.
     manifest
         What is known of where the layout came from.
     notes
@@ -124,7 +116,7 @@ class Document:
         return np.array([item.outline.area for item in self.items])
 
     def forces(self, rows: IntArray) -> Forces:
-        """What pulls at some items."""
+        """Forces on some items."""
         texts = self.options.force
         if not texts:
             return NO_FORCES
@@ -150,7 +142,7 @@ class Document:
         return replace(self, poses=poses)
 
     def index(self, number: int) -> int | None:
-        """Where an item stands in the arrays, by its number; None if there is none such."""
+        """Index of an item in the arrays, by its number; None if there is none such."""
         found = np.flatnonzero(self.ids == number)
         return int(found[0]) if len(found) else None
 

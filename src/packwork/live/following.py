@@ -35,15 +35,7 @@ take longer, fewer leave more to be shrunk. Tried."""
 
 
 class Following:
-    """The present document, with what is known about it from one change to the next.
-
-    Parameters
-    ----------
-    document
-        Where it begins.
-    record
-        Whether the way of the items is kept, for films of the layout.
-    """
+    """The present document, with what is known about it from one change to the next."""
 
     def __init__(self, document: Document, *, record: bool = False) -> None:
         self._document = self._base = document
@@ -59,7 +51,7 @@ class Following:
 
     @property
     def document(self) -> Document:
-        """What there is now."""
+        """Document as it is now."""
         return self._document
 
     @property
@@ -135,7 +127,7 @@ class Following:
 
     @property
     def violations(self) -> tuple[Violation, ...]:
-        """What is in conflict now, items by their numbers."""
+        """Conflicts as of now, items by their numbers."""
         return self._certificate.violations(self._document)
 
     @property
@@ -145,7 +137,7 @@ class Following:
 
     @property
     def in_the_way(self) -> tuple[str, ...]:
-        """What keeps the layout from its certificate, a sentence each."""
+        """Reasons that keep the layout from its certificate, a sentence each."""
         return self._certificate.in_the_way(self._document)
 
     def _begin_anew(self) -> None:

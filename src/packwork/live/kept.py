@@ -1,4 +1,4 @@
-"""What is kept of a session when it is put away."""
+"""State that is kept of a session when it is put away."""
 
 from __future__ import annotations
 
@@ -15,14 +15,8 @@ class Kept:
 
     Parameters
     ----------
-    document
-        The present one.
     base
         The one in which all had been settled last: what has flowed in vain goes back to it.
-    history
-        What undo and redo lead to.
-    marks
-        What has been done to which items.
     """
 
     document: Document

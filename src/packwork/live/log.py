@@ -99,11 +99,6 @@ def line_of(entry: Entry) -> str:
 def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
     """Entries of a log's lines; a last line that was cut off is left out.
 
-    Parameters
-    ----------
-    name
-        What the log is called in messages.
-
     Raises
     ------
     ReadError

@@ -1,4 +1,4 @@
-"""What a session knows of its items beside the document: what has been done to which."""
+"""Marks of a session beside the document: what has been done to which items."""
 
 from __future__ import annotations
 

@@ -60,13 +60,7 @@ def attached(layout: Layout) -> tuple[Attached, ...]:
 def notes_on(
     layout: Layout, numbers: dict[int, int], notes: tuple[Attached, ...]
 ) -> Iterator[Note]:
-    """Notes of a layout whose items may have moved; one that fits on its item no more is left out.
-
-    Parameters
-    ----------
-    numbers
-        Rows of the items by their numbers.
-    """
+    """Notes of a layout whose items may have moved; those that no longer fit are left out."""
     for one in notes:
         if one.item is None:
             yield one.note

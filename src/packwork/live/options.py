@@ -74,7 +74,7 @@ class LiveOptions(Options):
 
     @property
     def rotation(self) -> Rotation:
-        """How far items may turn."""
+        """Range in which items may turn."""
         return Rotation.parse(self.rotate)
 
     @property

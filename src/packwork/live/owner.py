@@ -56,7 +56,7 @@ is told. Chosen."""
 
 
 class LeapThrough(Enum):
-    """What is posted beside commands: a way through the history."""
+    """Request beside commands: a way through the history."""
 
     UNDO = "undo"
     REDO = "redo"
@@ -64,7 +64,7 @@ class LeapThrough(Enum):
 
 @dataclass(frozen=True, eq=False)
 class _Call:
-    """What is called in the thread, and where its answer goes."""
+    """Function to call in the thread, and where its answer goes."""
 
     function: Callable[[Any], Any]
     answer: Future[Any]
@@ -75,14 +75,12 @@ Posted: TypeAlias = Command | LeapThrough | _Call
 
 @dataclass(frozen=True, eq=False)
 class Frame:
-    """What a session looks like at a moment.
+    """Frame of a session: how it looks at a moment.
 
     Parameters
     ----------
     number
         How many frames there were before.
-    document
-        All there is.
     in_the_way
         What keeps it from its certificate; None while something moves.
     refused
@@ -91,8 +89,6 @@ class Frame:
         How many of what was posted have been done, in :attr:`Owner.posted`'s count.
     entangled
         Numbers of the items that are in conflict, where ``in_the_way`` is known.
-    can_undo, can_redo
-        Whether the history leads anywhere.
     advice
         What is poor, and what would do, where it is certified.
     """
@@ -186,12 +182,12 @@ class Owner(Generic[AnySession]):
 
     @property
     def waiting(self) -> int:
-        """How many commands wait."""
+        """Number of commands that wait."""
         return len(self._waiting)
 
     @property
     def failure(self) -> Exception | None:
-        """What has ended the thread before its time; None while all is well."""
+        """Exception that has ended the thread before its time; None while all is well."""
         return self._failure
 
     def _take(self, posted: Posted) -> bool:

@@ -16,11 +16,6 @@ def showing(document: Document, source: str) -> Combined:
 
     For gaps of any colour: what ``--picture`` makes up for is that of a ground of its own.
 
-    Parameters
-    ----------
-    source
-        The picture's file.
-
     Raises
     ------
     ReadError

@@ -1,4 +1,4 @@
-"""What is held in a document, as rules of recipes say it."""
+"""Holds of a document, as rules of recipes say them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from packwork.live.document import Document
 
 
 def pin_of(document: Document, k: int) -> dict[str, str | float]:
-    """What is held of the pose of row ``k``, as ``pin`` of a rule has it; empty if nothing is."""
+    """Held parts of the pose of row ``k``, as ``pin`` of a rule has it; empty if there are none."""
     poses, (place, angle, size) = document.poses, document.held[k]
     unit = document.container.unit
     pin: dict[str, str | float] = {}

@@ -32,8 +32,6 @@ class Refilled:
 
     Parameters
     ----------
-    document
-        With the new poses.
     said
         That it was, in a sentence.
     """
@@ -53,7 +51,7 @@ def is_other_cloud(before: Document, now: Document) -> bool:
 def refilled(
     before: Document, asked: Document, settled: Document, by_hand: IntArray, stop: Stop
 ) -> Refilled | None:
-    """What a run makes of a cloud, where that covers plainly more than it did; else None.
+    """Cloud as a run makes it anew, where that covers plainly more than it did; else None.
 
     Parameters
     ----------
@@ -65,8 +63,6 @@ def refilled(
         As it is now.
     by_hand
         ``(m,)`` rows of what the hand has put where it is in ``asked``, turned or sized: it stays.
-    stop
-        Asked by the run; None where it comes true.
     """
     if not _is_cloud(asked) or not (len(by_hand) or _is_reweighed(before, asked)):
         return None
@@ -97,7 +93,7 @@ def refilled(
 
 
 def advice_of(document: Document) -> tuple[str, ...]:
-    """What is poor in a layout as it stands, and what would do, as after a run."""
+    """Advice on a layout as it stands: what is poor and what would do, as after a run."""
     if len(document) == 0:
         return ()
     layout = document.layout

@@ -24,14 +24,10 @@ EPOCHS_BETWEEN = 3
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Moment:
-    """What a run looks like on its way.
+    """View of a run on its way.
 
     Parameters
     ----------
-    container
-        What is filled.
-    items
-        All that are to be placed.
     poses
         As many as items; None before they have a place.
     progress

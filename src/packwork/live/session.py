@@ -43,17 +43,6 @@ class Session(Following):
 
     One thread owns a session. The same calls on the same document give the same bytes.
 
-    Parameters
-    ----------
-    document
-        Where it begins.
-    library
-        Items and containers that commands may bring in.
-    log
-        Where all that is done is noted.
-    record
-        Whether the way of the items is kept, for films of the layout.
-
     Examples
     --------
     >>> import packwork as pw
@@ -228,7 +217,7 @@ class Session(Following):
 
     @property
     def advice(self) -> tuple[str, ...]:
-        """What is poor as it lies, and what would do; that words were poured anew."""
+        """Advice on the layout as it lies: what is poor and would do; news of words poured anew."""
         return (*self._poured, *advice_of(self._document))
 
     def _settled(self) -> None:
@@ -339,7 +328,7 @@ class Session(Following):
         return gestures
 
     def kept(self) -> Kept:
-        """What a file holds of the session; it then goes on as one that was opened does.
+        """Contents of the session's file; it then goes on as one that was opened does.
 
         Raises
         ------

@@ -29,10 +29,6 @@ class SeenInColour:
 
     Parameters
     ----------
-    loss
-        What is called.
-    name
-        What it is called by in tables.
     colours
         ``(n, 3)`` of the items, sRGB from 0 to 1.
     background

@@ -43,8 +43,6 @@ class Windows:
     ----------
     container
         ``(rows, columns)`` coverage of the container.
-    items
-        How many items share it.
     """
 
     def __init__(self, container: Image, items: int = TYPICAL_ITEMS) -> None:

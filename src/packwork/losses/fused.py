@@ -77,7 +77,7 @@ class FusedAdjoint:
         return self._adjoint
 
     def _emphasis(self, accumulation: Image, weight: float) -> tuple[Image, int]:
-        """What covering a pixel pays for evenness, per block, and a block's side."""
+        """Price of covering a pixel for evenness, per block, and a block's side."""
         if weight == 0:
             return np.zeros((1, 1), dtype=accumulation.dtype), max(accumulation.shape)
         if self._windows is None:

@@ -21,8 +21,6 @@ class Recall:
     ----------
     container
         ``(rows, columns)`` coverage of the container at any resolution.
-    px_per_cu
-        Pixels of that image per canvas unit.
 
     Examples
     --------

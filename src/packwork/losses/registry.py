@@ -79,7 +79,7 @@ def find_loss(name: str | ImageLoss) -> ImageLoss:
 
 
 def loss_name(loss: str | ImageLoss | PoseLoss) -> str:
-    """What a loss is called, in tables of losses.
+    """Name of a loss, in tables of losses.
 
     Examples
     --------
@@ -145,7 +145,7 @@ def _takes_poses(function: Any) -> bool:
 
 
 def _needed(function: Any) -> int | None:
-    """How many things a function is to be given, if it takes as many and no more."""
+    """Number of things a function is to be given, if it takes as many and no more."""
     try:
         parameters = inspect.signature(function).parameters.values()
     except (TypeError, ValueError):

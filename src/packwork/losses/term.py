@@ -1,4 +1,4 @@
-"""What a loss returns, and the shape of a loss."""
+"""Value of a loss, and the protocol of a loss."""
 
 from __future__ import annotations
 
@@ -106,8 +106,6 @@ class PosedItems:
 
     Parameters
     ----------
-    poses
-        Where they are.
     areas
         ``(n,)`` areas of their outlines, item units squared.
     nominal
@@ -128,8 +126,6 @@ class PoseTerm:
 
     Parameters
     ----------
-    value
-        The loss.
     x, y
         ``(n,)`` derivatives by the items' positions, per canvas unit.
     log_scale

@@ -68,7 +68,7 @@ def taken_on_trust(manifest: Mapping[str, Any]) -> tuple[str, ...]:
 
 
 def changed_since(manifest: Mapping[str, Any]) -> tuple[str, ...]:
-    """What a reader met in a file that is drawn otherwise than it is measured, a sentence each.
+    """Differences of a file's drawing from what was measured, a sentence each.
 
     Examples
     --------
@@ -103,7 +103,7 @@ def broken(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, 
 
 
 def unclean(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str, ...]:
-    """What of the geometry does not hold: overlaps, what sticks out, gaps; a sentence each.
+    """Promises that the geometry breaks: overlaps, what sticks out, gaps; a sentence each.
 
     A layout of which nothing does not is certified.
 

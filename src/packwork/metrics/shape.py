@@ -1,4 +1,4 @@
-"""How far a layout shows the shape of its container, by morphological closing."""
+"""Fidelity of a layout to the shape of its container, by morphological closing."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ seen whether there is anything in it. Chosen."""
 
 @dataclass(frozen=True)
 class ShapeMetrics:
-    """How well a layout shows its container.
+    """Fidelity of a layout to its container's shape.
 
     Parameters
     ----------

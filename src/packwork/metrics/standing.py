@@ -54,7 +54,7 @@ class Standing:
 
     @property
     def violations(self) -> tuple[Violation, ...]:
-        """What is in conflict now, by the numbers of the items, in their order."""
+        """Conflicts as of now, by the numbers of the items, in their order."""
         return tuple(self._found[key] for key in sorted(self._found, key=_in_order))
 
     @property

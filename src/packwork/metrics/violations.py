@@ -19,8 +19,6 @@ class Violation:
 
     Parameters
     ----------
-    item, other
-        Which.
     overlap_cu2
         Area that they share, or that lies outside the container.
     gap_cu
@@ -64,13 +62,13 @@ def violations(
 
 
 def meeting(i: int, j: int, first: Region, second: Region) -> Violation:
-    """How far two regions are from keeping a distance."""
+    """Violation of the distance between two regions."""
     shared = float(intersection(first, second).area)
     return Violation(i, j, shared, 0.0 if shared > 0 else distance(first, second))
 
 
 def sticking_out(k: int, one: Region, whole: Region, gap: float) -> Violation:
-    """How far a region is from keeping a distance to the edge of another, inside it."""
+    """Violation of the distance of a region to the edge of another, inside it."""
     # What is nearer than asked lies within that gap.
     near = part_about(whole, one, gap)
     outside = float(difference(one, near).area)

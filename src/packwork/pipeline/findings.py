@@ -18,12 +18,10 @@ class Unplaced:
 
 @dataclass(frozen=True)
 class Filling:
-    """How the voids between items were filled.
+    """Report on filling the voids between items.
 
     Parameters
     ----------
-    added
-        Items that were put into voids.
     ending
         Why no more were.
     covered, target
@@ -44,12 +42,10 @@ class Filling:
 
 @dataclass(frozen=True)
 class WordsFound:
-    """How many different words a source holds, and how many of them were to be set.
+    """Number of different words that a source holds, and of those that were to be set.
 
     Parameters
     ----------
-    found, asked
-        As above.
     of_true
         Where sizes gave way, of each word its size as a share of its proportion to the heaviest.
     """

@@ -102,7 +102,7 @@ def _place(job: Job, k: int) -> tuple[float, float, float] | None:
 
 
 def _about(job: Job, j: int, scale: float) -> Region:
-    """What an item that is pinned to a point takes: a disc of its size, if that is given."""
+    """Room of an item that is pinned to a point: a disc of its size, if that is given."""
     one, container = job.asked[j].pin, job.container
     x = parse_length(str(one["x"]), container.unit, container.width)
     y = parse_length(str(one["y"]), container.unit, container.height)

@@ -34,8 +34,6 @@ class Clock:
 
     Parameters
     ----------
-    seconds
-        By the part's name.
     now
         Tells the time: by the clock, or the processor's.
     """
@@ -55,18 +53,14 @@ class Clock:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Job:
-    """What a run is to do: what was asked, what was read, and the plan for it.
+    """Job of a run: what was asked, what was read, and the plan for it.
 
     Parameters
     ----------
     recipe
         What was asked, kept for the manifest; stages read the plan.
-    plan
-        The same in numbers.
     use
         In what these items differ from icons.
-    container
-        On its canvas.
     items, asked, weights
         One entry per copy: what it is, what rules ask of it, its share of area.
     regions
@@ -83,8 +77,6 @@ class Job:
         Whether the number of items was found by the run.
     skipped
         Files that were left out, with the reason.
-    clock
-        What has been used so far.
     """
 
     recipe: Recipe
@@ -113,7 +105,7 @@ class Job:
 
     @cached_property
     def forces(self) -> Forces:
-        """What pulls these items about on this canvas.
+        """Forces on these items on this canvas.
 
         Raises
         ------
@@ -149,7 +141,7 @@ class Job:
 
     @property
     def solid_outlines(self) -> list[Outline]:
-        """What items are taken for until they are measured."""
+        """Outlines that items are taken for until they are measured."""
         return stand_ins([item.outline for item in self.items], self.plan.outline)
 
     def some(self, kept: Sequence[int] | IntArray) -> Job:

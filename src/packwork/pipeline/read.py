@@ -43,16 +43,10 @@ AUTO = "auto"
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Material:
-    """What a use read of a recipe.
+    """Things that a use read of a recipe.
 
     Parameters
     ----------
-    use
-        With what it knows besides.
-    container
-        On its canvas.
-    cast
-        All copies to be placed.
     fillers
         Of which voids are filled, unless the recipe names others.
     given
@@ -110,7 +104,7 @@ def _bounded(container: Container) -> Container:
 
 
 def sample_of(recipe: Recipe) -> Sample | None:
-    """Which of more items than are needed are taken; None where all are."""
+    """Sample of more items than are needed; None where all are taken."""
     if recipe.words is not None or not isinstance(recipe.count, int):
         return None
     wanted = tuple(pattern for _, rule in voices(recipe) for pattern in rule.items)
@@ -256,7 +250,7 @@ def _earlier(file: str, container: Container, items: tuple[Item, ...]) -> Layout
 
 
 def _fillers(recipe: Recipe, items: tuple[Item, ...]) -> Named:
-    """What voids are filled with, and files that were left out."""
+    """Fillers of voids, and files that were left out."""
     if not recipe.filler:
         return Named(items, ())
     found = read_items(

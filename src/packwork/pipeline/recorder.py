@@ -85,8 +85,6 @@ class Recorder:
         ----------
         poses
             Where they are at the end: the last keyframe.
-        ids
-            ``(n,)`` what they are called by.
         items
             By whose sizes the time is given out; None gives all steps as much.
         """

@@ -64,8 +64,6 @@ def registered(layout: Layout, items: Sequence[Item]) -> Layout:
 
     Parameters
     ----------
-    layout
-        As ``readers.layouts`` finds it.
     items
         Of the run; copies of one name are taken in turn.
     """

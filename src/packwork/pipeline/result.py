@@ -1,4 +1,4 @@
-"""What a run gave: the layout, what it is worth, and what was asked but not met."""
+"""Result of a run: the layout, its measures, and what was asked but not met."""
 
 from __future__ import annotations
 
@@ -37,24 +37,14 @@ UNPLACED_SHARE = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Run:
-    """What a run gave.
+    """Result of a run.
 
     Parameters
     ----------
-    layout
-        The result, its manifest filled in.
-    metrics
-        What it is worth.
-    seconds
-        Time per part.
     ending
         Whether all epochs were run.
-    unplaced
-        Items without a place of their own.
     kept
         Which of the items that were placed are in the layout.
-    skipped
-        Files that were left out, with the reason.
     beside
         Pairs of one kind that lie side by side; None if they may.
     certified
@@ -63,8 +53,6 @@ class Run:
     broken
         What of that does not hold although it was promised, and what else was asked and is not
         met, as shares of area; a sentence each.
-    filling
-        How the voids were filled, if that was asked for.
     words
         How many different words the source holds, and how many of them were to be set; None
         if there are none.

@@ -17,15 +17,6 @@ from packwork.progress import NOBODY, Observer, Stop, never
 def run(job: Job, observer: Observer = NOBODY, stop: Stop = never, record: bool = False) -> Run:
     """Solve and measure what was read.
 
-    Parameters
-    ----------
-    observer
-        Told of progress.
-    stop
-        Asked before every epoch; True ends the run with what it has.
-    record
-        Keep the way of the items, in the layout's ``track``.
-
     Raises
     ------
     ReadError

@@ -24,7 +24,7 @@ from packwork.solve.solver import Ending, LevelReport
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RunState:
-    """What a step takes and gives.
+    """State of a run, which each step takes and gives.
 
     Parameters
     ----------
@@ -32,8 +32,6 @@ class RunState:
         Its items are those that are placed.
     asked_for
         The job of those that were asked for: without what was put into voids.
-    poses
-        Of the job's items.
     nominal
         ``(n,)`` scales that weights ask for.
     limits
@@ -79,8 +77,6 @@ class RunState:
         How many words the source holds; None for no words.
     advice, remarks
         What is poor and what would do; what the run chose by itself; a sentence each.
-    recorder
-        Records the way of the items.
     """
 
     job: Job

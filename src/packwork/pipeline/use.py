@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Use(ABC):
-    """What one use of the program does with a job, and what it has besides items and weights."""
+    """Use of the program: its way with a job, and what it has besides items and weights."""
 
     palette_tints: bool = True
     """Whether drawings of several colours take on shades of the palette's."""
@@ -77,7 +77,7 @@ class Use(ABC):
         raise unknown_measure(name)
 
     def remedy(self, job: Job) -> str | None:
-        """What would show the shape, in the words of the options; None for what does for icons."""
+        """Remedy for a shape that does not show, in words of the options; None if as for icons."""
         del job
         return None
 

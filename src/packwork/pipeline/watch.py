@@ -1,4 +1,4 @@
-"""What a run tells and asks: progress of all stages as one, from 0 to 1, and whether to stop."""
+"""Context of a run: progress of all stages as one, from 0 to 1, and whether to stop."""
 
 from __future__ import annotations
 
@@ -21,16 +21,7 @@ Tried = TypeVar("Tried")
 
 @dataclass(frozen=True, eq=False)
 class RunContext:
-    """What a run, or a part of it, tells and asks.
-
-    Parameters
-    ----------
-    observer
-        Told of progress.
-    stop
-        Asked before every epoch; True ends the run with what it has.
-    records
-        Whether the way of the items is kept.
+    """Listener to a run, or to a part of it.
 
     Examples
     --------
@@ -66,13 +57,7 @@ class RunContext:
 
 
 class MonotonicProgress:
-    """Passes steps of all stages on as those of one run, whose progress never goes back.
-
-    Parameters
-    ----------
-    observer
-        Told of progress.
-    """
+    """Passes steps of all stages on as those of one run, whose progress never goes back."""
 
     def __init__(self, observer: Observer) -> None:
         self.every = observer.every

@@ -1,4 +1,4 @@
-"""How wide a container's widest place is."""
+"""Width of a container's widest place."""
 
 from __future__ import annotations
 

@@ -212,7 +212,7 @@ def prepared(
     background: npt.ArrayLike,
     dtype: npt.DTypeLike,
 ) -> tuple[ColourImage, Image]:
-    """What :func:`render_colour` renders with, to be pulled back through, and what it renders.
+    """Inputs of :func:`render_colour`, to be pulled back through, and its picture.
 
     Examples
     --------
@@ -240,8 +240,6 @@ def render_colour_pullback(
 
     Parameters
     ----------
-    points_px, starts, colours, background
-        As for :func:`render_colour`.
     adjoint
         ``(rows, columns, channels)``, d loss / d image.
 

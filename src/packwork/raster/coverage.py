@@ -69,7 +69,7 @@ class Record:
 
 
 class Swept(NamedTuple):
-    """What a rasteriser walked last, for whatever reads its record.
+    """Record of a rasteriser's last walk, for whatever reads it.
 
     Parameters
     ----------
@@ -299,8 +299,6 @@ def coverage_pullback(
 
     Parameters
     ----------
-    points_px, starts
-        As for :func:`coverage`.
     adjoint
         ``(rows, columns)``, d loss / d density.
     beyond

@@ -44,11 +44,6 @@ def drawn_png(document: str) -> bytes:
 
     Its letters are set in fonts that we choose, from where we look for them.
 
-    Parameters
-    ----------
-    document
-        Complete, as text.
-
     Raises
     ------
     ValueError

@@ -1,4 +1,4 @@
-"""Which pixels belong to how many items, judged by their centres."""
+"""Number of items that each pixel belongs to, judged by pixel centres."""
 
 from __future__ import annotations
 

@@ -196,8 +196,6 @@ class Sample:
 
     Parameters
     ----------
-    most
-        So many.
     seed
         Of the draw among all of them; None takes the first.
     wanted

@@ -98,8 +98,6 @@ def read_items(
         Whether outlines are silhouettes (``fill``) or keep their holes (``keep``).
     strict
         Whether an unusable file among many is an error too.
-    reading
-        How files are understood; by themselves if None.
     sample
         Which are taken where there are more files than are needed; no others are read. Of files
         named by themselves all are, unless these alone are too many.

@@ -42,12 +42,8 @@ class Read:
 
     Parameters
     ----------
-    item
-        As it is by itself.
     file
         Its path; None of a built-in one.
-    page
-        What became of it.
     again
         Reads the same file with its page.
     """

@@ -157,11 +157,6 @@ def container_around(
 ) -> Container:
     """Container of ``around:IMAGE``, its canvas the whole picture, ``side`` long.
 
-    Parameters
-    ----------
-    read_region
-        Reads a mask, fitted to a canvas.
-
     Raises
     ------
     ReadError

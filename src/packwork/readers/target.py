@@ -52,8 +52,6 @@ def read_target(
     ----------
     source
         File, or a picture in memory.
-    container
-        What it is to cover.
     reading
         How an SVG is read: with its white page or without.
 

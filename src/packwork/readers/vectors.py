@@ -35,8 +35,6 @@ class Vectors:
 
     Parameters
     ----------
-    file
-        For messages.
     names
         One per row; None where the file has none.
     rows

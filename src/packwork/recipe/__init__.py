@@ -1,4 +1,4 @@
-"""What a run is asked to do: a recipe and its parts, their options and refusals."""
+"""Request of a run: a recipe and its parts, their options and refusals."""
 
 from packwork.recipe.recipe import APART, EPOCHS, Effort, Recipe, Sizes, make_recipe
 from packwork.recipe.rules import MAX_COUNT, Rotation

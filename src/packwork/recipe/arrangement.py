@@ -1,4 +1,4 @@
-"""What a run is asked about the order in which items lie: a part of the recipe."""
+"""Options of the order in which items lie: a part of the recipe."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run is asked about what items mean: a part of the recipe."""
+"""Options of the meaning of items: a part of the recipe."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def parse_anchor(text: str) -> Anchor:
 
 
 class EmbeddingOptions(Options):
-    """Which items are alike, and come to lie together."""
+    """Likeness of items that come to lie together."""
 
     offers = Offer(group=Group.ORDER, verbs=Verbs.COLLAGES)
 

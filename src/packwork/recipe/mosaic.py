@@ -1,4 +1,4 @@
-"""What a run is asked about a picture that its layout shows from afar: a part of the recipe."""
+"""Options of a picture that a layout shows from afar: a part of the recipe."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run is asked about photographs and pictures behind: a part of the recipe."""
+"""Options of photographs and of pictures behind: a part of the recipe."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a run is asked about moving items: forces, piles, staying near an earlier layout."""
+"""Options of moving items: forces, piles, staying near an earlier layout."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def _one_or_more(value: object) -> object:
 
 @dataclass(frozen=True)
 class Emitter:
-    """Where items come from, as it was written.
+    """Source of items, as it was written.
 
     Parameters
     ----------
@@ -77,7 +77,7 @@ def parse_emitter(text: str) -> Emitter:
 
 
 class PileOptions(Options):
-    """How items of given sizes are heaped."""
+    """Piles of items of given sizes."""
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.PILE)
 

@@ -12,7 +12,7 @@ from packwork.start.options import StartOptions
 
 @dataclass(frozen=True)
 class Preset:
-    """What a recipe begins from; its own options go before.
+    """Base of a recipe; the recipe's own options go before.
 
     Parameters
     ----------

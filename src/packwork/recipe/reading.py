@@ -1,4 +1,4 @@
-"""How files of containers and items are understood: a part of the recipe."""
+"""Options of reading files of containers and items: a part of the recipe."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from packwork.recipe.refusals import length_asked
 
 
 class Interpreted(Options):
-    """What files do not say of themselves."""
+    """Meaning of files where they do not say it themselves."""
 
     offers = Offer(group=Group.READ, verbs=Verbs.EVERY)
 

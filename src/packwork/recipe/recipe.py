@@ -1,4 +1,4 @@
-"""What a run is asked to do: one validated value composed of the stages' options."""
+"""Recipe of a run: one validated value composed of the stages' options."""
 
 from __future__ import annotations
 
@@ -92,7 +92,7 @@ _ADDED = Offer(
 
 
 class Recipe(Ordered, EmbeddingOptions, MosaicOptions, Pictured, Moving, TableFormat, Interpreted):
-    """What one ``fill`` is asked to do. Lengths in canvas units, angles in degrees."""
+    """Request of one ``fill``. Lengths in canvas units, angles in degrees."""
 
     offers = Offer(group=Group.PLACED, verbs=Verbs.EVERY)
 
@@ -345,7 +345,7 @@ class Recipe(Ordered, EmbeddingOptions, MosaicOptions, Pictured, Moving, TableFo
 
     @property
     def rotation(self) -> Rotation:
-        """How far items may turn."""
+        """Range in which items may turn."""
         asked = Rotation.parse(self.rotate)
         return asked if self.words is None else asked.of_words
 

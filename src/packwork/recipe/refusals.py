@@ -1,4 +1,4 @@
-"""What pydantic finds wrong with options, in one line that says what would do."""
+"""Errors of pydantic about options, in one line that says what would do."""
 
 from __future__ import annotations
 
@@ -60,8 +60,6 @@ def refusal(
 
     Parameters
     ----------
-    error
-        What the model raised.
     model
         Whose keys a misspelt one is compared with.
     names
@@ -173,12 +171,10 @@ def length_asked(key: str, value: str | float, unit: str, whole: float) -> float
 
 
 def length_of(key: str, *, may_be_zero: bool = False) -> AfterValidator:
-    """What checks that an option is a length, or None.
+    """Validator of a length, or None.
 
     Parameters
     ----------
-    key
-        The option.
     may_be_zero
         Whether nothing will do.
     """

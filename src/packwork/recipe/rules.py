@@ -1,4 +1,4 @@
-"""What may be asked of single items, as a recipe's ``[[rules]]`` say it."""
+"""Rules of single items, as a recipe's ``[[rules]]`` say them."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ Turns: TypeAlias = str | float | tuple[float, ...]
 
 
 class Rotation(Options):
-    """How far items may turn, radians."""
+    """Range in which items may turn, radians."""
 
     limit: float | None = None
     """Largest turn from upright; None for any."""
@@ -148,7 +148,7 @@ class Rotation(Options):
 
 
 def as_text(value: object) -> object:
-    """What Python may say in a list or as a number, in the words of the command line.
+    """Value of Python, a list or a number, in the words of the command line.
 
     Examples
     --------
@@ -192,7 +192,7 @@ def known_rotation(value: object) -> object:
 
 
 class Pin(Options):
-    """What of one item's pose is given; the rest is free."""
+    """Given parts of one item's pose; the rest is free."""
 
     x: Length | None = None
     """Where its centroid lies, from the canvas' left edge; % are of the canvas' width."""
@@ -220,7 +220,7 @@ class Pin(Options):
 
 
 class Rule(Options):
-    """What is asked of the items of some names; every key but ``items`` may be left out."""
+    """Rule for the items of some names; every key but ``items`` may be left out."""
 
     items: Annotated[tuple[str, ...], Offer(takes=str | tuple[str, ...])]
     """Names of items, or patterns such as ``b*``."""

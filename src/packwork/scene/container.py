@@ -18,8 +18,6 @@ class Backdrop:
 
     Parameters
     ----------
-    art
-        The picture.
     matrix
         2 x 3 map from its own units to canvas units.
     """

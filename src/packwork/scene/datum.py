@@ -1,4 +1,4 @@
-"""What a mark of a chart stands for, and which row of a frame an item came from."""
+"""Datum of a chart's mark, and the row of a frame that an item came from."""
 
 from __future__ import annotations
 

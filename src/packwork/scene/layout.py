@@ -29,12 +29,8 @@ class Layout:
 
     Parameters
     ----------
-    container
-        The region that was filled.
     items
         One entry per placed item; copies repeat the same ``Item`` object.
-    poses
-        As many as items.
     weights
         ``(n,)`` share of area asked for each item; all ones if none were given.
     manifest

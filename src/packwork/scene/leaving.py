@@ -28,8 +28,6 @@ class Leaving:
 
     Parameters
     ----------
-    items
-        Those that leave.
     poses
         Where they were, as large as they ever are: as many as items.
     track

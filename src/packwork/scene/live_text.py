@@ -11,10 +11,6 @@ class FontFile:
 
     Parameters
     ----------
-    data
-        The file.
-    name
-        What people call it.
     index
         Which face of a collection.
     weight
@@ -62,7 +58,7 @@ class TextRun:
 
 @dataclass(frozen=True, eq=False)
 class LiveText:
-    """What a word says, beside the curves that draw it.
+    """Text of a word, beside the curves that draw it.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Where items are: translations, turns, scales and stretches."""
+"""Poses of items: translations, turns, scales and stretches."""
 
 from __future__ import annotations
 

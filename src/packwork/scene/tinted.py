@@ -16,8 +16,6 @@ class TintedOriginal:
 
     Parameters
     ----------
-    original
-        The photograph.
     ink
         What is coated, item units.
     colour, share

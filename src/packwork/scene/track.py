@@ -73,7 +73,7 @@ class Track:
 
     @property
     def count(self) -> int:
-        """How many items there are."""
+        """Number of items."""
         return int(self.numbers.shape[1])
 
     def at(self, time: float) -> Poses:

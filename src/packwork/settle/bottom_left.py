@@ -147,7 +147,7 @@ class FreeRoom:
         return pixels, np.hypot(*(points - self._points[pixels]).T)
 
     def _is_free(self, points: FloatArray, radius: float) -> BoolArray:
-        """Whether a disc about each point touches neither the edge nor another disc."""
+        """Mask of the points whose disc touches neither the edge nor another disc."""
         pixels, off = self._pixels(points)
         reach = radius + self._gap
         is_free = np.asarray(self._wall.ravel()[pixels] - off >= reach)

@@ -1,4 +1,4 @@
-"""What settling is asked to do."""
+"""Options of settling."""
 
 from __future__ import annotations
 

@@ -70,7 +70,7 @@ class Piled:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Arrival:
-    """How items of a pile come to their first places.
+    """Arrival of a pile's items at their first places.
 
     Parameters
     ----------
@@ -127,19 +127,9 @@ def pile(
         One per item, item units.
     poses
         Sizes and angles, and where those are that have a place.
-    forces
-        What they go down.
-    options
-        Gap and turns.
     basin
         The container and more, such as the room above an open one, through which items may
         pass; the container itself if None.
-    arrival
-        How items come to their first places.
-    observer
-        Told of each round.
-    stop
-        Asked before each round.
 
     Examples
     --------
@@ -173,7 +163,7 @@ def pile(
 
 
 class _Pile:
-    """Where all items are, and which of them have a place."""
+    """State of a pile: poses of all items, and which of them have a place."""
 
     def __init__(
         self,
@@ -338,7 +328,7 @@ class _Pile:
         return bottom_left(arrangement, items, standing, heights, self._kinds, self._gap)
 
     def _anchors(self, arrangement: Arrangement) -> dict[int, FloatArray]:
-        """Where each kind of items would lie lowest, were there no others."""
+        """Lowest place of each kind of items, were there no others."""
         left, top, right, bottom = arrangement.container.bounds
         middle = np.array([(left + right) / 2, (top + bottom) / 2])
         if not self._forces.bonds:

@@ -22,7 +22,7 @@ AWAY = 1e3
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """Where items come from.
+    """Source of a pour's items.
 
     Parameters
     ----------
@@ -45,8 +45,6 @@ class Spout:
 
     Parameters
     ----------
-    source
-        The places.
     region
         Room that a disc has to lie in.
     gap
@@ -96,8 +94,6 @@ def pour(
         ``(m,)`` indices of items, in the order in which they come.
     every
         Rounds between one item and the next.
-    tell
-        Called with all places after each round.
     """
     arrangement = settling.arrangement
     _send_away(settling)

@@ -46,10 +46,6 @@ def start_round_pack(
         Least distance of two items, and of an item and the edge.
     trusts
         First and last bound of a move while they are tried.
-    rng
-        Draws the places.
-    stop
-        Asked before each round of a trial.
     """
     arrangement = settling.arrangement
     if arrangement.count > MOST_ITEMS:

@@ -139,8 +139,6 @@ class Settling:
         ----------
         tell
             Called with the places ``(n, 4)``, canvas units and rad, after each round.
-        stop
-            Asked before each round.
         trusts
             First and last bound of a move.
         """
@@ -186,7 +184,7 @@ class Settling:
         return np.asarray(now.parts / self.areas[self.active])
 
     def _farthest(self) -> float:
-        """How far the tenth that went farthest down came in the last round, canvas units.
+        """Distance of the tenth that went farthest down in the last round, canvas units.
 
         Or the circle, if it came farther.
         """

@@ -55,8 +55,6 @@ def seen_posed(
         One per item, item units.
     poses
         Scales and stretches are read; as many as outlines.
-    px_per_cu
-        Pixels of the level per canvas unit.
     margin_cu
         Every outline is grown by this much all round, canvas units.
     before
@@ -99,8 +97,6 @@ def seen_at(
         One per item, item units.
     scales
         ``(n,)`` canvas units per item unit.
-    px_per_cu, margin_cu
-        As for :func:`seen_posed`.
     known
         What was made before, by outline and size; more is added.
     """

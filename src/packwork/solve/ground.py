@@ -1,4 +1,4 @@
-"""What a level renders items on: room that may be filled, and the way back to the container."""
+"""Ground of a level: room that may be filled, and the way back to the container."""
 
 from __future__ import annotations
 

@@ -31,8 +31,6 @@ class Level:
 
     Parameters
     ----------
-    container
-        The region to fill.
     outlines
         One per item, item units, as this level shall see them.
     resolution
@@ -43,8 +41,6 @@ class Level:
         ``(n,)`` scales that were asked for; all ones if None.
     limits
         Zones that items stay in and kinds to keep apart.
-    forces
-        What pulls items about.
     ground
         What there is to fill; of the container unless given.
     """
@@ -100,8 +96,6 @@ class Level:
 
         Parameters
         ----------
-        poses
-            Where the items are.
         weights
             By loss; one that is not named weighs nothing.
         recall
@@ -142,7 +136,7 @@ class Level:
         recall: float = 0.0,
         force: float = 1.0,
     ) -> ObjectiveTerms:
-        """What :meth:`gradient` differentiates, over the canvas's area, and its terms.
+        """Objective of :meth:`gradient`, over the canvas's area, and its terms.
 
         Parameters are those of :meth:`gradient`.
         """
@@ -177,7 +171,7 @@ class Level:
         return float(checked_term(find_loss(loss), density, self.container_image).value)
 
     def _recall_value(self, poses: Poses, density: Image) -> float:
-        """What lies beyond the image or a zone, and how far items are from there, squared units."""
+        """Penalty on what lies beyond the image or a zone, by its distance, squared units."""
         areas = self._areas_of(poses)
         seen = float(density.sum(dtype=np.float64)) / self.px_per_cu**2
         called = self._recall(poses.x, poses.y, areas).value * self.px_per_cu / self.resolution

@@ -23,8 +23,6 @@ class Motion:
         ``(n,)`` scales that bounds and proportions refer to.
     side
         Longer side of the canvas.
-    options
-        Modes, rates and bounds.
     limits
         Bounds of single items, in place of those of the options.
     """
@@ -64,7 +62,7 @@ class Motion:
 
     @property
     def poses(self) -> Poses:
-        """Where the items are now; arrays of its own."""
+        """Poses of the items now; arrays of its own."""
         scale, stretch = np.exp(self._nominal + self._growth), np.exp(self._shape)
         return Poses(self.x.copy(), self.y.copy(), self.angle.copy(), scale, stretch)
 

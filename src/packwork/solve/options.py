@@ -1,4 +1,4 @@
-"""What a solve is asked to do."""
+"""Options of a solve."""
 
 from __future__ import annotations
 

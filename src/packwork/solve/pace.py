@@ -20,7 +20,7 @@ class Pace(Protocol):
         ...
 
     def progress(self) -> float:
-        """How far the run is, 0 at its first epoch and 1 at its last."""
+        """Progress of the run, 0 at its first epoch and 1 at its last."""
         ...
 
     def has_reached(self, level: int, share: float) -> bool:
@@ -64,8 +64,6 @@ class TimePace:
     ----------
     seconds
         Time from now on; 0 allows no epoch.
-    shares
-        One per level.
     """
 
     def __init__(self, seconds: float, shares: Sequence[float]) -> None:

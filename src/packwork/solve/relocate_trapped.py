@@ -72,8 +72,6 @@ def relocate_trapped(
     ----------
     level
         The level that was just finished.
-    poses
-        Its result.
     areas
         ``(n,)`` areas of the items' outlines, item units squared.
     smallest, largest

@@ -1,4 +1,4 @@
-"""How steps shrink and penalties grow over a run."""
+"""Schedules of a run: steps shrink and penalties grow."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ class Ending(Enum):
 
 @dataclass(frozen=True)
 class LevelReport:
-    """What one level did: its size, time, shares at its end and relocations after it."""
+    """Report of one level: its size, time, shares at its end and relocations after it."""
 
     resolution: int
     epochs: int
@@ -90,25 +90,13 @@ def solve(
 
     Parameters
     ----------
-    container
-        The region to fill.
     outlines
         One per item, item units, origin at its centroid.
-    start
-        First poses.
     nominal
         ``(n,)`` scales that weights ask for: the middle of the range in mode free, the
         proportions in mode shared.
-    options
-        Levels, epochs, modes, steps.
-    observer
-        Told of progress.
-    stop
-        Asked before every epoch; True ends the run.
     limits
         Bounds of single items, which the start has to keep.
-    forces
-        What pulls items about.
     """
     run = _Solve(container, outlines, start, nominal, options, observer, stop, limits, forces)
     reports: list[LevelReport] = []

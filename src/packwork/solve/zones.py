@@ -20,7 +20,7 @@ RECALL_PX = 200
 
 
 class ZonePull:
-    """What a zone's items feel: a price on their area outside it, and a pull on lost centres.
+    """Pull of a zone on its items: a price on their area outside it, and on lost centres.
 
     Only these items are drawn, into an image of their own: the price has to depend on
     whose area it is. It is linear in that area, as containment is, and the same in all of
@@ -34,8 +34,6 @@ class ZonePull:
         One per item of the whole layout, item units, as the level sees them.
     shape
         Rows and columns of the level's image.
-    px_per_cu
-        Its scale.
     """
 
     def __init__(
@@ -63,8 +61,6 @@ class ZonePull:
         ----------
         by_pose
             Per canvas unit, rad, log scale and log stretch; changed.
-        poses
-            Of all items.
         price
             Of a squared canvas unit outside the zone.
         """
@@ -82,7 +78,7 @@ class ZonePull:
         by_pose[self.items, 1] += price / side_cu * called.y
 
     def value(self, poses: Poses) -> float:
-        """What :meth:`add` differentiates, at a price of 1, squared canvas units."""
+        """Objective of :meth:`add`, at a price of 1, squared canvas units."""
         own = poses.some(self.items)
         areas = self._areas * own.scale**2
         self._rasteriser.sweep(

@@ -28,8 +28,6 @@ def allowed_pixels(limits: Limits, container: Image, px_per_cu: float) -> Allowe
     ----------
     container
         ``(rows, columns)`` coverage of the container.
-    px_per_cu
-        Pixels of that image per canvas unit.
 
     Examples
     --------

@@ -60,8 +60,6 @@ def nearest_allowed(
     ----------
     angles_rad
         ``(n,)``.
-    limit_rad, choices_rad
-        As for :func:`start_angles`.
 
     Examples
     --------

@@ -21,8 +21,6 @@ def suitable(container: Image, px_per_cu: float, radii_cu: FloatArray) -> Placin
     ----------
     container
         Coverage of the container, not 0 everywhere.
-    px_per_cu
-        Pixels of that image per canvas unit.
     radii_cu
         ``(n,)`` radius of a disc of each item's size.
 

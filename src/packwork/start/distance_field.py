@@ -50,14 +50,8 @@ def distance_field(
 
     Parameters
     ----------
-    container
-        Coverage of the container.
-    px_per_cu
-        Pixels of that image per canvas unit.
     radii_cu
         ``(n,)`` radius of the disc to keep free for each item.
-    rng
-        Breaks ties.
     homes
         Pixels for discs that may not lie anywhere.
 

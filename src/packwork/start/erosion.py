@@ -88,8 +88,6 @@ def spread_along(container: Outline, count: int, rng: np.random.Generator) -> Sp
 
     Parameters
     ----------
-    count
-        How many.
     rng
         Says where the first lies.
 

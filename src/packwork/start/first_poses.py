@@ -73,16 +73,10 @@ def first_poses(
 
     Parameters
     ----------
-    container
-        The region to fill.
     outlines
         One per item, item units.
     scales, angles
         ``(n,)``.
-    rng
-        The only source of randomness.
-    limits
-        Which items have to lie where.
     """
     image, px_per_cu = container_image(container, start_resolution(len(outlines)))
     if limits.binds:
@@ -101,8 +95,6 @@ def poses_apart(
 
     Parameters
     ----------
-    container
-        The region to fill.
     outlines
         One per item, item units.
     scales, angles

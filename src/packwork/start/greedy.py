@@ -29,8 +29,6 @@ def place_discs(
         Where there is room; every disc is taken away from it.
     radii_px
         ``(n,)``.
-    rng
-        Shifts the discs a little.
     homes
         Pixels for discs that may not lie anywhere: they choose before the others.
     preferred

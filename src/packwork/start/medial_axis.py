@@ -36,14 +36,8 @@ def medial_axis(
     ----------
     container
         Coverage of the container, not 0 everywhere.
-    px_per_cu
-        Pixels of that image per canvas unit.
     radii_cu
         ``(n,)`` radius of the disc to keep free for each item.
-    rng
-        Breaks ties.
-    homes
-        Pixels for discs that may not lie anywhere.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""How the first poses are found."""
+"""Options of the first poses."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LAYOUTS = frozenset({".geojson", ".json", ".svg", ".dxf", ".packwork"})
 
 
 class StartOptions(Options):
-    """Where items begin and how large."""
+    """First places and sizes of items."""
 
     method: Literal["auto", "distance-field", "medial-axis", "scatter", "first-fit"] = (
         "distance-field"

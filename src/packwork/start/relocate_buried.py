@@ -35,18 +35,12 @@ def relocated(
 
     Parameters
     ----------
-    container
-        The region to fill.
     outlines
         One per item, item units.
     poses
         Where the items are; angles, scales and stretches are kept.
     buried
         ``(m,)`` indices of items to move: those of which most is overlapped or outside.
-    rng
-        Shifts them a little.
-    limits
-        Which items may not be moved at all, and which only within a zone.
 
     Examples
     --------

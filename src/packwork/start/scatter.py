@@ -17,15 +17,6 @@ def scatter(
 ) -> tuple[FloatArray, FloatArray]:
     """Centres ``(x, y)``, canvas units, uniform over the container's pixels.
 
-    Parameters
-    ----------
-    container
-        Coverage of the container.
-    px_per_cu
-        Pixels of that image per canvas unit.
-    homes
-        Pixels for items that may not lie anywhere.
-
     Examples
     --------
     >>> x, y = scatter(np.array([[0.0, 1.0]]), 1.0, 3, np.random.default_rng(0))

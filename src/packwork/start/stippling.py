@@ -47,8 +47,6 @@ def stippled(
         Positive weight of each pixel.
     count
         Number of points, at least 1; where there are more than pixels, several share one.
-    rng
-        Draws the first points.
 
     Examples
     --------

@@ -79,22 +79,16 @@ def copies_for_voids(
 
     Parameters
     ----------
-    container
-        The region that was filled.
     placed
         What lies in it, canvas units.
     sorts
         Outlines that copies may have, item units, origin at their centroids.
     turns
         ``(SECTORS,)`` which turns they may have, in steps of a sector.
-    most
-        How many copies at most.
     smallest, largest
         ``(k,)`` scales of each sort.
     gap
         What is to stay free round each copy, canvas units.
-    rng
-        Chooses among sorts that fit about as well.
 
     Examples
     --------
@@ -168,8 +162,6 @@ def void_centres(distance: FloatArray, most: int) -> IntArray:
     ----------
     distance
         From each free pixel to what is not free, pixels; 0 where it is not.
-    most
-        How many at most.
 
     Examples
     --------

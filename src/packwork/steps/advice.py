@@ -1,4 +1,4 @@
-"""What would make a poor result a good one."""
+"""Advice that would make a poor result a good one."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ class Advise(RunStep):
 
 
 def advice(job: Job, count: int, seen: ShapeMetrics) -> tuple[str, ...]:
-    """What is poor of a layout of ``count`` items, and what would do, in a sentence; or nothing."""
+    """Advice on a poor layout of ``count`` items, in a sentence; or nothing."""
     if seen.bare <= MOST_BARE and seen.shape >= LEAST_SHAPE:
         return ()
     remedy = _wider(job) or job.use.remedy(job) or _remedy(job, count)
@@ -52,7 +52,7 @@ def advice(job: Job, count: int, seen: ShapeMetrics) -> tuple[str, ...]:
 
 
 def _wider(job: Job) -> str | None:
-    """What would do where the container is but lines; None where it is more."""
+    """Advice where the container is but lines; None where it is more."""
     width = lines_width(job.container)
     if width is None:
         return None
@@ -61,7 +61,7 @@ def _wider(job: Job) -> str | None:
 
 
 def _poor(seen: ShapeMetrics) -> str:
-    """What of the shape does not show."""
+    """Parts of the shape that do not show."""
     if seen.bare_parts > 1:
         return f"{seen.bare_parts} of the container's {seen.parts} parts are empty"
     if seen.bare > MOST_BARE:
@@ -70,7 +70,7 @@ def _poor(seen: ShapeMetrics) -> str:
 
 
 def _remedy(job: Job, count: int) -> str:
-    """What would show the shape, in the words of the options."""
+    """Remedy for a shape that does not show, in the words of the options."""
     plan = job.plan
     needed = items_needed(job.container, plan.sizes, plan.size_ratio).count
     if plan.sizes == "free" and needed > CLEARLY_MORE * count:

@@ -107,7 +107,7 @@ def _likeness(job: Job) -> FloatArray | None:
 
 
 def homes_alike(job: Job, region: Container, rng: np.random.Generator) -> Homes | None:
-    """Where items that are put one by one had better lie; None if anywhere.
+    """Homes of items that are put one by one; None if anywhere will do.
 
     Points spread evenly over the container.
     """
@@ -138,7 +138,7 @@ def _names_in_the_middle(job: Job, points: FloatArray, at: IntArray) -> IntArray
 def _anchored(
     known: ItemVectors, vectors: FloatArray, points: FloatArray
 ) -> tuple[FloatArray, FloatArray]:
-    """How much items are drawn along the way of each anchor, and how far along it points lie."""
+    """Pull on items along the way of each anchor, and how far along it points lie."""
     drawn, along = np.zeros((len(vectors), 0)), np.zeros((len(points), 0))
     units, about = unit_rows(vectors), points - points.mean(axis=0)
     for angle, vector in known.anchors:

@@ -125,7 +125,7 @@ def assign_in_order(job: Job, poses: Poses, nominal: FloatArray) -> Poses:
 
 
 def homes_in_order(job: Job, region: Container, rng: np.random.Generator) -> Homes | None:
-    """Where items that are put one by one had better lie; None if anywhere.
+    """Homes of items that are put one by one; None if anywhere will do.
 
     Points spread evenly over the container, in the order asked for.
     """
@@ -140,7 +140,7 @@ def homes_in_order(job: Job, region: Container, rng: np.random.Generator) -> Hom
 
 
 def _order(job: Job, asked: Ordering, poses: Poses, movable: IntArray) -> IntArray:
-    """Which of the movable items comes to each of their places."""
+    """Assignment of the movable items to their places."""
     hulls = hull_areas([job.items[k].outline for k in movable])
     areas = hulls * poses.scale[movable] ** 2
     points = np.column_stack([poses.x, poses.y])[movable]

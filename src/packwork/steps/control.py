@@ -38,13 +38,6 @@ class BestOf(RunStep):
     """Several lists, each from the same state; the run goes on with the best outcome.
 
     After a stop no further one is begun.
-
-    Parameters
-    ----------
-    lists
-        Steps of each.
-    choice
-        Chooses among what came of them.
     """
 
     def __init__(self, lists: Sequence[Sequence[RunStep]], choice: Choice) -> None:
@@ -52,7 +45,7 @@ class BestOf(RunStep):
         self.share = share_of(lists[0])
 
     def run(self, state: RunState, watch: RunContext) -> RunState:
-        """What came of the best list."""
+        """Run the lists; the best result."""
         tried = [run_steps(steps, state, part) for part, steps in watch.turns(self._lists)]
         return self._choice(tried, watch)
 
@@ -63,12 +56,8 @@ class Retry(RunStep):
 
     Parameters
     ----------
-    first, again
-        Steps of the two.
     will_do
         Whether the first outcome is good enough.
-    choice
-        Chooses among the two.
     """
 
     def __init__(
@@ -83,7 +72,7 @@ class Retry(RunStep):
         self.share = share_of(first)
 
     def run(self, state: RunState, watch: RunContext) -> RunState:
-        """What came of the first list, or the better one of both."""
+        """Run the first list, and the other if need be; the better result."""
         found = run_steps(self._first, state, watch)
         if watch.stop() or self._will_do(found):
             return found
@@ -92,13 +81,7 @@ class Retry(RunStep):
 
 @final
 class UnlessTight(RunStep):
-    """Steps for first places that overlap; none where items already lie beside each other.
-
-    Parameters
-    ----------
-    steps
-        What is done then.
-    """
+    """Steps for first places that overlap; none where items already lie beside each other."""
 
     def __init__(self, *steps: RunStep) -> None:
         self._steps = steps

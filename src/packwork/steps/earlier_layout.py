@@ -51,13 +51,7 @@ outside. Tried."""
 
 @final
 class FromLayout(Start):
-    """Poses of an earlier layout, what lies buried moved into voids.
-
-    Parameters
-    ----------
-    earlier
-        The layout.
-    """
+    """Poses of an earlier layout, what lies buried moved into voids."""
 
     def __init__(self, earlier: Layout) -> None:
         self._earlier = earlier

@@ -278,7 +278,7 @@ def _options(
 
 
 def trials_for(job: Job, count: int) -> int:
-    """How many turns and exchanges of ``count`` items are tried.
+    """Number of turns and exchanges that are tried for ``count`` items.
 
     None where a trial could undo what was asked: copies kept apart, which of two is larger,
     or what a user-defined loss keeps free.
@@ -334,10 +334,6 @@ class Closing:
 
     Parameters
     ----------
-    observer
-        The run's.
-    poses
-        Of all items.
     items
         That the steps are of.
     ids

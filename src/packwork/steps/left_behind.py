@@ -25,8 +25,6 @@ def left_behind(job: Job, placed: IntArray) -> Leaving | None:
 
     Parameters
     ----------
-    job
-        What was asked for.
     placed
         ``(m,)`` indices of its items in the new layout.
 

@@ -1,4 +1,4 @@
-"""What cannot be certified is left out and named, so that the rest is certified."""
+"""Omission of items that cannot be certified: they are named, the rest is certified."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def named(reasons: dict[int, str], layout: Layout, numbers: IntArray) -> tuple[U
 def reason(
     one: Conflict | Violation, items: Sequence[Item], unit: str, item: int | None = None
 ) -> str:
-    """How an item and another one, or the container's edge, are in each other's way.
+    """Reason why an item and another one, or the container's edge, are in conflict.
 
     Parameters
     ----------

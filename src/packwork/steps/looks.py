@@ -35,13 +35,7 @@ class Dress(RunStep):
 
 @final
 class ShowPicture(RunStep):
-    """Colours by which the items show a picture from afar, and advice where they do not.
-
-    Parameters
-    ----------
-    target
-        The picture.
-    """
+    """Colours by which the items show a picture from afar, and advice where they do not."""
 
     def __init__(self, target: TargetPicture) -> None:
         self._target = target

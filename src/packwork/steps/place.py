@@ -33,14 +33,12 @@ Smaller lets the largest stand out more. Tried."""
 
 
 class Setting:
-    """What first poses are found in: room, sizes, angles, random numbers.
+    """Setting for first poses: room, sizes, angles, random numbers.
 
     Parameters
     ----------
     state
         Before any item has a place.
-    stop
-        Asked on the way.
     """
 
     def __init__(self, state: RunState, stop: Stop) -> None:
@@ -61,7 +59,7 @@ class Setting:
         return first_angles(self.job, self.rng)
 
     def limits(self, angles: FloatArray) -> tuple[Limits, FloatArray]:
-        """What rules ask of single items, and first scales that keep it."""
+        """Limits of rules on single items, and first scales that keep them."""
         limits = Limits.free(len(angles))
         if self.job.is_limited:
             limits = item_limits(self.job, self.nominal, self.scales, angles)

@@ -1,4 +1,4 @@
-"""Which item lies where: items change places until their colours fit a picture best.
+"""Seating: items change places until their colours fit a picture best.
 
 An optimal assignment (D. F. Crouse, "On implementing 2D rectangular assignment algorithms", IEEE
 Transactions on Aerospace and Electronic Systems 52 (2016), 1679-1696,
@@ -55,11 +55,6 @@ class AssignByColour(RunStep):
     """Items in those of their places in which their colours show a picture best.
 
     Items that keep nothing of their colours, and those of which rules ask anything, stay.
-
-    Parameters
-    ----------
-    target
-        The picture.
     """
 
     def __init__(self, target: TargetPicture) -> None:
@@ -76,7 +71,7 @@ class AssignByColour(RunStep):
 
 
 def _order(job: Job, places: Poses, movable: IntArray, target: TargetPicture) -> IntArray:
-    """Which of the movable items comes to each of their places."""
+    """Assignment of the movable items to their places."""
     items = [job.items[k] for k in movable]
     own = oklabs_of_light(mean_lights(items))
     wanted = oklabs_of_light(_light_at(target, places, len(job.items)))

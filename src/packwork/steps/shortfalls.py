@@ -70,7 +70,7 @@ def shortfalls(state: RunState) -> tuple[str, ...]:
 
 
 def _no_place(one: ItemRules) -> str:
-    """Whether it has been looked for a place at that size, and none was found."""
+    """Reason why an item has no place at its size, for the pinned hero; else empty."""
     is_free_hero = one.voices.get("pin.size") == HERO and not one.is_put
     return "it has no place at that size, turned as it may be; " if is_free_hero else ""
 
@@ -78,7 +78,7 @@ def _no_place(one: ItemRules) -> str:
 def _dwarfs(
     job: Job, items: Sequence[int], nominal: FloatArray, scales: FloatArray
 ) -> tuple[str, ...]:
-    """What is far smaller than free sizes go, in a sentence; or nothing."""
+    """Sizes that are far smaller than free sizes go, in a sentence; or nothing."""
     if not items:
         return ()
     order = sorted(items, key=lambda k: scales[k] / nominal[k])
@@ -113,7 +113,7 @@ def _percent(share: float) -> str:
 
 
 def _widest(job: Job) -> str:
-    """How wide the widest place of the container is, in words."""
+    """Width of the container's widest place, in words."""
     outline = job.container.outline
     widest = widest_cu(outline, WIDEST_TOLERANCE * outline.extent)
     return f"the container's widest place is {_percent(widest / job.container.side)} across"

@@ -174,13 +174,7 @@ class AlongThread(Start):
 
 @final
 class ByDetail(Start):
-    """Small items where a picture has much to show, but for what rules ask.
-
-    Parameters
-    ----------
-    target
-        The picture.
-    """
+    """Small items where a picture has much to show, but for what rules ask."""
 
     def __init__(self, target: TargetPicture) -> None:
         self._target = target

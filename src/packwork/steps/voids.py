@@ -91,11 +91,6 @@ class FillVoids(RunStep):
     Each round finds the voids in an image, puts copies where they fit, and lets all items
     that may yield grow and make room in exact geometry. Where sizes are data or rules
     hold items, only the fillers move.
-
-    Parameters
-    ----------
-    scales
-        Bounds the fillers' sizes.
     """
 
     share = 1.0
@@ -162,7 +157,7 @@ class _Filling:
         return float((own * self.poses.scale**2).sum()) / self._job.container.outline.area
 
     def result(self, ending: GapEnding) -> RunState:
-        """What was placed, with all that was put into voids."""
+        """Layout that was placed, with all that was put into voids."""
         job = self._job
         own = dict(zip(job.items, job.asked, strict=True))
         by_name = dict(zip((item.name for item in job.items), job.asked, strict=True))
@@ -268,17 +263,7 @@ def joined_by(
     numbers: IntArray,
     filling: Filling,
 ) -> RunState:
-    """State with items that were put between: their poses come last.
-
-    Parameters
-    ----------
-    asked
-        What rules ask of each of the new ones.
-    poses
-        Of all.
-    numbers
-        As of the state, of all.
-    """
+    """State with items that were put between: their poses come last."""
     job = state.job
     grown = replace(
         job,
@@ -315,5 +300,5 @@ def corner_pairs(outlines: Sequence[Outline], poses: Poses) -> float:
 
 
 def _styled(asked: ItemRules) -> ItemRules:
-    """What rules say of how an item looks and where it leads."""
+    """Parts of rules on how an item looks and where it leads."""
     return ItemRules(values={key: value for key, value in asked.values.items() if key in STYLE})

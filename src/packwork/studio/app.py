@@ -42,17 +42,7 @@ BODY_SECONDS = 300.0
 
 
 class Studio:
-    """What answers requests.
-
-    Parameters
-    ----------
-    desk
-        What pages work on.
-    uploads
-        Where files go that they send.
-    secret
-        What its pages know.
-    """
+    """Application that answers requests."""
 
     def __init__(self, desk: Desk, uploads: Uploads, secret: Secret) -> None:
         self._desk, self._uploads, self._secret = desk, uploads, secret

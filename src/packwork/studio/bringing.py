@@ -1,4 +1,4 @@
-"""What pages ask for that has to be read first: items and containers; and what they may choose."""
+"""Requests of pages that read something first: items and containers; and their choices."""
 
 from __future__ import annotations
 
@@ -52,22 +52,14 @@ SAME = "same"
 
 
 class Bringer:
-    """Reads what pages ask for, in the desk's worker.
-
-    Parameters
-    ----------
-    desk
-        Where it goes.
-    uploads
-        Files that were sent.
-    """
+    """Reads what pages ask for, in the desk's worker."""
 
     def __init__(self, desk: Desk, uploads: Uploads) -> None:
         self._desk, self._uploads = desk, uploads
 
     @property
     def acts(self) -> Mapping[str, Callable[[Any], object]]:
-        """What is done, by type of message."""
+        """Handlers by type of message."""
         return {
             "bring": self._bring,
             "room": self._room,
@@ -176,7 +168,7 @@ class Bringer:
         self._desk.work(what, read)
 
     def _source(self, asked: str) -> str:
-        """What a page calls something, as readers call it."""
+        """Source that a page names, as readers name it."""
         if asked.startswith(FILES):
             return str(self._uploads.folder(asked.removeprefix(FILES)))
         if asked.startswith(BUILTIN):

@@ -54,14 +54,10 @@ NOT_YET = "the desk is still being laid; try it again in a moment"
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """What there is to be seen at a moment.
+    """View of a desk at a moment.
 
     Parameters
     ----------
-    view
-        All that is drawn.
-    state
-        How things stand with it.
     done
         How many commands it knows, in the count of the session's owner.
     """
@@ -72,13 +68,7 @@ class Shown:
 
 
 class Desk:
-    """What pages look at and work on.
-
-    Parameters
-    ----------
-    opening
-        What it begins with.
-    """
+    """Desk that pages look at and work on."""
 
     def __init__(self, opening: Opening) -> None:
         self._opening = opening
@@ -129,7 +119,7 @@ class Desk:
 
     @property
     def shown(self) -> Shown | None:
-        """What there is to be seen now, all of one moment; None before anything is."""
+        """View as of now, all of one moment; None before anything is."""
         # Both are replaced by other threads: each is looked at once.
         moment, frame = self._moment, None if self.owner is None else self.owner.frame
         if moment is not None:
@@ -158,11 +148,11 @@ class Desk:
 
     @property
     def shapes(self) -> Scenes:
-        """How items look."""
+        """Shapes of the items."""
         return self._scenes
 
     def _state(self, view: View, frame: Frame | None, *, is_run: bool) -> State:
-        """How things stand."""
+        """State of the desk."""
         is_moving = is_run or frame is None or frame.in_the_way is None
         in_the_way = () if frame is None or frame.in_the_way is None else frame.in_the_way
         return State(
@@ -181,7 +171,7 @@ class Desk:
         )
 
     def _left_out(self, view: View) -> tuple[LeftOut, ...]:
-        """What found no place beside items of which some are there."""
+        """Items that found no place, of those of which some are there."""
         if self._unplaced is None or not np.isin(view.ids, self._unplaced[0]).any():
             return ()
         return self._unplaced[1]
@@ -284,7 +274,7 @@ class Desk:
         owner.call(NamedSession.make_ready)
 
     def _kept(self, file: Path, session: Session) -> Keeper | None:
-        """What keeps a session; None, and a line, if it cannot be kept."""
+        """Keeper of a session; None, and a line, if it cannot be kept."""
         try:
             return kept_in(file, session)
         except PackworkError as error:

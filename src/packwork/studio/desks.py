@@ -1,4 +1,4 @@
-"""Where desks are kept and were served: so that what was not saved is found again.
+"""Desks on the disk and their addresses: what was not saved is found again.
 
 Each desk is a session file in a private folder, with a journal; beside it stand its page's port
 and a key that the page has too, so that one that is still open goes on by itself when its desk is
@@ -36,8 +36,6 @@ class KeptDesk:
 
     Parameters
     ----------
-    file
-        The session's.
     place
         Where its port and key stand; None if nothing may be kept.
     """
@@ -115,14 +113,14 @@ def _known() -> Iterator[Path]:
 
 
 def _last_taken(file: Path) -> float:
-    """When a desk was last written to, or chosen for a new session; 0 if it is none."""
+    """Time when a desk was last written to, or chosen for a new session; 0 if it is none."""
     with contextlib.suppress(OSError):
         return max(_last_used(file), lock_of(file).stat().st_mtime)
     return _last_used(file)
 
 
 def _last_used(file: Path) -> float:
-    """When a desk was last written to; 0 if it is none."""
+    """Time when a desk was last written to; 0 if it is none."""
     times = [0.0]
     for one in (file, file.with_name(file.name + ".log")):
         with contextlib.suppress(OSError):

@@ -1,4 +1,4 @@
-"""What the desk has, as a file for the person who asks."""
+"""Export of a desk's layout, as a file for the person who asks."""
 
 from __future__ import annotations
 
@@ -25,13 +25,7 @@ PATIENCE_SECONDS = 20.0
 
 
 class Exporter:
-    """Writes what the desk has.
-
-    Parameters
-    ----------
-    desk
-        Where it is.
-    """
+    """Writes what the desk has."""
 
     def __init__(self, desk: Desk) -> None:
         self._desk = desk

@@ -1,4 +1,4 @@
-"""Who may speak to the studio: one gate for pages, requests and sockets, before anything is done.
+"""Access to the studio: one gate for pages, requests and sockets, before anything is done.
 
 A page of any other place can send requests to this machine, and by rebinding a name can even seem
 to be of the same place. So all that comes in has to name the very host and port that we listen at;
@@ -50,15 +50,7 @@ POLICY = (
 
 @dataclass(frozen=True)
 class Guard:
-    """Lets through what comes from the page that was opened, and nothing else.
-
-    Parameters
-    ----------
-    app
-        What is guarded.
-    secret
-        What only that page knows.
-    """
+    """Lets through what comes from the page that was opened, and nothing else."""
 
     app: App
     secret: Secret

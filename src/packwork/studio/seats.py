@@ -1,4 +1,4 @@
-"""Who is at a desk: all tabs of one browser are one person's, another person is asked first.
+"""Seats at a desk: all tabs of one browser are one person's, another is asked first.
 
 No secret and no guard: all who come so far know the token. It keeps two people from pulling at one
 collage without knowing of each other.
@@ -19,7 +19,7 @@ LONGEST = 64
 
 
 class Seats:
-    """Who is at a desk, and who works there together.
+    """Seats at a desk: the person there, and who works there together.
 
     Parameters
     ----------

@@ -38,12 +38,10 @@ shorter costs the session time. Tried."""
 
 @dataclass(frozen=True, kw_only=True)
 class Address:
-    """Where the studio listens.
+    """Address at which the studio listens.
 
     Parameters
     ----------
-    host
-        Address of this machine.
     port
         0 for any that is free.
     """
@@ -64,12 +62,8 @@ def serve(
 
     Parameters
     ----------
-    opening
-        What the desk begins with.
     kept
         Where it is kept, and was served before; None for nowhere.
-    browses
-        Whether the browser is opened on it.
     tell
         Told the address, a line.
 

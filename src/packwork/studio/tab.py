@@ -24,7 +24,7 @@ MOST_LINES = 32
 
 
 class Wire(Protocol):
-    """What carries messages to a page."""
+    """Carrier of messages to a page."""
 
     async def send_text(self, data: str) -> None:
         """Send a message."""
@@ -38,10 +38,6 @@ class Tab:
 
     Parameters
     ----------
-    desk
-        What it looks at.
-    carrier
-        What carries messages to it.
     bring
         Does what needs files: by the message's type.
     """

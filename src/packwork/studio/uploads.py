@@ -44,7 +44,7 @@ class Uploads:
 
     @property
     def root(self) -> Path:
-        """Where batches lie."""
+        """Folder of the batches."""
         return self._folder.path
 
     def folder(self, batch: str) -> Path:

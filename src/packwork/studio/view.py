@@ -1,4 +1,4 @@
-"""What a page shows of a moment, wherever it comes from: a run on its way, or a session."""
+"""View of a moment on a page, wherever it comes from: a run on its way, or a session."""
 
 from __future__ import annotations
 
@@ -34,8 +34,6 @@ class View:
 
     Parameters
     ----------
-    container, items, ids, weights, held, options
-        As a document has them.
     poses
         As many as items; None before they have a place.
     """
@@ -50,7 +48,7 @@ class View:
 
     @classmethod
     def of_document(cls, document: Document, poses: Poses | None = None) -> View:
-        """What a document looks like, or would with other poses."""
+        """View of a document, with its own poses or with others."""
         return cls(
             container=document.container,
             items=document.items,
@@ -63,7 +61,7 @@ class View:
 
     @classmethod
     def of_moment(cls, moment: Moment) -> View:
-        """What a run looks like on its way."""
+        """View of a run on its way."""
         count = len(moment.items) if moment.poses is not None else 0
         return cls(
             container=moment.container,
@@ -173,7 +171,7 @@ class Scenes:
 
 
 def left_out_of(manifest: Mapping[str, Any]) -> tuple[LeftOut, ...]:
-    """What the run of a manifest could not place.
+    """Items that the run of a manifest could not place.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""What page and studio say to each other: one model a message, and frames of poses as bytes.
+"""Messages between page and studio: one model each, and frames of poses as bytes.
 
 ``schema()`` is what both ends are checked against: the page's own list of messages, ``wire.js``, is
 written from it.
@@ -185,7 +185,7 @@ Told: TypeAlias = Annotated[
 
 
 class Shape(Message):
-    """How items look, in their own units; sent once."""
+    """Shapes of items, in their own units; sent once."""
 
     key: str
     outline: str
@@ -230,14 +230,14 @@ class Scene(Message):
 
 
 class LeftOut(Message):
-    """What found no place in the last run."""
+    """Items that found no place in the last run."""
 
     name: str
     reason: str
 
 
 class State(Message):
-    """How things stand."""
+    """State of the desk."""
 
     type: Literal["state"] = "state"
     covered: float

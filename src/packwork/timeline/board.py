@@ -39,10 +39,6 @@ class WordBoard:
 
     Parameters
     ----------
-    container
-        The region to fill.
-    rng
-        For the random part of the scores.
     margin_cu
         Room that every item keeps from others, canvas units.
     """

@@ -48,7 +48,7 @@ def filmed(series: Solved) -> Layout:
 
 
 def _lasting(series: Solved) -> tuple[Note, ...]:
-    """What stands beside the items at all steps alike: keys do, a title with the step does not."""
+    """Notes that are the same at all steps: keys are, a title with the step is not."""
     last = series.runs[-1].layout.notes
     others = [run.layout.notes for run in series.runs[:-1]]
     return tuple(

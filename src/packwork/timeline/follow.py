@@ -51,8 +51,6 @@ def followed(
         Poses of the step beside it, None if there is none; ``names`` of its items.
     known
         Places of all words that any step has had so far.
-    stop
-        Asked before each round.
     """
     target = size * step.true
     if beside is not None:

@@ -1,4 +1,4 @@
-"""What is said of a series: its scale, how far words move, and each step's own report."""
+"""Report of a series: its scale, how far words move, and each step's own report."""
 
 from __future__ import annotations
 

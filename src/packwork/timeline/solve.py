@@ -43,10 +43,6 @@ class Solved:
 
     Parameters
     ----------
-    steps
-        In their order.
-    runs
-        Of each.
     size
         Scale of all: items have so many times their true scales.
     """

@@ -67,16 +67,8 @@ def fill(
 
     Parameters
     ----------
-    recipe
-        What to do.
     items, container
         Already read, in place of the recipe's names of files.
-    observer
-        Told of progress.
-    stop
-        Asked before every epoch; True ends the run with what it has.
-    record
-        Keep the way of the items, in the layout's ``track``.
 
     Raises
     ------

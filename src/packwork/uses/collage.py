@@ -89,8 +89,6 @@ def placing(
 
     Parameters
     ----------
-    suits_first_fit, place
-        As :func:`solving` has them.
     methods
         Starts that are tried, of which the run goes on with the most promising.
     bounds
@@ -176,7 +174,7 @@ def may_stand_upright(job: Job) -> bool:
 
 
 def as_good_upright(tried: Sequence[RunState], watch: RunContext) -> RunState:
-    """What was placed upright if it is clean and about as large as the turned one; else that."""
+    """Upright layout if it is clean and about as large as the turned one; else that."""
     turned = tried[0]
     for upright in tried[1:]:
         sizes = float(upright.poses.scale[0] ** 2), float(turned.poses.scale[0] ** 2)
@@ -193,7 +191,7 @@ def most_promising(tried: Sequence[RunState], watch: RunContext) -> RunState:
         return tried[0]
 
     def worth(state: RunState) -> tuple[bool, float]:
-        """Whether a finish without trials comes out clean, and the area that is covered then."""
+        """Rank of a result: a clean finish without trials, then the area that is covered."""
         job = _replanned(state.job, effort="draft")
         quick = replace(state, job=job, recorder=Recorder.off())
         exact = finished(quick, RunContext(stop=watch.stop))

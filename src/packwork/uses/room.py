@@ -42,12 +42,12 @@ class KnownContainer:
         return self.container
 
     def of(self, cast: Cast) -> Container:
-        """What these items are placed in."""
+        """Container that these items are placed in."""
         del cast
         return self.known
 
     def needed(self, recipe: Recipe, items: Sequence[Item]) -> int:
-        """How many items it takes for the container's shape to show."""
+        """Number of items at which the container's shape shows."""
         needed = items_needed(self.known, recipe.sizes, recipe.size_ratio).count
         return max(needed, len(items))
 

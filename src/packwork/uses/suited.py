@@ -1,4 +1,4 @@
-"""Which items a picture is shown by, where there are more than places: those whose colours suit it.
+"""Items that suit a picture's colours, where there are more of them than places.
 
 An optimal assignment of items to places spread over the picture, as for seats on the road
 (:mod:`packwork.steps.seating`); some items are left over.

@@ -1,4 +1,4 @@
-"""What eyes see of a layout's SVG: paint outside the container and in more than one item.
+"""Pixels of a layout's SVG: paint outside the container and in more than one item.
 
 The items are painted in a few pictures, in each of which no two are near one another; where the
 opacities of these add up to more than one, two items are painted.
@@ -53,8 +53,6 @@ class PaintedPixels:
         Those of the items' paint where nothing of the container is.
     double
         Those that more than one item paints.
-    columns, rows
-        Size of the picture.
     """
 
     outside: int
@@ -75,10 +73,6 @@ def painted_pixels(data: bytes, layout: Layout, *, is_own: bool = False) -> Pain
 
     Parameters
     ----------
-    data
-        The SVG.
-    layout
-        What stands in it.
     is_own
         Whether it was made just now; else it goes through the gate first.
 

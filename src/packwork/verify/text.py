@@ -45,14 +45,8 @@ def faults_in_file(
 
     Parameters
     ----------
-    data
-        What is to be written.
     path
         Where to; its ending says what it is.
-    layout
-        What is to stand in it.
-    options
-        How it was drawn.
 
     Examples
     --------
@@ -93,7 +87,7 @@ def _broken_in(data: bytes, path: str | Path, layout: Layout) -> tuple[str, ...]
 
 
 def _off_drawing(data: bytes, drawing: bytes, bleed_px: float, beyond: Set[str]) -> tuple[str, ...]:
-    """What a PDF paints elsewhere than the SVG that it was made of, a sentence or none."""
+    """Warning of paint in a PDF that the SVG that it was made of lacks, a sentence or none."""
     try:
         page, drawn = shapes_of_svg(drawing)
         printed = printed_page(data)
@@ -133,7 +127,7 @@ def _beyond_paths(layout: Layout) -> set[str]:
 
 
 def on_trust_in_file(path: str | Path, layout: Layout) -> tuple[str, ...]:
-    """What of a file is not held against what was measured, a sentence or none.
+    """Warning of parts of a file not held against what was measured, a sentence or none.
 
     Examples
     --------

@@ -195,7 +195,7 @@ def _legible_on(ground: str | None) -> ColourFunction:
 
 
 def chances(color_func: ColourFunction, drawn: Random | None) -> Random | None:
-    """What a function of colours draws with: ours with numbers that are spread.
+    """Random numbers that a function of colours draws with: of ours, those that are spread.
 
     Examples
     --------

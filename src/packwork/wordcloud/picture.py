@@ -44,7 +44,7 @@ def paint(picture: Image.Image, words: Iterable[tuple[Outline, Colour]], scale: 
 def _opacity(
     outline: Outline, left: int, top: int, right: int, bottom: int, most: int
 ) -> Image.Image:
-    """How much of each pixel of a box an outline covers, of ``most``."""
+    """Share of each pixel of a box that an outline covers, of ``most``."""
     rasteriser = Rasteriser((bottom - top, right - left))
     rasteriser.sweep(outline.points - (left, top), outline.starts)
     covered = rasteriser.density().clip(0.0, 1.0)

@@ -67,14 +67,12 @@ NO_ROOM = (
 
 @dataclass(frozen=True, eq=False)
 class CloudSettings:
-    """What a cloud asks of the engine.
+    """Settings of a cloud for the engine.
 
     Parameters
     ----------
     container
         In pixels of the canvas.
-    fonts
-        That set the words.
     margin
         Twice the least distance of two words, and of a word and the edge, pixels: what the other
         package leaves round the box of a word.
@@ -121,7 +119,7 @@ class PlacedWords:
 
     @cached_property
     def outlines(self) -> tuple[Outline, ...]:
-        """What each word draws, in place."""
+        """Outlines of the words, in place."""
         return tuple(word.ink.mapped(self.poses.matrix(k)) for k, word in enumerate(self.words))
 
     @cached_property
@@ -295,7 +293,7 @@ class _ReadCloud:
 
 
 def _with_edge(asked: CloudSettings) -> Container:
-    """What words may fill: of a canvas, not the pixels along its edge."""
+    """Container of words: of a canvas, without the pixels along its edge."""
     container = asked.container
     if container.outline.area < container.width * container.height:
         return container

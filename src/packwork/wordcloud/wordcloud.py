@@ -317,7 +317,7 @@ class WordCloud:
         )
 
     def _entry(self, pair: tuple[str, float], position: int, random: Random | None) -> Entry:
-        """What ``layout_`` says of a word: whole numbers, of its box's upper left corner."""
+        """Entry of ``layout_`` for a word: whole numbers, of its box's upper left corner."""
         left, top, _, _ = self._placed.outlines[position].bounds
         size = round(float(self._placed.poses.scale[position]) * EM_PX)
         turned = abs(float(self._placed.poses.angle[position])) > 1e-6

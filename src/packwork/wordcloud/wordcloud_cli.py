@@ -232,7 +232,7 @@ def _colours(picture: str | None, colour: str | None) -> Any:
 
 
 def _own_name() -> str:
-    """What the command was called by: links to it may have other names."""
+    """Name that the command was called by: links to it may have other names."""
     called = Path(sys.argv[0]).name
     return "python -m packwork.wordcloud" if called in {"", "-c", "-m", "__main__.py"} else called
 

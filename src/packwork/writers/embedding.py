@@ -50,8 +50,6 @@ class Embedded:
 
     Parameters
     ----------
-    family
-        Its name in the document.
     rule
         ``@font-face`` of CSS, the font in it.
     """

@@ -25,11 +25,6 @@ class LiveWords:
 
     Fonts that cannot be embedded are named in the log; their words are outlines.
 
-    Parameters
-    ----------
-    items
-        All that are drawn.
-
     Examples
     --------
     >>> LiveWords([]).style()
@@ -66,8 +61,6 @@ class LiveWords:
         ----------
         item
             That :meth:`has` affirms.
-        own
-            Attributes of the element.
         place
             A ``transform`` to wherever it goes.
         """

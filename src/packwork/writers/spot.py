@@ -20,7 +20,7 @@ _DIGITS = 4
 
 @dataclass(frozen=True, kw_only=True)
 class Press:
-    """What a print shop asks of a page, in points.
+    """Demands of a print shop on a page, in points.
 
     Parameters
     ----------

@@ -92,7 +92,7 @@ def near_pairs(boxes, order, reach, found):
 
 @helper
 def are_apart(boxes, i, j, reach):
-    """Whether two of some boxes are farther apart than ``reach`` along an axis."""
+    """True if two of some boxes are farther apart than ``reach`` along an axis."""
     # Number by number: a view of a row is counted by all threads together, which takes longer.
     return (
         boxes[j, 0] > boxes[i, 2] + reach
@@ -226,7 +226,7 @@ def cull(board, i, boxes, j, reach, kept):
 
 @helper
 def _winding(x, y, board, j):
-    """How often the rings of a solid go round a point."""
+    """Winding number of the rings of a solid about a point."""
     points, turns = board.points, 0
     first, last = board.starts[j], board.starts[j + 1]
     is_container = j == board.starts.shape[0] - 2
@@ -252,7 +252,7 @@ def _winding(x, y, board, j):
 
 @helper
 def _is_in(board, v, j):
-    """Whether a vertex lies in solid ``j``."""
+    """True if a vertex lies in solid ``j``."""
     x, y = board.points[v, 0], board.points[v, 1]
     # The container's rings run backwards: round a point inside once, the wrong way.
     return _winding(x, y, board, j) + (j == board.starts.shape[0] - 2) != 0
@@ -260,7 +260,7 @@ def _is_in(board, v, j):
 
 @helper
 def _enters(board, kept, count, j):
-    """Whether a ring has its first vertex in solid ``j``, of rings with edges near that."""
+    """True if a ring has its first vertex in solid ``j``, of rings with edges near that."""
     is_container = j == board.starts.shape[0] - 2
     box = board.boxes[j]
     for k in range(count):
@@ -288,7 +288,7 @@ def most_points(starts, pairs):
 
 @helper
 def sticks_out(inner, outer):
-    """Whether a box is not within another one."""
+    """True if a box is not within another one."""
     return inner[0] < outer[0] or inner[1] < outer[1] or inner[2] > outer[2] or inner[3] > outer[3]
 
 

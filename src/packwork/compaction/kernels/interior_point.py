@@ -201,13 +201,13 @@ def _direction(rows, now, step, band, begins, width, off_rows, off_cost, centrin
 
 @helper
 def _length(value, change, most):
-    """How far a number may go along its change and stay above zero, ``most`` at most."""
+    """Step length that keeps a number above zero along its change, ``most`` at most."""
     return min(most, -value / change) if change < 0.0 else most
 
 
 @helper
 def _lengths(now, step):
-    """How far unknowns and prices may go along a direction."""
+    """Step lengths of unknowns and of prices along a direction."""
     primal = dual = 1.0 / STEP_BACK
     for k in range(now.slack.shape[0]):
         primal = _length(now.slack[k], step.slack[k], primal)

@@ -115,7 +115,7 @@ def _hull(boxes, begin, end, hull):
 
 @helper
 def _comes_near(boxes, begin, end, left, top, right, bottom):
-    """Whether some boxes meet the one between these bounds."""
+    """True if some boxes meet the one between these bounds."""
     for b in range(begin, end):
         if (
             boxes[b, 0] <= right
@@ -129,7 +129,7 @@ def _comes_near(boxes, begin, end, left, top, right, bottom):
 
 @helper
 def _meet(boxes, begin, end, hull, margin):
-    """Whether some boxes, all in a hull, come within a margin of those before them."""
+    """True if some boxes, all in a hull, come within a margin of those before them."""
     for b in range(begin):
         left, top = boxes[b, 0] - margin, boxes[b, 1] - margin
         right, bottom = boxes[b, 2] + margin, boxes[b, 3] + margin

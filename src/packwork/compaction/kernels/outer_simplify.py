@@ -15,7 +15,7 @@ from packwork.compiled import helper, kernel
 
 @helper
 def _change(points, after, before, v, corner):
-    """How far the solid grows if vertex ``v`` of a bay, or the edge after ``v``, goes.
+    """Area that the solid gains if vertex ``v`` of a bay, or the edge after ``v``, goes.
 
     A vertex of a bay is left out; a convex edge goes by prolonging its neighbours until
     they meet in ``corner``. Infinite where neither can be.

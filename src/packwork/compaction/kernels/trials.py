@@ -27,7 +27,7 @@ SHORT = 1e-9
 
 
 class Trial(NamedTuple):
-    """What is tried, and where.
+    """Trial move: items, and poses that are tried for them.
 
     ``moved``: ``(m,)`` items that are put elsewhere; ``places``: ``(k, m, 4)``, of which the best
     is taken; ``items``: ``(n,)`` those that move afterwards, the moved ones among them, neighbours
@@ -95,7 +95,7 @@ def _keep(board, items, places):
 
 @helper
 def _are_within(board, items, bounds):
-    """Whether items are in the boxes that they must not leave."""
+    """True if items are in the boxes that they must not leave."""
     for k in range(bounds.shape[0]):
         if distances.sticks_out(board.boxes[items[k]], bounds[k]):
             return False

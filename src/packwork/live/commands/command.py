@@ -1,4 +1,4 @@
-"""What all commands are, and what they look up."""
+"""Base of all commands, and the library in which they look things up."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ ItemIds: TypeAlias = Annotated[tuple[ItemId, ...], Field(min_length=1)]
 
 @dataclass(frozen=True)
 class Library:
-    """What commands bring into a document, by the names that they call it.
+    """Things that commands bring into a document, by the names that they call them.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ class Command(Options):
 
     @property
     def assets(self) -> tuple[str, ...]:
-        """What it brings in, by names in the library."""
+        """Assets that it brings in, by names in the library."""
         asset = getattr(self, "asset", None)
         return () if asset is None else (asset,)
 
@@ -109,7 +109,7 @@ def sized(document: Document, what: str) -> Document:
 
 
 def index_of(document: Document, number: int, what: str) -> int:
-    """Where an item stands in the arrays.
+    """Index of an item in the arrays.
 
     Raises
     ------

@@ -1,1 +1,1 @@
-"""What faces with a page need of all below: things read, poured, drawn and written."""
+"""Services for faces with a page: things read, poured, drawn and written."""

@@ -27,16 +27,10 @@ class Question:
 
     Parameters
     ----------
-    name
-        Of the field.
-    help
-        What it does, in the words of the command line where that has it too.
     choices
         What it may be; empty for a number.
     range
         Least, most and step of a number; empty for a choice.
-    default
-        Value if none is given.
     """
 
     name: str
@@ -47,7 +41,7 @@ class Question:
 
 
 def questions() -> tuple[Question, ...]:
-    """What can be set for all items, in the order of the fields.
+    """Settings that hold for all items, in the order of the fields.
 
     Examples
     --------

@@ -29,8 +29,6 @@ class BuiltIn:
 
     Parameters
     ----------
-    name
-        What it is asked for by.
     item
         What it looks like; None of containers.
     outline

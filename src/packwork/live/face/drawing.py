@@ -24,7 +24,7 @@ MARGIN = 0.01
 
 @dataclass(frozen=True, kw_only=True)
 class Drawing:
-    """How one item looks, in its own units.
+    """Drawing of one item, in its own units.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ class Drawing:
 
 
 def drawing_of(item: Item) -> Drawing:
-    """How an item looks.
+    """Drawing of an item.
 
     Examples
     --------

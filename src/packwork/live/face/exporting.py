@@ -68,8 +68,6 @@ def layout_bytes(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes
     ----------
     kind
         One of :data:`FORMATS`.
-    options
-        Of drawings, as on the command line.
 
     Raises
     ------
@@ -112,11 +110,6 @@ def film_of(layout: Layout, kind: str, options: Mapping[str, Any]) -> bytes:
 
 def recipe_zip(document: Document, name: str) -> bytes:
     """A document as a recipe: a folder in a ZIP file, with a text that tells how to run it.
-
-    Parameters
-    ----------
-    name
-        Of the folder.
 
     Raises
     ------

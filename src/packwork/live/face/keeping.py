@@ -19,13 +19,7 @@ def lock_of(file: Path) -> Path:
 
 
 class Keeper:
-    """Keeps a session in a file; called in the thread that owns the session.
-
-    Parameters
-    ----------
-    disk
-        The file and its journal.
-    """
+    """Keeps a session in a file; called in the thread that owns the session."""
 
     def __init__(self, disk: Disk) -> None:
         self._disk = disk

@@ -1,4 +1,4 @@
-"""What a studio begins with: a recipe to run, a layout that was saved, or a session's file."""
+"""Openings of a studio: a recipe to run, a layout that was saved, or a session's file."""
 
 from __future__ import annotations
 
@@ -28,14 +28,10 @@ LAYOUTS = frozenset({".geojson", ".json", ".dxf"})
 
 @dataclass(frozen=True, kw_only=True)
 class Opening:
-    """What a studio begins with; one of the three.
+    """Beginning of a studio; one of the three.
 
     Parameters
     ----------
-    recipe
-        To be run.
-    document
-        To be shown as it is.
     file
         A session's, to be gone on from.
     kept_in
@@ -49,17 +45,13 @@ class Opening:
 
 
 def opening_of(inputs: Sequence[str], count: int | None = None, **options: Any) -> Opening:
-    """What inputs as people type them stand for.
+    """Opening that inputs stand for, as people type them.
 
     Parameters
     ----------
     inputs
         None: the bundled icons in a heart. One file: a recipe, a layout or a session by its
         ending, an SVG that this program wrote too. Else the container, then the items.
-    count
-        Items in all.
-    options
-        Of the recipe.
 
     Raises
     ------
@@ -114,7 +106,7 @@ def opened(path: Path) -> tuple[NamedSession, Keeper]:
 
 
 def kept_in(path: Path, session: NamedSession) -> Keeper:
-    """What keeps a new session in a file.
+    """Keeper of a new session in a file.
 
     Raises
     ------

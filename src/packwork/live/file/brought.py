@@ -1,4 +1,4 @@
-"""What commands have brought in, as a line of a log holds it: with its fonts."""
+"""Assets of commands, as a line of a log holds them: with their fonts."""
 
 from __future__ import annotations
 

@@ -83,17 +83,10 @@ def lock_beside(path: Path) -> Path:
 
 
 class Disk:
-    """Where a session is kept.
+    """File of a session, and the journal beside it.
 
     For as long as a journal is written nobody else may write the file: a lock beside it says so,
     which the system gives back when the process ends, however it ends.
-
-    Parameters
-    ----------
-    path
-        Of the file.
-    is_journaled
-        Whether all that is done is noted beside it.
     """
 
     def __init__(self, path: str | Path, *, is_journaled: bool) -> None:
@@ -208,7 +201,7 @@ class Disk:
             self._lock.release()
 
     def _read(self) -> tuple[Kept, Iterator[Entry]]:
-        """What the file holds, and what its journal adds to it."""
+        """Contents of the file, and the entries that its journal adds."""
         data = read_bytes(self.path, MOST_BYTES)
         forget_input(self.path)
         found = read_session(data, str(self.path))

@@ -124,7 +124,7 @@ def records_of(
 
 @dataclass(frozen=True)
 class Parts:
-    """What documents of a file are made of.
+    """Parts that documents of a file are made of.
 
     Parameters
     ----------

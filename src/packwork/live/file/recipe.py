@@ -40,17 +40,7 @@ _NO_LETTER = re.compile(r"[^\w .()-]")
 
 @dataclass(frozen=True)
 class SessionRecipe:
-    """Where a recipe lies, and how it is run.
-
-    Parameters
-    ----------
-    file
-        The recipe.
-    command
-        The line for a shell.
-    python
-        The line for Python.
-    """
+    """Recipe of a session: where it lies, and how it is run."""
 
     file: Path
     command: str
@@ -136,7 +126,7 @@ def _weights(document: Document, names: list[str]) -> dict[str, float] | None:
 
 
 def _rules(document: Document, names: list[str]) -> list[dict[str, Any]]:
-    """How many there are of each, and where what is held lies."""
+    """Rules for the number of each name, and for the places of held items."""
     rules: list[dict[str, Any]] = []
     for name, count in Counter(names).items():
         rule: dict[str, Any] = {"items": [name], "count": count}

@@ -1,4 +1,4 @@
-"""What items and containers are in files: plain values, checked as they are read."""
+"""Records of items and containers in files: plain values, checked as they are read."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ class RunRecord(Options):
 
 
 class WordRecord(Options):
-    """What a word says, beside the curves that draw it."""
+    """Text of a word, beside the curves that draw it."""
 
     runs: Annotated[tuple[RunRecord, ...], Field(max_length=MOST_LINES)]
     path: Annotated[str, Field(pattern=r"^[MmLlHhVvCcSsQqTtAaZz0-9eE .,+-]*$")]

@@ -38,7 +38,7 @@ _Ids = tuple[Annotated[int, Field(ge=0)], ...]
 
 
 class MarksRecord(Options):
-    """What has been done to which items, as :class:`Marks`."""
+    """Marks of items that were changed, as :class:`Marks`."""
 
     touched: _Ids = ()
     given: _Ids = ()
@@ -52,7 +52,7 @@ class MarksRecord(Options):
 
 
 class SessionRecord(Options):
-    """What a session file says first."""
+    """First record of a session file."""
 
     format: Literal[1] = 1
     """Raised when older programs cannot read what newer ones write."""
@@ -76,8 +76,6 @@ def session_bytes(kept: Kept, things: Things, follows: str = "") -> bytes:
 
     Parameters
     ----------
-    things
-        Encodes items and containers, and remembers those that it has encoded.
     follows
         SHA-256 of the file that it is to replace; empty for none.
 
@@ -125,12 +123,10 @@ def _record(kept: Kept, things: Things, follows: str) -> SessionRecord:
 
 @dataclass(frozen=True)
 class SessionFile:
-    """What a session file holds.
+    """Contents of a session file.
 
     Parameters
     ----------
-    kept
-        All that a session goes on from.
     follows
         SHA-256 of the file that it has replaced; empty for none.
     """
@@ -140,12 +136,7 @@ class SessionFile:
 
 
 def read_session(data: bytes, name: str) -> SessionFile:
-    """What the bytes of a session file hold.
-
-    Parameters
-    ----------
-    name
-        What the file is called in messages.
+    """Contents of a session file, from its bytes.
 
     Raises
     ------
@@ -210,5 +201,5 @@ class _Listed:
         return tuple(self._places)
 
     def place(self, thing: object) -> int:
-        """Where a thing stands among them."""
+        """Index of a thing among them."""
         return self._places.setdefault(self._path_of(thing), len(self._places))

@@ -200,11 +200,6 @@ def container_record(container: Container) -> ContainerRecord:
 def container_of(record: ContainerRecord, shared: Shared) -> Container:
     """The container of a record.
 
-    Parameters
-    ----------
-    shared
-        What several records of a file have in common.
-
     Raises
     ------
     UnfitError

@@ -1,1 +1,1 @@
-"""What a gesture reaches: its neighbourhood flows, and is finished exactly among all others."""
+"""Neighbourhood of a gesture: it flows, and is finished exactly among all others."""

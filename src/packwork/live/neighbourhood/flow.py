@@ -286,7 +286,7 @@ class Flow:
         return self._sights.outlines(outlines, self.poses.some(items), px_per_cu, margin)
 
     def _room(self, active: IntArray, resolution: int) -> Ground:
-        """What the items that stand still leave free."""
+        """Room that the items that stand still leave free."""
         ground = self._sights.ground(self._region, resolution)
         still = np.setdiff1d(np.arange(len(self._outlines)), active)
         if len(still) == 0:

@@ -33,11 +33,6 @@ def brought_inside(document: Document, rows: IntArray, shapes: ShapeCache) -> Do
 
     Those that stick out come to the nearest place; what is too large for every place is made
     smaller until it has one.
-
-    Parameters
-    ----------
-    shapes
-        Covers of the outlines.
     """
     if len(rows) == 0:
         return document
@@ -50,7 +45,7 @@ def brought_inside(document: Document, rows: IntArray, shapes: ShapeCache) -> Do
 
 
 def _room(document: Document, rows: IntArray, shapes: ShapeCache) -> Region:
-    """What the container leaves, gaps taken off, once everything that is held is too."""
+    """Room of the container, gaps taken off, without everything that is held."""
     gap = gap_of(document, rows)
     region = valid(document.container.outline.region)
     held = np.setdiff1d(np.flatnonzero(document.held[:, PROPERTIES.index("place")]), rows)

@@ -55,12 +55,10 @@ usual item's area. Larger costs time, smaller lets nothing out. Chosen."""
 
 @dataclass(frozen=True, eq=False)
 class Settled:
-    """What a settle came to.
+    """Result of a settle.
 
     Parameters
     ----------
-    document
-        With the new poses.
     moved
         ``(n,)`` which items are elsewhere than before, or of other sizes.
     is_clean
@@ -84,18 +82,12 @@ def settle(
 
     Parameters
     ----------
-    document
-        Whatever has become of it.
     touched
         ``(m,)`` indices of items that have moved, turned, grown, or are new.
     given
         ``(g,)`` those among them that lie as the hand has left them, and are to stay so.
     touching
         Neighbours, at the present poses.
-    shapes
-        Covers of the outlines.
-    stop
-        Asked before each round; True ends with what there is.
     """
     is_still = document.held[:, 0].copy()
     first = touched
@@ -132,15 +124,7 @@ def polish(
     shapes: ShapeCache,
     stop: Stop = never,
 ) -> Settled:
-    """Try turns of items ``(m,)`` in conflict with nothing; those that gain are kept.
-
-    Parameters
-    ----------
-    trials
-        How many.
-    seed
-        Of what is tried.
-    """
+    """Try turns of items ``(m,)`` in conflict with nothing; those that gain are kept."""
     return _finished(document, items[~document.held[items, 0]], shapes, stop, trials, seed)
 
 
@@ -204,7 +188,7 @@ def room_of(document: Document, movable: IntArray, shapes: ShapeCache) -> Contai
 
 
 def _may_meet(document: Document, items: IntArray, boxes: FloatArray) -> BoolArray:
-    """Which of some items may reach into boxes ``(b, 4)``, by discs about them."""
+    """Mask of the items that may reach into boxes ``(b, 4)``, by discs about them."""
     poses = document.poses.some(items)
     longest = np.array([document.items[k].outline.extent for k in items])
     radii = longest * poses.scale * np.sqrt(np.maximum(poses.stretch, 1 / poses.stretch))

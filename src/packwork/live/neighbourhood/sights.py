@@ -1,4 +1,4 @@
-"""What levels see of outlines and containers, kept for a whole session.
+"""Rasters of outlines and containers per level, kept for a whole session.
 
 All that is kept depends on what was asked alone, on nothing that was asked before: a session that
 is done again, without what was broken off, sees the same.

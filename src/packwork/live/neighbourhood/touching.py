@@ -1,4 +1,4 @@
-"""Which items lie side by side now: the graph along which a gesture spreads."""
+"""Contact graph of the items now: a gesture spreads along it."""
 
 from __future__ import annotations
 
@@ -18,15 +18,7 @@ Chosen."""
 
 
 class Touching:
-    """Neighbours of items in their present places, found at a cost that follows what is asked.
-
-    Parameters
-    ----------
-    document
-        Whose items, and where they are at first.
-    sights
-        Where covers are kept.
-    """
+    """Neighbours of items in their present places, found at a cost that follows what is asked."""
 
     def __init__(self, document: Document, sights: LevelCache | None = None) -> None:
         self._sights = sights = sights or LevelCache()

@@ -1,4 +1,4 @@
-"""Where there is most room for one item more."""
+"""Widest void, for one item more."""
 
 from __future__ import annotations
 

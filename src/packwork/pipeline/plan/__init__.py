@@ -1,1 +1,1 @@
-"""What was asked, resolved against what was read: numbers, limits, forces, regions, counts."""
+"""Request resolved against what was read: numbers, limits, forces, regions, counts."""

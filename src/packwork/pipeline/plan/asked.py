@@ -19,8 +19,6 @@ class RuleSource:
 
     Parameters
     ----------
-    key
-        The recipe's option.
     place
         Words that say where in it; may be empty.
     """
@@ -41,7 +39,7 @@ class RuleSource:
 
 @dataclass(frozen=True)
 class ItemRules:
-    """What rules ask of one copy: of two that speak of one thing the later one holds.
+    """Rules of one copy: of two that speak of one thing the later one holds.
 
     Parameters
     ----------
@@ -107,7 +105,7 @@ class ItemRules:
 
     @property
     def rotation(self) -> Rotation | None:
-        """How far the copy may turn; None if no rule says it."""
+        """Range in which the copy may turn; None if no rule says it."""
         text = self.values.get("rotate")
         if text is None:
             return None
@@ -128,7 +126,7 @@ def voices(recipe: Recipe) -> list[tuple[RuleSource, Rule]]:
 
 
 def named(rule: Rule, voice: RuleSource, names: Sequence[str]) -> list[int]:
-    """Which of the items a rule names.
+    """Indices of the items that a rule names.
 
     Raises
     ------
@@ -144,7 +142,7 @@ def named(rule: Rule, voice: RuleSource, names: Sequence[str]) -> list[int]:
 
 
 def matching(patterns: Sequence[str], voice: RuleSource, names: Sequence[str]) -> list[int]:
-    """Which of the names match one of the patterns.
+    """Indices of the names that match one of the patterns.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Which items are placed, how often, and what is asked of each copy."""
+"""Items that are placed, their numbers of copies, and the rules of each copy."""
 
 from __future__ import annotations
 
@@ -28,10 +28,6 @@ class Cast:
 
     Parameters
     ----------
-    items
-        One per copy; copies repeat the same object.
-    asked
-        What rules ask of each copy.
     weights
         ``(n,)`` share of area of each.
     """
@@ -127,11 +123,6 @@ def item_weights(
     asked: TableFormat | None = None,
 ) -> FloatArray:
     """``(n,)`` share of area of each item, by its name or its file's; else its own.
-
-    Parameters
-    ----------
-    asked
-        How a table of them is written, where that was said.
 
     Raises
     ------

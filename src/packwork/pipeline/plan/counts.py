@@ -1,4 +1,4 @@
-"""How many items it takes for a container's shape to show."""
+"""Number of items at which a container's shape shows."""
 
 from __future__ import annotations
 
@@ -43,12 +43,10 @@ voids are filled with. Chosen."""
 
 @dataclass(frozen=True)
 class Needed:
-    """How many items a container takes.
+    """Number of items that a container takes.
 
     Parameters
     ----------
-    count
-        Items in all.
     width_cu
         Of the thinnest parts that they reach, canvas units.
     """

@@ -1,4 +1,4 @@
-"""Which items of a run are held to one side of upright."""
+"""Items of a run that are held to one side of upright."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What rules ask of single items, in numbers; and whether it can be."""
+"""Limits of rules on single items, in numbers; and whether they can be met."""
 
 from __future__ import annotations
 
@@ -85,13 +85,6 @@ def held_to(limits: Limits, poses: Poses) -> Poses:
 
 def check_poses(job: Job, container: Container, poses: Poses, limits: Limits) -> None:
     """Refuse what no solve can keep to.
-
-    Parameters
-    ----------
-    container
-        The region to fill, padding taken off.
-    poses
-        First poses.
 
     Raises
     ------

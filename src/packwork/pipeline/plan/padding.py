@@ -37,8 +37,6 @@ def check_padding(container: Container, padding: float, count: int, whose: str =
     ----------
     padding
         Canvas units.
-    count
-        Items to be placed.
     whose
         What is said of the container; `` of a group`` for one of several.
 

@@ -1,4 +1,4 @@
-"""What a run does, in numbers: a recipe resolved against the container that was read."""
+"""Plan of a run, in numbers: a recipe resolved against the container that was read."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ Losses = Mapping[str | ImageLossFunction, float]
 
 @dataclass(frozen=True)
 class VoidPlan:
-    """How voids are filled after the exact finish.
+    """Plan for filling voids after the exact finish.
 
     Parameters
     ----------
@@ -121,8 +121,6 @@ class Plan:
         Shares of area of words, photos and other items; None for none.
     least_dpi
         Pixels to the inch that photographs keep; None for any.
-    voids
-        How voids are filled, if they are.
     palette, shades
         Colours that items take on, none to keep their own; what drawings of several do.
     tint
@@ -131,8 +129,6 @@ class Plan:
         How far sizes follow how much a picture has to show in their places, 0..1.
     has_even_lines, holes
         Whether lines of line drawings come out alike, and what becomes of holes in items.
-    seed
-        Of all random numbers.
 
     Examples
     --------
@@ -247,7 +243,7 @@ class Plan:
 
     @property
     def size_mode(self) -> SizeMode:
-        """How stages find sizes: graded ones are free within bounds of each item's own."""
+        """Mode of sizes for stages: graded ones are free within bounds of each item's own."""
         return "free" if self.sizes == "graded" else self.sizes
 
     @property
@@ -290,7 +286,7 @@ class Plan:
 
 
 def found_sizes(recipe: Recipe, container: Container) -> FoundSizes:
-    """How sizes are found: as asked, or else as suits words in this container, if nothing hinders.
+    """Mode of finding sizes: as asked, or else as suits words here, if nothing hinders.
 
     Examples
     --------
@@ -307,7 +303,7 @@ def found_sizes(recipe: Recipe, container: Container) -> FoundSizes:
 
 
 def void_plan(recipe: Recipe, container: Container) -> VoidPlan:
-    """How a recipe fills voids of a container on its canvas, if it does."""
+    """Plan for voids of a container on a recipe's canvas, if it fills them."""
     if not recipe.fills_gaps:
         return NO_VOIDS
     return VoidPlan(
@@ -316,13 +312,13 @@ def void_plan(recipe: Recipe, container: Container) -> VoidPlan:
 
 
 def _size_ratio(recipe: Recipe) -> float:
-    """How far free sizes go: less where a picture is to be shown, unless it was asked."""
+    """Ratio of free sizes: less where a picture is to be shown, unless it was asked."""
     is_asked = "size_ratio" in recipe.model_fields_set or recipe.picture is None
     return recipe.size_ratio if is_asked else min(recipe.size_ratio, SHOWING_RATIO)
 
 
 def _detail(recipe: Recipe, sizes: str) -> float:
-    """How far sizes follow the picture that is shown, if they can.
+    """Degree to which sizes follow the picture that is shown, if they can.
 
     Unless it is asked, those of photos do not: fewer of them find a place where their colours fit.
     """

@@ -1,4 +1,4 @@
-"""Where rings lie in an image, and how long the record of their walk may be."""
+"""Bounds of rings in an image, and the longest record of their walk."""
 
 from __future__ import annotations
 

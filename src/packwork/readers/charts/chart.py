@@ -77,8 +77,6 @@ class ChartRead:
 
     Parameters
     ----------
-    options
-        As asked.
     items
         One per mark, in the order of the table.
     areas
@@ -93,8 +91,6 @@ class ChartRead:
         Category that each mark's colour says; None if colours are numbers or not asked for.
     is_ramp
         Whether colours go by numbers.
-    table
-        Where rows come from.
     groups
         Names of the groups, in the order in which they are shown; none if there are none.
     group_of
@@ -105,8 +101,6 @@ class ChartRead:
         What was left out, put together or is odd, a sentence each.
     lost
         Those of them about rows with data that are left out.
-    keys
-        What colours and keys go by.
     decimal
         What parts fractions of its numbers, as in the table.
     """
@@ -159,11 +153,6 @@ def read_chart(
     reading: ReadOptions | None = None,
 ) -> ChartRead:
     """Marks of a chart.
-
-    Parameters
-    ----------
-    asked
-        How the table is written, where that was said.
 
     Raises
     ------

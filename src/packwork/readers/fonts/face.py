@@ -93,10 +93,6 @@ class Typeface:
 
     Parameters
     ----------
-    data
-        The file.
-    name
-        What people call it.
     index
         Which face of a collection.
     weight

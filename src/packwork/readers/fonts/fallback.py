@@ -30,8 +30,6 @@ class Fonts:
 
     Parameters
     ----------
-    faces
-        Those that were given.
     weight
         Of installed families and variable fonts.
     is_open

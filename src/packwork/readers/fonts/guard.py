@@ -100,8 +100,6 @@ def check_drawing(count: int, points: FloatArray, em: float) -> None:
 
     Parameters
     ----------
-    count
-        Its lines and curves.
     points
         Ends and handles of those that were kept.
     em

@@ -122,7 +122,7 @@ def _is_leftward(line: str) -> bool:
 
 
 def _strength(character: str) -> bool | None:
-    """Whether it runs to the left; None for what runs as its neighbours do."""
+    """True if it runs to the left; None for what runs as its neighbours do."""
     kind = unicodedata.bidirectional(character)
     if kind in _LEFTWARD:
         return True

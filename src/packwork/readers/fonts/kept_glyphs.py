@@ -113,8 +113,6 @@ def kept_glyph(what: tuple[Any, ...], draw: Callable[[], GlyphInk]) -> GlyphInk:
     ----------
     what
         All that it depends on beside the code: the font, the glyph, the tolerance.
-    draw
-        Draws it anew.
     """
     key = f"{reader_version()} {uharfbuzz.__version__} {what!r}"
     kept = STORE.get(key)

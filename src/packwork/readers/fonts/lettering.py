@@ -42,10 +42,6 @@ class GlyphPicture:
 
     Parameters
     ----------
-    png
-        A complete PNG file.
-    width, height
-        Its size in pixels.
     matrix
         2 x 3 map from pixels to the word's units.
     region
@@ -121,8 +117,6 @@ class Lettering:
         Such units in one em.
     runs
         The same as text, in those units.
-    pictures
-        Glyphs of colour fonts.
     """
 
     covered: ClearInk | Region

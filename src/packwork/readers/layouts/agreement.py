@@ -1,4 +1,4 @@
-"""Whether a PDF paints what the SVG does that it was made of, each path in its place.
+"""Agreement of a PDF with the SVG that it was made of, each path in its place.
 
 Both are lists of paths in painting order. A path of the PDF is one of the SVG if the two lie
 nowhere farther apart than a tolerance, have the same pen and are cut by the same clips. Where
@@ -169,7 +169,7 @@ class _Lines:
         )
 
     def region(self) -> Region:
-        """What they surround."""
+        """Region that they surround."""
         return region(flattened_all(self.pieces, self.tolerance / _FINER))
 
     @cached_property

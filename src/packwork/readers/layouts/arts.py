@@ -176,8 +176,6 @@ class Arts:
 
     Parameters
     ----------
-    root, data
-        The file, parsed and as it is.
     sources
         Elements that draw.
     """

@@ -36,8 +36,6 @@ class FoundItem:
 
     Parameters
     ----------
-    name
-        What the file calls it.
     shape
         Region in place, canvas units, of a file that holds no more; else the item.
     weight

@@ -48,8 +48,6 @@ class DxfLine:
 
     Parameters
     ----------
-    layer
-        Its layer.
     points
         ``(n, 2)``, drawing units, y up.
     said

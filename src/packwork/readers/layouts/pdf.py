@@ -1,4 +1,4 @@
-"""What a PDF of ours paints, from its own text: the operators of its page's content.
+"""Reader of the paint in a PDF of ours, from its own text: operators of its page's content.
 
 Paths come as those of an SVG do, in CSS pixels of the sheet that is left after trimming, so that
 both can be held against each other. Operators are those of ISO 32000-1, annex A.
@@ -65,7 +65,7 @@ class PrintedPage:
 
 
 def printed_page(data: bytes) -> PrintedPage:
-    """What the page of a PDF paints.
+    """Paint of a PDF's page.
 
     Raises
     ------

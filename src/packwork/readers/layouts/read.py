@@ -114,8 +114,6 @@ def read_content(data: bytes, path: str | Path, *, outlines_only: bool = False) 
 
     Parameters
     ----------
-    data
-        The content.
     path
         Its ending says what that is.
     outlines_only

@@ -92,10 +92,6 @@ def layout_of_svg(data: bytes, name: str, *, outlines_only: bool = False) -> Lay
 
     Parameters
     ----------
-    data
-        The content.
-    name
-        Of the file.
     outlines_only
         Whether items are to be plain, as what they look like is not wanted.
 
@@ -176,10 +172,6 @@ class _Drawings:
 
     Parameters
     ----------
-    root
-        The file.
-    drawn
-        The elements of its items.
     side
         Longer side of the canvas, in the file's units.
     """

@@ -23,8 +23,6 @@ class CoverageArray:
 
     Parameters
     ----------
-    name
-        What people call it.
     shares
         ``[row, col]``, 0 to 1.
     """

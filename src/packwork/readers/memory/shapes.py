@@ -68,8 +68,6 @@ class GivenShape:
 
     Parameters
     ----------
-    name
-        What people call it.
     region
         Valid, its area positive; y down.
     weight
@@ -95,8 +93,6 @@ class GivenShapes:
     ----------
     shapes
         At least one.
-    name
-        What people call all of them.
     """
 
     shapes: tuple[GivenShape, ...]
@@ -143,10 +139,6 @@ def shapes_of(
         As :func:`is_geometry` knows it.
     name
         What people call it, where it does not say.
-    y_up
-        Whether its y points up.
-    columns
-        Which columns say names and weights.
 
     Raises
     ------

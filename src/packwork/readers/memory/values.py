@@ -154,14 +154,8 @@ class Handed:
 
     Parameters
     ----------
-    shelf
-        On which they are found.
     y_up
         Whether the y of geometries points up; None: where they say their reference system.
-    columns
-        Which columns of frames say names and weights.
-    texts
-        Names that were given as such.
     """
 
     shelf: Shelf
@@ -229,11 +223,6 @@ class Handed:
 
     def picture_name_of(self, value: Any, key: str) -> str:
         """Name of a picture, whose arrays are light or colours, not shares of a shape.
-
-        Parameters
-        ----------
-        key
-            The option that it is given for.
 
         Raises
         ------

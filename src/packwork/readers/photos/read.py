@@ -55,8 +55,6 @@ class PhotoCrop:
 
     Parameters
     ----------
-    window
-        The part of the photo.
     picture
         What is seen of the photo.
     whole
@@ -170,8 +168,6 @@ def read_photo(
     ----------
     number
         Which photo of a run it is: one file may be there twice.
-    threshold
-        Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
     shape
         Region that the photo is cut to, of any size; None where ``options`` ask for no shape.
 
@@ -264,8 +260,6 @@ def read_photos(
     ----------
     strict
         Whether an unusable file among many is an error too.
-    threshold
-        Opacity from which a cut-out's pixel is inside, as a share of the most opaque one's.
     sample
         Which are taken where there are more than are needed; few others are read. Of those named
         by themselves all are, unless these alone are too many.

@@ -170,8 +170,6 @@ class Photograph:
 
     Parameters
     ----------
-    file
-        Where it lies.
     key
         Name of its own in any document.
     window
@@ -179,8 +177,6 @@ class Photograph:
     picture, whole
         SVG paths of what is seen, without and with the border; none where that is just
         the window.
-    border_color
-        Of the border.
     origin
         Where the photo's top left corner lies in item units.
     data

@@ -22,8 +22,6 @@ def without_enclosed_white(pixels: Pixels, solid: FloatArray) -> FloatArray:
 
     Parameters
     ----------
-    pixels
-        RGBA.
     solid
         Their opacities, 0..1.
 

@@ -32,8 +32,6 @@ def vector_art(
 
     Parameters
     ----------
-    page
-        As ``read_page`` gave it.
     is_cut
         Whether the page cuts into the drawing, so that the fragment has to as well.
     place
@@ -68,8 +66,6 @@ def kept_art(markup: str, place: FloatArray, *, is_traced: bool = False) -> Vect
     ----------
     place
         2 x 3 map from the fragment's units to the item's own.
-    is_traced
-        As in the art.
 
     Raises
     ------

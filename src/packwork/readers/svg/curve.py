@@ -37,8 +37,6 @@ class PathLine:
     ----------
     points
         ``(n, 2)`` in CSS pixels of the page; the first is repeated at the end if closed.
-    is_closed
-        Whether it ends where it begins.
     """
 
     points: FloatArray

@@ -90,8 +90,6 @@ def read_drawing(
 
     Parameters
     ----------
-    data
-        The file's content.
     is_compared
         Whether what was computed from shapes is compared with a rendering, and traced
         from that where it differs, with a notice.

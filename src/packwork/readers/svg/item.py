@@ -214,14 +214,6 @@ def item_of_svg(
 
     Parameters
     ----------
-    data
-        The file's content.
-    name, source
-        What the item is called and where it came from.
-    holes
-        Whether the outline is the silhouette or keeps its holes.
-    reading
-        How it is read.
     is_compared
         Whether the ink is held against a rendering, as strangers' files should be.
 

@@ -43,14 +43,8 @@ def read_once(
 
     Parameters
     ----------
-    data
-        The file's bytes.
     how
         All else that the reading depends on.
-    name, source
-        What the item is called, and where it came from.
-    read
-        Reads it anew.
     """
     if any(mark in data for mark in NOT_KEPT):
         return read()
@@ -75,12 +69,8 @@ def followed_once(data: bytes, tolerance: float, follow: Callable[[bytes], Regio
 
     Parameters
     ----------
-    data
-        The document.
     tolerance
         Largest distance of a curve from its chords, in the document's units.
-    follow
-        Follows it anew.
     """
     if any(mark in data for mark in NOT_KEPT):
         return follow(data)
@@ -154,7 +144,7 @@ def _is_known(read: Read) -> bool:
 
 
 class _Listening(logging.Handler):
-    """Whether anything is logged while the block runs."""
+    """Handler that notes if anything is logged while the block runs."""
 
     def __init__(self) -> None:
         super().__init__()

@@ -76,8 +76,6 @@ def within_outline(
     ----------
     arts
         The same drawing as it is, and as its page cuts it.
-    outline
-        Of the item, in its own units.
     reach
         What its shapes reach, also where no page shows them.
     work

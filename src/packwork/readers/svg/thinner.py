@@ -51,8 +51,6 @@ class LineDrawing:
 
     Parameters
     ----------
-    item
-        As it was read.
     width
         Of most of its lines, in the item's own units.
     """
@@ -71,8 +69,6 @@ class LineDrawing:
         ----------
         factor
             More than 0, less than 1.
-        holes
-            Whether the outline is the silhouette or keeps its holes.
         """
         found: Item | None = None
         for nudges in range(MOST_NUDGES):

@@ -22,8 +22,6 @@ class Page:
 
     Parameters
     ----------
-    width, height
-        Its size.
     matrix
         2 x 3 map from the root's user units to CSS pixels.
     """

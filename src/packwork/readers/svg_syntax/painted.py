@@ -32,12 +32,8 @@ class Painted:
         In the shape's own units.
     matrix
         2 x 3 map from those to CSS pixels.
-    painting
-        How it is filled and stroked.
     window
         What the page and viewports show of it, in CSS pixels; None if all.
-    element
-        Where it comes from in the tree.
     clips
         Clip paths, each of which cuts it.
     """
@@ -88,8 +84,6 @@ class PlacedText:
 
     Parameters
     ----------
-    element
-        In the tree.
     matrix
         2 x 3 map from its own units to CSS pixels.
     viewport
@@ -133,8 +127,6 @@ def shown_box(shape: Painted, *, is_safe: bool = False) -> Box | None:
 
     Parameters
     ----------
-    shape
-        In its place.
     is_safe
         Whether the box is to hold the farthest corners that the pen may draw.
 
@@ -158,8 +150,6 @@ def whole_box(shape: Painted, *, is_safe: bool = False) -> Box:
 
     Parameters
     ----------
-    shape
-        In its place.
     is_safe
         Whether the box is to hold the farthest corners that the pen may draw, which
         hardly ever are drawn.

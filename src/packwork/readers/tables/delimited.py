@@ -41,12 +41,8 @@ class TextTable:
 
     Parameters
     ----------
-    file
-        For messages.
     text
         Without a line that only says what the delimiter is.
-    delimiter
-        What parts cells.
     skipped
         Lines of the file before the text.
     notice

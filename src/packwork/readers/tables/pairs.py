@@ -209,11 +209,6 @@ def read_weights(path: str | Path, asked: TableFormat | None = None) -> dict[str
 
     The file has two columns, ``name,weight``; a line that names them may stand on top.
 
-    Parameters
-    ----------
-    asked
-        How it is written, where that was said.
-
     Raises
     ------
     ReadError

@@ -173,8 +173,6 @@ def read_table(
 
     Parameters
     ----------
-    asked
-        How it is written, where that was said.
     needed
         Columns that are read of large files in any case.
 

@@ -62,8 +62,6 @@ class WordsRead:
         One per word, the largest weights first; one em is ``EM_PX``.
     areas
         ``(n,)`` share of area of each, such that heights are as asked for.
-    words
-        The same words, with their weights and columns.
     undrawn
         Words that could not be set, each with the reason.
     found
@@ -105,8 +103,6 @@ def read_word_items(
     ----------
     holes
         Of all items; those of words are kept with the option ``nest`` too.
-    asked
-        How a table is written, where that was said.
     is_related
         Whether vectors are made of which words stand together.
 
@@ -191,12 +187,8 @@ class ShapedWord:
 
     Parameters
     ----------
-    word
-        The text and its weight.
     name
         The text on one line.
-    drawn
-        Its letters.
     outline, ink
         As an item has them.
     place

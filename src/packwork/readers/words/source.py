@@ -191,11 +191,6 @@ def read_words(options: WordOptions, asked: TableFormat | None = None) -> list[W
     Of tables nothing is left out but what ``stopwords`` names. Words that weigh the same
     come in the order of the text.
 
-    Parameters
-    ----------
-    asked
-        How a table is written, where that was said.
-
     Raises
     ------
     ReadError

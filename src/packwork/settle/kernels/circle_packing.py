@@ -98,7 +98,7 @@ def front_chain(radii, order, shift, aside):
 
 @helper
 def _meet(x, y, own, discs, radii, j):
-    """Whether a disc at a point meets another."""
+    """True if a disc at a point meets another."""
     least = (own + radii[j]) * (1.0 - ROUNDING)
     return (x - discs[j, 0]) ** 2 + (y - discs[j, 1]) ** 2 < least * least
 
@@ -163,7 +163,7 @@ def _near(z, radii, skin):
 
 @helper
 def _energy(z, radii, pairs, pressure, slope):
-    """What discs and circle cost, ``z`` x and y of each and the circle's radius; its slope."""
+    """Cost of discs and circle, ``z`` x and y of each and the circle's radius; its slope."""
     n = radii.shape[0]
     circle = z[2 * n]
     total = pressure * circle * circle

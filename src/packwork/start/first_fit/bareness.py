@@ -1,4 +1,4 @@
-"""How far pixels of a container are from what lies in it."""
+"""Distance of a container's pixels from what lies in it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ while larger gaps stay. Tried."""
 
 
 class Bareness:
-    """Where a container is bare: farther from every item than a reader takes for filled.
+    """Bare places of a container: farther from every item than a reader takes for filled.
 
     Parameters
     ----------

@@ -37,7 +37,7 @@ Key: TypeAlias = tuple[Outline, float, float]
 
 @dataclass(frozen=True)
 class Grain:
-    """How finely places and sizes are sought. All tried.
+    """Resolution of the search for places and sizes. All tried.
 
     Parameters
     ----------
@@ -129,16 +129,12 @@ def first_fit(
 
     Parameters
     ----------
-    container
-        The region to fill.
     outlines
         One per item, item units.
     scales
         ``(n,)``; all but those that limits hold are multiplied by one factor.
     angles
         For each item the angles that it may have, radians.
-    rng
-        The only source of randomness.
     margin_cu
         Room that every item keeps round itself, canvas units.
     slack
@@ -147,15 +143,11 @@ def first_fit(
     attempts
         Orders tried for each size: the item that found no place comes earlier the next time. Of
         items of one angle, placed more closely, half as many; of many of those a quarter.
-    limits
-        Which items have to lie where.
     fields
         Forces that say where an item had better lie.
     kinds
         ``(n,)`` numbers of what is to be mixed: what lies there at any time has as much of each
         kind's area, as what is put later comes to lie elsewhere. None for the largest first.
-    homes
-        Where items had better lie.
     stop
         Asked before each attempt; True ends the search with the best found so far.
 
@@ -191,7 +183,7 @@ def first_fit(
 
 
 class _Fitting:
-    """What stays the same for all sizes that are tried."""
+    """State that is the same for all sizes that are tried."""
 
     def __init__(
         self,
@@ -336,7 +328,7 @@ class _Fitting:
     def _best(
         self, occupancy: Occupancy, item: int, stencils: Sequence[Stencil], is_loose: bool
     ) -> tuple[int, int, int] | None:
-        """Which stencil of an item is to be put, and at what row and column."""
+        """Best stencil of an item, with its row and column."""
         is_drawn = self._near is not None or len(self._fields) > 0
         is_everywhere = is_loose or self._homes[item] is not None or is_drawn
         worth = self._worth(item)
@@ -349,7 +341,7 @@ class _Fitting:
         return which, row, column
 
     def _worth(self, item: int) -> FloatArray:
-        """What is added to the score of each pixel that an item's origin may come to.
+        """Term of the score of each pixel that an item's origin may come to.
 
         Made when it is asked for: one image for each item would be gigabytes.
         """

@@ -99,14 +99,10 @@ def graded_fit(
 
     Parameters
     ----------
-    container
-        The region to fill.
     candidates
         The heaviest first; taken one by one, as long as there is room.
     count
         About how many there are: the more, the finer the image.
-    rng
-        The only source of randomness.
     smallest
         Scale below which an item is left out; 0 for ``LEAST_SHARE`` of the first one's.
     grid
@@ -129,8 +125,6 @@ def graded_fit(
         the one before. A share of the logarithm.
     side_px
         Pixels of the image's longer side; by the number of candidates where it is not given.
-    stop
-        Asked before each item but the first; True ends with those that are placed.
 
     Examples
     --------
@@ -333,12 +327,6 @@ def fit_between(
         their largest scales.
     smallest
         ``(n,)`` scale of each sort below which it finds none.
-    margin_cu
-        As for :func:`graded_fit`.
-    most
-        Copies at most.
-    stop
-        Asked before each copy.
 
     Examples
     --------

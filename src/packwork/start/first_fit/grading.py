@@ -108,7 +108,7 @@ def image_side(count: int, least: int = LEAST_PX, most: int = MOST_PX) -> int:
 
 
 def _inwards(clearance: FloatArray) -> FloatArray:
-    """How far each pixel is inwards, 0 to 1: in the middle of where the container is widest.
+    """Depth of each pixel, 0 to 1: 1 in the middle of where the container is widest.
 
     Half of it for the room there, half for being near that middle: a long container is as wide
     all along.
@@ -127,12 +127,8 @@ class Grading:
 
     Parameters
     ----------
-    container
-        The region to fill.
     count
         About how many items there are: the more, the finer the image.
-    rng
-        For the random part of the scores.
     margin_cu
         Room that every item keeps from others and from the edge, canvas units.
     side_px
@@ -251,7 +247,7 @@ class Grading:
         return bool(right - left > width or bottom - top > height)
 
     def _drawn(self, scale: float) -> tuple[FloatArray, float, bool]:
-        """What draws an item of that scale, how much, and whether to places that touch nothing."""
+        """Field that draws an item of that scale, its weight, and whether it needs no contact."""
         if self.is_loose:
             away = self._bareness.away()
             if away is not None:

@@ -1,4 +1,4 @@
-"""Where items that are put one by one had better lie."""
+"""Homes: places near which items that are put one by one had better lie."""
 
 from __future__ import annotations
 

@@ -20,7 +20,7 @@ MOST_FRINGE = 96
 
 
 class Occupancy:
-    """Which pixels are taken; it finds places in them by bits, 64 pixels at a time.
+    """Bitmap of the taken pixels; it finds places by bits, 64 pixels at a time.
 
     Parameters
     ----------

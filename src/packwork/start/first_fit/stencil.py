@@ -1,4 +1,4 @@
-"""What an item takes of an image of whole pixels, wherever it is put."""
+"""Stencil of an item: the whole pixels that it takes, wherever it is put."""
 
 from __future__ import annotations
 

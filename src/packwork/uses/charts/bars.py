@@ -91,8 +91,6 @@ class _Heaps:
     ----------
     job, chart
         Of a chart in bars.
-    stop
-        Asked by the settling.
     """
 
     def __init__(self, job: Job, chart: Chart, stop: Stop) -> None:

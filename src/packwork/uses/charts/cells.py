@@ -58,8 +58,6 @@ class Cell:
 
     Parameters
     ----------
-    name
-        Of the group.
     room
         Where its marks lie.
     width
@@ -190,7 +188,7 @@ def joined_rooms(cells: Sequence[Cell]) -> Outline:
 
 
 def _columns(count: int, aspect: float, width: float, height: float, em_share: float) -> int:
-    """How many cells a row has, so that all are about as high for their width as asked."""
+    """Number of cells in a row, so that all are about as high for their width as asked."""
 
     def price(columns: int) -> float:
         rows = math.ceil(count / columns)

@@ -20,10 +20,6 @@ class Chart:
 
     Parameters
     ----------
-    read
-        What the marks stand for.
-    frame
-        Where title and legend go.
     cells
         Where groups go; empty if there are none.
     single
@@ -37,7 +33,7 @@ class Chart:
 
     @property
     def options(self) -> ChartOptions:
-        """What was asked of it."""
+        """Options of the chart."""
         return self.read.options
 
     @property

@@ -45,7 +45,7 @@ LONGEST_NAME = 40
 
 @dataclass(frozen=True)
 class LegendFrame:
-    """Where what goes, canvas units.
+    """Places of a legend's parts, canvas units.
 
     Parameters
     ----------
@@ -72,10 +72,6 @@ class Framed:
 
     Parameters
     ----------
-    container
-        On its canvas.
-    frame
-        Where title and legend go.
     place
         2 x 3 map from the units that the container had before.
     """

@@ -128,7 +128,7 @@ def _sums(layout: Layout) -> Mapping[str, float]:
 
 
 def _tops(layout: Layout) -> Mapping[str, float]:
-    """Where the highest mark of each group ends."""
+    """End of the highest mark of each group."""
     found: dict[str, float] = {}
     for item, outline in zip(layout.items, layout.outlines, strict=True):
         if item.datum is not None:

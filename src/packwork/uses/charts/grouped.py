@@ -21,14 +21,10 @@ class Grouped:
 
     Parameters
     ----------
-    poses
-        Of all marks.
     kept
         Which of them have a place.
     container
         All that is filled; of several parts.
-    method
-        How first places were found.
     unplaced
         Marks without a place, numbered as in the job.
     levels
@@ -48,8 +44,6 @@ class GroupSteps:
 
     Parameters
     ----------
-    observer
-        Told of progress.
     poses
         Of all marks, those of the groups before in their places.
     before

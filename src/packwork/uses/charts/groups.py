@@ -19,13 +19,7 @@ from packwork.uses.charts.copies import fill_copies
 
 @final
 class FillGroups(RunStep):
-    """All groups of a chart, one after another, then at one scale.
-
-    Parameters
-    ----------
-    chart
-        With its groups.
-    """
+    """All groups of a chart, one after another, then at one scale."""
 
     share = 1.0
 

@@ -30,7 +30,7 @@ def is_alike_and_round(chart: ChartRead) -> bool:
 
 
 def rows_in_hollows(most: int, width: float, height: float, gap: float) -> tuple[int, float]:
-    """How many discs lie in a row, and their distance, so that they are as large as goes.
+    """Number of discs in a row, and their distance, so that they are as large as goes.
 
     Bars are as wide as so many discs and a half: rows then lie in the hollows of those below.
 

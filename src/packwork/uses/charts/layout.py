@@ -35,14 +35,12 @@ LEAST_ASPECT = 0.12
 
 @dataclass(frozen=True, eq=False)
 class ChartLayout:
-    """What a chart is laid out on.
+    """Frame that a chart is laid out on.
 
     Parameters
     ----------
     container
         On its canvas; of several parts where there are groups.
-    frame
-        Where title and legend go.
     cells
         Where groups go; empty if there are none.
     single

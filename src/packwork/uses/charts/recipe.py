@@ -21,11 +21,6 @@ NOT_OURS = ("sizes", "weights", "count", "size_ratio", "stretch", "target_covera
 def chart_recipe(container: str, data: object, **options: Any) -> Recipe:
     """Recipe of a unit chart, from the options of ``chart`` and of all runs alike.
 
-    Parameters
-    ----------
-    data
-        As :class:`ChartOptions` has it.
-
     Raises
     ------
     RecipeError

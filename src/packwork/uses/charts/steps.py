@@ -30,8 +30,6 @@ class ChartStep:
 
     Parameters
     ----------
-    label
-        Of the step.
     job
         Of its marks alone.
     names

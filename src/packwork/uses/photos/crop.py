@@ -144,7 +144,7 @@ def with_room(job: Job, share: float) -> tuple[Job, float]:
 
 
 def _moved(one: ItemRules, container: Container, depth: float) -> ItemRules:
-    """What is asked of an item, in lengths of the grown canvas."""
+    """Rules of an item, in lengths of the grown canvas."""
     wholes = {"x": container.width, "y": container.height, "size": container.side}
     pin = dict(one.pin)
     for key in wholes.keys() & pin.keys():
@@ -330,7 +330,7 @@ def lost(found: Cropped, placed: RunState) -> tuple[Unplaced, ...]:
 
 
 def refilled(placed: RunState, found: Cropped) -> Filling | None:
-    """How voids were filled, in the container that was asked for."""
+    """Report on filling voids, in the container that was asked for."""
     if placed.filling is None:
         return None
     areas = np.array([item.outline.area for item in found.job.items]) * found.poses.scale**2

@@ -18,15 +18,6 @@ def photos_recipe(
 ) -> Recipe:
     """Recipe that places photographs, from the options of ``photos`` and of all runs alike.
 
-    Parameters
-    ----------
-    container
-        As of any recipe.
-    sources
-        As :class:`PhotoOptions` has them.
-    add
-        Items that are mixed in.
-
     Raises
     ------
     RecipeError

@@ -111,7 +111,7 @@ def spread_to(
 
 
 def _seen(whole: Region, window: Region) -> Region:
-    """What of an item shows in a window."""
+    """Part of an item that shows in a window."""
     return whole if window.covers(whole) else intersection(whole, window)
 
 

@@ -58,7 +58,7 @@ class CutOriginal:
 
 
 def cut(item: Item, matrix: FloatArray, window: Region, name: str) -> Cut | None:
-    """What of an item in place lies in a window; None if that is nothing to speak of.
+    """Part of an item in place that lies in a window; None if that is nothing to speak of.
 
     Parameters
     ----------

@@ -27,7 +27,7 @@ OFF = 1.05
 def source_of(
     asked: PileOptions, container: Container, room: Outline, radius: float
 ) -> Source | None:
-    """Where items come from; None if nothing is asked.
+    """Source of items; None if nothing is asked.
 
     Parameters
     ----------

@@ -123,7 +123,7 @@ def nowhere(size: CanvasSize | None, radii_cu: FloatArray) -> Container:
 def _walls(
     region: Region, gates: Sequence[tuple[Region, FloatArray]], beyond: Sequence[Region]
 ) -> tuple[FloatArray, ...]:
-    """What is left of a region's edge where openings are taken out of it."""
+    """Parts of a region's edge that remain once openings are taken out of it."""
     left, top, right, bottom = region.bounds
     hair = HAIR * max(right - left, bottom - top)
     # Narrowed, since walls along which an opening leads lie on its edge; a gate that is a line

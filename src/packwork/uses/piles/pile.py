@@ -55,12 +55,10 @@ as held by it. Chosen."""
 
 @dataclass(frozen=True, eq=False)
 class Heap:
-    """What is asked of a pile.
+    """Request of a pile.
 
     Parameters
     ----------
-    options
-        As asked.
     mouths
         ``(m, 2, 2)`` ends of the openings that a container of open paths has; None if none.
     """
@@ -71,13 +69,7 @@ class Heap:
 
 @final
 class HeapUp(RunStep):
-    """Items fall and settle; there are no levels.
-
-    Parameters
-    ----------
-    heap
-        What is asked of the pile.
-    """
+    """Items fall and settle; there are no levels."""
 
     share = 1.0
 

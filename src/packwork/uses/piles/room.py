@@ -26,14 +26,12 @@ from packwork.uses.room import NO_CONTAINER, KnownContainer
 
 @dataclass(frozen=True, eq=False)
 class PileRoom(KnownContainer):
-    """What a pile lies in.
+    """Room of a pile.
 
     Parameters
     ----------
     size
         Of the canvas; None leaves it to the items where there is no container.
-    options
-        What is asked of the pile.
     mouths
         ``(m, 2, 2)`` ends of its openings where it is drawn open; None if not.
     """
@@ -63,7 +61,7 @@ class PileRoom(KnownContainer):
         return self.container or self._sheet(cast)
 
     def needed(self, recipe: Recipe, items: Sequence[Item]) -> int:
-        """How many items heap up about two thirds high."""
+        """Number of items that heap up about two thirds high."""
         del recipe
         return heap_needed(self.known, self.options, items)
 

@@ -27,8 +27,6 @@ class PileUse(Use):
 
     Parameters
     ----------
-    heap
-        What is asked of it.
     content
         The use that read the items.
     """

@@ -41,8 +41,6 @@ def word_colours(recipe: Recipe, read: WordsRead, layout: Layout) -> list[str | 
     ----------
     recipe
         Says by what words are coloured.
-    read
-        The words and their items.
     layout
         Of some of those items.
 
@@ -116,7 +114,7 @@ def _by_weight(words: list[Word | None], palette: tuple[str, ...]) -> list[str |
 def _by_function(
     words: list[Word | None], colour_of: ColourOf, options: WordOptions, otherwise: str
 ) -> list[str | None]:
-    """What a function says of each word, kept readable; ``otherwise`` where it says None.
+    """Colours that a function gives to words, kept readable; ``otherwise`` where it says None.
 
     Raises
     ------

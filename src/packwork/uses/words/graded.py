@@ -67,14 +67,12 @@ ANGLES = 7
 
 @dataclass(frozen=True, eq=False)
 class Places:
-    """Where words lie, and how large they are.
+    """Places of words, and their sizes.
 
     Parameters
     ----------
     placed
         ``(m,)`` which of the items have found a place, in their order.
-    poses
-        Of these.
     limits
         Sizes that they may have in the finish: no smaller, and none larger than the one before.
     """
@@ -86,11 +84,6 @@ class Places:
 
 def graded_places(job: Job, letters: Letters, stop: Stop = never) -> Places:
     """Places of words, and of what is mixed in, the heaviest first.
-
-    Parameters
-    ----------
-    stop
-        Asked before each word; True ends with those that are placed.
 
     Raises
     ------
@@ -208,7 +201,7 @@ class _Ranked:
         return np.asarray(own * math.sqrt(self.room / float((self.inks * own**2).sum())))
 
     def readable_share(self, least: float) -> float:
-        """How much of the steps is kept where most words can be read."""
+        """Share of the steps that is kept where most words can be read."""
         kept = (share for share in NEARER if np.mean(self.sizes(share) >= least) >= MOST)
         return next(kept, NEARER[-1])
 

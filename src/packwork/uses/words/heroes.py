@@ -33,11 +33,6 @@ class LedByHero(RunStep):
     """A cloud in which no word is larger than the hero; that some are is said where it cannot be.
 
     The heaviest become as high as each other, so that no word is higher than a heavier one.
-
-    Parameters
-    ----------
-    listed
-        What places and measures the words.
     """
 
     def __init__(self, listed: Listed) -> None:

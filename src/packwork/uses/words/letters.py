@@ -92,7 +92,7 @@ def hopeful_sizes(words: WordsRead, letters: Letters, room_cu2: float) -> FloatA
 
 
 def readable_count(words: WordsRead, smallest: float, sizes: FloatArray, attempt: int) -> int:
-    """How many of the heaviest words to place anew; all if their letters are large enough.
+    """Number of the heaviest words to place anew; all if their letters are large enough.
 
     Parameters
     ----------

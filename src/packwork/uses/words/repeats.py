@@ -49,8 +49,6 @@ class RepeatWords(RunStep):
 
     Parameters
     ----------
-    letters
-        How large they may be.
     paper
         Colour behind them.
     """
@@ -75,8 +73,6 @@ def with_repeats(state: RunState, words: int, letters: Letters, paper: str, stop
         How many of the items are words.
     paper
         Colour behind them.
-    stop
-        Asked before each copy.
     """
     job = state.job
     least = max(letters.smallest or 0.0, LEGIBLE * job.container.side)

@@ -82,10 +82,6 @@ class WordsUse(Use):
     ----------
     read
         The words among the items; they come first.
-    options
-        As asked.
-    letters
-        How large they may be.
     gives_way
         Whether each is as large as it found a place in its turn.
     """
@@ -194,7 +190,7 @@ class WordsUse(Use):
         return ItemVectors.of_rows(self.read.items, rows, known, anchors=anchors)
 
     def column(self, job: Job, name: str) -> FloatArray:
-        """What the words' table says of each in a column: numbers, or texts by the alphabet."""
+        """Column of the words' table: numbers, or texts by the alphabet."""
         found = column_values(self.read, job, name)
         if found is None:
             raise unknown_measure(name, columns_there(self.read))
@@ -272,13 +268,7 @@ def fuller(tried: Sequence[RunState], watch: RunContext) -> RunState:
 
 @final
 class GradedPlaces(RunStep):
-    """Words whose sizes give way: each as large as it finds a place in its turn.
-
-    Parameters
-    ----------
-    letters
-        How large they may be.
-    """
+    """Words whose sizes give way: each as large as it finds a place in its turn."""
 
     def __init__(self, letters: Letters) -> None:
         self._letters = letters

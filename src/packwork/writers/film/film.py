@@ -44,8 +44,6 @@ class Film:
     ----------
     layout
         With a track of its items.
-    options
-        Pace, length, size.
     background
         CSS colour behind everything; ``"none"`` leaves it clear where a format can.
     show_container

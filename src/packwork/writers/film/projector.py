@@ -32,8 +32,6 @@ class Projector:
 
     Parameters
     ----------
-    film
-        What is shown.
     is_even
         Let both sides have an even number of pixels, as video needs: a row or a column of
         background may come in at the far end.

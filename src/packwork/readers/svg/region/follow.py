@@ -44,8 +44,6 @@ def filled(rings: Sequence[FloatArray], rule: FillRule, allowance: Allowance) ->
         Each ``(n, 2)``.
     rule
         SVG's word.
-    allowance
-        For crossings.
 
     Raises
     ------
@@ -141,8 +139,6 @@ class Follower:
 
         Parameters
         ----------
-        shape
-            In its place.
         is_bridged
             Whether short gaps of dashed lines are passed over.
         """

@@ -1,4 +1,4 @@
-"""How well a region agrees with resvg's rendering of the drawing that it was read from.
+"""Agreement of a region with resvg's rendering of the drawing that it was read from.
 
 Both are drawn by resvg in the same small picture, so that its soft edges tell nothing
 apart. Thin details need more pixels, so a poor agreement is looked at more closely.
@@ -34,7 +34,7 @@ _STEPS = 100
 
 
 class Comparison:
-    """What a clean drawing shows, solid, in pictures of growing size, each made once.
+    """Pictures of a clean drawing, solid, of growing size, each made once.
 
     Parameters
     ----------
@@ -88,7 +88,7 @@ class Comparison:
 
 
 def excess(shown: FloatArray, drawn: FloatArray) -> float:
-    """What a drawing shows beyond a region, both as pictures, as a share of the region.
+    """Excess of a drawing over a region, both as pictures, as a share of the region.
 
     What is within a pixel of the region is not beyond it: filters leave hard edges.
 
@@ -104,7 +104,7 @@ def excess(shown: FloatArray, drawn: FloatArray) -> float:
 def side_by_side(
     region: Region, root: ET.Element, page: Page | None, side: int
 ) -> tuple[FloatArray, FloatArray]:
-    """What a drawing shows and what a region covers, as pictures about the region.
+    """Pictures of a drawing and of a region, about the region.
 
     Raises
     ------

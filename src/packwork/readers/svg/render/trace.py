@@ -139,8 +139,6 @@ def traced_ink(
         The drawing.
     part
         What is rendered, as ``inked_part`` gave it.
-    work
-        Of its solid twin.
     threshold
         Opacity from which what is traced is inside, as a share of the most opaque place's.
     shapes
