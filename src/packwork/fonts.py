@@ -112,8 +112,6 @@ def fonts_for(wishes: Iterable[str], letters: str) -> FontChoice:
     ----------
     wishes
         One list of families for each style of the document.
-    letters
-        All that is to be set.
 
     Examples
     --------

@@ -37,8 +37,6 @@ class Shelf:
 
         Parameters
         ----------
-        name
-            What people call it.
         ending
             Of a file of such content, as ``.png``.
 

@@ -38,10 +38,6 @@ class Template:
     ----------
     name
         Of its file, without ending.
-    options
-        As they stand in the file.
-    home
-        Folder from which it names files.
     """
 
     name: str
@@ -51,17 +47,7 @@ class Template:
 
 @dataclass(frozen=True, kw_only=True)
 class Wanted:
-    """Inputs of a batch.
-
-    Parameters
-    ----------
-    templates
-        Each is run for each row.
-    outputs
-        Names of files with places for columns.
-    allows_code
-        Whether losses of the recipes may be code.
-    """
+    """Inputs of a batch."""
 
     templates: Sequence[Template]
     rows: Sequence[Mapping[str, Any]]
@@ -84,8 +70,6 @@ class BatchPlan:
     ----------
     tasks, bad
         In the order of the rows.
-    outside
-        Files outside the recipe's folder that rows name.
     """
 
     tasks: tuple[Task, ...]

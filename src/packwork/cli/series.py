@@ -115,8 +115,6 @@ class _Files:
 
     Parameters
     ----------
-    asked
-        All options of the command by name.
     verb
         What files are called by where no file of any kind is named.
     """

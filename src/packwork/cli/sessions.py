@@ -15,13 +15,7 @@ from packwork.writers.options import GONE_ON_WITH
 
 
 def told(layout: Layout, background: str | None, drawing: Mapping[str, Any]) -> Layout:
-    """The layout, its manifest saying how it is drawn, for files that are gone on with.
-
-    Parameters
-    ----------
-    drawing
-        All ways of drawing that were asked for, by name.
-    """
+    """The layout, its manifest saying how it is drawn, for files that are gone on with."""
     asked = {key: drawing[key] for key in GONE_ON_WITH if drawing.get(key)}
     said = {} if background is None else {"ground": hex_colour(parse_colour("", background))}
     if not asked and not said:

@@ -29,8 +29,6 @@ class TeaserLetter:
     ----------
     name
         The letter, and what is shown with it: part of its files' names.
-    is_pile
-        Whether its items are of given sizes and heaped.
     """
 
     name: str

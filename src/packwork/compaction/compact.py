@@ -49,8 +49,6 @@ def compact(
     ----------
     arrangement
         Changed in place.
-    objective
-        Bounds and worths of all items.
     items
         ``(m,)`` indices of those that move, neighbours near each other in the list.
     trust

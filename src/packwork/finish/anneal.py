@@ -83,8 +83,6 @@ class Lengths:
     ----------
     spacing
         Side of an item's share of the container.
-    gap
-        Least distance.
     hair
         The part of it that was not asked for.
     """

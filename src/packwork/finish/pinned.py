@@ -45,8 +45,6 @@ def separate_pinned(
     ----------
     container
         Whose edge counts as well.
-    items
-        ``(m,)`` indices of those to separate.
 
     Examples
     --------

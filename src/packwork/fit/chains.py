@@ -32,13 +32,6 @@ def bernstein(steps: int) -> FloatArray:
 class Chains:
     """Polygons of several chains, and the way of their gradients back to the controls.
 
-    Parameters
-    ----------
-    counts
-        Curves in each chain.
-    steps
-        Polygon edges per curve.
-
     Examples
     --------
     >>> thirds = np.array([[[0, 0], [1, 0], [2, 0]], [[3, 0], [2, 1], [1, 1.0]]])

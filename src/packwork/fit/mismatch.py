@@ -27,13 +27,6 @@ class Mismatch:
     coverage, and the target's does not. Polygon vertices outside the image, where nothing
     is seen, cost their squared distance from it.
 
-    Parameters
-    ----------
-    counts
-        Curves in the chain of each ring.
-    resolution
-        Pixels on the longer side of the target's bounds.
-
     Examples
     --------
     >>> from packwork.fit.chains import straight_chain

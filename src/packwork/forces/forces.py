@@ -63,8 +63,6 @@ class BondForce:
 
     Parameters
     ----------
-    bond
-        The height of the group.
     strengths
         As of a field; items of strength 0 are no part of the group.
     """

@@ -54,8 +54,6 @@ class ForceSpec:
         Length within which it fades by e; None if it does not.
     items
         Patterns of names; all if empty.
-    by_weight
-        Whether an item's weight multiplies the strength.
     """
 
     kind: str

@@ -22,8 +22,6 @@ class Settlement:
     ----------
     certified
         Whether exact geometry finds nothing wrong with the layout now.
-    in_the_way
-        What it finds, a sentence each.
     """
 
     certified: bool

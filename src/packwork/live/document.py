@@ -43,8 +43,6 @@ class Document:
         ``(n,)`` scales between which an item's size may vary.
     held
         ``(n, 3)`` whether place, angle and size stay exactly as they are.
-    manifest
-        What is known of where the layout came from.
     notes
         Labels on items and letters beside them, as they were at first.
 

@@ -28,13 +28,7 @@ several runs, and leaves all of them small. Chosen."""
 
 @dataclass(frozen=True)
 class Refilled:
-    """A cloud that was poured anew.
-
-    Parameters
-    ----------
-    said
-        That it was, in a sentence.
-    """
+    """A cloud that was poured anew."""
 
     document: Document
     said: str
@@ -57,10 +51,6 @@ def refilled(
     ----------
     before
         As it was before gestures, or words, weights or letters changed.
-    asked
-        As these ask for it.
-    settled
-        As it is now.
     by_hand
         ``(m,)`` rows of what the hand has put where it is in ``asked``, turned or sized: it stays.
     """

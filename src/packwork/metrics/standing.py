@@ -24,8 +24,6 @@ class Standing:
     ----------
     container
         Canvas units.
-    gap
-        Least distance between items and to the container's edge.
 
     Examples
     --------

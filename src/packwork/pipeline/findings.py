@@ -22,8 +22,6 @@ class Filling:
 
     Parameters
     ----------
-    ending
-        Why no more were.
     covered, target
         Shares of the container that are covered, and that were to be; None if as much as
         goes.

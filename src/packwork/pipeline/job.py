@@ -30,13 +30,7 @@ from packwork.solve.stand_ins import stand_ins
 
 @dataclass
 class Clock:
-    """Seconds per part of a run.
-
-    Parameters
-    ----------
-    now
-        Tells the time: by the clock, or the processor's.
-    """
+    """Seconds per part of a run."""
 
     seconds: dict[str, float] = field(default_factory=dict)
     now: Callable[[], float] = time.perf_counter
@@ -59,24 +53,16 @@ class Job:
     ----------
     recipe
         What was asked, kept for the manifest; stages read the plan.
-    use
-        In what these items differ from icons.
     items, asked, weights
         One entry per copy: what it is, what rules ask of it, its share of area.
     regions
         Parts of the container that copies have to stay in.
     fillers
         What may be put into the voids that are left, one of each sort.
-    earlier
-        The layout to start from, if any.
     target
         The picture that the layout shows from afar, if any.
-    vectors
-        Which items are alike, if that was said.
     is_counted
         Whether the number of items was found by the run.
-    skipped
-        Files that were left out, with the reason.
     """
 
     recipe: Recipe

@@ -51,8 +51,6 @@ class Material:
         Of which voids are filled, unless the recipe names others.
     given
         Names and sources of all that was read, in the order it was given; None if it had none.
-    skipped
-        Files that were left out, with the reason.
     """
 
     use: Use

@@ -41,8 +41,6 @@ class Run:
 
     Parameters
     ----------
-    ending
-        Whether all epochs were run.
     kept
         Which of the items that were placed are in the layout.
     beside
@@ -56,8 +54,6 @@ class Run:
     words
         How many different words the source holds, and how many of them were to be set; None
         if there are none.
-    left_out
-        Unplaced items that are not in the layout.
     pile
         How the items lie; empty unless they were heaped.
     remarks
@@ -127,15 +123,7 @@ class Run:
         return max([placed, *(one.index + 1 for one in self.unplaced)])
 
     def report(self, write_seconds: float = 0.0, start_up_seconds: float = 0.0) -> dict[str, Any]:
-        """Plain values for ``--report``.
-
-        Parameters
-        ----------
-        write_seconds
-            What files took.
-        start_up_seconds
-            What the process took to load.
-        """
+        """Plain values for ``--report``."""
         seconds = {"start-up": start_up_seconds, **self.seconds, "write": write_seconds}
         seconds.setdefault("finish", 0.0)
         seconds["total"] = sum(seconds.values())

@@ -41,8 +41,6 @@ def with_drawings(layout: Layout, folder: Path) -> tuple[Layout, tuple[str, ...]
 
     Parameters
     ----------
-    layout
-        As ``readers.layouts`` finds it in a GeoJSON.
     folder
         Where that file lies: names of files are seen from the working folder, then from there.
     """

@@ -34,14 +34,10 @@ class RunState:
         The job of those that were asked for: without what was put into voids.
     nominal
         ``(n,)`` scales that weights ask for.
-    limits
-        What rules ask of single items.
     forces
         What pulls items about, with what makes room for the heavy.
     numbers
         ``(n,)`` what items are called by in progress and in ``unplaced``.
-    method
-        How first places were found.
     is_tight
         Whether nothing overlaps, and the levels have nothing to add.
     goes_on
@@ -49,28 +45,20 @@ class RunState:
     is_only_refined
         Whether nothing meets in exact geometry, gap included, but for pixels that are only grazed:
         the finish only refines.
-    ending, levels
-        Of the levels.
     conflicts, undersized
         What the exact finish could not resolve, and items below the least size they may have.
     small
         Sentence about items a little smaller than free sizes go; empty if none is.
     has_thinner_lines
         Whether lines of drawings were made thinner, so areas are in shares no more.
-    filling
-        How voids were filled; None if they were not.
     unplaced, left_out
         Items without a place, and how many of them are no longer among the job's.
     faults
         What was asked and does not hold, a sentence each.
-    pile
-        How the items lie; empty unless they were heaped.
     placed, kept
         Number of items that were placed, and ``(n,)`` which of them are in the layout.
     layout, metrics, promise
         What is written, what it is worth and what was promised; None before it is measured.
-    certified
-        Whether exact measures find what was promised of geometry.
     beside
         Pairs of one kind that lie side by side; None if they may.
     words

@@ -177,11 +177,6 @@ def builtin_item(name: str, holes: Holes = "fill") -> Item:
 def builtin_container(name: str, side: float = 600.0) -> Container:
     """Container by name: a bundled drawing, else a plain shape that fills its canvas.
 
-    Parameters
-    ----------
-    side
-        Longer side of the canvas, in canvas units.
-
     Raises
     ------
     ReadError

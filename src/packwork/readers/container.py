@@ -54,8 +54,6 @@ def read_container(
         Font file or installed family for ``text:WORD``; the bundled one if None.
     quiet
         Which part of the picture ``around:IMAGE`` is; 40 % of it if None.
-    reading
-        How a file is understood; by itself if None.
 
     Raises
     ------

@@ -44,8 +44,6 @@ class Read:
     ----------
     file
         Its path; None of a built-in one.
-    again
-        Reads the same file with its page.
     """
 
     item: Item

@@ -50,8 +50,6 @@ def read_target(
 
     Parameters
     ----------
-    source
-        File, or a picture in memory.
     reading
         How an SVG is read: with its white page or without.
 

@@ -63,12 +63,6 @@ def refined_levels(
     ----------
     levels
         Resolutions, coarse to fine.
-    side
-        Longer side of the canvas, canvas units.
-    room
-        Area of the container, canvas units squared.
-    count
-        How many items share it.
 
     Examples
     --------

@@ -16,8 +16,6 @@ class Preset:
 
     Parameters
     ----------
-    solve
-        Levels, losses, weights, steps.
     coverage
         Share of the container that items cover at the start.
     """

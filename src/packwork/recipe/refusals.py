@@ -60,8 +60,6 @@ def refusal(
 
     Parameters
     ----------
-    model
-        Whose keys a misspelt one is compared with.
     names
         What people call an option that goes by another name in the model.
 
@@ -171,13 +169,7 @@ def length_asked(key: str, value: str | float, unit: str, whole: float) -> float
 
 
 def length_of(key: str, *, may_be_zero: bool = False) -> AfterValidator:
-    """Validator of a length, or None.
-
-    Parameters
-    ----------
-    may_be_zero
-        Whether nothing will do.
-    """
+    """Validator of a length, or None."""
 
     def check(value: str | float | None) -> str | float | None:
         if value is None or length_asked(key, value, "px", 1.0) > 0 or may_be_zero:

@@ -33,8 +33,6 @@ class Verb:
         Options that only this verb has; None if it has none.
     common
         Names of options that its help shows at first, beside :data:`COMMON`.
-    defaults
-        Defaults that differ from the recipe's.
     """
 
     part: type[Options] | None = None

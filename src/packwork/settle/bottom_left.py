@@ -209,8 +209,6 @@ def bottom_left(
     ----------
     standing
         ``(k,)`` indices of items that stay where they are; all others count as not there.
-    heights
-        What is low, for each item.
     kinds
         ``(n,)`` items of one number have the same heights.
 

@@ -56,8 +56,6 @@ class Piled:
         Of all items; those without room stay where they were.
     placed
         Items that lie in the container, without a conflict.
-    rounds
-        Rounds of linear programmes.
     mean_height
         Area-weighted mean height of the placed ones, canvas units.
     """

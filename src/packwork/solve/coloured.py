@@ -13,15 +13,7 @@ from packwork.solve.ensemble import Ensemble
 
 
 class ColouredLoss:
-    """One loss of the colours of what a rasteriser has swept.
-
-    Parameters
-    ----------
-    seen
-        The loss, and what colours items have in it.
-    rasteriser, ensemble
-        Whose sweeps, of whose points, are seen.
-    """
+    """One loss of the colours of what a rasteriser has swept."""
 
     def __init__(self, seen: SeenInColour, rasteriser: Rasteriser, ensemble: Ensemble) -> None:
         self._seen = seen

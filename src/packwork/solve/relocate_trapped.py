@@ -70,8 +70,6 @@ def relocate_trapped(
 
     Parameters
     ----------
-    level
-        The level that was just finished.
     areas
         ``(n,)`` areas of the items' outlines, item units squared.
     smallest, largest

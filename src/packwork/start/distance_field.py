@@ -52,8 +52,6 @@ def distance_field(
     ----------
     radii_cu
         ``(n,)`` radius of the disc to keep free for each item.
-    homes
-        Pixels for discs that may not lie anywhere.
 
     Examples
     --------

@@ -167,8 +167,6 @@ def _away(
     ----------
     points, rooms
         ``(places, 2)`` and areas of the places.
-    areas
-        Of the items.
     """
     values = measured(job, asked.by)[items]
     middle = np.array([*job.container.outline.centroid])

@@ -16,13 +16,7 @@ Choice: TypeAlias = Callable[[Sequence[RunState], RunContext], RunState]
 
 @final
 class Replan(RunStep):
-    """Other numbers in the plan of the run.
-
-    Parameters
-    ----------
-    fields
-        New values of fields of :class:`packwork.pipeline.plan.plan.Plan`.
-    """
+    """Other numbers in the plan of the run."""
 
     def __init__(self, **fields: Any) -> None:
         self._fields = fields
@@ -52,13 +46,7 @@ class BestOf(RunStep):
 
 @final
 class Retry(RunStep):
-    """A list, and where what came of it will not do, another one from the same state.
-
-    Parameters
-    ----------
-    will_do
-        Whether the first outcome is good enough.
-    """
+    """A list, and where what came of it will not do, another one from the same state."""
 
     def __init__(
         self,

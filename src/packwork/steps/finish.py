@@ -309,8 +309,6 @@ def gap_with_bulge(job: Job, items: IntArray, largest: FloatArray) -> float:
 
     Parameters
     ----------
-    items
-        That are to keep it.
     largest
         ``(m,)`` how large they may become.
     """
@@ -334,8 +332,6 @@ class Closing:
 
     Parameters
     ----------
-    items
-        That the steps are of.
     ids
         What all items are called by, as in ``Step``.
     """

@@ -23,11 +23,6 @@ takes another drawing of the same name, smaller none where digits of a file are 
 def left_behind(job: Job, placed: IntArray) -> Leaving | None:
     """Items of the earlier layout that are no more, where they were.
 
-    Parameters
-    ----------
-    placed
-        ``(m,)`` indices of its items in the new layout.
-
     Returns
     -------
     Leaving or None

@@ -33,13 +33,7 @@ Smaller lets the largest stand out more. Tried."""
 
 
 class Setting:
-    """Setting for first poses: room, sizes, angles, random numbers.
-
-    Parameters
-    ----------
-    state
-        Before any item has a place.
-    """
+    """Setting for first poses: room, sizes, angles, random numbers."""
 
     def __init__(self, state: RunState, stop: Stop) -> None:
         job = state.job

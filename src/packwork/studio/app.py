@@ -170,13 +170,7 @@ def refused(error: PackworkError) -> Response:
 
 
 def guarded(desk: Desk, uploads: Uploads, secret: Secret) -> Guard:
-    """The studio behind its guard; its desk begins when the server does.
-
-    Parameters
-    ----------
-    secret
-        What only the page that was opened knows.
-    """
+    """The studio behind its guard; its desk begins when the server does."""
 
     @asynccontextmanager
     async def open_(app: Any) -> AsyncIterator[None]:

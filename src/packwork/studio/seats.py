@@ -21,11 +21,6 @@ LONGEST = 64
 class Seats:
     """Seats at a desk: the person there, and who works there together.
 
-    Parameters
-    ----------
-    clock
-        Seconds from any moment on.
-
     Examples
     --------
     >>> seats = Seats()

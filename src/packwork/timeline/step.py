@@ -43,8 +43,6 @@ class SeriesStep:
 
     Parameters
     ----------
-    label
-        What the table says of it.
     job
         What a layout of it alone would be made of.
     true

@@ -131,15 +131,7 @@ def filling(job: Job, scales: FillerScales = as_planned) -> list[RunStep]:
 
 
 def reporting(job: Job, *, is_dressed: bool, shows_shape: bool = True) -> list[RunStep]:
-    """Steps after the last move: measures, colours, film, advice.
-
-    Parameters
-    ----------
-    is_dressed
-        Whether the use gives colours of its own.
-    shows_shape
-        Whether the layout is to show the container's shape.
-    """
+    """Steps after the last move: measures, colours, film, advice."""
     steps: list[RunStep] = [Measure()]
     if job.plan.has_even_lines:
         steps.insert(0, EvenLines())

@@ -23,8 +23,6 @@ def overridden(options: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[s
 
     Parameters
     ----------
-    options
-        As :func:`packwork.readers.recipe.read_recipe` gives them.
     changes
         New values by name; None is not given.
 

@@ -18,13 +18,7 @@ NO_CONTAINER = "none"
 
 @dataclass(frozen=True, eq=False)
 class KnownContainer:
-    """The container of a run.
-
-    Parameters
-    ----------
-    container
-        On its canvas; None for none at all.
-    """
+    """The container of a run."""
 
     container: Container | None
 

@@ -101,10 +101,6 @@ class PlacedWords:
     ----------
     container
         In pixels of the canvas.
-    words
-        Those that found a place.
-    poses
-        As many.
     entries
         Which of the words asked for they are.
     undrawn

@@ -129,10 +129,6 @@ class _Lot:
 
     Parameters
     ----------
-    layer
-        Where they are drawn.
-    rings
-        Outer ones and holes.
     said
         Texts that go with each: of the container the gap that was promised and whether
         areas are in shares, of an item its number, name and weight.

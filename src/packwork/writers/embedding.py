@@ -46,13 +46,7 @@ _Said: TypeAlias = tuple[TextRun, str]
 
 @dataclass(frozen=True)
 class Embedded:
-    """A part of a font as a document names it.
-
-    Parameters
-    ----------
-    rule
-        ``@font-face`` of CSS, the font in it.
-    """
+    """A part of a font as a document names it."""
 
     family: str
     rule: str

@@ -25,8 +25,6 @@ class PictureFrame:
     rows, columns
         Whole pixels; the canvas's top left corner is the picture's, and its far edges
         lie less than a pixel inside the picture's.
-    px_per_cu
-        Pixels per canvas unit, the same both ways.
     """
 
     rows: int

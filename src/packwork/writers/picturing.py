@@ -25,8 +25,6 @@ def pictured(item: Item, px_per_unit: float) -> PictureArt:
     ----------
     item
         Its ink says how far its drawing reaches.
-    px_per_unit
-        Pixels per unit of the item's.
 
     Raises
     ------

@@ -37,8 +37,6 @@ class WriteOptions:
     ----------
     svg, png
         How the layout is drawn: in SVG and PDF, and in pictures of pixels.
-    png_side_px
-        Longer side of a PNG or JPEG.
     dpi
         Pixels to the inch, for photos in SVG and PDF and, if given, for PNG and JPEG in
         place of their side. None: 300 for photos.

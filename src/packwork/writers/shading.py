@@ -107,11 +107,6 @@ def in_palette(item: Item, palette: Sequence[str]) -> Item:
 def averaging(item: Item, colour: str, shown: ShownLight | None) -> Item:
     """Item in lighter and darker colours of one, which is their mean as it is seen from afar.
 
-    Parameters
-    ----------
-    shown
-        What :func:`packwork.scene.swatch.shown_light` says of it.
-
     Examples
     --------
     >>> from packwork.geometry.outline import Outline

@@ -29,8 +29,6 @@ class BuiltIn:
 
     Parameters
     ----------
-    item
-        What it looks like; None of containers.
     outline
         Of a container on a square of 100; None of items.
     """
@@ -98,11 +96,6 @@ def offered_palettes() -> dict[str, tuple[str, ...]]:
 
 def container_of(source: str, canvas: str | None, font: str | None = None) -> Container:
     """Container of a bundled name, ``text:WORD`` or a file that was given.
-
-    Parameters
-    ----------
-    font
-        Of the word; the bundled one if None.
 
     Raises
     ------

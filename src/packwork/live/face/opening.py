@@ -32,8 +32,6 @@ class Opening:
 
     Parameters
     ----------
-    file
-        A session's, to be gone on from.
     kept_in
         File in which the session is kept, with a journal; None to keep it nowhere.
     """

@@ -73,11 +73,6 @@ def outline_record(outline: Outline) -> OutlineRecord:
 def outline_of(record: OutlineRecord, allowance: Allowance) -> Outline:
     """The outline bit for bit; mended, if its rings are not what an outline's have to be.
 
-    Parameters
-    ----------
-    allowance
-        For crossings of all outlines of a file.
-
     Raises
     ------
     UnfitError

@@ -87,13 +87,7 @@ class DocumentRecord(Options):
 def records_of(
     documents: Iterable[Document], place: Callable[[object], int]
 ) -> Iterator[DocumentRecord]:
-    """Records of documents, each but the first by what differs from the one before.
-
-    Parameters
-    ----------
-    place
-        Where an item or a container stands in the file's lists.
-    """
+    """Records of documents, each but the first by what differs from the one before."""
     before: Document | None = None
     then: dict[Column, FloatArray] = {}
     for document in documents:
@@ -124,13 +118,7 @@ def records_of(
 
 @dataclass(frozen=True)
 class Parts:
-    """Parts that documents of a file are made of.
-
-    Parameters
-    ----------
-    items, containers
-        By where they stand.
-    """
+    """Parts that documents of a file are made of."""
 
     items: Sequence[Item]
     containers: Sequence[Container]

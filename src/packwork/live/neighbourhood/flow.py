@@ -92,8 +92,6 @@ class Flow:
     ----------
     document
         Where it begins; given to :meth:`turn_to` when something else than poses has changed.
-    sights
-        What levels see, kept from flow to flow.
     """
 
     def __init__(self, document: Document, sights: LevelCache | None = None) -> None:

@@ -15,13 +15,7 @@ from packwork.recipe.rules import Pin, Rotation, Rule, hero_rule
 
 @dataclass(frozen=True)
 class RuleSource:
-    """Option of a recipe that asks for something, for messages.
-
-    Parameters
-    ----------
-    place
-        Words that say where in it; may be empty.
-    """
+    """Option of a recipe that asks for something, for messages."""
 
     key: str
     place: str = ""
@@ -45,12 +39,8 @@ class ItemRules:
     ----------
     values
         By key of a rule, but not ``items``, ``count`` and ``pin``.
-    pin
-        What of the pose is given, by key.
     voices
         Which option asked, by the same keys, those of the pin with ``pin.`` before them.
-    is_read
-        Whether the copy is a word.
     is_central
         Whether it names those about it, and has to lie among them.
     """

@@ -60,8 +60,6 @@ class VoidPlan:
         Longer side of the smallest copy, canvas units.
     has_own
         Whether other items than copies of the placed ones go into voids.
-    fills
-        Whether voids are filled at all.
     """
 
     target: float | None
@@ -95,8 +93,6 @@ class Plan:
         How sizes are found, how far free ones go, how much items may be stretched.
     rotation
         How far items may turn unless a rule says otherwise.
-    has_own_turns
-        Whether rules turn single items in their own way.
     apart_weight
         Weight of the loss that keeps copies of one item apart; 0 where that is not asked.
     method
@@ -109,14 +105,10 @@ class Plan:
         What the levels begin from, and what was asked of them in its place.
     effort, epochs, seconds
         How long is tried: as usual for that effort, or as many epochs, or so much time.
-    is_exact
-        Whether the exact finish follows the levels.
     trial_factor
         How many times the usual number of trials the finish makes.
     leans
         Whether photographs are balanced about upright.
-    forces
-        What pulls items about, as texts.
     share
         Shares of area of words, photos and other items; None for none.
     least_dpi

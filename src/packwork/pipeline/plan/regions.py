@@ -29,8 +29,6 @@ class Region:
     ----------
     zone
         The part of the container, and which items stay in it.
-    words
-        As the rule has it.
     """
 
     zone: Zone

@@ -130,8 +130,6 @@ def coarse_photos(layout: Layout, dpi: float | None, is_bounded: bool = False) -
     dpi
         What was asked of the files; None leaves it to what printers like, and asks nothing of a
         canvas in px, which is for screens.
-    is_bounded
-        Whether ``least_dpi`` would bound their sizes.
     """
     if dpi is None and layout.container.unit == "px":
         return []

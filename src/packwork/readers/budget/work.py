@@ -99,8 +99,6 @@ class Work:
 
         Parameters
         ----------
-        longest_px
-            In pixels.
         part
             Longer side of what it shows, in CSS pixels.
 

@@ -144,8 +144,6 @@ class Sizes:
 
     Parameters
     ----------
-    of_row
-        Of each row that has one.
     notices
         A sentence about each sort of rows that have none.
     lost

@@ -75,8 +75,6 @@ class Bitmap:
 
     Parameters
     ----------
-    png
-        The file, as the font holds it.
     left, top, right, bottom
         Its box about the glyph's origin, in the font's units, y down.
     """
@@ -93,8 +91,6 @@ class Typeface:
 
     Parameters
     ----------
-    index
-        Which face of a collection.
     weight
         For variable fonts: the weight axis.
 

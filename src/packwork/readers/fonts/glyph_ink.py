@@ -79,8 +79,6 @@ class ClearInk:
 
     Parameters
     ----------
-    glyphs
-        Those that cover something.
     places, sizes
         ``(n, 2)`` of their origins, and ``(n, 1)`` factors on their own units.
     clearance

@@ -44,8 +44,6 @@ class GlyphPicture:
     ----------
     matrix
         2 x 3 map from pixels to the word's units.
-    region
-        What it shows, in the word's units.
     """
 
     png: bytes

@@ -194,19 +194,7 @@ class Arts:
         self, count: int, drawn: ET.Element, source: ET.Element, label: Label, ink: Region,
         *, keeps_holes: bool,
     ) -> Item:  # fmt: skip
-        """One item.
-
-        Parameters
-        ----------
-        count
-            Its number, from 1.
-        drawn, source
-            Its element, and the one that draws it.
-        label
-            Link and tooltip; its name is found here.
-        ink
-            What is seen of it, in its own units.
-        """
+        """One item."""
         name = drawn.get("data-name", "item")
         drawing = self._drawing(count, drawn, source, ink, name, keeps_holes)
         fill = "" if drawing.art is not None else _fill(drawn, source)

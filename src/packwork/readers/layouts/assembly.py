@@ -38,8 +38,6 @@ class FoundItem:
     ----------
     shape
         Region in place, canvas units, of a file that holds no more; else the item.
-    weight
-        Share of area that was asked for it.
     place
         2 x 3 map from the item's units to canvas units; None where the shape is in place.
     """
@@ -56,10 +54,6 @@ class FoundSheet:
 
     Parameters
     ----------
-    width, height, unit
-        The canvas.
-    container
-        The region that was filled, canvas units.
     gap
         Smallest distance that its run promised; None if that promised nothing.
     areas_in_shares
@@ -68,10 +62,6 @@ class FoundSheet:
         What of it could not be seen and was believed, a sentence each.
     walls
         Lines that are seen of a container with openings, canvas units; None: all of its edge.
-    backdrop
-        Picture behind all items; None if there is none.
-    notes
-        Letters and keys beside the items and on them.
     said
         What else the file says, as a manifest has it.
     """

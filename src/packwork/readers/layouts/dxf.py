@@ -52,8 +52,6 @@ class DxfLine:
         ``(n, 2)``, drawing units, y up.
     said
         What our files say of it: numbers and texts in order.
-    is_closed
-        Whether its end is its begin.
     """
 
     layer: str

@@ -83,8 +83,6 @@ def examined(
 
     Parameters
     ----------
-    root, data
-        The file, parsed and as it is.
     drawn, sources
         The element of each item, and the one that draws it.
     container, size
@@ -113,8 +111,6 @@ def changes(
 
     Parameters
     ----------
-    root, data
-        The file, parsed and as it is.
     drawn, sources
         The element of each item, and the one that draws it: itself, or what it uses.
 

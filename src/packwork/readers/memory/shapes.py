@@ -70,8 +70,6 @@ class GivenShape:
     ----------
     region
         Valid, its area positive; y down.
-    weight
-        Share of area it asks for.
     fill
         Its colour, as the data have it; empty for none.
     row
@@ -87,13 +85,7 @@ class GivenShape:
 
 @dataclass(frozen=True, eq=False)
 class GivenShapes:
-    """Geometries that were given as one value.
-
-    Parameters
-    ----------
-    shapes
-        At least one.
-    """
+    """Geometries that were given as one value."""
 
     shapes: tuple[GivenShape, ...]
     name: str
@@ -135,8 +127,6 @@ def shapes_of(
 
     Parameters
     ----------
-    value
-        As :func:`is_geometry` knows it.
     name
         What people call it, where it does not say.
 

@@ -168,8 +168,6 @@ class Handed:
 
         Parameters
         ----------
-        key
-            The option that it is given for.
         name
             What people call it; None for what it is.
 

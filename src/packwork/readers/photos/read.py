@@ -55,10 +55,6 @@ class PhotoCrop:
 
     Parameters
     ----------
-    picture
-        What is seen of the photo.
-    whole
-        The same with its border.
     is_cut
         Whether the picture is less than its window: shaped, or clear in places.
     """

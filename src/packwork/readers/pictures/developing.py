@@ -37,15 +37,7 @@ _CLEAR = ("RGBA", "LA", "PA", "La", "RGBa")
 
 @dataclass(frozen=True)
 class Negative:
-    """Header of a photo.
-
-    Parameters
-    ----------
-    width, height
-        Pixels of the upright photo.
-    has_alpha
-        Whether it may be clear in places.
-    """
+    """Header of a photo."""
 
     width: int
     height: int

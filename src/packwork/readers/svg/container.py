@@ -46,8 +46,6 @@ class _Layer:
     ----------
     region
         In CSS pixels.
-    is_white
-        Whether it is opaque and nearly white.
     """
 
     region: Region

@@ -53,16 +53,8 @@ class PaintedDrawing:
 
     Parameters
     ----------
-    root
-        The clean tree.
-    page
-        What viewers show, if the file says so.
     ink
         In CSS pixels, right and down from the page's corner.
-    shapes
-        What it paints, as far as shapes tell.
-    sheet
-        What became of a white page behind all else.
     """
 
     root: ET.Element

@@ -78,8 +78,6 @@ def within_outline(
         The same drawing as it is, and as its page cuts it.
     reach
         What its shapes reach, also where no page shows them.
-    work
-        Of one picture of it.
 
     Raises
     ------

@@ -134,8 +134,6 @@ class SubPath:
     segments
         ``(k, 4, 2)`` control points of cubics; straight lines are cubics too. With
         ``k = 0`` it is a closed single point, which only round and square caps show.
-    start
-        Where it begins.
     is_closed
         Whether it ends with ``z``; the closing line is not among the segments.
     """

@@ -43,8 +43,6 @@ class TextTable:
     ----------
     text
         Without a line that only says what the delimiter is.
-    skipped
-        Lines of the file before the text.
     notice
         What has to be told of how it was read; empty if nothing.
     """

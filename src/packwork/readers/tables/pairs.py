@@ -39,8 +39,6 @@ class Pair:
         The number as it stands in the file; None where nothing does.
     where
         ``line 3``, for messages.
-    others
-        What else the row says, by column.
     """
 
     name: str

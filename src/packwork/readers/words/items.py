@@ -187,10 +187,6 @@ class ShapedWord:
 
     Parameters
     ----------
-    name
-        The text on one line.
-    outline, ink
-        As an item has them.
     place
         2 x 3 map from an em of ``EM_PX`` to these.
     language

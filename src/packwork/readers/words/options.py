@@ -28,8 +28,6 @@ class Word:
         As it is to be written; ``|`` begins a new line.
     weight
         Positive.
-    columns
-        What else a table says of it, by column.
     """
 
     text: str

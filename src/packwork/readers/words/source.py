@@ -165,8 +165,6 @@ class Ranked:
 
     Parameters
     ----------
-    words
-        Each once.
     told
         What has to be told of how the source was read, and of rows that are left out.
     stopped

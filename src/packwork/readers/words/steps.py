@@ -28,8 +28,6 @@ class WordSteps:
 
     Parameters
     ----------
-    column
-        That says the step.
     weights
         By step, in their order, then by word.
     notices

@@ -78,11 +78,6 @@ def languages() -> tuple[str, ...]:
 def guess_language(counts: Counter[str]) -> str | None:
     """Language of a text, by the share of its words that are function words of one.
 
-    Parameters
-    ----------
-    counts
-        How often each case-folded word stands there.
-
     Examples
     --------
     >>> guess_language(Counter("der bär und die biene in dem wald".split()))

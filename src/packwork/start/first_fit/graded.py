@@ -70,8 +70,6 @@ class Graded:
     ----------
     placed
         ``(m,)`` which of the candidates they are, in their order.
-    poses
-        Of these.
     """
 
     placed: IntArray

@@ -79,13 +79,7 @@ def cut(outline_px: Outline, reach: int, margin_px: float = 0.0) -> Stencil:
 
 
 def covered(outline_px: Outline, margin_px: float = 0.0) -> tuple[BoolArray, tuple[int, int]]:
-    """Pixels that an outline takes, and the row and column of its origin among them.
-
-    Parameters
-    ----------
-    outline_px, margin_px
-        As for :func:`cut`.
-    """
+    """Pixels that an outline takes, and the row and column of its origin among them."""
     points, starts = outline_px.points, outline_px.starts
     if margin_px > MOST_OFFSET_PX:
         wide = grown(outline_px, margin_px)

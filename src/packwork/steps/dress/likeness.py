@@ -111,11 +111,6 @@ def colours_under(layout: Layout, target: TargetPicture) -> list[str]:
 def best_ground(target: TargetPicture, covered: float) -> str:
     """Colour of the gaps with which items of any colours show a picture best and are seen.
 
-    Parameters
-    ----------
-    covered
-        Share that the items cover.
-
     Examples
     --------
     >>> dark = np.zeros((20, 20, 3)); dark[:10, :10] = 0.05

@@ -30,11 +30,6 @@ def evened(job: Job, poses: Poses, *, tells: bool = True) -> Job:
     """Job whose line drawings have lines of one width, as they lie.
 
     Lines only get thinner, so what was free stays free.
-
-    Parameters
-    ----------
-    tells
-        Whether there is a notice of drawings that keep their lines.
     """
     if not job.plan.has_even_lines:
         return job

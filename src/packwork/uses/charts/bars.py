@@ -85,13 +85,7 @@ def fill_bars(job: Job, chart: Chart, watch: RunContext) -> Grouped:
 
 
 class _Heaps:
-    """Heaps of all groups at any scale.
-
-    Parameters
-    ----------
-    job, chart
-        Of a chart in bars.
-    """
+    """Heaps of all groups at any scale."""
 
     def __init__(self, job: Job, chart: Chart, stop: Stop) -> None:
         self._job, self._stop = job, stop

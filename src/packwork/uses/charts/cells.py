@@ -58,8 +58,6 @@ class Cell:
 
     Parameters
     ----------
-    room
-        Where its marks lie.
     width
         Of its name, along x.
     line

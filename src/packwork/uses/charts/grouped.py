@@ -21,14 +21,10 @@ class Grouped:
 
     Parameters
     ----------
-    kept
-        Which of them have a place.
     container
         All that is filled; of several parts.
     unplaced
         Marks without a place, numbered as in the job.
-    levels
-        What was run of groups, one after another.
     """
 
     poses: Poses
@@ -46,10 +42,6 @@ class GroupSteps:
     ----------
     poses
         Of all marks, those of the groups before in their places.
-    before
-        Marks of the groups before.
-    own
-        Marks of this one.
     offset
         ``(2,)`` from where the group is filled to its place on the canvas.
     """

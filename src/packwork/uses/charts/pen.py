@@ -35,11 +35,6 @@ MIDDLE_EM = 0.35
 class Pen:
     """Collects notes; places are canvas units, letters stand on their line.
 
-    Parameters
-    ----------
-    ink
-        Colour of letters that are given none.
-
     Examples
     --------
     >>> pen = Pen("black")

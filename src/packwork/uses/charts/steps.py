@@ -30,8 +30,6 @@ class ChartStep:
 
     Parameters
     ----------
-    job
-        Of its marks alone.
     names
         ``(n,)`` what tells marks apart: one that two steps have is one mark.
     """

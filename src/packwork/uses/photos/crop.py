@@ -243,15 +243,7 @@ Listed: TypeAlias = Callable[[Job], Sequence[RunStep]]
 
 @final
 class CropAtEdge(RunStep):
-    """Items that cover the container's edge, cut at its line; none is lost if that can be.
-
-    Parameters
-    ----------
-    job
-        In its own container.
-    listed
-        What places items in a grown one.
-    """
+    """Items that cover the container's edge, cut at its line; none is lost if that can be."""
 
     def __init__(self, job: Job, listed: Listed) -> None:
         self._listed = listed
@@ -295,10 +287,6 @@ class CutRecorder(Recorder):
 
     Parameters
     ----------
-    whole
-        Recorded the whole items.
-    found
-        Those that are seen, cut.
     numbers
         ``(n,)`` what the whole ones are called by.
     depth

@@ -152,13 +152,7 @@ def check_pile(job: Job) -> None:
 
 
 def _first_poses(job: Job, asked: PileOptions, factor: float) -> tuple[Poses, IntArray]:
-    """Poses to begin with, and which items an earlier layout has places for.
-
-    Parameters
-    ----------
-    factor
-        On the sizes that items are given.
-    """
+    """Poses to begin with, and which items an earlier layout has places for."""
     rng = np.random.default_rng(job.plan.seed)
     container = job.container
     own = given_scales(job.items, job.weights, container.unit, container.side, asked.size)

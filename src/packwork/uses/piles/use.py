@@ -23,13 +23,7 @@ from packwork.uses.piles.pile import Heap, HeapUp, check_pile
 @final
 @dataclass(frozen=True, eq=False)
 class PileUse(Use):
-    """A heap of what another use reads.
-
-    Parameters
-    ----------
-    content
-        The use that read the items.
-    """
+    """A heap of what another use reads."""
 
     heap: Heap
     content: Use

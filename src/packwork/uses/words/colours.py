@@ -37,13 +37,6 @@ PAPER = "white"
 def word_colours(recipe: Recipe, read: WordsRead, layout: Layout) -> list[str | None] | None:
     """Colour of each item, None for one that keeps its own; None if neighbours decide.
 
-    Parameters
-    ----------
-    recipe
-        Says by what words are coloured.
-    layout
-        Of some of those items.
-
     Raises
     ------
     ReadError

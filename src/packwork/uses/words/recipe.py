@@ -43,8 +43,6 @@ def words_recipe(
     ----------
     source
         As :class:`WordOptions` has it; anything with ``items()`` is a table of weights.
-    add
-        Items that are mixed in.
 
     Raises
     ------

@@ -45,13 +45,7 @@ ENOUGH = "{most} are as many as there may be"
 
 @final
 class RepeatWords(RunStep):
-    """Copies of words, smaller and grey, where nothing else finds a place.
-
-    Parameters
-    ----------
-    paper
-        Colour behind them.
-    """
+    """Copies of words, smaller and grey, where nothing else finds a place."""
 
     def __init__(self, letters: Letters, paper: str) -> None:
         self._letters, self._paper = letters, paper
@@ -65,15 +59,7 @@ class RepeatWords(RunStep):
 
 
 def with_repeats(state: RunState, words: int, letters: Letters, paper: str, stop: Stop) -> RunState:
-    """State with copies of its first items, the words, between them.
-
-    Parameters
-    ----------
-    words
-        How many of the items are words.
-    paper
-        Colour behind them.
-    """
+    """State with copies of its first items, the words, between them."""
     job = state.job
     least = max(letters.smallest or 0.0, LEGIBLE * job.container.side)
     most = max(EACH * words, AT_LEAST)

@@ -80,8 +80,6 @@ class WordsUse(Use):
 
     Parameters
     ----------
-    read
-        The words among the items; they come first.
     gives_way
         Whether each is as large as it found a place in its turn.
     """
@@ -311,10 +309,6 @@ class FewerWords(RunStep):
 
     Parameters
     ----------
-    listed
-        What places the words of a job.
-    job
-        Of all words.
     smallest
         Least font size, canvas units.
     """
@@ -346,8 +340,6 @@ def heaviest_of(job: Job, number: int, sizes: FloatArray, smallest: float) -> Jo
 
     Parameters
     ----------
-    number
-        Words that are kept, the heaviest.
     sizes
         ``(n,)`` what the letters of each would measure.
     smallest

@@ -46,8 +46,6 @@ class Film:
         With a track of its items.
     background
         CSS colour behind everything; ``"none"`` leaves it clear where a format can.
-    show_container
-        Draw the container's line.
 
     Raises
     ------

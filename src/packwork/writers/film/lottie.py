@@ -151,8 +151,6 @@ def _transform(
         ``(k, 5)`` numbers of a track.
     at
         ``(k,)`` when.
-    px_per_cu
-        Pixels of the film per canvas unit.
     anchor
         Where the item's origin lies in the layer.
     unit

@@ -176,8 +176,6 @@ class Declarations:
     ----------
     values
         By property, variables among them, each with whether it is marked important.
-    lost
-        What was left out of it.
     """
 
     values: Mapping[str, tuple[str, bool]]

@@ -226,8 +226,6 @@ def piece_strokes(
         In one unit.
     tolerance
         Largest distance of a curve from its chords, and of a round cap or join.
-    points
-        What the drawing has left.
 
     Examples
     --------

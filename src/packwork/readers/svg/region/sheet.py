@@ -36,8 +36,6 @@ def drop_sheet(
 
     Parameters
     ----------
-    shapes
-        As ``painted_shapes`` gave them.
     keep_page
         Whether the sheet is to stay; None: as it looks; False drops it whatever is on it.
 

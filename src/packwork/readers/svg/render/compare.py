@@ -42,8 +42,6 @@ class Comparison:
         The drawing; without a page, user units are CSS pixels and nothing is cut off.
     region
         In CSS pixels, possibly empty: its box and half as much around it are looked at.
-    work
-        Of its solid twin.
 
     Examples
     --------

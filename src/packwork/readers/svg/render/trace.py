@@ -135,10 +135,6 @@ def traced_ink(
 
     Parameters
     ----------
-    root, page
-        The drawing.
-    part
-        What is rendered, as ``inked_part`` gave it.
     threshold
         Opacity from which what is traced is inside, as a share of the most opaque place's.
     shapes
