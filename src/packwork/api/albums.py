@@ -32,6 +32,8 @@ def photos(
 ) -> Layout:
     """Fill a container with photographs.
 
+    Parameters that :func:`packwork.fill` has too mean the same here.
+
     Parameters
     ----------
     sources

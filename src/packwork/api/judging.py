@@ -65,6 +65,8 @@ def finish(
 ) -> Layout:
     """Exact layout near another one: nothing overlaps, nothing sticks out.
 
+    Parameters that :func:`fill` has too mean the same here.
+
     For layouts whose items were moved by hand or placed by other means. Items move, turn and
     shrink no more than they have to; where that is in vain, one is brought to a void.
     ``certified`` of the result says whether all found room.

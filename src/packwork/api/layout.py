@@ -257,6 +257,8 @@ class Layout(scene.Layout):
     ) -> None:
         """Write a film of how the items came here, if the layout was made with ``record=True``.
 
+        Parameters that :meth:`save` or :func:`fill` has too mean the same here.
+
         Parameters
         ----------
         path

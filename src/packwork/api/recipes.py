@@ -32,6 +32,8 @@ def run(
 ) -> Layout:
     """Run what a recipe asks for.
 
+    Parameters that :func:`packwork.fill` has too mean the same here.
+
     Parameters
     ----------
     recipe

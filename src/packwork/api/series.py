@@ -107,6 +107,8 @@ def series(
 ) -> Series:
     """Set words step by step: sizes true on one scale, words in their places for as long as goes.
 
+    Parameters that :func:`words` has too mean the same here.
+
     Parameters
     ----------
     table
@@ -158,6 +160,8 @@ def chart_series(
     **options: Unpack[ChartKeywords],
 ) -> Series:
     """Chart a table step by step: areas true at one scale, marks of one name in their places.
+
+    Parameters that :func:`chart` has too mean the same here.
 
     Parameters
     ----------

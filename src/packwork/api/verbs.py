@@ -116,6 +116,8 @@ def words(
 ) -> Layout:
     """Fill a container with words.
 
+    Parameters that :func:`fill` has too mean the same here.
+
     Parameters
     ----------
     source
@@ -168,6 +170,8 @@ def pile(
 ) -> Layout:
     """Heap items of given sizes, under forces, until they are at rest.
 
+    Parameters that :func:`fill` has too mean the same here.
+
     Parameters
     ----------
     container
@@ -213,6 +217,8 @@ def chart(
 ) -> Layout:
     """Show a table's rows, a mark for each, sizes in proportion to numbers.
 
+    Parameters that :func:`fill` has too mean the same here.
+
     Parameters
     ----------
     container
@@ -253,6 +259,8 @@ def read_items(
     alpha_threshold: float = 0.5,
 ) -> list[Item]:
     """Items from SVGs, pictures, folders of them, globs, built-in names or values in memory.
+
+    Parameters that :func:`fill` has too mean the same here.
 
     Unusable files in a folder are left out with a warning in the log.
 
@@ -303,6 +311,8 @@ def read_container(
     alpha_threshold: float = 0.5,
 ) -> Container:
     """Container from a mask, an SVG, ``text:WORD``, a built-in name or a value in memory.
+
+    ``source`` is what :func:`fill` takes as ``container``; what both take means the same.
 
     Parameters
     ----------

@@ -56,7 +56,7 @@ class RowOutcome:
     Parameters
     ----------
     row, name, status, outputs
-        As above; outputs are those that are there.
+        As of a :class:`Task`; outputs are those that are there.
     metrics
         Of the layout; empty if there is none.
     said

@@ -54,7 +54,7 @@ class Outputs:
         Measures (JSON), the diagnostic picture (PNG), the recipe (TOML), what stands out of the
         container's picture (PNG); None for none.
     drawing
-        The options of these as they were asked for, by name.
+        Options of drawing as they were asked for, by name.
     """
 
     files: Sequence[Path]

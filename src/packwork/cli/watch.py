@@ -28,7 +28,7 @@ INTERRUPTED = 130
 
 
 class InterruptListener:
-    """Counter of Ctrl-C: the first asks the run to stop, a later one ends the program."""
+    """Counter of presses of Ctrl-C, which asks a run to stop or ends the program."""
 
     def __init__(self) -> None:
         self.keeps_results = False

@@ -84,7 +84,7 @@ class Lengths:
     spacing
         Side of an item's share of the container.
     hair
-        The part of it that was not asked for.
+        Part of the gap that was not asked for.
     """
 
     spacing: float

@@ -13,7 +13,7 @@ from packwork.scene.pose import Poses
 
 
 class Stale(IntEnum):
-    """Amount that has to be made anew, from nothing to everything."""
+    """Degree of staleness: the part to be made anew, from nothing to everything."""
 
     NOTHING = 0
     DRAWING = 1

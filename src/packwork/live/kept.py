@@ -16,7 +16,7 @@ class Kept:
     Parameters
     ----------
     base
-        The one in which all had been settled last: what has flowed in vain goes back to it.
+        Document in which all had been settled last: what has flowed in vain goes back to it.
     """
 
     document: Document

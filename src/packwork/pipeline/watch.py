@@ -21,7 +21,7 @@ Tried = TypeVar("Tried")
 
 @dataclass(frozen=True, eq=False)
 class RunContext:
-    """Listener to a run, or to a part of it.
+    """Observer and stop of a run, or of a part of it.
 
     Examples
     --------

@@ -1,4 +1,4 @@
-"""Pixels of a layout's SVG: paint outside the container and in more than one item.
+"""Pixel check of a layout's SVG: paint outside the container, and in more than one item.
 
 The items are painted in a few pictures, in each of which no two are near one another; where the
 opacities of these add up to more than one, two items are painted.

@@ -28,7 +28,7 @@ LAYOUTS = frozenset({".geojson", ".json", ".dxf"})
 
 @dataclass(frozen=True, kw_only=True)
 class Opening:
-    """Beginning of a studio; one of the three.
+    """Opening of a studio: a recipe, a document or a session's file.
 
     Parameters
     ----------

@@ -101,9 +101,9 @@ def check_drawing(count: int, points: FloatArray, em: float) -> None:
     Parameters
     ----------
     points
-        Ends and handles of those that were kept.
+        Ends and handles of the lines and curves that were kept.
     em
-        In the same units.
+        In the units of the points.
 
     Raises
     ------

@@ -23,7 +23,7 @@ def without_enclosed_white(pixels: Pixels, solid: FloatArray) -> FloatArray:
     Parameters
     ----------
     solid
-        Their opacities, 0..1.
+        Opacities of the pixels, 0..1.
 
     Examples
     --------

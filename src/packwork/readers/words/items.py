@@ -188,7 +188,7 @@ class ShapedWord:
     Parameters
     ----------
     place
-        2 x 3 map from an em of ``EM_PX`` to these.
+        2 x 3 map from an em of ``EM_PX`` to the units of the outline.
     language
         Of the word; empty if not known.
     """
