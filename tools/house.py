@@ -61,16 +61,16 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 54_600,
-    "lines of docstrings": 23_550,
-    "files": 741,
-    "functions of the road in one plain fill": 194,
-    "files of the road in one plain fill": 48,
-    "calls of id()": 98,
+    "lines of code": 55_150,
+    "lines of docstrings": 22_250,
+    "files": 695,
+    "functions of the road in one plain fill": 138,
+    "files of the road in one plain fill": 36,
+    "calls of id()": 0,
     "context variables": 5,
-    "docstrings that begin with a question word": 535,
-    "class names that occur twice": 26,
-    "constants chosen by hand": 715,
+    "docstrings that begin with a question word": 4,
+    "class names that occur twice": 2,
+    "constants chosen by hand": 714,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 
