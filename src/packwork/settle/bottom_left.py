@@ -3,7 +3,8 @@
 B. Baker, E. Coffman and R. Rivest, "Orthogonal packings in two dimensions", SIAM Journal on
 Computing 9 (1980), 846-855, doi:10.1137/0209064, place rectangles as far down, then as far left
 as they go. Ours takes discs for items and any height for "down", and fills holes, too: candidates
-are the free pixels and the places at which a disc touches two others.
+are the free pixels and the places at which a disc touches two others. Discs that no other can come
+to touch are forgotten, so that the work for each is that of the pile's surface and its holes.
 """
 
 from __future__ import annotations
@@ -15,6 +16,8 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray, Image, IntArray
 from packwork.compaction.arrangement import Arrangement
 from packwork.fields.clearance import distance_inside
+from packwork.fields.distance_transform import distance_to
+from packwork.progress import Stop, never
 from packwork.raster.coverage import coverage
 
 HeightOf = Callable[[FloatArray, int], FloatArray]
@@ -35,6 +38,21 @@ gaps that the rounds have to close. Chosen."""
 
 AT_ONCE = 16
 """Places that are looked at together. Chosen."""
+
+PIXELS_AT_ONCE = 1024
+"""Pixels that are looked at together at first, then twice as many, and so on. Chosen."""
+
+PAIRS_UNTIL_SWEPT = 4_000
+"""Pairs, beyond twice those that the last sweep left, before discs are forgotten again. More makes
+each place slower, fewer sweeps more often. Chosen."""
+
+SURE_PX, NEAR_PX = 1.0, 3.0
+"""Pixels by which room, and by which nearness to it, may be misjudged: room is known at pixels'
+centres, and places are sought about them. Derived: half a diagonal, three halves and rounding."""
+
+TOLD_EVERY = 200
+"""Discs that are placed between two reports, and looks for a stop: a second's work at most, and
+fewer get a place in any case. Chosen."""
 
 ROUNDING = 1e-9
 """Share of a distance that rounding may take. Derived, as for the check of the finish."""
@@ -77,11 +95,14 @@ class FreeRoom:
         # Room beyond that of the largest disc is not needed.
         self._most = self._largest + self._gap + 2 / self._px_per_cu
         self._room = np.minimum(self._wall.ravel(), self._most)
-        self._heights: dict[int, FloatArray] = {}
+        self._lowest: dict[int, IntArray] = {}
+        self._left_by_sweep = 0
         self._discs = np.empty((0, 3))
         self._pairs = np.empty((0, 2), dtype=np.int64)
 
-    def place(self, radius: float, item: int, kind: int, heights: HeightOf) -> FloatArray | None:
+    def place(
+        self, radius: float, item: int, kind: int, heights: HeightOf, least: float
+    ) -> FloatArray | None:
         """Lowest centre ``(2,)`` for a disc; None if it fits nowhere. It then stands there.
 
         Parameters
@@ -90,12 +111,16 @@ class FreeRoom:
             Whose heights count.
         kind
             Items of one number have the same ones.
+        least
+            Radius of the smallest disc from this one on.
         """
-        if kind not in self._heights:
+        if len(self._pairs) > 2 * self._left_by_sweep + PAIRS_UNTIL_SWEPT:
+            self._sweep(least)
+        if kind not in self._lowest:
             # Of room alone: heights above a coast of many edges take time.
             room = np.flatnonzero(self._wall.ravel() > self._gap)
-            self._heights[kind] = np.full(len(self._points), np.inf)
-            self._heights[kind][room] = heights(self._points[room], item)
+            lowest_first = np.argsort(heights(self._points[room], item), kind="stable")
+            self._lowest[kind] = room[lowest_first]
         found = [self._by_pixel(radius, item, kind, heights), self._by_pair(radius, item, heights)]
         centres = [centre for centre in found if centre is not None]
         if not centres:
@@ -108,10 +133,9 @@ class FreeRoom:
         self, radius: float, item: int, kind: int, heights: HeightOf
     ) -> FloatArray | None:
         """The lowest pixel with room, and the lowest place about it on a finer grid."""
-        fitting = np.flatnonzero(self._room >= radius + self._gap)
-        if len(fitting) == 0:
+        best = self._lowest_pixel(radius + self._gap, self._lowest[kind])
+        if best is None:
             return None
-        best = int(fitting[np.argmin(self._heights[kind][fitting])])
         here = self._points[best]
         ticks = np.arange(-STEPS, STEPS + 1) / STEPS / self._px_per_cu
         grid = np.column_stack([np.repeat(ticks, len(ticks)), np.tile(ticks, len(ticks))])
@@ -120,6 +144,16 @@ class FreeRoom:
         is_free[0] = True
         free = points[is_free]
         return np.asarray(free[np.argmin(heights(free, item))])
+
+    def _lowest_pixel(self, reach: float, pixels: IntArray) -> int | None:
+        """The first of some pixels with so much room."""
+        first, some = 0, PIXELS_AT_ONCE
+        while first < len(pixels):
+            fitting = np.flatnonzero(self._room[pixels[first : first + some]] >= reach)
+            if len(fitting):
+                return int(pixels[first + fitting[0]])
+            first, some = first + some, 2 * some
+        return None
 
     def _by_pair(self, radius: float, item: int, heights: HeightOf) -> FloatArray | None:
         """The lowest place at which two discs are touched."""
@@ -165,6 +199,22 @@ class FreeRoom:
         self._discs = np.vstack([self._discs, [*centre, radius]])
         self._take_room(centre, radius)
 
+    def _sweep(self, least: float) -> None:
+        """Forget pixels without room for the smallest disc to come, and discs far from all others.
+
+        No place changes: one that such a disc would rule out, or give, has no room by its pixel.
+        """
+        px = 1 / self._px_per_cu
+        has_room = self._room >= least + self._gap - SURE_PX * px
+        self._lowest = {kind: order[has_room[order]] for kind, order in self._lowest.items()}
+        away = distance_to(has_room.reshape(self._wall.shape)).ravel() * px
+        reach = self._discs[:, 2] + self._largest + self._gap + NEAR_PX * px
+        is_kept = away[self._pixels(self._discs[:, :2])[0]] <= reach
+        pairs = self._pairs[is_kept[self._pairs].all(axis=1)]
+        self._pairs = (np.cumsum(is_kept) - 1)[pairs]
+        self._discs = self._discs[is_kept]
+        self._left_by_sweep = len(pairs)
+
     def _take_room(self, centre: FloatArray, radius: float) -> None:
         """Less room about a disc, as far as it can be felt."""
         rows, columns = self._wall.shape
@@ -199,8 +249,10 @@ def bottom_left(
     heights: HeightOf,
     kinds: IntArray,
     gap: float,
+    tell: Callable[[IntArray], None] = lambda _: None,
+    stop: Stop = never,
 ) -> IntArray:
-    """Put items ``(m,)``, in this order, to their lowest places; indices of those that fit nowhere.
+    """Put items ``(m,)``, in this order, to their lowest places; indices of those without one.
 
     Each is taken for the disc about its origin that holds it, so the arrangement gets no
     conflicts.
@@ -211,6 +263,10 @@ def bottom_left(
         ``(k,)`` indices of items that stay where they are; all others count as not there.
     kinds
         ``(n,)`` items of one number have the same heights.
+    tell
+        Called with the items that have a place by now, from time to time.
+    stop
+        Asked as often; those that follow then get no place.
 
     Examples
     --------
@@ -226,13 +282,18 @@ def bottom_left(
     (0, True, 0)
     """
     room = FreeRoom(arrangement, standing, gap)
-    left = []
-    for k in items:
-        centre = room.place(float(arrangement.radii[k]), int(k), int(kinds[k]), heights)
-        if centre is None:
-            left.append(int(k))
-            continue
-        place = arrangement.places[k].copy()
-        place[:2] = centre
-        arrangement.put(np.array([k]), place[None])
-    return np.array(left, dtype=np.int64)
+    radii = arrangement.radii[items]
+    least = np.minimum.accumulate(radii[::-1])[::-1]
+    has_place = np.zeros(len(items), dtype=bool)
+    for n, k in enumerate(items):
+        centre = room.place(float(radii[n]), int(k), int(kinds[k]), heights, float(least[n]))
+        if centre is not None:
+            has_place[n] = True
+            place = arrangement.places[k].copy()
+            place[:2] = centre
+            arrangement.put(np.array([k]), place[None])
+        if (n + 1) % TOLD_EVERY == 0:
+            tell(np.concatenate([standing, items[has_place]]))
+            if stop():
+                break
+    return np.asarray(items[~has_place])

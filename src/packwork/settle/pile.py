@@ -21,7 +21,7 @@ from packwork.geometry.outline import Outline
 from packwork.progress import NOBODY, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.settle.bottom_left import bottom_left
+from packwork.settle.bottom_left import HeightOf, bottom_left
 from packwork.settle.options import SettleOptions
 from packwork.settle.pour import Source, Spout, pour
 from packwork.settle.round_pack import start_round_pack
@@ -211,7 +211,8 @@ class _Pile:
         if self._gather_round(arrangement):
             left = np.arange(0)
         else:
-            left = self._bottom_left(arrangement, lifted, standing)
+            heights = self._heights(arrangement)
+            left = self._bottom_left(arrangement, lifted, standing, heights)
         self._take_over(arrangement, all_items)
         self._items = np.setdiff1d(all_items, left)
         self._keeps_round = len(left) == 0
@@ -243,10 +244,9 @@ class _Pile:
         queue = rng.permutation(all_items)
         if source.every == 0:
             near = Distance.from_points(source.points)
-            left = bottom_left(
-                arrangement, queue, np.arange(0), lambda points, _: near(points)[0],
-                np.zeros(len(all_items), dtype=np.int64), self._gap,
-            )  # fmt: skip
+            left = self._bottom_left(
+                arrangement, queue, np.arange(0), lambda points, _: near(points)[0]
+            )
         else:
             spout = Spout(source, room.region, self._gap, rng)
             settling = self._settling(arrangement, all_items)
@@ -305,7 +305,7 @@ class _Pile:
             return False
         arrangement = self._arrangement(room, FINE, np.arange(len(self._poses)))
         left = left[np.argsort(arrangement.radii[left], kind="stable")]
-        still = self._bottom_left(arrangement, left, self._items)
+        still = self._bottom_left(arrangement, left, self._items, self._heights(arrangement))
         new = np.setdiff1d(left, still)
         self._take_over(arrangement, np.arange(len(self._poses)))
         self._items = np.union1d(self._items, new)
@@ -316,14 +316,22 @@ class _Pile:
         return Piled(self._poses, self._items, self._rounds, self._height)
 
     def _bottom_left(
-        self, arrangement: Arrangement, items: IntArray, standing: IntArray
+        self, arrangement: Arrangement, items: IntArray, standing: IntArray, heights: HeightOf
     ) -> IntArray:
+        def tell(placed: IntArray) -> None:
+            self._tell(placed, arrangement.places[placed])
+
+        return bottom_left(
+            arrangement, items, standing, heights, self._kinds, self._gap, tell, self._stop
+        )
+
+    def _heights(self, arrangement: Arrangement) -> HeightOf:
         anchors = self._anchors(arrangement)
 
         def heights(points: FloatArray, item: int) -> FloatArray:
             return self._forces.heights(points, item, anchors[self._kinds[item]])
 
-        return bottom_left(arrangement, items, standing, heights, self._kinds, self._gap)
+        return heights
 
     def _anchors(self, arrangement: Arrangement) -> dict[int, FloatArray]:
         """Lowest place of each kind of items, were there no others."""

@@ -45,8 +45,9 @@ Larger leaves more gaps, and below 0.82 of the circle in a round pack; smaller p
 one thing side by side. Tried, the first by eye."""
 
 MANY = 2_000
-"""Items above which it is said that the pile takes long. Of 1,000 it takes half a minute of one
-processor core, of 3,000 minutes: rounds and what each costs grow with the items. Measured."""
+"""Items above which it is said that the pile takes long. Of 1,000 it takes a third of a minute of
+one processor core, of 3,000 nearly two, of 10,000 about ten: rounds grow with the pile's height,
+and what each costs with the items. Measured."""
 
 AT_EDGE = 1e-3
 """Distance from the canvas' edge, as a share of its longer side, below which an item counts
@@ -80,14 +81,19 @@ class HeapUp(RunStep):
         """State of those items that found room."""
         if len(state.job.items) > MANY:
             _LOG.warning(
-                "a pile of %s takes minutes to come to rest, one of 1,000 half a minute; use "
+                "a pile of %s takes minutes to come to rest, one of 1,000 a third of one; use "
                 "fewer, or stop it with Ctrl-C, which writes it as it lies by then",
                 number_of(len(state.job.items), "item"),
             )
         recorder = watch.recorder()
         job, piled = _heaped_to_fit(state.job, self._heap, watch.heard_by(recorder))
         found = replace(state, job=job, recorder=recorder)
-        return _without_those_left(self._heap.options, found, piled)
+        why = (
+            "the run was stopped before it"
+            if watch.stop()
+            else "there was no room left at its size"
+        )
+        return _without_those_left(self._heap.options, found, piled, why)
 
 
 def _heaped_to_fit(job: Job, heap: Heap, watch: RunContext) -> tuple[Job, Piled]:
@@ -183,16 +189,14 @@ def _options(job: Job, poses: Poses) -> SettleOptions:
     )
 
 
-def _without_those_left(asked: PileOptions, state: RunState, heap: Piled) -> RunState:
-    """State of those items that found room, and the others named."""
+def _without_those_left(asked: PileOptions, state: RunState, heap: Piled, why: str) -> RunState:
+    """State of those items that found room, and the others named, with why they did not."""
     job, kept, total = state.job, heap.placed, len(state.job.items)
     left = np.setdiff1d(np.arange(total), kept)
     if len(kept) == 0:
         none = "the item does not fit" if total == 1 else f"none of the {total} items fits"
         raise RecipeError("size", f"{none} into the container; use smaller ones")
-    unplaced = tuple(
-        Unplaced(job.items[k].name, int(k), "there was no room left at its size") for k in left
-    )
+    unplaced = tuple(Unplaced(job.items[k].name, int(k), why) for k in left)
     faults: tuple[str, ...] = ()
     if len(left):
         faults = (f"{len(kept)} of {total} items fit into the container at their sizes",)
