@@ -87,6 +87,15 @@ def test_a_round_pack_leaves_nobody_out_where_the_sheet_is_narrow() -> None:
     assert _roundness(count=19, padding="3%") > 1 / 2
 
 
+@pytest.mark.parametrize(("count", "padding"), [(7, "5%"), (19, "3%"), (30, "3%"), (19, "20px")])
+def test_a_bare_sheet_has_room_for_the_padding_too(count: int, padding: str) -> None:
+    for seed in (3, 4):
+        run = uses.fill(
+            uses.pile_recipe("none", ["circle"], count=count, padding=padding, seed=seed)
+        )
+        assert len(run.layout.items) == count
+
+
 @pytest.mark.parametrize("count", [2, 3])
 def test_a_bare_sheet_holds_few_items(count: int) -> None:
     assert len(pw.pile("none", ["circle"], count=count).items) == count

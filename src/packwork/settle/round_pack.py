@@ -85,7 +85,7 @@ def _placed(settling: Settling, gap: float, rng: np.random.Generator) -> FloatAr
     centres = packed_circles(radii, rng) @ np.array([[cosine, sine], [-sine, cosine]])
     centres += settling.centre
     left, top, right, bottom = arrangement.container.bounds
-    reach = radii[:, None] + gap
+    reach = (arrangement.radii + AROUND_GAP * gap)[:, None]
     if (centres - reach < (left, top)).any() or (centres + reach > (right, bottom)).any():
         return None
     places = arrangement.places.copy()

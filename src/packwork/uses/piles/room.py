@@ -15,6 +15,7 @@ from packwork.pipeline.read import read_room
 from packwork.readers.svg.curve import walled_container
 from packwork.recipe import Recipe
 from packwork.recipe.piles import PileOptions
+from packwork.recipe.refusals import length_asked
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item
@@ -22,6 +23,10 @@ from packwork.units import DEFAULT_SIDE, CanvasSize, Unit
 from packwork.uses.piles.opening import nowhere
 from packwork.uses.piles.sizes import heap_needed
 from packwork.uses.room import NO_CONTAINER, KnownContainer
+
+WIDER = 4
+"""Times that a sheet is made wider for its padding, which may be a share of it. More comes nearer
+to where both agree, but makes specks of items whose padding no sheet has room for. Tried."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,18 +39,21 @@ class PileRoom(KnownContainer):
         Of the canvas; None leaves it to the items where there is no container.
     mouths
         ``(m, 2, 2)`` ends of its openings where it is drawn open; None if not.
+    padding
+        Gap that is asked for, of which a sheet without a container has room.
     """
 
     size: CanvasSize | None
     options: PileOptions
     mouths: FloatArray | None = None
+    padding: str | float = "0"
 
     @classmethod
     def of_recipe(cls, recipe: Recipe, options: PileOptions, given: Container | None) -> PileRoom:
         """The container of a recipe, or the one that was given in its place."""
         size = recipe.canvas_size
         if given is None and recipe.container == NO_CONTAINER:
-            return cls(None, size, options)
+            return cls(None, size, options, padding=recipe.padding)
         if given is None and Path(recipe.container).suffix.lower() in {".svg", ".svgz"}:
             walled = walled_container(
                 recipe.container, None if size is None else size.side, recipe.read_options
@@ -74,7 +82,11 @@ class PileRoom(KnownContainer):
         side = DEFAULT_SIDE if size is None else size.side
         scales = given_scales(cast.items, cast.weights, unit, side, self.options.size)
         radii = np.array([item.outline.radius for item in cast.items])
-        return nowhere(size, radii * scales)
+        found = nowhere(size, radii * scales)
+        for _ in range(WIDER):
+            gap = length_asked("padding", self.padding, found.unit, found.side)
+            found = nowhere(size, radii * scales + gap / 2)
+        return found
 
 
 def _brought_along(points: FloatArray, before: Container, after: Container) -> FloatArray:
