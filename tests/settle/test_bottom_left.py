@@ -31,8 +31,8 @@ def test_places_are_those_of_a_room_that_forgets_nothing(
     seed: int, heights: module.HeightOf, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     found = []
-    for until_swept in (0, 10**9):
-        monkeypatch.setattr(module, "PAIRS_UNTIL_SWEPT", until_swept)
+    for every in (1, 10**9):
+        monkeypatch.setattr(module, "EVERY", every)
         # More than there is room for, so that the last look everywhere.
         discs, none = _discs(150, 8.0, seed), np.arange(0)
         left = bottom_left(discs, np.arange(150), none, heights, np.zeros(150, int), 0.1)
@@ -43,18 +43,18 @@ def test_places_are_those_of_a_room_that_forgets_nothing(
     assert np.array_equal(swept, kept)
 
 
-def test_discs_below_the_surface_are_forgotten(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "PAIRS_UNTIL_SWEPT", 500)
+def test_discs_below_the_surface_are_forgotten() -> None:
     discs = _discs(1, 3.0, 0)
     room = module.FreeRoom(discs, np.arange(0), 0.1)
     radius = float(discs.radii[0])
     for _ in range(350):
-        assert room.place(radius, 0, 0, _down, radius) is not None
-    assert len(room._discs) < 250
+        assert room.place(radius, 0, 0, _down) is not None
+    room.forget(radius)
+    assert len(room._discs) < 200
 
 
 def test_a_stop_leaves_those_that_are_to_follow(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "TOLD_EVERY", 2)
+    monkeypatch.setattr(module, "EVERY", 2)
     told: list[IntArray] = []
     discs = _discs(9, 5.0, 0)
     left = bottom_left(

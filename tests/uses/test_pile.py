@@ -11,10 +11,12 @@ import pytest
 
 import packwork as pw
 from packwork import pipeline, uses
+from packwork.cli.show import pile_line
 from packwork.errors import ReadError, RecipeError
 from packwork.geometry import affine
 from packwork.readers.layouts.read import read_written
 from packwork.scene.container import Container
+from packwork.settle import bottom_left
 from packwork.uses.piles.opening import opened
 from packwork.writers.svg import SvgOptions, svg_text
 from scenes import box, disc, flat_item
@@ -125,6 +127,17 @@ def test_what_does_not_fit_is_named_and_left_out() -> None:
     assert f"{kept} of 20 items fit" in run.broken[0]
     assert run.metrics.exact.is_clean
     assert run.report()["placed"] == kept
+
+
+def test_a_stop_is_told_and_is_no_lack_of_room(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bottom_left, "EVERY", 4)
+    recipe = uses.pile_recipe("square", ["circle"], count=9, size="10%")
+    run = uses.fill(recipe, stop=lambda: True)
+    assert run.certified
+    assert len(run.layout.items) == 4
+    assert {one.reason for one in run.unplaced} == {"the run was stopped before it found a place"}
+    assert run.pile is not None
+    assert pile_line(run.pile) == "stopped after 0 rounds"
 
 
 def test_an_open_path_is_a_wall(tmp_path: Path) -> None:

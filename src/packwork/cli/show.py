@@ -187,7 +187,8 @@ def pile_line(pile: Mapping[str, Any]) -> str:
     >>> pile_line({"rounds": 90, "compact": {"hull": 0.61, "circle": 0.4, "box": 0.5}})
     'at rest after 90 rounds; covers 61.00 % of its hull, 40.00 % of its circle, 50.00 % of its box'
     """
-    line = f"at rest after {number_of(pile['rounds'], 'round')}"
+    ending = "stopped" if "stopped" in pile else "at rest"
+    line = f"{ending} after {number_of(pile['rounds'], 'round')}"
     if "compact" not in pile:
         return line
     shares = [f"{_percent(share)} of its {name}" for name, share in pile["compact"].items()]

@@ -37,22 +37,15 @@ STEPS = 3
 gaps that the rounds have to close. Chosen."""
 
 AT_ONCE = 16
-"""Places that are looked at together. Chosen."""
-
-PIXELS_AT_ONCE = 1024
-"""Pixels that are looked at together at first, then twice as many, and so on. Chosen."""
-
-PAIRS_UNTIL_SWEPT = 4_000
-"""Pairs, beyond twice those that the last sweep left, before discs are forgotten again. More makes
-each place slower, fewer sweeps more often. Chosen."""
+"""Places that are looked at together; of pixels, then twice as many, and so on. Chosen."""
 
 SURE_PX, NEAR_PX = 1.0, 3.0
 """Pixels by which room, and by which nearness to it, may be misjudged: room is known at pixels'
 centres, and places are sought about them. Derived: half a diagonal, three halves and rounding."""
 
-TOLD_EVERY = 200
-"""Discs that are placed between two reports, and looks for a stop: a second's work at most, and
-fewer get a place in any case. Chosen."""
+EVERY = 200
+"""Discs that are placed between two looks at what can be forgotten, reports and looks for a stop: a
+second's work at most. More makes each place slower, fewer looks more often. Chosen."""
 
 ROUNDING = 1e-9
 """Share of a distance that rounding may take. Derived, as for the check of the finish."""
@@ -96,13 +89,10 @@ class FreeRoom:
         self._most = self._largest + self._gap + 2 / self._px_per_cu
         self._room = np.minimum(self._wall.ravel(), self._most)
         self._lowest: dict[int, IntArray] = {}
-        self._left_by_sweep = 0
         self._discs = np.empty((0, 3))
         self._pairs = np.empty((0, 2), dtype=np.int64)
 
-    def place(
-        self, radius: float, item: int, kind: int, heights: HeightOf, least: float
-    ) -> FloatArray | None:
+    def place(self, radius: float, item: int, kind: int, heights: HeightOf) -> FloatArray | None:
         """Lowest centre ``(2,)`` for a disc; None if it fits nowhere. It then stands there.
 
         Parameters
@@ -111,11 +101,7 @@ class FreeRoom:
             Whose heights count.
         kind
             Items of one number have the same ones.
-        least
-            Radius of the smallest disc from this one on.
         """
-        if len(self._pairs) > 2 * self._left_by_sweep + PAIRS_UNTIL_SWEPT:
-            self._sweep(least)
         if kind not in self._lowest:
             # Of room alone: heights above a coast of many edges take time.
             room = np.flatnonzero(self._wall.ravel() > self._gap)
@@ -128,6 +114,21 @@ class FreeRoom:
         centre = min(centres, key=lambda point: float(heights(point[None], item)[0]))
         self._occupy(centre, radius)
         return centre
+
+    def forget(self, least: float) -> None:
+        """Forget pixels without room for discs of a radius or more, and discs that none can touch.
+
+        No place changes: one that such a disc would rule out, or give, has no room by its pixel.
+        """
+        px = 1 / self._px_per_cu
+        has_room = self._room >= least + self._gap - SURE_PX * px
+        self._lowest = {kind: order[has_room[order]] for kind, order in self._lowest.items()}
+        away = distance_to(has_room.reshape(self._wall.shape)).ravel() * px
+        reach = self._discs[:, 2] + self._largest + self._gap + NEAR_PX * px
+        is_kept = away[self._pixels(self._discs[:, :2])[0]] <= reach
+        pairs = self._pairs[is_kept[self._pairs].all(axis=1)]
+        self._pairs = (np.cumsum(is_kept) - 1)[pairs]
+        self._discs = self._discs[is_kept]
 
     def _by_pixel(
         self, radius: float, item: int, kind: int, heights: HeightOf
@@ -147,7 +148,7 @@ class FreeRoom:
 
     def _lowest_pixel(self, reach: float, pixels: IntArray) -> int | None:
         """The first of some pixels with so much room."""
-        first, some = 0, PIXELS_AT_ONCE
+        first, some = 0, AT_ONCE
         while first < len(pixels):
             fitting = np.flatnonzero(self._room[pixels[first : first + some]] >= reach)
             if len(fitting):
@@ -198,22 +199,6 @@ class FreeRoom:
         self._pairs = np.vstack([self._pairs, new])
         self._discs = np.vstack([self._discs, [*centre, radius]])
         self._take_room(centre, radius)
-
-    def _sweep(self, least: float) -> None:
-        """Forget pixels without room for the smallest disc to come, and discs far from all others.
-
-        No place changes: one that such a disc would rule out, or give, has no room by its pixel.
-        """
-        px = 1 / self._px_per_cu
-        has_room = self._room >= least + self._gap - SURE_PX * px
-        self._lowest = {kind: order[has_room[order]] for kind, order in self._lowest.items()}
-        away = distance_to(has_room.reshape(self._wall.shape)).ravel() * px
-        reach = self._discs[:, 2] + self._largest + self._gap + NEAR_PX * px
-        is_kept = away[self._pixels(self._discs[:, :2])[0]] <= reach
-        pairs = self._pairs[is_kept[self._pairs].all(axis=1)]
-        self._pairs = (np.cumsum(is_kept) - 1)[pairs]
-        self._discs = self._discs[is_kept]
-        self._left_by_sweep = len(pairs)
 
     def _take_room(self, centre: FloatArray, radius: float) -> None:
         """Less room about a disc, as far as it can be felt."""
@@ -286,14 +271,16 @@ def bottom_left(
     least = np.minimum.accumulate(radii[::-1])[::-1]
     has_place = np.zeros(len(items), dtype=bool)
     for n, k in enumerate(items):
-        centre = room.place(float(radii[n]), int(k), int(kinds[k]), heights, float(least[n]))
-        if centre is not None:
-            has_place[n] = True
-            place = arrangement.places[k].copy()
-            place[:2] = centre
-            arrangement.put(np.array([k]), place[None])
-        if (n + 1) % TOLD_EVERY == 0:
+        if n and n % EVERY == 0:
             tell(np.concatenate([standing, items[has_place]]))
             if stop():
                 break
+            room.forget(float(least[n]))
+        centre = room.place(float(radii[n]), int(k), int(kinds[k]), heights)
+        if centre is None:
+            continue
+        has_place[n] = True
+        place = arrangement.places[k].copy()
+        place[:2] = centre
+        arrangement.put(np.array([k]), place[None])
     return np.asarray(items[~has_place])

@@ -88,12 +88,7 @@ class HeapUp(RunStep):
         recorder = watch.recorder()
         job, piled = _heaped_to_fit(state.job, self._heap, watch.heard_by(recorder))
         found = replace(state, job=job, recorder=recorder)
-        why = (
-            "the run was stopped before it"
-            if watch.stop()
-            else "there was no room left at its size"
-        )
-        return _without_those_left(self._heap.options, found, piled, why)
+        return _without_those_left(self._heap.options, found, piled, watch.stop())
 
 
 def _heaped_to_fit(job: Job, heap: Heap, watch: RunContext) -> tuple[Job, Piled]:
@@ -189,13 +184,17 @@ def _options(job: Job, poses: Poses) -> SettleOptions:
     )
 
 
-def _without_those_left(asked: PileOptions, state: RunState, heap: Piled, why: str) -> RunState:
+def _without_those_left(
+    asked: PileOptions, state: RunState, heap: Piled, was_stopped: bool
+) -> RunState:
     """State of those items that found room, and the others named, with why they did not."""
     job, kept, total = state.job, heap.placed, len(state.job.items)
     left = np.setdiff1d(np.arange(total), kept)
     if len(kept) == 0:
         none = "the item does not fit" if total == 1 else f"none of the {total} items fits"
         raise RecipeError("size", f"{none} into the container; use smaller ones")
+    no_room = "there was no room left at its size"
+    why = "the run was stopped before it found a place" if was_stopped else no_room
     unplaced = tuple(Unplaced(job.items[k].name, int(k), why) for k in left)
     faults: tuple[str, ...] = ()
     if len(left):
@@ -204,6 +203,8 @@ def _without_those_left(asked: PileOptions, state: RunState, heap: Piled, why: s
     poses = heap.poses.some(kept)
     layout = Layout(smaller.container, smaller.items, poses, smaller.weights)
     lies: dict[str, Any] = {"rounds": heap.rounds, "mean_height": heap.mean_height}
+    if was_stopped:
+        lies["stopped"] = True
     if asked.compact:
         lies["compact"] = compactness(layout.outlines)
     _tell_who_is_held_by_the_edge(layout)
