@@ -46,8 +46,8 @@ one thing side by side. Tried, the first by eye."""
 
 MANY = 2_000
 """Items above which it is said that the pile takes long. Of 1,000 it takes a third of a minute of
-one processor core, of 3,000 nearly two, of 10,000 about ten: rounds grow with the pile's height,
-and what each costs with the items. Measured."""
+one processor core, of 3,000 nearly two, of 10,000 more than seven: rounds grow with the pile's
+height, and what each costs with the items. Measured."""
 
 AT_EDGE = 1e-3
 """Distance from the canvas' edge, as a share of its longer side, below which an item counts
