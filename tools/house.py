@@ -61,8 +61,8 @@ class Count(NamedTuple):
 
 
 LIMITS = {
-    "lines of code": 55_150,
-    "lines of docstrings": 22_250,
+    "lines of code": 55_230,
+    "lines of docstrings": 22_260,
     "files": 695,
     "functions of the road in one plain fill": 138,
     "files of the road in one plain fill": 36,

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from packwork.pipeline.plan.expand_copies import Cast, expand_copies, turns
 
 from packwork.errors import RecipeError
+from packwork.pipeline.plan.cast import Cast, expand_copies, turns
 from packwork.recipe import make_recipe
 from packwork.scene.item import Item
 from scenes import disc, flat_item

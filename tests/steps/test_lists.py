@@ -139,3 +139,27 @@ def test_a_new_plan_leaves_the_recipe(state: RunState) -> None:
     found = Replan(seed=9).run(state, RunContext())
     assert (found.job.plan.seed, state.job.plan.seed) == (9, 0)
     assert found.job.recipe is state.job.recipe
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"stroke_width": "even"},
+        {"apart": True},
+        {"largest": "20"},
+        {"smallest": "4"},
+        {"repeat": "auto"},
+        {"sizes": "graded"},
+        {"hero": "mast=40%"},
+        {"target_coverage": 0.6},
+        {"finish": "none"},
+    ],
+)
+def test_each_list_of_words_runs(options: dict[str, Any]) -> None:
+    weights = {"mast": 3, "sail": 2, "oar": 1}
+    quick = {"effort": "draft", "levels": "50", "epochs": 4} if "finish" in options else {}
+    asked = uses.words_recipe("circle", weights, **{"effort": "draft"} | quick | options)
+    found = uses.fill(asked)
+    assert found.words is not None
+    assert found.words.found == 3
+    assert len(found.layout.items) + len(found.unplaced) >= 3

@@ -10,7 +10,7 @@ from packwork.arrays import IntArray
 from packwork.errors import PackworkError
 from packwork.live.anew import job_again, poured_again
 from packwork.live.certificate import Certificate, promise_of
-from packwork.live.commands.command import Library
+from packwork.live.commands.command import Library, is_chart
 from packwork.live.composed import is_word
 from packwork.live.document import Document
 from packwork.metrics.shape import shape_metrics
@@ -20,6 +20,17 @@ from packwork.steps.advice import LEAST_SHAPE, MOST_BARE, advice
 MOST_LOST = 0.02
 """Share of the container by which less may be covered after a change than before it, and by which
 more has to be covered by a run. Smaller moves all words for what is hardly seen. Chosen."""
+
+MOST_RUINED = 0.1
+"""Share of the container by which less may be covered after a gesture that is kept. Larger lets one
+word that is moved make specks of all others, smaller takes back what people want all the same.
+Chosen."""
+
+ROUNDING = 1e-3
+"""The same, of what they covered, of marks of a chart. Derived: far above the digits of files."""
+
+SEEDS = 3
+"""Runs that are tried at most until one places all. More take longer. Chosen."""
 
 MOST_NEW = 0.5
 """Share of the words that are new from which on nothing is settled first: it takes as long as
@@ -54,7 +65,8 @@ def refilled(
     by_hand
         ``(m,)`` rows of what the hand has put where it is in ``asked``, turned or sized: it stays.
     """
-    if not _is_cloud(asked) or not (len(by_hand) or _is_reweighed(before, asked)):
+    is_other = _is_reweighed(before, asked) or before.container is not asked.container
+    if not _is_in_proportion(asked) or not (len(by_hand) or is_other):
         return None
     was_wrong = bool(Certificate().violations(settled))
     is_fuller = covered(settled) >= covered(before) - MOST_LOST and not was_wrong
@@ -66,20 +78,42 @@ def refilled(
     # In proportion as they are: where sizes gave way, weights ask for others.
     areas = asked.own_areas * asked.poses.scale**2
     pinned = replace(asked, held=held, weights=areas)
-    try:
-        arranged = poured_again(pinned, 0, stop=stop)
-        poured = arranged.applied(pinned, Library())
-    except PackworkError:
-        # What is held leaves no room for a run: what was settled stands.
+    for seed in range(SEEDS):
+        try:
+            poured = poured_again(pinned, seed, stop=stop).applied(pinned, Library())
+        except PackworkError:
+            # What is held leaves no room for a run: what was settled stands.
+            return None
+        if stop():
+            return None
+        kept = replace(poured, held=asked.held, weights=asked.weights)
+        if not Certificate().in_the_way(kept):
+            break
+    else:
         return None
-    is_wrong = bool(Certificate().violations(poured))
-    is_fuller = was_wrong or covered(poured) > covered(settled) + MOST_LOST
-    if stop() or is_wrong or not is_fuller:
+    if not was_wrong and covered(poured) <= covered(settled) + MOST_LOST:
         return None
+    what = "words" if any(is_word(asked, k) for k in range(len(asked))) else "items"
     share = f"{100 * covered(poured):.0f} % of the container"
-    said = f"the words were poured anew, for they would not fill it else: {share}"
-    kept = replace(poured, held=asked.held, weights=asked.weights)
+    said = f"the {what} were poured anew, for they would not fill it else: {share}"
     return Refilled(kept, said)
+
+
+def taken_back(before: Document, now: Document) -> Refilled | None:
+    """Layout without a gesture for which all items would become much smaller; None if none would.
+
+    Marks of a chart do not become smaller at all: their keys say how large they are.
+    """
+    is_same = np.array_equal(before.ids, now.ids) and before.container is now.container
+    if not is_same or now.options.sizes != "shared":
+        return None
+    share = [100 * covered(one) for one in (before, now)]
+    least = 1 - ROUNDING if is_chart(now) else (share[0] - 100 * MOST_RUINED) / share[0]
+    if share[1] >= share[0] * least:
+        return None
+    columns = {name: getattr(before, name) for name in ("poses", "weights", "smallest", "largest")}
+    said = f"taken back, for all would become smaller: {share[0]:.0f} to {share[1]:.0f} % covered"
+    return Refilled(replace(now, **columns), said)
 
 
 def advice_of(document: Document) -> tuple[str, ...]:
@@ -101,6 +135,11 @@ def covered(document: Document) -> float:
     """Share of the container that items cover."""
     areas = document.own_areas * document.poses.scale**2
     return float(areas.sum()) / document.container.outline.area
+
+
+def _is_in_proportion(document: Document) -> bool:
+    """Whether items are in proportion to each other, and no marks of a chart."""
+    return document.options.sizes == "shared" and not is_chart(document)
 
 
 def _is_cloud(document: Document) -> bool:

@@ -23,7 +23,7 @@ from packwork.live.log import MOST_TRIALS, Entry, Log
 from packwork.live.neighbourhood.flow import Flow
 from packwork.live.neighbourhood.settle import made_smaller, polish, sizes_are_common
 from packwork.live.neighbourhood.shapes import ShapeCache
-from packwork.live.refilling import advice_of, is_other_cloud, refilled
+from packwork.live.refilling import advice_of, is_other_cloud, refilled, taken_back
 from packwork.live.requests import Requests
 from packwork.progress import Stop, never
 from packwork.scene.layout import Layout
@@ -190,21 +190,25 @@ class Session(Following):
         return Settlement(self.is_certified, self.in_the_way, int(moved.sum()))
 
     def _fill_again(self, flow: Flow, near: set[int], wrong: int, stop: Stop) -> None:
-        """Finish what was touched near where it is; else pour a cloud, or make all smaller."""
+        """Finish what was touched near where it is; else pour all anew, or make all smaller.
+
+        A gesture that would ruin the rest is taken back.
+        """
         self._bring_inside()
         asked = self._document
-        if is_other_cloud(self._base, asked) and self._refill(asked, stop):
-            return
-        strict = self._make_room(flow, near)
-        is_clean = self._settle(flow, strict, stop)
-        if self._refill(asked, stop):
-            return
-        if not is_clean and sizes_are_common(strict):
-            smaller = made_smaller(strict, self.shapes, stop).document
-            self._turn_to(self._document.with_poses(smaller.poses))
-        if len(self.violations) > wrong:
-            # Nothing is better than something worse.
-            self._turn_to(asked)
+        if not (is_other_cloud(self._base, asked) and self._refill(asked, stop)):
+            strict = self._make_room(flow, near)
+            is_clean = self._settle(flow, strict, stop)
+            if not self._refill(asked, stop):
+                if not is_clean and sizes_are_common(strict):
+                    smaller = made_smaller(strict, self.shapes, stop).document
+                    self._turn_to(self._document.with_poses(smaller.poses))
+                if len(self.violations) > wrong:
+                    # Nothing is better than something worse.
+                    self._turn_to(asked)
+        if (back := taken_back(self._base, self._document)) is not None:
+            self._poured = (back.said,)
+            self._turn_to(back.document)
 
     def _refill(self, asked: Document, stop: Stop) -> bool:
         """Pour a cloud anew that a gesture, new words or weights have left emptier; if it was."""

@@ -25,6 +25,8 @@ def run(job: Job, observer: Observer = NOBODY, stop: Stop = never, record: bool 
         If an option has no meaning for these files.
     """
     onward = MonotonicProgress(observer)
+    # Runs without levels took no time for them.
+    job.clock.seconds.setdefault("levels", 0.0)
     try:
         with threads.using(job.recipe.threads):
             state = run_steps(

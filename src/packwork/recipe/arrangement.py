@@ -59,7 +59,7 @@ def parse_arrangement(text: str) -> Ordering:
     Examples
     --------
     >>> parse_arrangement("down by=weight")
-    Arrangement(way='right', by='weight', angle=90.0)
+    Ordering(way='right', by='weight', angle=90.0)
     >>> parse_arrangement("hue").way, parse_arrangement("outwards").by
     ('around', 'weight')
     """

@@ -130,9 +130,11 @@ def filling(job: Job, scales: FillerScales = as_planned) -> list[RunStep]:
     return [TellOfSmall(), *voids, TellShortfalls()]
 
 
-def reporting(job: Job, *, is_dressed: bool, shows_shape: bool = True) -> list[RunStep]:
-    """Steps after the last move: measures, colours, film, advice."""
-    steps: list[RunStep] = [Measure()]
+def reporting(
+    job: Job, *, is_dressed: bool, shows_shape: bool = True, found: Sequence[RunStep] = ()
+) -> list[RunStep]:
+    """Steps after the last move: measures, what a use finds in them, colours, film, advice."""
+    steps: list[RunStep] = [Measure(), *found]
     if job.plan.has_even_lines:
         steps.insert(0, EvenLines())
     if job.plan.keeps_apart:

@@ -122,6 +122,23 @@ def index_of(document: Document, number: int, what: str) -> int:
     return found
 
 
+def is_chart(document: Document) -> bool:
+    """Whether sizes of items stand for numbers, as keys beside them say."""
+    return bool(document.notes) or any(item.datum is not None for item in document.items)
+
+
+def check_no_chart(document: Document, what: str) -> None:
+    """Refuse to size marks of a chart.
+
+    Raises
+    ------
+    RecipeError
+        If the layout is one.
+    """
+    if is_chart(document):
+        raise RecipeError(what, "marks of a chart are as large as their numbers say; change those")
+
+
 def _numbers(document: Document) -> str:
     if not len(document):
         return "the layout is empty"

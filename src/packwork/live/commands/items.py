@@ -19,6 +19,7 @@ from packwork.live.commands.command import (
     ItemIds,
     Library,
     Number,
+    check_no_chart,
     index_of,
     known,
     sized,
@@ -133,6 +134,7 @@ class Weigh(Command):
 
     def applied(self, document: Document, library: Library) -> Document:
         """The document with other weights and sizes."""
+        check_no_chart(document, "weigh")
         rows = [index_of(document, number, "weigh") for number in self.items]
         weights, scale = document.weights.copy(), document.poses.scale.copy()
         before = np.where(weights[rows] > 0, weights[rows], 1.0)

@@ -17,6 +17,7 @@ from packwork.live.commands.command import (
     ItemIds,
     Library,
     Number,
+    check_no_chart,
     index_of,
     sized,
 )
@@ -72,6 +73,7 @@ class Scale(Command):
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the item of another size."""
         k = index_of(document, self.item, "scale")
+        check_no_chart(document, "scale")
         scale = float(document.poses.scale[k]) * self.factor
         smallest, largest = document.smallest.copy(), document.largest.copy()
         is_free = document.options.sizes == "free"

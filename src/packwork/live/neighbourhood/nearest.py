@@ -87,6 +87,8 @@ def _brought(document: Document, k: int, room: Region) -> Document:
 
 def _nearest(room: Region, shape: FloatArray, at: FloatArray, margin: float) -> FloatArray | None:
     """Place nearest to a point at which a convex shape ``(m, 2)`` about it lies in the room."""
+    if room.is_empty:
+        return None
     rings = shapely.get_rings(shapely.get_parts(room))
     lines = [shapely.get_coordinates(ring) for ring in rings]
     edges = np.concatenate([np.stack([line[:-1], line[1:]], axis=1) for line in lines])

@@ -113,7 +113,7 @@ class _ContainerMembers(_Saved):
 
 class _DatumMembers(_Saved):
     row: dict[str, Any]
-    value: _Number = 1.0
+    value: Annotated[float, Field(allow_inf_nan=False)] = 1.0
     category: Any = ""
     group: Any = ""
 

@@ -37,7 +37,7 @@ class PileUse(Use):
     def report(self, job: Job) -> Sequence[RunStep]:
         """As of the content, but for the shape, which a heap does not show."""
         own = [step for step in self.content.report(job) if not isinstance(step, NOT_OF_PILES)]
-        return [*own, RemarkPile()] if job.is_counted else own
+        return [*own, RemarkPile()] if job.is_counted and not self.words else own
 
     @property
     def inner(self) -> Use:

@@ -105,8 +105,8 @@ def graded_places(job: Job, letters: Letters, stop: Stop = never) -> Places:
         tried.append((ink * shown, found))
         if stop() or is_held:
             break
-        if shown < 1 - MOST_SPECKS:
-            # Sizes nearer to each other would leave the last ones yet less.
+        if shown < 1 - MOST_SPECKS and letters.largest is None:
+            # Sizes nearer to each other leave the last ones yet less, unless the first is bounded.
             ways = [(share, True)]
         elif ink >= ENOUGH * job.container.outline.area:
             break

@@ -12,7 +12,7 @@ from packwork.pipeline.plan.asked import ItemRules
 from packwork.pipeline.state import RunState
 from packwork.pipeline.step import RunStep
 from packwork.pipeline.watch import RunContext
-from packwork.progress import Stop
+from packwork.progress import Stop, until_over
 from packwork.readers.words.items import EM_PX, INK
 from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.contrast import between, contrast
@@ -54,8 +54,10 @@ class RepeatWords(RunStep):
         """State with the copies last among its items; as it is where that is not clean."""
         if not state.is_clean:
             return state
-        count = len(state.job.use.words)
-        return with_repeats(state, count, self._letters, self._paper, watch.stop)
+        job, count = state.job, len(state.job.use.words)
+        with job.clock.time("gaps"):
+            stop = until_over(watch.stop, job.seconds_left(1.0))
+            return with_repeats(state, count, self._letters, self._paper, stop)
 
 
 def with_repeats(state: RunState, words: int, letters: Letters, paper: str, stop: Stop) -> RunState:

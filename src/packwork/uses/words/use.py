@@ -119,8 +119,7 @@ class WordsUse(Use):
 
     def report(self, job: Job) -> Sequence[RunStep]:
         """Measures and looks, words that could not be drawn, what was left out."""
-        measured, *rest = reporting(job, is_dressed=True)
-        return [measured, ReportWords(), *rest, RemarkWords()]
+        return [*reporting(job, is_dressed=True, found=[ReportWords()]), RemarkWords()]
 
     def _placed(self, job: Job, is_below_hero: bool = False) -> list[RunStep]:
         """Words whose sizes are not graded, measured."""
