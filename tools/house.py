@@ -70,7 +70,7 @@ LIMITS = {
     "context variables": 5,
     "docstrings that begin with a question word": 4,
     "class names that occur twice": 2,
-    "constants chosen by hand": 714,
+    "constants chosen by hand": 717,
 }
 """Most of each count. They are what is so, not what is aimed at."""
 

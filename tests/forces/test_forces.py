@@ -7,7 +7,7 @@ import pytest
 
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
-from packwork.forces.bonds import Alignment, Balance, Home, Together
+from packwork.forces.bonds import Alignment, Balance, Home, TogetherBond
 from packwork.forces.direction import Direction
 from packwork.forces.distance import Distance
 from packwork.forces.fading import Fading
@@ -29,8 +29,8 @@ FIELDS: dict[str, Field] = {
 BONDS: dict[str, Bond] = {
     "row": Alignment(1),
     "column": Alignment(0),
-    "kinds together": Together(),
-    "all together": Together(is_one=True),
+    "kinds together": TogetherBond(),
+    "all together": TogetherBond(is_one=True),
     "home": Home(np.array([[10.0, 20.0], [80.0, 30.0]] * 5)),
     "balance about a point": Balance(np.array([30.0, 60.0])),
     "balance about an axis": Balance(np.array([np.nan, 60.0])),

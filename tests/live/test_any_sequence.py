@@ -18,7 +18,7 @@ from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.holding import Hold, Release
 from packwork.live.commands.items import Add, Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.log import Log, read_entries
 from packwork.live.session import Session
@@ -66,7 +66,7 @@ commands = st.one_of(
     st.builds(Add, asset=st.just("hexagon"), x=places, y=places, area=st.floats(10, 20_000)),
     st.builds(Replace, item=items, asset=st.just("hexagon")),
     st.builds(
-        Combined,
+        Together,
         commands=st.tuples(
             st.builds(Move, item=items, x=places, y=places), st.builds(Duplicate, item=items)
         ),

@@ -12,7 +12,7 @@ from packwork.errors import RecipeError
 from packwork.live.commands.any_command import COMMANDS
 from packwork.live.commands.items import Duplicate
 from packwork.live.commands.placing import Move
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 
 QUICK = {"effort": "draft", "levels": "50", "epochs": 60}
 
@@ -93,7 +93,7 @@ def test_several_items_are_added_as_one(icons: pw.Layout) -> None:
 
 def test_all_commands_of_a_gesture_have_a_meaning_or_none_is_done(icons: pw.Layout) -> None:
     session = icons.edit()
-    gesture = Combined(commands=(Move(item=0, x=300, y=300), Duplicate(item=99)))
+    gesture = Together(commands=(Move(item=0, x=300, y=300), Duplicate(item=99)))
     before = session.document
     with pytest.raises(RecipeError, match="no item 99"):
         session.apply(gesture)
@@ -105,7 +105,7 @@ def test_all_commands_of_a_gesture_have_a_meaning_or_none_is_done(icons: pw.Layo
 
 def test_a_gesture_of_several_touches_what_each_of_them_does(icons: pw.Layout) -> None:
     session = icons.edit()
-    session.apply(Combined(commands=(Move(item=0, x=300, y=300), Duplicate(item=3))))
+    session.apply(Together(commands=(Move(item=0, x=300, y=300), Duplicate(item=3))))
     assert {0, 9} <= session.marks.touched
     assert session.marks.given == {0}
     assert session.settle().certified

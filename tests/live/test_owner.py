@@ -14,10 +14,10 @@ from packwork.live.commands.command import Command, Library
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.items import Remove, Rename
 from packwork.live.commands.placing import Move
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.log import Log, read_entries
-from packwork.live.owner import LeapThrough, Owner
+from packwork.live.owner import Leap, Owner
 from packwork.live.session import Session
 
 
@@ -79,13 +79,13 @@ def test_a_fault_in_the_thread_is_raised_at_the_end_of_the_block(dozen: pw.Layou
 def test_leaps_are_posted_as_commands_are(dozen: pw.Layout) -> None:
     session = Session(Document.of(dozen))
     with Owner(session) as owner:
-        for step in (Rename(item=0, name="a"), Rename(item=0, name="b"), LeapThrough.UNDO):
+        for step in (Rename(item=0, name="a"), Rename(item=0, name="b"), Leap.UNDO):
             assert owner.post(step)
-        assert owner.post(LeapThrough.UNDO)
-        assert owner.post(LeapThrough.REDO)
+        assert owner.post(Leap.UNDO)
+        assert owner.post(Leap.REDO)
         # Where there is nothing more to go to, nothing happens.
         for _ in range(3):
-            assert owner.post(LeapThrough.REDO)
+            assert owner.post(Leap.REDO)
     assert owner.frame.document.items[0].name == "b"
 
 
@@ -123,8 +123,8 @@ def test_calls_are_made_in_their_turn_and_answered(dozen: pw.Layout) -> None:
 
 
 def test_moves_of_the_same_items_together_replace_each_other(dozen: pw.Layout) -> None:
-    def both(x: float) -> Combined:
-        return Combined(commands=(Move(item=0, x=x, y=200.0), Move(item=1, x=x + 90, y=200.0)))
+    def both(x: float) -> Together:
+        return Together(commands=(Move(item=0, x=x, y=200.0), Move(item=1, x=x + 90, y=200.0)))
 
     owner = Owner(Session(Document.of(dozen)))
     assert all(owner.post(both(200.0 + step)) for step in range(600))
@@ -173,7 +173,7 @@ def test_what_was_broken_off_is_done_again_byte_for_byte(dozen: pw.Layout) -> No
             x, wait = 200.0 + 9 * step, 0.02 * (step % 4)
             assert owner.post(Move(item=step % 3, x=x, y=300.0))
             time.sleep(wait)
-        for leap in (LeapThrough.UNDO, LeapThrough.REDO, LeapThrough.UNDO):
+        for leap in (Leap.UNDO, Leap.REDO, Leap.UNDO):
             assert owner.post(leap)
             time.sleep(0.1)
     # As when a hand comes in the middle of a settle, and of a polish.

@@ -78,7 +78,7 @@ class Alignment:
 
 
 @dataclass(frozen=True)
-class Together:
+class TogetherBond:
     """Copies of one thing to each other: their spread costs.
 
     Parameters
@@ -89,7 +89,7 @@ class Together:
     Examples
     --------
     >>> two = ItemGroup(np.array([[0.0, 0], [4, 0]]), np.ones(2), np.zeros(2, int), 10.0)
-    >>> Together()(two)[1].tolist()
+    >>> TogetherBond()(two)[1].tolist()
     [[-0.2, 0.0], [0.2, 0.0]]
     """
 

@@ -21,7 +21,7 @@ from packwork.live.commands.container import PlaceContainer, Reshape, SetContain
 from packwork.live.commands.holding import Hold, Release
 from packwork.live.commands.items import Duplicate, Recolour, Remove, Rename, Replace, Weigh
 from packwork.live.commands.placing import Cover, Exchange, Move, Scale, Turn
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 from packwork.live.composed import brought, counted, worded, words_of
 from packwork.live.document import PROPERTIES, Property
 from packwork.live.picturing import showing
@@ -290,7 +290,7 @@ class NamedSession(Session):
     def _together(self, commands: Sequence[Command]) -> None:
         """Do commands as one gesture."""
         if commands:
-            self.apply(Combined(commands=tuple(commands)))  # type: ignore[arg-type]
+            self.apply(Together(commands=tuple(commands)))  # type: ignore[arg-type]
 
     def _length(self, key: str, value: Coordinate, side: float) -> float:
         if isinstance(value, int | float) and not isinstance(value, bool):

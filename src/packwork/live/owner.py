@@ -15,7 +15,7 @@ from packwork import threads
 from packwork.errors import PackworkError
 from packwork.live.commands.command import Command
 from packwork.live.commands.placing import Move, Turn
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.session import Session
 
@@ -55,7 +55,7 @@ MOST_TRIES = 3
 is told. Chosen."""
 
 
-class LeapThrough(Enum):
+class Leap(Enum):
     """Request beside commands: a way through the history."""
 
     UNDO = "undo"
@@ -70,7 +70,7 @@ class _Call:
     answer: Future[Any]
 
 
-Posted: TypeAlias = Command | LeapThrough | _Call
+Posted: TypeAlias = Command | Leap | _Call
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +166,7 @@ class Owner(Generic[AnySession]):
         if self._failure is not None:
             raise self._failure
 
-    def post(self, command: Command | LeapThrough) -> bool:
+    def post(self, command: Command | Leap) -> bool:
         """Have a command or a leap done; False if too many wait already, or it is over."""
         return self._take(command)
 
@@ -271,7 +271,7 @@ class Owner(Generic[AnySession]):
         try:
             if isinstance(posted, _Call):
                 self._answer(posted)
-            elif isinstance(posted, LeapThrough):
+            elif isinstance(posted, Leap):
                 getattr(self._session, posted.value)()
             else:
                 self._session.apply(posted)
@@ -327,7 +327,7 @@ def _replaces(posted: Posted, before: Posted) -> bool:
     """
     if isinstance(posted, Move | Turn) and type(posted) is type(before):
         return posted.item == before.item
-    if isinstance(posted, Combined) and isinstance(before, Combined):
+    if isinstance(posted, Together) and isinstance(before, Together):
         pairs = zip(posted.commands, before.commands, strict=False)
         is_same_length = len(posted.commands) == len(before.commands)
         return is_same_length and all(_replaces(one, other) for one, other in pairs)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from packwork.errors import RecipeError
 from packwork.live.commands.items import Recolour
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.readers.target import read_target
 from packwork.scene.item import PhotoArt
 from packwork.steps.dress.likeness import colours_under
 
 
-def showing(document: Document, source: str) -> Combined:
+def showing(document: Document, source: str) -> Together:
     """Commands that give each item the colour of the picture under it; photographs keep theirs.
 
     For gaps of any colour: what ``--picture`` makes up for is that of a ground of its own.
@@ -35,4 +35,4 @@ def showing(document: Document, source: str) -> Combined:
         raise RecipeError(
             "picture", "needs items whose colours may change; photographs keep theirs"
         )
-    return Combined(commands=commands)
+    return Together(commands=commands)

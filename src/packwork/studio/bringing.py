@@ -14,7 +14,7 @@ from packwork.live.assets import named_container, named_item
 from packwork.live.commands.command import Command, made
 from packwork.live.commands.container import SetContainer
 from packwork.live.commands.items import Replace
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 from packwork.live.composed import brought
 from packwork.live.face.asking import questions
 from packwork.live.face.bringing import (
@@ -201,7 +201,7 @@ def added(session: NamedSession, items: Sequence[Item]) -> list[Command]:
 def replaced(session: NamedSession, numbers: Sequence[int], item: Item) -> Command:
     """Command that puts an item in the place of some."""
     asset = named_item(session.library, item)
-    return made(Combined, commands=[made(Replace, item=number, asset=asset) for number in numbers])
+    return made(Together, commands=[made(Replace, item=number, asset=asset) for number in numbers])
 
 
 @cache

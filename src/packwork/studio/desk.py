@@ -23,7 +23,7 @@ from packwork.arrays import IntArray
 from packwork.errors import PackworkError
 from packwork.live.anew import poured_again
 from packwork.live.commands.command import Command, Library
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.live.face.keeping import Keeper
 from packwork.live.face.opening import Opening, kept_in, opened
@@ -224,7 +224,7 @@ class Desk:
 
         def act(session: Session) -> None:
             commands = in_place(session.document, session.library, layout)
-            session.apply(Combined(commands=tuple(commands)))  # type: ignore[arg-type]
+            session.apply(Together(commands=tuple(commands)))  # type: ignore[arg-type]
             self._unplaced = (session.document.ids, left_out_of(layout.manifest))
 
         self.owner.call(act).result()
@@ -308,7 +308,7 @@ class Desk:
             self._see(View.of_document(document, poses), moment)
 
         arranged = poured_again(document, seed, show, self._stop.is_set, **asked)
-        whole = Combined(commands=(*commands, arranged))  # type: ignore[arg-type]
+        whole = Together(commands=(*commands, arranged))  # type: ignore[arg-type]
         owner.call(lambda session: session.apply(whole)).result()
 
     def _see(self, view: View, moment: Moment) -> None:

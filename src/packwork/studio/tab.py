@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from typing import Any, Protocol
 
 from packwork.live.commands.command import Command
-from packwork.live.owner import LeapThrough
+from packwork.live.owner import Leap
 from packwork.scene.pose import Poses
 from packwork.studio import wire
 from packwork.studio.desk import NOT_YET, Desk, News
@@ -153,8 +153,8 @@ class Tab:
                 self._woken.set()
         elif isinstance(message, wire.Do):
             self._post(message.command, message.n)
-        elif isinstance(message, wire.Leap):
-            self._post(LeapThrough(message.to), message.n)
+        elif isinstance(message, wire.LeapMessage):
+            self._post(Leap(message.to), message.n)
         elif isinstance(message, wire.Stop):
             desk.stop()
         elif isinstance(message, wire.Pour):
@@ -170,7 +170,7 @@ class Tab:
         else:
             self._bring[message.type](message)
 
-    def _post(self, posted: Command | LeapThrough, number: int) -> None:
+    def _post(self, posted: Command | Leap, number: int) -> None:
         owner = self._desk.owner
         if owner is None:
             self.wake(Line(text=NOT_YET))

@@ -47,7 +47,7 @@ class Do(Message):
     command: AnyCommand
 
 
-class Leap(Message):
+class LeapMessage(Message):
     """Go through the history."""
 
     type: Literal["leap"] = "leap"
@@ -177,7 +177,7 @@ class Set(Message):
 
 
 Told: TypeAlias = Annotated[
-    Do | Leap | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Picture | Order
+    Do | LeapMessage | Ack | Pour | Stop | Count | Bring | Swap | Room | Fill | Picture | Order
     | Alike | Words | More | Set,
     Field(discriminator="type"),
 ]  # fmt: skip

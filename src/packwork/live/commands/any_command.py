@@ -8,10 +8,10 @@ from pydantic import Field, TypeAdapter
 
 from packwork.live.commands.gestures import Drop, Grab
 from packwork.live.commands.single import SingleCommand
-from packwork.live.commands.together import Combined
+from packwork.live.commands.together import Together
 
 AnyCommand: TypeAlias = Annotated[
-    SingleCommand | Combined | Grab | Drop, Field(discriminator="kind")
+    SingleCommand | Together | Grab | Drop, Field(discriminator="kind")
 ]
 
 COMMANDS: TypeAdapter[AnyCommand] = TypeAdapter(AnyCommand)

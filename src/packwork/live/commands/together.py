@@ -11,7 +11,7 @@ from packwork.live.commands.single import SingleCommand
 from packwork.live.document import Document
 
 
-class Combined(Command):
+class Together(Command):
     """Do commands one after another, or none of them: one entry of the history."""
 
     kind: Literal["together"] = "together"

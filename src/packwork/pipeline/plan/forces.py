@@ -9,7 +9,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
-from packwork.forces.bonds import Alignment, Balance, Together
+from packwork.forces.bonds import Alignment, Balance, TogetherBond
 from packwork.forces.direction import Direction
 from packwork.forces.distance import Distance
 from packwork.forces.fading import Fading
@@ -72,7 +72,7 @@ def _strengths(spec: ForceSpec, items: Sequence[Item], weights: FloatArray) -> F
 
 def _bond(spec: ForceSpec, container: Container) -> Bond:
     if spec.kind == "together":
-        return Together(is_one=bool(spec.items))
+        return TogetherBond(is_one=bool(spec.items))
     if spec.kind == "align":
         return Alignment(0 if spec.axis == "vertical" else 1)
     point = point_at(spec.places[0], container)
