@@ -104,8 +104,10 @@ def taken_back(before: Document, now: Document) -> Refilled | None:
 
     Marks of a chart do not become smaller at all: their keys say how large they are.
     """
-    is_same = np.array_equal(before.ids, now.ids) and before.container is now.container
-    if not is_same or now.options.sizes != "shared":
+    # Other letters do not lie where those before did.
+    outlines = [[item.outline for item in one.items] for one in (before, now)]
+    is_same = outlines[0] == outlines[1] and before.container is now.container
+    if not (is_same and np.array_equal(before.ids, now.ids)) or now.options.sizes != "shared":
         return None
     share = [100 * covered(one) for one in (before, now)]
     least = 1 - ROUNDING if is_chart(now) else (share[0] - 100 * MOST_RUINED) / share[0]
