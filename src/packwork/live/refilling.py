@@ -66,7 +66,7 @@ def refilled(
         ``(m,)`` rows of what the hand has put where it is in ``asked``, turned or sized: it stays.
     """
     is_other = _is_reweighed(before, asked) or before.container is not asked.container
-    if not _is_in_proportion(asked) or not (len(by_hand) or is_other):
+    if asked.options.sizes != "shared" or is_chart(asked) or not (len(by_hand) or is_other):
         return None
     was_wrong = bool(Certificate().violations(settled))
     is_fuller = covered(settled) >= covered(before) - MOST_LOST and not was_wrong
@@ -104,10 +104,11 @@ def taken_back(before: Document, now: Document) -> Refilled | None:
 
     Marks of a chart do not become smaller at all: their keys say how large they are.
     """
+    if now.options.sizes != "shared" or before.container is not now.container:
+        return None
     # Other letters do not lie where those before did.
     outlines = [[item.outline for item in one.items] for one in (before, now)]
-    is_same = outlines[0] == outlines[1] and before.container is now.container
-    if not (is_same and np.array_equal(before.ids, now.ids)) or now.options.sizes != "shared":
+    if outlines[0] != outlines[1] or not np.array_equal(before.ids, now.ids):
         return None
     share = [100 * covered(one) for one in (before, now)]
     least = 1 - ROUNDING if is_chart(now) else (share[0] - 100 * MOST_RUINED) / share[0]
@@ -137,11 +138,6 @@ def covered(document: Document) -> float:
     """Share of the container that items cover."""
     areas = document.own_areas * document.poses.scale**2
     return float(areas.sum()) / document.container.outline.area
-
-
-def _is_in_proportion(document: Document) -> bool:
-    """Whether items are in proportion to each other, and no marks of a chart."""
-    return document.options.sizes == "shared" and not is_chart(document)
 
 
 def _is_cloud(document: Document) -> bool:

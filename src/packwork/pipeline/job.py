@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -140,6 +141,10 @@ class Job:
             weights=self.weights[rows],
             use=self.use.some(rows),
         )
+
+    def replanned(self, **fields: Any) -> Job:
+        """The same job, some fields of its plan replaced."""
+        return replace(self, plan=replace(self.plan, **fields))
 
     def seconds_left(self, share: float) -> float | None:
         """That share of the time that the plan allows and nothing has used; None if any."""

@@ -23,7 +23,7 @@ class Replan(RunStep):
 
     def run(self, state: RunState, watch: RunContext) -> RunState:
         """The same state under the new plan."""
-        job = replace(state.job, plan=replace(state.job.plan, **self._fields))
+        job = state.job.replanned(**self._fields)
         return replace(state, job=job, asked_for=job)
 
 

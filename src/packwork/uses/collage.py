@@ -101,7 +101,7 @@ def placing(
             tried = [
                 [
                     Replan(method=method),
-                    *solving(_replanned(job, method=method), suits_first_fit=suits_first_fit),
+                    *solving(job.replanned(method=method), suits_first_fit=suits_first_fit),
                 ]
                 for method in methods
             ]
@@ -117,7 +117,7 @@ def placing(
 
     steps = once(job)
     if may_stand_upright(job):
-        still = [Replan(rotation=_STILL), *once(_replanned(job, rotation=_STILL), may_fail=True)]
+        still = [Replan(rotation=_STILL), *once(job.replanned(rotation=_STILL), may_fail=True)]
         steps = [BestOf([steps, still], as_good_upright)]
     return steps
 
@@ -186,7 +186,7 @@ def most_promising(tried: Sequence[RunState], watch: RunContext) -> RunState:
 
     def worth(state: RunState) -> tuple[bool, float]:
         """Rank of a result: a clean finish without trials, then the area that is covered."""
-        job = _replanned(state.job, effort="draft")
+        job = state.job.replanned(effort="draft")
         quick = replace(state, job=job, recorder=Recorder.off())
         exact = finished(quick, RunContext(stop=watch.stop))
         own = np.array([item.outline.area for item in state.job.items])
@@ -194,8 +194,3 @@ def most_promising(tried: Sequence[RunState], watch: RunContext) -> RunState:
 
     with tried[0].job.clock.time("finish"):
         return max(tried, key=worth)
-
-
-def _replanned(job: Job, **fields: object) -> Job:
-    """The same job, some fields of its plan replaced."""
-    return replace(job, plan=replace(job.plan, **fields))  # type: ignore[arg-type]

@@ -100,7 +100,7 @@ def _filled(
     if before and part.plan.epochs is None and part.plan.effort != "draft":
         efforts = ["draft", part.plan.effort]
     for effort in efforts:
-        tried = replace(part, plan=replace(part.plan, effort=effort))
+        tried = part.replanned(effort=effort)
         placed = run_steps(
             placing(tried, suits_first_fit=fits_first(tried)), RunState.of(tried), watch
         )
@@ -168,7 +168,7 @@ def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Un
         outlines = job.solid_outlines
         gap = job.plan.gap
         if find_conflicts(job.container, outlines, poses, gap):
-            fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
+            fixed = job.replanned(sizes="fixed")
             placed = finished(replace(placed, job=fixed, poses=poses), RunContext(stop=stop))
             poses = placed.poses
     faults = [replace(one, index=int(group.own[one.index])) for one in unfinished(placed)]

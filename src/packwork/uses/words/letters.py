@@ -139,7 +139,7 @@ def at_sizes(state: RunState, scale: FloatArray, watch: RunContext) -> RunState:
     A smaller copy may meet others, where letters stand in each other's bays.
     """
     job = state.job
-    fixed = replace(job, plan=replace(job.plan, sizes="fixed"))
+    fixed = job.replanned(sizes="fixed")
     with job.clock.time("finish"):
         poses = replace(state.poses, scale=scale)
         found = finished(replace(state, job=fixed, poses=poses), watch)

@@ -97,7 +97,7 @@ class WordsUse(Use):
         gap = close_gap(job)
         if gap >= job.plan.gap:
             return self._listed(job)
-        closer = replace(job, plan=replace(job.plan, gap=gap))
+        closer = job.replanned(gap=gap)
         return [Replan(gap=gap), *self._listed(closer), RemarkGap()]
 
     def _listed(self, job: Job) -> list[RunStep]:
@@ -108,7 +108,7 @@ class WordsUse(Use):
         first: list[RunStep] = []
         if job.plan.sizes == "graded":
             first = [Replan(sizes="shared")]
-            job = replace(job, plan=replace(job.plan, sizes="shared"))
+            job = job.replanned(sizes="shared")
         is_shared = job.plan.sizes == "shared"
         if is_shared and job.recipe.hero is not None:
             return [*first, LedByHero(lambda is_bounded: self._placed(job, is_bounded))]
