@@ -48,7 +48,7 @@ def test_rows_stay_with_their_marks_when_some_are_taken_out(layout: pw.Layout) -
     fewer = replace(
         layout,
         items=tuple(layout.items[k] for k in kept),
-        poses=layout.poses.some(kept),
+        poses=layout.poses.subset(kept),
         weights=layout.weights[kept],
     )
     assert fewer.to_dataframe()["land"].tolist() == ["Mali", "Peru"]

@@ -53,7 +53,7 @@ def test_where_sizes_are_common_no_push_outweighs_growing() -> None:
 
 def test_where_sizes_are_free_pushes_are_as_strong_as_they_are() -> None:
     sizing = FreeSizes(np.full(2, 4.0), (np.zeros(2), np.zeros(2)), -np.ones(2), np.ones(2))
-    pulling = pulling_of(ROW.some(np.array([1, 3])), sizing)
+    pulling = pulling_of(ROW.subset(np.array([1, 3])), sizing)
     assert pulling is not None
     arrangement = _two()
     push = pulling.pushed(sizing.objective(np.zeros(2), 0.1), arrangement).push

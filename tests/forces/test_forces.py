@@ -128,7 +128,7 @@ def test_some_of_the_items_feel_what_they_felt(
     forces, some = _forces(rng, FIELDS["curve"], None), np.array([1, 4, 9])
     areas = rng.uniform(1, 5, 12)
     np.testing.assert_allclose(
-        forces.some(some)(centres[some], areas[some]).slopes, forces(centres, areas).slopes[some]
+        forces.subset(some)(centres[some], areas[some]).slopes, forces(centres, areas).slopes[some]
     )
 
 

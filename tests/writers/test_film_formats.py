@@ -145,7 +145,7 @@ def test_items_are_not_drawn_before_they_come(make_film: MakeFilm) -> None:
     alone = replace(
         film.layout,
         items=film.layout.items[1:2],
-        poses=film.layout.poses.some(second),
+        poses=film.layout.poses.subset(second),
         weights=film.layout.weights[second],
         track=replace(film.track, numbers=film.track.numbers[:, second]),
     )

@@ -68,7 +68,7 @@ def test_a_layout_without_a_track_has_no_film(three: Layout) -> None:
 
 def test_a_track_of_other_items_is_refused(leaping: Layout) -> None:
     fewer = replace(
-        leaping, items=leaping.items[:2], poses=leaping.poses.some(np.arange(2)),
+        leaping, items=leaping.items[:2], poses=leaping.poses.subset(np.arange(2)),
         weights=leaping.weights[:2],
     )  # fmt: skip
     with pytest.raises(WriteError, match="the track is of 3 items, not 2"):

@@ -114,7 +114,7 @@ def finish(
         seed=seed,
     )  # fmt: skip
     outlines = [item.outline for item in layout.items]
-    poses = layout.poses.some(np.arange(len(scales)))
+    poses = layout.poses.subset(np.arange(len(scales)))
     found = exact_finish(container, outlines, poses, options, as_observer(observer), stop)
     return _certified(replace(layout, poses=found.poses), Promise(gap))
 

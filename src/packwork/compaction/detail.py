@@ -72,9 +72,9 @@ class Detail:
         container = Outline.from_region(inner_simplified(self._container.region, slack))
         return Detail(outlines, container, self._poses)
 
-    def some(self, items: IntArray, poses: Poses) -> Detail:
+    def subset(self, items: IntArray, poses: Poses) -> Detail:
         """The same of items ``(m,)``, by their indices: of the same sizes, in other poses."""
-        return Detail([self._outlines[int(k)] for k in items], self._container, poses.some(items))
+        return Detail([self._outlines[int(k)] for k in items], self._container, poses.subset(items))
 
     def arrangement(self, places: FloatArray) -> Arrangement:
         """Outlines in place: ``(n, 4)`` x, y, turn and growth against the first poses."""

@@ -62,4 +62,4 @@ def admitted(
     stuck = np.unique(arrangement.conflicts(arrangement.pairs(gap), gap))
     stay = np.setdiff1d(np.arange(len(poses)), np.intersect1d(stuck, last))
     shrunk = replace(poses, scale=poses.scale * np.exp(arrangement.places[:, 3]))
-    return stay, shrunk.some(stay)
+    return stay, shrunk.subset(stay)

@@ -61,7 +61,7 @@ def separate_pinned(
     """
     own = [outlines[k] for k in items]
     extents = np.array([outline.extent for outline in own])
-    some = poses.some(items)
+    some = poses.subset(items)
     held, smallest = limits.held[items], limits.smallest[items]
     for _ in range(MOST_ROUNDS):
         found = find_conflicts(container, own, some, gap)

@@ -191,7 +191,7 @@ class Forces:
             fields.append(FieldForce(force.field, pull))
         return Forces(fields, self.bonds, self.kinds, self.side)
 
-    def some(self, items: IntArray) -> Forces:
+    def subset(self, items: IntArray) -> Forces:
         """The same on some of the items, ``(m,)`` indices."""
         return Forces(
             [FieldForce(f.field, f.strengths[items]) for f in self.fields],

@@ -94,7 +94,7 @@ def _gone_and_changed(
         return {}, list(enumerate(now.ids.tolist()))
     _, rows, was = np.intersect1d(now.ids, before.ids, assume_unique=True, return_indices=True)
     is_same = np.zeros(len(now), dtype=bool)
-    is_same[rows] = ~differing(before.poses.some(was), now.poses.some(rows))
+    is_same[rows] = ~differing(before.poses.subset(was), now.poses.subset(rows))
     for row, k in zip(rows.tolist(), was.tolist(), strict=True):
         is_same[row] &= before.items[k].outline is now.items[row].outline
     changed = np.flatnonzero(~is_same)

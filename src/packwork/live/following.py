@@ -80,9 +80,9 @@ class Following:
         near = flow.touching.rings(self._rows(self.marks.touched), NEAR) >= 0
         near[self._rows(self.marks.left)] = True
         _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
-        back = ~near[rows] & differing(now.poses.some(rows), base.poses.some(theirs))
+        back = ~near[rows] & differing(now.poses.subset(rows), base.poses.subset(theirs))
         rows, theirs = rows[back], theirs[back]
-        flow.put_back(rows, now.poses.with_some(rows, base.poses.some(theirs)))
+        flow.put_back(rows, now.poses.with_some(rows, base.poses.subset(theirs)))
         self._follow(flow)
         return set(now.ids[near].tolist())
 
@@ -145,7 +145,7 @@ class Following:
         now, base = self._document, self._base
         self._flow = Flow(self._turned_held(now), self._sights)
         _, rows, theirs = np.intersect1d(now.ids, base.ids, return_indices=True)
-        self._flow.moved[rows] = differing(now.poses.some(rows), base.poses.some(theirs))
+        self._flow.moved[rows] = differing(now.poses.subset(rows), base.poses.subset(theirs))
         self._hold()
 
     def _flow_again(self) -> None:

@@ -131,7 +131,7 @@ class Job:
         """Outlines that items are taken for until they are measured."""
         return stand_ins([item.outline for item in self.items], self.plan.outline)
 
-    def some(self, kept: Sequence[int] | IntArray) -> Job:
+    def subset(self, kept: Sequence[int] | IntArray) -> Job:
         """The same job of some of its items, by their indices ``(m,)``."""
         rows = np.asarray(kept, dtype=np.int64)
         return replace(
@@ -139,7 +139,7 @@ class Job:
             items=tuple(self.items[k] for k in rows),
             asked=tuple(self.asked[k] for k in rows),
             weights=self.weights[rows],
-            use=self.use.some(rows),
+            use=self.use.subset(rows),
         )
 
     def replanned(self, **fields: Any) -> Job:

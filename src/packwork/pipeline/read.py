@@ -235,13 +235,13 @@ def _earlier(file: str, container: Container, items: tuple[Item, ...]) -> Layout
     made = shelved(file)
     if isinstance(made, Layout):
         # Arrays of a layout are read-only, which kernels would be compiled for anew.
-        return replace(made, poses=made.poses.some(np.arange(len(made.items))))
+        return replace(made, poses=made.poses.subset(np.arange(len(made.items))))
     if isinstance(made, Poses):
         if len(made) != len(items):
             raise RecipeError(
                 "start", f"has {len(made)} poses, this run {len(items)} items; give as many"
             )
-        return Layout(container, items, made.some(np.arange(len(items))), np.ones(len(items)))
+        return Layout(container, items, made.subset(np.arange(len(items))), np.ones(len(items)))
     layout = read_written(file)
     # GeoJSON holds poses; of drawings they are found from the shapes.
     return registered(layout, items) if is_drawn(file) else layout

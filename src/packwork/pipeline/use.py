@@ -55,7 +55,7 @@ class Use(ABC):
         """Those of the items that are read as words."""
         return ()
 
-    def some(self, kept: IntArray) -> Use:
+    def subset(self, kept: IntArray) -> Use:
         """The same of some of the items, by their indices ``(m,)``."""
         del kept
         return self

@@ -105,13 +105,13 @@ class Poses:
         )
         return affine.compose(place, affine.stretched(float(self.stretch[k])))
 
-    def some(self, items: IntArray) -> Poses:
+    def subset(self, items: IntArray) -> Poses:
         """Poses of some items, ``(m,)`` indices.
 
         Examples
         --------
         >>> x = np.array([5.0, 6.0, 7.0])
-        >>> Poses(x, x, x, x).some(np.array([2, 0])).x.tolist()
+        >>> Poses(x, x, x, x).subset(np.array([2, 0])).x.tolist()
         [7.0, 5.0]
         """
         return Poses(*(getattr(self, column.name)[items] for column in fields(Poses)))

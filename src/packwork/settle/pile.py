@@ -262,7 +262,7 @@ class _Pile:
     def _settling(self, arrangement: Arrangement, items: IntArray) -> Settling:
         settling = Settling(
             arrangement,
-            self._forces.some(items),
+            self._forces.subset(items),
             self._areas[items],
             turn_ranges(self._poses.angle[items], self._options),
             self._gap,
@@ -292,7 +292,7 @@ class _Pile:
     def leave_out_what_sticks_out(self) -> bool:
         """Take away what is not in the container; whether there was any."""
         outlines = [self._outlines[int(k)] for k in self._items]
-        poses = self._poses.some(self._items)
+        poses = self._poses.subset(self._items)
         found = find_conflicts(self._container, outlines, poses, self._gap)
         out = np.array([o.item for o in found if o.other is None], dtype=np.int64)
         self._items = np.delete(self._items, out)
@@ -361,7 +361,7 @@ class _Pile:
             if tolerance > FINE:
                 self._details[room, tolerance] = detail.covers(tolerance)
         x, y, zero = self._poses.x[items], self._poses.y[items], np.zeros(len(items))
-        detail = self._details[room, tolerance].some(items, self._poses)
+        detail = self._details[room, tolerance].subset(items, self._poses)
         return detail.arrangement(np.column_stack([x, y, zero, zero]))
 
     def _take_over(self, arrangement: Arrangement, items: IntArray) -> None:
@@ -370,7 +370,7 @@ class _Pile:
     def _tell(self, items: IntArray, places: FloatArray) -> None:
         """Tell of the items that are there: those that wait lie anywhere."""
         covered = float(self._areas[items].sum() / self._container.outline.area)
-        now = _moved(self._poses, items, places).some(items)
+        now = _moved(self._poses, items, places).subset(items)
         self._told += 1
         # The number of rounds is not known: the bar comes ever nearer to its end.
         progress = self._told / (self._told + USUAL_ROUNDS)
@@ -382,5 +382,5 @@ class _Pile:
 def _moved(poses: Poses, items: IntArray, places: FloatArray) -> Poses:
     """Poses of which some have gone to places of x, y and turn."""
     x, y, turn, _ = places.T
-    some = poses.some(items)
+    some = poses.subset(items)
     return poses.with_some(items, replace(some, x=x, y=y, angle=some.angle + turn))

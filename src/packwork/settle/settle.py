@@ -105,7 +105,7 @@ class Settling:
     def pull(self) -> Pull:
         """Heights and slopes of the active items where they are now."""
         forces = self._forces if len(self.active) == len(self.areas) else (
-            self._forces.some(self.active)
+            self._forces.subset(self.active)
         )  # fmt: skip
         return forces(self.arrangement.places[self.active, :2], self.areas[self.active])
 

@@ -64,7 +64,7 @@ class ZonePull:
         price
             Of a squared canvas unit outside the zone.
         """
-        own = poses.some(self.items)
+        own = poses.subset(self.items)
         points = self._ensemble.place(own, self._px_per_cu)
         self._rasteriser.sweep(points, self._ensemble.ring_starts)
         by_points = self._rasteriser.pullback(self.outside, beyond=1.0)
@@ -79,7 +79,7 @@ class ZonePull:
 
     def value(self, poses: Poses) -> float:
         """Objective of :meth:`add`, at a price of 1, squared canvas units."""
-        own = poses.some(self.items)
+        own = poses.subset(self.items)
         areas = self._areas * own.scale**2
         self._rasteriser.sweep(
             self._ensemble.place(own, self._px_per_cu), self._ensemble.ring_starts

@@ -110,7 +110,7 @@ def as_it_was(job: Job, poses: Poses) -> Poses:
     found = match_items(job, job.earlier)
     known = np.flatnonzero(found >= 0)
     before = brought_over(job.earlier.poses, job.earlier.container, job.container)
-    return poses.with_some(known, before.some(found[known]))
+    return poses.with_some(known, before.subset(found[known]))
 
 
 def calmed(options: SolveOptions) -> SolveOptions:
@@ -141,7 +141,7 @@ def _poses_of(job: Job, earlier: Layout, nominal: FloatArray) -> Poses:
     if plan.stays:
         poses = _of_now(job, earlier, poses, nominal)
     elif len(poses) == len(nominal) and (found := match_items(job, earlier)).min() >= 0:
-        poses = poses.some(found)
+        poses = poses.subset(found)
     if len(poses) != len(nominal):
         raise RecipeError(
             "start",
@@ -170,4 +170,4 @@ def _of_now(job: Job, earlier: Layout, poses: Poses, nominal: FloatArray) -> Pos
     ratio = float(np.median(poses.scale[found[known]] / nominal[known]))
     x, y, angle = (np.full(len(found), value) for value in (*middle, 0.0))
     of_now = Poses(x, y, angle, nominal * ratio)
-    return of_now.with_some(np.flatnonzero(known), poses.some(found[known]))
+    return of_now.with_some(np.flatnonzero(known), poses.subset(found[known]))

@@ -178,12 +178,12 @@ def finished(state: RunState, watch: RunContext, *, grows: bool = False) -> RunS
         result = finish(
             replace(job.container, outline=room),
             [outlines[k] for k in items],
-            poses.some(items),
+            poses.subset(items),
             _options(state, items, smallest[items], largest[items]),
             Closing(watch.observer, poses, items),
             until,
             is_enough,
-            forces.some(items) if forces.acts else NO_FORCES,
+            forces.subset(items) if forces.acts else NO_FORCES,
         )
         poses = poses.with_some(items, result.poses)
         results.append((items, result))

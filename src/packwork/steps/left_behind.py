@@ -35,7 +35,7 @@ def left_behind(job: Job, placed: IntArray) -> Leaving | None:
     gone = np.setdiff1d(np.arange(len(before.items)), found)
     if len(gone) == 0:
         return None
-    poses = brought_over(before.poses.some(gone), before.container, job.container)
+    poses = brought_over(before.poses.subset(gone), before.container, job.container)
     items = [before.items[k] for k in gone]
     drawings = {item.name: item for item in (*job.use.redrawn(job, items), *job.items)}
     return Leaving(tuple(_drawn(item, drawings) for item in items), poses)

@@ -43,7 +43,7 @@ class StartRecording(RunStep):
             areas = np.array([outline.area for outline in state.job.solid_outlines])
             order = np.argsort(-areas * poses.scale**2)
             for put in range(len(order)):
-                recorder.keep(poses.some(order[:put]), order[:put])
+                recorder.keep(poses.subset(order[:put]), order[:put])
         recorder.keep(as_it_was(state.job, poses))
         return replace(state, recorder=recorder)
 

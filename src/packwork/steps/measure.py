@@ -94,8 +94,8 @@ def _without_faulty(state: RunState) -> RunState:
     kept = np.setdiff1d(np.arange(len(job.items)), np.array(list(gone), dtype=np.int64))
     return replace(
         state,
-        job=job.some(kept),
-        poses=state.poses.some(kept),
+        job=job.subset(kept),
+        poses=state.poses.subset(kept),
         numbers=state.numbers[kept],
         kept=kept,
         unplaced=named(gone, layout, state.numbers),

@@ -66,7 +66,7 @@ class AssignByColour(RunStep):
         movable = job.seated
         if len(movable) < FEWEST:
             return state
-        order = _order(job, poses.some(movable), movable, self._target)
+        order = _order(job, poses.subset(movable), movable, self._target)
         return replace(state, poses=exchanged(job, poses, movable, movable[order]))
 
 

@@ -208,7 +208,7 @@ class _Filling:
         ids = self._tried + np.arange(len(fillers.sort))
         self._ids = np.append(self._ids, ids)[stay][kept]
         self._tried += len(ids)
-        self.poses, self.added = poses.some(kept), [int(k) for k in here[large]]
+        self.poses, self.added = poses.subset(kept), [int(k) for k in here[large]]
         return arrived
 
     def _grow(self) -> float:
@@ -221,7 +221,7 @@ class _Filling:
         result = finish(
             replace(container, outline=without(container.outline, walls)),
             [outlines[k] for k in movers],
-            self.poses.some(movers),
+            self.poses.subset(movers),
             FinishOptions(
                 gap_cu=self._gap,
                 smallest=tuple(np.minimum(smallest, self.poses.scale)[movers].tolist()),

@@ -95,7 +95,7 @@ def _kept(
     stays = np.flatnonzero(found >= 0)
     count = len(target)
     poses = Poses(np.zeros(count), np.zeros(count), np.zeros(count), target.copy())
-    some = beside.some(found[stays])
+    some = beside.subset(found[stays])
     smaller = replace(some, scale=np.minimum(some.scale, target[stays]))
     poses = poses.with_some(stays, smaller)
     board, outlines = _board(step), step.job.solid_outlines

@@ -156,7 +156,10 @@ def _between(before: tuple[SeriesStep, Run], after: tuple[SeriesStep, Run]) -> F
         [(rows[name], k) for k, name in enumerate(after[0].names) if name in rows],
         dtype=np.int64,
     ).reshape(-1, 2)
-    then, now = before[1].layout.poses.some(pairs[:, 0]), after[1].layout.poses.some(pairs[:, 1])
+    then, now = (
+        before[1].layout.poses.subset(pairs[:, 0]),
+        after[1].layout.poses.subset(pairs[:, 1]),
+    )
     return np.hypot(now.x - then.x, now.y - then.y)
 
 

@@ -87,7 +87,7 @@ def test_rows_are_counted_within_their_group() -> None:
 
 def test_some_marks_of_a_chart_keep_what_they_say() -> None:
     read = chart(["a", "b", "a"], color_by="n", size_by="n")
-    some = read.some(read.group_of.argsort()[:2])
+    some = read.subset(read.group_of.argsort()[:2])
     assert [row["n"] for row in some.rows] == [1, 3]
     assert some.group_of.tolist() == [0, 0]
 

@@ -76,7 +76,7 @@ class Duplicate(Command):
     def applied(self, document: Document, library: Library) -> Document:
         """The document with the copy, the last of all."""
         k = index_of(document, self.item, "duplicate")
-        pose, beside = document.poses.some(np.array([k])), OFFSET * document.container.side
+        pose, beside = document.poses.subset(np.array([k])), OFFSET * document.container.side
         pose = replace(pose, x=pose.x + beside, y=pose.y + beside)
         return _joined(document, document.items[k], pose, float(document.weights[k]))
 
@@ -96,7 +96,7 @@ class Remove(Command):
         return replace(
             document,
             items=tuple(document.items[k] for k in left),
-            poses=document.poses.some(left),
+            poses=document.poses.subset(left),
             **{name: getattr(document, name)[left] for name in _COLUMNS},
         )
 

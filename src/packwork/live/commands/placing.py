@@ -125,11 +125,11 @@ class Exchange(Command):
             raise RecipeError("exchange", "takes two different items")
         poses, areas = document.poses, document.own_areas
         here, there = np.array([i, j]), np.array([j, i])
-        other = poses.some(there)
+        other = poses.subset(there)
         scale = poses.scale[here]
         if document.options.sizes == "free":
             scale = other.scale * np.sqrt(areas[there] / areas[here])
-        changed = replace(poses.some(here), x=other.x, y=other.y, scale=scale)
+        changed = replace(poses.subset(here), x=other.x, y=other.y, scale=scale)
         return sized(document.with_poses(poses.with_some(here, changed)), "exchange")
 
 
@@ -149,7 +149,7 @@ class Arrange(Command):
         asked = np.array(self.poses)
         if np.abs(asked[:, :2]).max() > FARTHEST * document.container.side:
             raise RecipeError("arrange", "a place is nowhere near the canvas")
-        kept, held = document.poses.some(rows), document.held[rows]
+        kept, held = document.poses.subset(rows), document.held[rows]
         made = replace(
             kept,
             x=np.where(held[:, 0], kept.x, asked[:, 0]),

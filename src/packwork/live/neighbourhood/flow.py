@@ -153,7 +153,7 @@ class Flow:
         self.touching.follow(items, poses)
         _, mine, theirs = np.intersect1d(items, self._active, return_indices=True)
         if self._working is not None and len(mine) == len(items):
-            self._working[1].put(theirs, poses.some(items[mine]))
+            self._working[1].put(theirs, poses.subset(items[mine]))
         else:
             self._since = REVIEW
         self._reach(items, RINGS, LINGER)
@@ -216,7 +216,7 @@ class Flow:
 
     def put_back(self, items: IntArray, poses: Poses) -> None:
         """Have items ``(m,)`` be where they were before they flowed, ``poses`` of all."""
-        self.poses = self.poses.with_some(items, poses.some(items))
+        self.poses = self.poses.with_some(items, poses.subset(items))
         self.moved[items] = False
         self._left[items] = 0
         self.touching.follow(items, self.poses)
@@ -233,7 +233,7 @@ class Flow:
 
     def _kept(self, moved: Poses) -> Poses:
         """All poses after those that are active have moved; what is held, bit for bit as it was."""
-        active, held, before = self._active, self._is_held, self.poses.some(self._active)
+        active, held, before = self._active, self._is_held, self.poses.subset(self._active)
         columns = (
             (held[:, 0], "x"), (held[:, 0], "y"), (held[:, 1], "angle"), (held[:, 2], "scale")
         )  # fmt: skip
@@ -262,7 +262,7 @@ class Flow:
         held = document.held[active] | np.isin(active, self._given)[:, None]
         # What may not move is a wall to a settle: turned or sized here, it could not be mended.
         self._is_held = held | held[:, :1]
-        some, side = self.poses.some(active), document.container.side
+        some, side = self.poses.subset(active), document.container.side
         level = Level(
             document.container, self._seen_of(active, resolution), resolution,
             forces=document.forces(active), ground=self._room(active, resolution),
@@ -281,7 +281,7 @@ class Flow:
         document = self._document
         outlines = [self._outlines[k] for k in items]
         px_per_cu, margin = resolution / document.container.side, document.options.padding / 2
-        return self._sights.outlines(outlines, self.poses.some(items), px_per_cu, margin)
+        return self._sights.outlines(outlines, self.poses.subset(items), px_per_cu, margin)
 
     def _room(self, active: IntArray, resolution: int) -> Ground:
         """Room that the items that stand still leave free."""
@@ -291,13 +291,15 @@ class Flow:
             return ground
         ensemble = Ensemble(self._seen_of(still, resolution))
         rasteriser = Rasteriser(ground.room.shape)
-        points = ensemble.place(self.poses.some(still), resolution / self._document.container.side)
+        points = ensemble.place(
+            self.poses.subset(still), resolution / self._document.container.side
+        )
         rasteriser.sweep(points, ensemble.ring_starts)
         return ground.less(rasteriser.density())
 
     def _limits(self, active: IntArray) -> Limits:
         document, count, held = self._document, len(active), self._is_held
-        some = self.poses.some(active)
+        some = self.poses.subset(active)
         free = Limits.free(count)
         turns = document.options.rotation.farthest
         return replace(

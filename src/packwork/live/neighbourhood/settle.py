@@ -141,7 +141,7 @@ def _finished(
     moved = np.zeros(len(document), dtype=bool)
     if len(movable) == 0:
         return Settled(document, moved, True)
-    some = document.poses.some(movable)
+    some = document.poses.subset(movable)
     outlines = [shapes.cover(document.items[k].outline) for k in movable]
     room = room_of(document, movable, shapes)
     if room is None:
@@ -189,7 +189,7 @@ def room_of(document: Document, movable: IntArray, shapes: ShapeCache) -> Contai
 
 def _may_meet(document: Document, items: IntArray, boxes: FloatArray) -> BoolArray:
     """Mask of the items that may reach into boxes ``(b, 4)``, by discs about them."""
-    poses = document.poses.some(items)
+    poses = document.poses.subset(items)
     longest = np.array([document.items[k].outline.extent for k in items])
     radii = longest * poses.scale * np.sqrt(np.maximum(poses.stretch, 1 / poses.stretch))
     left, top, right, bottom = boxes.T[:, :, None]

@@ -49,7 +49,7 @@ class Touching:
 
     def follow(self, items: IntArray, poses: Poses) -> None:
         """Take over where items ``(m,)`` are; ``poses``: of all."""
-        self._arrangement.put(items, places_of(poses.some(items)))
+        self._arrangement.put(items, places_of(poses.subset(items)))
 
     def beside(self, items: IntArray) -> IntArray:
         """Items within reach of some items ``(m,)``, these among them, ascending."""

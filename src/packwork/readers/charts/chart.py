@@ -131,7 +131,7 @@ class ChartRead:
             (RowsLostError if text in self.lost else ReadError)(name, text) for text in self.notices
         )
 
-    def some(self, marks: IntArray) -> ChartRead:
+    def subset(self, marks: IntArray) -> ChartRead:
         """The same chart with some of its marks, by their indices ``(m,)``."""
         colours = None if self.colour_of is None else tuple(self.colour_of[k] for k in marks)
         return replace(

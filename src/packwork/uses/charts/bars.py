@@ -124,7 +124,7 @@ class _Heaps:
         best = 0.0
         for _ in range(TRIALS):
             poses, kept = self._heap(largest, scale, NOBODY)
-            over = self._over(self.members[largest][kept], poses.some(kept))
+            over = self._over(self.members[largest][kept], poses.subset(kept))
             if over <= 1:
                 best = max(best, scale)
             if NEAR_FULL <= over <= 1 or self._stop() or (over < 1 and scale == widest):
@@ -147,7 +147,7 @@ class _Heaps:
 
     def highest(self, poses: Poses, kept: IntArray) -> float:
         """Height of the highest heap of marks ``kept`` ``(m,)``, over that of the bars."""
-        return self._over(kept, poses.some(kept))
+        return self._over(kept, poses.subset(kept))
 
     def _over(self, items: IntArray, poses: Poses) -> float:
         tops = [

@@ -46,6 +46,6 @@ class Chart:
         """Marks of each group, in the order of the cells; empty for steps without any."""
         return [np.flatnonzero(self.read.group_of == k) for k in range(len(self.cells))]
 
-    def some(self, kept: IntArray) -> Chart:
+    def subset(self, kept: IntArray) -> Chart:
         """The same of some of the marks, by their indices ``(m,)``."""
-        return replace(self, read=self.read.some(kept))
+        return replace(self, read=self.read.subset(kept))

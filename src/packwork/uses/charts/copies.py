@@ -155,7 +155,7 @@ def _part(job: Job, single: Container, own: Sequence[int] | IntArray, left: int)
     if plan.seconds is not None:
         used = sum(job.clock.seconds.values())
         plan = replace(plan, seconds=used + max(plan.seconds - used, 0.0) * len(own) / left)
-    return replace(job.some(own), plan=plan, container=single)
+    return replace(job.subset(own), plan=plan, container=single)
 
 
 def _at_scale(group: _Filled, common: float, stop: Stop) -> tuple[Poses, list[Unplaced]]:

@@ -66,7 +66,7 @@ class GroupSteps:
         begun, share = len(self._before), len(self._own)
         progress = (begun + share * step.progress) / len(self._poses)
         self._observer.on_step(
-            replace(step, poses=all_of_them.some(there), ids=there, progress=progress)
+            replace(step, poses=all_of_them.subset(there), ids=there, progress=progress)
         )
 
 

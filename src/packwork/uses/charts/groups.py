@@ -42,8 +42,8 @@ class FillGroups(RunStep):
             faults = (f"{len(kept)} of {total} marks have a place",)
         return replace(
             state,
-            job=replace(job.some(kept), container=done.container),
-            poses=done.poses.some(kept),
+            job=replace(job.subset(kept), container=done.container),
+            poses=done.poses.subset(kept),
             method=done.method,
             ending=Ending.STOPPED if watch.stop() else Ending.DONE,
             levels=tuple(done.levels),

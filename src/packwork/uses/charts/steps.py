@@ -86,7 +86,7 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
 
 def _step(whole: Job, chart: Chart, label: str, column: str, marks: IntArray) -> ChartStep:
     """One step of a job of all marks, whose recipe gives its layout alone."""
-    job, own = whole.some(marks), chart.read.some(marks)
+    job, own = whole.subset(marks), chart.read.subset(marks)
     title = own.options.title
     if title is not None:
         title = title.replace(f"{{{column}}}", label)

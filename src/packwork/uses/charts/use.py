@@ -57,9 +57,9 @@ class ChartUse(Use):
         shows_shape = not self.chart.cells
         return [*reporting(job, is_dressed=True, shows_shape=shows_shape), Annotate()]
 
-    def some(self, kept: IntArray) -> ChartUse:
+    def subset(self, kept: IntArray) -> ChartUse:
         """The same of some of the marks."""
-        return ChartUse(self.chart.some(kept))
+        return ChartUse(self.chart.subset(kept))
 
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours that stand for data; None if marks keep their own."""

@@ -205,7 +205,7 @@ def cropped(asked: Job, placed: Job, poses: Poses, largest: FloatArray, depth: f
             cuts[k] = found
     gone = sorted(set(range(len(placed.items))) - cuts.keys())
     kept = np.setdiff1d(np.arange(len(placed.items)), gone)
-    job = placed.some(kept)
+    job = placed.subset(kept)
     centres = np.reshape([cuts[int(k)].centre for k in kept], (-1, 2))
     job = replace(
         job,
@@ -214,7 +214,7 @@ def cropped(asked: Job, placed: Job, poses: Poses, largest: FloatArray, depth: f
         regions=asked.regions,
         items=tuple(cuts[int(k)].item for k in kept),
     )
-    rows = numbers_of(poses.some(kept))[None]
+    rows = numbers_of(poses.subset(kept))[None]
     return Cropped(job, poses_of(_recentred(rows, centres)[0]), kept, centres, _back(poses, -depth))
 
 
@@ -305,7 +305,7 @@ class CutRecorder(Recorder):
         called = self._numbers[found.kept]
         which = np.arange(len(called)) if ids is None else np.flatnonzero(np.isin(called, ids))
         rows = found.kept[which]
-        track = self._whole.track(found.whole.some(rows), self._numbers[rows], items)
+        track = self._whole.track(found.whole.subset(rows), self._numbers[rows], items)
         return followed(track, found, which, self._depth)
 
 

@@ -128,7 +128,7 @@ def _about_sides(
     outline: Outline, poses: Poses, k: int, factors: Sequence[float]
 ) -> Iterator[Poses]:
     """Poses of item ``k`` made larger or smaller about its corners, sides and middle."""
-    one, matrix = poses.some(np.array([k])), poses.matrix(k)
+    one, matrix = poses.subset(np.array([k])), poses.matrix(k)
     low, high = np.reshape(outline.bounds, (2, 2))
     for factor, side in product(factors, _SIDES):
         corner = (low + high) / 2 + (high - low) / 2 * side
@@ -139,7 +139,7 @@ def _about_sides(
 
 def _tried(outline: Outline, poses: Poses, k: int, largest: float) -> Iterator[Poses]:
     """Poses of item ``k``, shifted, and enlarged about corners, sides and its middle."""
-    one = poses.some(np.array([k]))
+    one = poses.subset(np.array([k]))
     matrix, scale = poses.matrix(k), float(poses.scale[k])
     low, high = np.reshape(outline.bounds, (2, 2))
     middle, half = (low + high) / 2, (high - low) / 2

@@ -166,7 +166,7 @@ def _first_poses(job: Job, asked: PileOptions, factor: float) -> tuple[Poses, In
     then = brought_over(job.earlier.poses, job.earlier.container, container)
     found = matched([i.name for i in job.items], [i.name for i in job.earlier.items])
     known = np.flatnonzero(found >= 0)
-    before = then.some(found[known])
+    before = then.subset(found[known])
     limits = job.plan.rotation.limit, job.plan.rotation.choices
     angles = nearest_allowed(before.angle, *limits)
     return poses.with_some(known, replace(before, angle=angles, scale=scales[known])), known
@@ -199,8 +199,8 @@ def _without_those_left(
     faults: tuple[str, ...] = ()
     if len(left):
         faults = (f"{len(kept)} of {total} items fit into the container at their sizes",)
-    smaller = job.some(kept)
-    poses = heap.poses.some(kept)
+    smaller = job.subset(kept)
+    poses = heap.poses.subset(kept)
     layout = Layout(smaller.container, smaller.items, poses, smaller.weights)
     lies: dict[str, Any] = {"rounds": heap.rounds, "mean_height": heap.mean_height}
     if was_stopped:

@@ -49,9 +49,9 @@ class PileUse(Use):
         """Words among the items."""
         return self.content.words
 
-    def some(self, kept: IntArray) -> PileUse:
+    def subset(self, kept: IntArray) -> PileUse:
         """The same of some of the items."""
-        return replace(self, content=self.content.some(kept))
+        return replace(self, content=self.content.subset(kept))
 
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours that the content's data give."""

@@ -219,7 +219,7 @@ class _Ranked:
             smallest=(size * unit)[back],
             largest=(largest * unit)[back],
         )
-        poses = replace(found.poses, scale=size * unit).some(back)
+        poses = replace(found.poses, scale=size * unit).subset(back)
         return Places(numbers[back], poses, limits)
 
 

@@ -287,7 +287,7 @@ class GradedPlaces(RunStep):
             undrawn={**undrawn, **words.read.undrawn},
         )
         smaller = replace(
-            job.some(places.placed),
+            job.subset(places.placed),
             use=replace(words, read=read, gives_way=True),
             fillers=without(job.fillers, [job.items[k] for k in gone]),
         )
