@@ -38,6 +38,7 @@ from packwork.errors import PackworkError
 from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import admit, document
 from packwork.readers.pictures.decode import decode_picture
+from packwork.readers.reading import reading_file
 from packwork.readers.regions import clean_union
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg
@@ -45,7 +46,6 @@ from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.region.ink import TracedInk
 from packwork.readers.svg.render.compare import LEAST_AGREEMENT, iou, side_by_side
 from packwork.readers.svg.render.trace import needs_tracing
-from packwork.readers.unfit import naming
 from packwork.scene.item import Item
 
 SIDE_PX = 1_000
@@ -76,7 +76,7 @@ def read(name: str, data: bytes) -> Reading:
     try:
         item_of_svg(data, name, name, is_compared=True)
         seconds = time.process_time() - start
-        with naming(name):
+        with reading_file(name):
             how, agreement = judged(data)
     except PackworkError as error:
         seconds = time.process_time() - start
@@ -98,7 +98,7 @@ def judged(data: bytes) -> tuple[str, float]:
 def shows_anything(data: bytes) -> bool:
     """Whether resvg draws anything of a file; not if it, too, refuses."""
     try:
-        with naming("file"):
+        with reading_file("file"):
             picture = decode_picture(drawn_png(document(admit(data))), SIDE_PX)
     except (PackworkError, ValueError):
         return False

@@ -16,8 +16,8 @@ import packwork as pw
 from packwork.cli import app
 from packwork.cli.checking import on_trust_in
 from packwork.readers.layouts.pdf import printed_page
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.unfit import UnfitError
 from packwork.scene.item import Item
 from packwork.verify.text import faults_in_file
 from packwork.writers import pdf, registry

@@ -10,8 +10,8 @@ import pytest
 
 import packwork as pw
 from packwork.readers.layouts.read import read_content
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.unfit import UnfitError
 from packwork.verify.paint import painted_pixels, sets_apart
 from packwork.verify.text import faults_in_file
 from packwork.writers.registry import encoded

@@ -113,10 +113,10 @@ def _painted(path: Path, layout: Layout) -> PaintedPixels:
     """
     from packwork.readers.files import read_bytes
     from packwork.readers.gate.door import MAX_BYTES
-    from packwork.readers.unfit import UnfitError, naming
+    from packwork.readers.reading import UnfitError, reading_file
     from packwork.verify import painted_pixels
 
-    with naming(str(path)):
+    with reading_file(str(path)):
         if path.suffix.lower() != ".svg":
             raise UnfitError("is no SVG, which alone is painted; leave --painted out")
         return painted_pixels(read_bytes(path, MAX_BYTES), layout)

@@ -18,7 +18,7 @@ from packwork.live.commands.command import Library
 from packwork.live.file.brought import BROUGHT, brought_of, brought_record
 from packwork.live.neighbourhood.flow import COARSEST, FINEST
 from packwork.readers.json_text import check_size
-from packwork.readers.unfit import naming
+from packwork.readers.reading import reading_file
 
 Entry: TypeAlias = tuple[str, Any]
 """``do`` a command; ``flow`` of a level, so many epochs; ``settle``, or one ``broken_off``;
@@ -121,7 +121,7 @@ def read_entries(lines: Iterator[str], name: str) -> Iterator[Entry]:
 
 
 def _entry(line: str, number: int, name: str) -> Entry:
-    with naming(f"{name}: line {number}"):
+    with reading_file(f"{name}: line {number}"):
         check_size(line.encode("utf-8", "surrogatepass"))
     try:
         found = json.loads(line)
@@ -149,7 +149,7 @@ def _checked(kind: str, value: Any, name: str) -> Entry | None:
             return None
         return kind, command
     if kind in BROUGHT:
-        with naming(name):
+        with reading_file(name):
             return kind, brought_of(value, kind)
     return None
 

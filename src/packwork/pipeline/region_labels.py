@@ -28,7 +28,7 @@ from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.readers.container import read_parts
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.lettering import Lettering
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.item import Item, VectorArt
 from packwork.scene.label import Label

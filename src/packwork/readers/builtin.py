@@ -12,12 +12,12 @@ from packwork.geometry import affine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, region
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import Holes, centred
 from packwork.readers.svg.container import container_of_svg
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.readers.svg_syntax.shapes import flattened
-from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item
 from packwork.units import SHEETS
@@ -166,7 +166,7 @@ def builtin_item(name: str, holes: Holes = "fill") -> Item:
     drawn = _drawing("icons", name)
     if drawn is not None:
         return item_of_svg(drawn, name, name, holes)
-    with naming(name):
+    with reading_file(name):
         shape = primitive(name)
     if shape is None:
         raise unknown_name(name, item_names(), "item")
@@ -191,7 +191,7 @@ def builtin_container(name: str, side: float = 600.0) -> Container:
     drawn = _drawing("containers", name)
     if drawn is not None:
         return container_of_svg(drawn, name, name, side)
-    with naming(name):
+    with reading_file(name):
         shape = primitive(name)
     if shape is None:
         raise unknown_name(name, container_names(), "container")

@@ -13,11 +13,11 @@ from packwork.readers.memory.items import container_in_memory
 from packwork.readers.options import AS_DRAWN, TEXT_PREFIX, ReadOptions
 from packwork.readers.pictures.decode import PICTURE_ENDINGS
 from packwork.readers.pictures.mask import trace_mask
+from packwork.readers.reading import reading_file
 from packwork.readers.regions import canvas_box
 from packwork.readers.saliency import QuietOptions, container_around
 from packwork.readers.slits import closed_slits
 from packwork.readers.svg.container import container_of_svg, parts_of_svg
-from packwork.readers.unfit import naming
 from packwork.recipe_paths import AROUND, BUILTIN
 from packwork.scene.blank import sheet
 from packwork.scene.canvas import on_canvas, placed_container
@@ -85,7 +85,7 @@ def read_container(
         check_side(container.side, container.unit)
     if not exists(Path(container.source)):
         return container
-    with naming(container.source):
+    with reading_file(container.source):
         return closed_slits(container, reading.close_gaps)
 
 
@@ -157,7 +157,7 @@ def _container_of_file(
         return container_of_svg(data, stem(path), source, side, reading)
     if ending in PICTURE_ENDINGS:
         mask = trace_mask(path, reading.alpha_threshold)
-        with naming(source):
+        with reading_file(source):
             page = mask.width, mask.height
             canvas = canvas_box(mask.region.bounds, page, reading.trim, None)
         return placed_container(stem(path), source, mask.region, canvas, side or DEFAULT_SIDE)

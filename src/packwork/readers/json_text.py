@@ -6,7 +6,7 @@ import json
 import re
 from typing import Any, NoReturn
 
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 
 MAX_PARTS = 6_000_000
 """Commas, colons and brackets outside of texts: a number takes up to 90 bytes once it is read, a
@@ -41,7 +41,7 @@ def check_size(data: bytes) -> None:
     --------
     >>> check_size(b"[" + b"0," * 7_000_000 + b"0]")
     Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: holds more than 6,000,000 numbers and lists; simplify it
+    packwork.readers.reading.UnfitError: holds more than 6,000,000 numbers and lists; simplify it
     """
     if not is_read(data):
         raise UnfitError(f"holds more than {MAX_PARTS:,} numbers and lists; simplify it")

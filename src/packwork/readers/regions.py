@@ -11,7 +11,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import Region, polygon_parts, silhouette, united
 from packwork.geometry.snapping import sound, without_clefts
-from packwork.readers.unfit import UnfitError, notice
+from packwork.readers.reading import UnfitError, notice
 from packwork.units import Unit, convert
 
 SMALL = 1 / 3

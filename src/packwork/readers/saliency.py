@@ -20,7 +20,7 @@ from packwork.readers.files import read_bytes, stem
 from packwork.readers.pictures.contours import contour_region
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
 from packwork.readers.pictures.developing import Negative, Photograph, developed, inspected
-from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.recipe_paths import AROUND
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import PhotoArt
@@ -164,7 +164,7 @@ def container_around(
     """
     file = source.removeprefix(AROUND)
     data = read_bytes(file, MAX_PICTURE_BYTES)
-    with naming(file):
+    with reading_file(file):
         negative = inspected(data)
         if min(negative.width, negative.height) < SMALLEST_SIDE_PX:
             raise ReadError(

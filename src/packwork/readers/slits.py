@@ -11,7 +11,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, difference, intersection, union
 from packwork.geometry.polygon import Region, polygon_parts
 from packwork.readers.options import GAPS_AUTO, GAPS_NONE
-from packwork.readers.unfit import notice
+from packwork.readers.reading import notice
 from packwork.scene.container import Container
 from packwork.units import parse_length
 

@@ -14,8 +14,8 @@ from packwork.raster.drawing import drawn_png
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.options import ReadOptions
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_picture
+from packwork.readers.reading import reading_file
 from packwork.readers.svg.item import item_of_svg
-from packwork.readers.unfit import naming
 from packwork.scene.container import Container
 from packwork.scene.item import VectorArt
 from packwork.scene.light import light_of
@@ -61,7 +61,7 @@ def read_target(
     data = read_bytes(source, MAX_PICTURE_BYTES)
     if Path(source).suffix.lower() in DRAWINGS or data.lstrip(_BLANK)[:1] == b"<":
         data = _painted(data, str(source), reading)
-    with naming(str(source)):
+    with reading_file(str(source)):
         pixels = decode_picture(data, DECODED_PX).pixels
     if not (pixels[..., 3] >= SOLID).any():
         raise ReadError(source, "shows nothing, for it is clear; use a picture that is seen")

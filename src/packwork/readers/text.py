@@ -23,8 +23,8 @@ from packwork.readers.fonts.itemise import clusters, script_of, visual_order
 from packwork.readers.fonts.kept_glyphs import remembered_by_font
 from packwork.readers.fonts.lettering import TypeSetting, picture_of
 from packwork.readers.options import TEXT_PREFIX
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import clean_union
-from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 
@@ -98,7 +98,7 @@ def _letters(setting: TypeSetting) -> Iterator[Letter]:
     script = script_of(text)
     is_alone = not script or script in STAND_ALONE
     parts = clusters(text) if is_alone else re.findall(r"\s+|\S+", text)
-    with naming(face.name):
+    with reading_file(face.name):
         for part in reversed(parts) if is_leftward else parts:
             shaped = face.shaped(part, is_leftward=is_leftward)
             drawn = _drawn(shaped, face)
@@ -200,7 +200,7 @@ def container_of_words(
     >>> container.name, container.width, len(container.outline.rings)
     ('OX', 300.0, 3)
     """
-    with naming(source):
+    with reading_file(source):
         lines = lines_of(source.removeprefix(TEXT_PREFIX))
         fonts = _fonts(None if font is None else str(font))
         words = clean_union(set_lines([letters_of(line) for line in fonts.settings(lines)]))

@@ -21,7 +21,7 @@ from packwork.readers.gate.door import admit, document
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.layouts.strangers import group_named, tag
 from packwork.readers.pictures.decode import decode_picture
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.scene.layout import Layout
 
 SIDE_PX = 400

@@ -17,7 +17,7 @@ from packwork.geometry.affine import similarity
 from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.pictures.mask import mask_of_shares
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.readers.words.items import EM_PX, WORD_SPACE, ShapedWord, shaped_word
 from packwork.readers.words.options import Word
 from packwork.scene.canvas import placed_container

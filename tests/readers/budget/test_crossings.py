@@ -7,7 +7,7 @@ import pytest
 import shapely
 
 from packwork.readers.budget.crossings import Allowance, estimated_crossings
-from packwork.readers.unfit import TooRichError
+from packwork.readers.reading import TooRichError
 
 
 @pytest.mark.parametrize("count", [30, 300, 900])

@@ -10,13 +10,13 @@ import shapely
 
 from packwork.errors import ReadError
 from packwork.geometry import affine
-from packwork.readers import account
+from packwork.readers import reading
 from packwork.readers.gate.door import admit
+from packwork.readers.reading import TooRichError
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.paint.walk import painted_shapes
 from packwork.readers.svg.render.trace import MAX_POINTS, MAX_RINGS, touched
-from packwork.readers.unfit import TooRichError
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1000 1000">{}</svg>'
 HAIRS = "".join(f"M{k / 3:.2f} 0V1000h.05V0z" for k in range(2600))
@@ -37,7 +37,7 @@ def data(body: str) -> bytes:
     ids=["hairs", "spiral"],
 )
 def test_rich_outlines_are_made_coarser_and_cover_what_is_drawn(body, caplog, monkeypatch):
-    monkeypatch.setattr(account, "SHAPES_NS", 5e8)
+    monkeypatch.setattr(reading, "SHAPES_NS", 5e8)
     item = item_of_svg(data(body), "a", "a.svg", is_compared=True)
     assert "is traced from its picture" in caplog.text
     assert sum(map(len, item.outline.rings)) <= MAX_POINTS
@@ -84,21 +84,21 @@ def test_filters_beyond_what_drawings_need_are_left_out(filters, caplog):
 
 
 def test_one_budget_is_shared_and_counted():
-    with account.one_budget() as outer, account.one_budget() as inner:
+    with reading.one_budget() as outer, reading.one_budget() as inner:
         assert inner is outer
-        account.spend(account.SHAPES_NS / 2, "x")
-        assert account.left("shapes") == pytest.approx(account.SHAPES_NS / 2)
-        assert account.left("pictures") == account.PICTURES_NS
+        reading.spend(reading.SHAPES_NS / 2, "x")
+        assert reading.left("shapes") == pytest.approx(reading.SHAPES_NS / 2)
+        assert reading.left("pictures") == reading.PICTURES_NS
         with pytest.raises(TooRichError, match="has too much of it"):
-            account.spend(account.SHAPES_NS, "has too much of it")
+            reading.spend(reading.SHAPES_NS, "has too much of it")
 
 
 def test_plain_drawings_spend_little_of_their_budget():
     body = '<circle cx="50" cy="50" r="40" stroke="#000"/><text y="90" font-size="30">abc</text>'
-    with account.one_budget() as spent:
+    with reading.one_budget() as spent:
         item_of_svg(data(body), "a", "a.svg", is_compared=True)
-    assert spent.left("shapes") > 0.5 * account.SHAPES_NS
-    assert spent.left("pictures") > 0.8 * account.PICTURES_NS
+    assert spent.left("shapes") > 0.5 * reading.SHAPES_NS
+    assert spent.left("pictures") > 0.8 * reading.PICTURES_NS
 
 
 def test_every_pixel_that_a_line_crosses_is_touched_and_no_other():

@@ -14,7 +14,7 @@ from made_fonts import EMOJI, STRIKE_PX, emoji_font
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.itemise import clusters, itemised, visual_order
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.readers.words.items import word_item
 from packwork.readers.words.options import Word
 from packwork.scene.item import VectorArt

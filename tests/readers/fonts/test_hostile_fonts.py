@@ -24,8 +24,8 @@ from packwork.errors import ReadError
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
 from packwork.readers.fonts.guard import MAX_FONT_BYTES
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.text import Letter, container_of_words, letters_of
-from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.items import word_item
 from packwork.readers.words.options import Word
 from packwork.scene.live_text import FontFile, LiveText, TextRun
@@ -71,7 +71,7 @@ TRUETYPE, POSTSCRIPT = small_font(True), small_font(False)
 
 def letters(data: bytes, text: str) -> list[Letter]:
     """Letters as a container sets them, by a font file's bytes."""
-    with naming("a.ttf"):
+    with reading_file("a.ttf"):
         (line,) = Fonts([Typeface(data, "a.ttf")]).settings([text])
         return letters_of(line)
 

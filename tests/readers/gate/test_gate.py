@@ -12,9 +12,9 @@ from PIL import Image
 
 from packwork.errors import ReadError
 from packwork.readers.gate.door import admit, document
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.render.resvg import render
-from packwork.readers.unfit import UnfitError
 
 HANG_S = 5.0
 """Far more than any of these takes, far less than what they would take unbounded."""

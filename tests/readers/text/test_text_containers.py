@@ -26,6 +26,7 @@ from packwork.geometry.polygon import polygon_parts
 from packwork.readers.container import read_container
 from packwork.readers.fonts.face import Typeface
 from packwork.readers.fonts.fallback import Fonts
+from packwork.readers.reading import reading_file
 from packwork.readers.text import (
     LETTER_GAP,
     LINE_GAP,
@@ -35,7 +36,6 @@ from packwork.readers.text import (
     letters_of,
     set_lines,
 )
-from packwork.readers.unfit import naming
 
 BUNDLED = Path(bundled_file()).read_bytes()
 SCRIPTS = Path(__file__).parent.parent / "fonts"
@@ -44,7 +44,7 @@ EM = 1000
 
 def letters(data: bytes, text: str) -> list[Letter]:
     """Letters of one line, by a font file's bytes."""
-    with naming("own.ttf"):
+    with reading_file("own.ttf"):
         (line,) = Fonts([Typeface(data, "own.ttf")]).settings([text])
         return letters_of(line)
 

@@ -11,7 +11,7 @@ from made_fonts import variable_font
 from packwork.errors import ReadError, RecipeError
 from packwork.readers.fonts.face import Typeface, bundled_typeface
 from packwork.readers.fonts.fallback import open_fonts
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.readers.words.items import EM_PX, read_word_items, word_item
 from packwork.readers.words.options import Word, WordOptions
 

@@ -9,7 +9,7 @@ import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
 
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 
 MOST_BYTES = 1_000_000_000
 """Of a session file, packed and unpacked. Chosen: two hundred photographs."""

@@ -14,8 +14,8 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.live.file.records import FARTHEST, OutlineRecord
 from packwork.readers.budget.crossings import Allowance, check_nesting
+from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
-from packwork.readers.unfit import UnfitError
 
 SAME = 1e-9
 """By how much, relatively, two ways to compute one area may differ. Derived: rounding."""

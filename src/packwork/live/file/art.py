@@ -18,8 +18,8 @@ from packwork.live.file.records import (
 )
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.pictures.decode import opened
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal, kept_art
-from packwork.readers.unfit import UnfitError
 from packwork.scene.colour import css_colour
 from packwork.scene.item import Art, FlatArt, PhotoArt, PictureArt, VectorArt
 

@@ -18,7 +18,7 @@ from packwork.live.file.things import (
     item_record,
 )
 from packwork.options import Options
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.recipe.refusals import refusal
 from packwork.scene.container import Container
 from packwork.scene.item import Item

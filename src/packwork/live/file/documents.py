@@ -19,7 +19,7 @@ from packwork.live.notes import Attached
 from packwork.live.options import LiveOptions
 from packwork.options import Options
 from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE, WIDEST_STRETCH
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.note import Note

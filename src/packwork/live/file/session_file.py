@@ -27,7 +27,7 @@ from packwork.live.marks import Marks
 from packwork.options import Options
 from packwork.phrasing import number_of
 from packwork.readers.json_text import is_read
-from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 
@@ -143,7 +143,7 @@ def read_session(data: bytes, name: str) -> SessionFile:
     ReadError
         If it is no session file, or a spoilt one.
     """
-    with naming(name):
+    with reading_file(name):
         try:
             return _read(unpacked(data))
         except RecipeError as error:

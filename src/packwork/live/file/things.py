@@ -34,7 +34,7 @@ from packwork.live.file.records import (
 from packwork.readers.budget.crossings import MAX_CROSSINGS, Allowance
 from packwork.readers.fonts.guard import checked_face
 from packwork.readers.json_text import check_size
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.recipe.refusals import refusal
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.datum import Datum

@@ -9,8 +9,7 @@ import shapely
 from shapely import LinearRing
 
 from packwork.arrays import BoolArray, FloatArray
-from packwork.readers.account import spend
-from packwork.readers.unfit import TooRichError
+from packwork.readers.reading import TooRichError, spend
 
 MAX_NESTED = 200_000
 """Pairs of rings whose boxes meet, by estimate: two seconds' work. Chosen."""
@@ -35,7 +34,7 @@ def check_nesting(rings: Sequence[LinearRing]) -> None:
     >>> square = LinearRing([(0, 0), (4, 0), (4, 4), (0, 4)])
     >>> check_nesting([square] * 2_000)
     Traceback (most recent call last):
-    packwork.readers.unfit.TooRichError: has about ... pairs of rings in each other; simplify it
+    packwork.readers.reading.TooRichError: has about ... pairs of rings in each other; simplify it
     """
     if not rings:
         return
@@ -79,7 +78,7 @@ class Allowance:
     --------
     >>> Allowance(20_000).spend([np.random.default_rng(0).random((5000, 2))])
     Traceback (most recent call last):
-    packwork.readers.unfit.TooRichError: crosses itself about ... times; ...
+    packwork.readers.reading.TooRichError: crosses itself about ... times; ...
     """
 
     def __init__(self, most: float) -> None:

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from packwork.readers.reading import UnfitError, notice
 from packwork.readers.svg_syntax.lengths import MAX_COORDINATE, parse_length
 from packwork.readers.svg_syntax.references import elements_by_id, embedded_size, referenced_ids
 from packwork.readers.svg_syntax.shapes import flattened_all, shape_pieces
@@ -26,7 +27,6 @@ from packwork.readers.svg_syntax.vocabulary import (
     SHAPES,
     TEXTS,
 )
-from packwork.readers.unfit import UnfitError, notice
 
 DASHES = "stroke-dasharray"
 
@@ -201,7 +201,7 @@ def bound_expansion(root: ET.Element) -> None:
     >>> loop[0][0].attrib.clear(); loop[0][0].set("xlink:href", "#a")
     >>> bound_expansion(loop)
     Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: refers to itself in a circle (at id 'a'); ...
+    packwork.readers.reading.UnfitError: refers to itself in a circle (at id 'a'); ...
     """
     is_dashed = settle_dashes(root)
     size = _Counter(elements_by_id(root), is_dashed=is_dashed).measure(root, 0)

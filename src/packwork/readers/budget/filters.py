@@ -13,12 +13,12 @@ from collections.abc import Iterable
 import numpy as np
 
 from packwork.geometry import affine
+from packwork.readers.reading import UnfitError, notice
 from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
 from packwork.readers.svg_syntax.painted import Painted
 from packwork.readers.svg_syntax.references import elements_by_id, paint_server, referenced_ids
 from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.readers.svg_syntax.vocabulary import FILTER_STEPS, HREF
-from packwork.readers.unfit import UnfitError, notice
 
 LARGEST_TILE = 4.0
 """Side of a tile as a multiple of what is drawn: what lies beyond is never seen, but would

@@ -11,11 +11,10 @@ import xml.etree.ElementTree as ET
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from packwork.readers.account import left, spend
 from packwork.readers.budget.expansion import count_expanded
+from packwork.readers.reading import TooRichError, left, spend
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import Painted, drawing_box, stretch
-from packwork.readers.unfit import TooRichError
 
 PICTURE_NS = 5e8
 """Nanoseconds that one picture may take. Larger makes hostile files slow, smaller makes

@@ -16,7 +16,7 @@ import numpy as np
 
 from packwork.fonts import bundled_file
 from packwork.readers.fonts.guard import MAX_SEGMENTS, check_drawing, checked_face
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.scene.live_text import FontFile
 
 UNKNOWN_LANGUAGE = "und"
@@ -103,7 +103,7 @@ class Typeface:
     --------
     >>> Typeface(b"nonsense", "x.ttf")
     Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: is not a font; give a TTF, an OTF or a TTC
+    packwork.readers.reading.UnfitError: is not a font; give a TTF, an OTF or a TTC
     """
 
     def __init__(self, data: bytes, name: str, index: int = 0, weight: int | None = None) -> None:

@@ -15,7 +15,7 @@ from packwork.readers.fonts.face import UNKNOWN_LANGUAGE, Typeface, bundled_type
 from packwork.readers.fonts.guard import MAX_FONT_BYTES
 from packwork.readers.fonts.itemise import Piece, clusters, itemised
 from packwork.readers.fonts.lettering import Lettering, TypeSetting, lettering_of
-from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.reading import UnfitError, reading_file
 
 MOST_NAMED = 6
 """Characters that a message about missing ones names. Chosen."""
@@ -184,7 +184,7 @@ def typeface_of_file(name: str, weight: int | None = None) -> Typeface:
     Traceback (most recent call last):
     packwork.errors.ReadError: no such.ttf: there is no such file
     """
-    with naming(name):
+    with reading_file(name):
         return Typeface(read_bytes(name, MAX_FONT_BYTES), name, 0, weight)
 
 

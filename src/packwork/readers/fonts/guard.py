@@ -13,7 +13,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.readers.budget.crossings import Allowance
-from packwork.readers.unfit import TooRichError, UnfitError
+from packwork.readers.reading import TooRichError, UnfitError
 
 MAX_FONT_BYTES = 50_000_000
 """Largest font file. Collections for East Asian scripts have 20 MB. Chosen."""
@@ -55,7 +55,7 @@ def checked_face(data: bytes, index: int = 0) -> Face:
     --------
     >>> checked_face(b"nonsense")
     Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: is not a font; give a TTF, an OTF or a TTC
+    packwork.readers.reading.UnfitError: is not a font; give a TTF, an OTF or a TTC
     """
     import uharfbuzz as hb
 
@@ -114,7 +114,7 @@ def check_drawing(count: int, points: FloatArray, em: float) -> None:
     --------
     >>> check_drawing(2, np.array([[0.0, 9.0], [1e9, 0.0]]), 1000.0)
     Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: is a font with a glyph that reaches too far; ...
+    packwork.readers.reading.UnfitError: is a font with a glyph that reaches too far; ...
     """
     if count > MAX_SEGMENTS:
         raise UnfitError(
@@ -137,7 +137,7 @@ def check_glyph(rings: Sequence[FloatArray]) -> None:
     --------
     >>> check_glyph([np.random.default_rng(0).random((1000, 2))])
     Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: is a font with a glyph whose lines cross ...
+    packwork.readers.reading.UnfitError: is a font with a glyph whose lines cross ...
     """
     points = sum(map(len, rings))
     if points > MAX_POINTS:

@@ -29,7 +29,7 @@ from packwork.readers.fonts.itemise import Piece, visual_order
 from packwork.readers.fonts.kept_glyphs import GlyphInk, remembered_by_font
 from packwork.readers.pictures.decode import Pixels, decode_picture
 from packwork.readers.pictures.silhouette import outline_of_cut_out
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.scene.live_text import TextRun
 
 MOST_PX = 1_024

@@ -7,7 +7,6 @@ import re
 import xml.etree.ElementTree as ET
 import zlib
 
-from packwork.readers.account import one_budget
 from packwork.readers.budget.expansion import bound_expansion, check_size
 from packwork.readers.budget.filters import settle_filters
 from packwork.readers.gate.plain.cuts import settle_cuts, settle_stencils
@@ -15,10 +14,10 @@ from packwork.readers.gate.plain.moves import settle_moves, settle_symbols
 from packwork.readers.gate.plain.units import settle_dash_units, settle_root, settle_units
 from packwork.readers.gate.sanitise import sanitised
 from packwork.readers.gate.xml_tree import parse_xml
+from packwork.readers.reading import UnfitError, one_budget
 from packwork.readers.svg_syntax.page import read_page
 from packwork.readers.svg_syntax.references import drop_dangling, prune_hidden, prune_unused
 from packwork.readers.svg_syntax.vocabulary import HREF
-from packwork.readers.unfit import UnfitError
 
 MAX_BYTES = 20_000_000
 """Size of an SVG file. Drawings for packing have kilobytes. Chosen."""

@@ -22,13 +22,13 @@ from io import BytesIO
 
 from PIL import Image, ImageOps
 
-from packwork.readers.account import spend
 from packwork.readers.budget.filters import FILTER
 from packwork.readers.gate.css.colours import plain_colour
 from packwork.readers.gate.css.declarations import filled_in, parse_declarations, with_variables
 from packwork.readers.gate.css.selectors import Node
 from packwork.readers.gate.css.sheets import Cascade, StyleSheet
 from packwork.readers.pictures.decode import eight_bit, opened
+from packwork.readers.reading import UnfitError, notice, spend
 from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
 from packwork.readers.svg_syntax.references import embedded_bytes, embedded_size
 from packwork.readers.svg_syntax.vocabulary import (
@@ -44,7 +44,6 @@ from packwork.readers.svg_syntax.vocabulary import (
     RENAMED,
     TEXTS,
 )
-from packwork.readers.unfit import UnfitError, notice
 
 MAX_EMBEDDED_PIXELS = 16_000_000
 """Pixels of one embedded picture: four bytes each once decoded. Chosen."""

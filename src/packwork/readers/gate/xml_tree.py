@@ -10,7 +10,7 @@ from defusedxml import DefusedXmlException
 from defusedxml.ElementTree import XMLParser
 
 from packwork.readers.budget.expansion import MAX_DEPTH
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 
 MAX_ELEMENTS = 200_000
 """Elements of any kind in one file, metadata included. Chosen."""

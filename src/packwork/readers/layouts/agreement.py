@@ -23,13 +23,13 @@ from packwork.geometry.polygon import Region, region
 from packwork.readers.gate.xml_tree import parse_xml
 from packwork.readers.layouts.arts import LINK
 from packwork.readers.layouts.strangers import tag
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg.paint.walk import painted_shapes
 from packwork.readers.svg_syntax.page import Page, read_page
 from packwork.readers.svg_syntax.painted import Box, Clip, Painted, is_inside
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import flattened_all
 from packwork.readers.svg_syntax.vocabulary import HREF
-from packwork.readers.unfit import UnfitError
 
 _MOST_SEGMENTS = 10_000_000
 """Segments of one layout, repeats counted. Larger takes minutes. Chosen."""

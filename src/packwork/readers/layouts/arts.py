@@ -23,9 +23,9 @@ from packwork.readers.gate.door import admit
 from packwork.readers.layouts.assembly import sound_outline
 from packwork.readers.layouts.strangers import tag
 from packwork.readers.pictures.decode import opened
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal, kept_art, vector_art
 from packwork.readers.svg_syntax.transforms import parse_transform
-from packwork.readers.unfit import UnfitError
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
 from packwork.scene.label import Label

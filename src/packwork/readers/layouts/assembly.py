@@ -15,8 +15,8 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import valid
 from packwork.geometry.polygon import Region
+from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
-from packwork.readers.unfit import UnfitError
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.layout import Layout, ground_in

@@ -22,8 +22,8 @@ from packwork.readers.layouts.assembly import (
     sound_gap,
     sound_weight,
 )
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
-from packwork.readers.unfit import UnfitError
 from packwork.scene.layout import Layout
 from packwork.units import Unit
 
@@ -192,7 +192,7 @@ def layout_of_dxf(text: str, name: str) -> Layout:
     --------
     >>> layout_of_dxf("0\nEOF\n", "empty.dxf")
     Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: states no size and unit, as packwork writes it; ...
+    packwork.readers.reading.UnfitError: states no size and unit, as packwork writes it; ...
     """
     tags = tags_of(text)
     width, height, unit = _canvas(header_of(tags))

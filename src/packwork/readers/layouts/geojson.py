@@ -18,9 +18,9 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.files import read_text
 from packwork.readers.json_text import parsed
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
-from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
 from packwork.scene.datum import Datum
@@ -178,7 +178,7 @@ def read_layout(path: str | Path) -> Layout:
             "(packwork measure reads SVG and DXF too)",
         )
     text = read_text(path, MAX_LAYOUT_BYTES)
-    with naming(str(path)):
+    with reading_file(str(path)):
         return layout_of_geojson(text)
 
 

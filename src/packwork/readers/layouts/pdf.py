@@ -18,10 +18,10 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import FillRule
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.painted import Clip, Painted
 from packwork.readers.svg_syntax.painting import Painting, StrokeStyle
 from packwork.readers.svg_syntax.path_data import PathBuilder, SubPath
-from packwork.readers.unfit import UnfitError
 from packwork.units import convert
 
 MAX_OPERATORS = 5_000_000

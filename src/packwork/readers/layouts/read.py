@@ -14,7 +14,7 @@ from packwork.readers.layouts.dxf import layout_of_dxf
 from packwork.readers.layouts.geojson import MAX_LAYOUT_BYTES, layout_of_geojson, read_layout
 from packwork.readers.layouts.strangers import group_named
 from packwork.readers.layouts.svg import layout_of_svg
-from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.scene.layout import Layout
 
 ENDINGS = (".geojson", ".json", ".svg", ".dxf")
@@ -125,7 +125,7 @@ def read_content(data: bytes, path: str | Path, *, outlines_only: bool = False) 
         If it is not as we write it.
     """
     ending = Path(path).suffix.lower()
-    with naming(str(path)):
+    with reading_file(str(path)):
         if ending == ".svg":
             return layout_of_svg(data, stem(path), outlines_only=outlines_only)
         if ending == ".dxf":

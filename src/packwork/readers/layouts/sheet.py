@@ -16,10 +16,10 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.layouts.arts import Arts
 from packwork.readers.layouts.strangers import group_named, tag
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal
 from packwork.readers.svg_syntax.path_data import parse_path
 from packwork.readers.svg_syntax.transforms import parse_transform
-from packwork.readers.unfit import UnfitError
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, PhotoArt

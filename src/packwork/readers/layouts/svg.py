@@ -52,6 +52,7 @@ from packwork.readers.layouts.strangers import (
 from packwork.readers.layouts.tampering import examined
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.silhouette import ART_PX, outline_of_cut_out
+from packwork.readers.reading import UnfitError
 from packwork.readers.regions import SPECK, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import read_drawing
@@ -60,7 +61,6 @@ from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.svg_syntax.page import view_box
 from packwork.readers.svg_syntax.shapes import points_of
 from packwork.readers.svg_syntax.transforms import parse_transform
-from packwork.readers.unfit import UnfitError
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.units import Unit, convert

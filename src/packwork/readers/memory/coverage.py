@@ -11,7 +11,7 @@ from PIL import Image, ImageOps
 
 from packwork.arrays import FloatArray
 from packwork.readers.pictures.decode import MAX_PIXELS, MAX_SIDE_PX, eight_bit
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 
 _KEPT_MODES = {"1", "L", "LA", "P", "RGB", "RGBA", "I;16"}
 _FORMS = "give (rows, columns), or (rows, columns, 3 or 4) of colours"

@@ -13,8 +13,8 @@ from packwork.readers.memory.coverage import CoverageArray
 from packwork.readers.memory.shapes import GivenShape, GivenShapes
 from packwork.readers.options import ReadOptions
 from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import Box, Holes, canvas_box, centred, clean_union
-from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.canvas import placed_container
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
@@ -41,7 +41,7 @@ def container_in_memory(
     >>> half.width, half.height, [round(side) for side in half.outline.bounds]
     (600.0, 300.0, [0, 0, 300, 300])
     """
-    with naming(source):
+    with reading_file(source):
         if isinstance(value, Item):
             return _boxed(value.name, source, value.ink.region, side)
         if isinstance(value, GivenShapes):
@@ -84,7 +84,7 @@ def items_in_memory(value: object, source: str, holes: Holes) -> list[Item] | No
     >>> [item.name for item in items_in_memory(mask, "memory:all", "fill")]
     ['all']
     """
-    with naming(source):
+    with reading_file(source):
         if isinstance(value, Item):
             return [recentred(value)]
         if isinstance(value, GivenShapes):

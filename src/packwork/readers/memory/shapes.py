@@ -16,8 +16,8 @@ from shapely.geometry.base import BaseGeometry
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import simplify, valid
 from packwork.geometry.polygon import Region, polygon_parts, united
+from packwork.readers.reading import UnfitError, notice
 from packwork.readers.tables.frames import is_count
-from packwork.readers.unfit import UnfitError, notice
 from packwork.scene.datum import RowLabel
 
 MAX_SHAPES = 20_000

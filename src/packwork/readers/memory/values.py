@@ -17,7 +17,7 @@ from packwork.geometry.outline import Outline
 from packwork.readers.memory.coverage import coverage_of_array, picture_of_array, png_of_picture
 from packwork.readers.memory.shapes import Columns, is_geometry, points_up, shapes_of
 from packwork.readers.pictures.decode import MAX_PICTURE_BYTES
-from packwork.readers.unfit import UnfitError, naming
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.shelf import MEMORY, Shelf
@@ -235,7 +235,7 @@ class Handed:
         'memory:picture.png'
         """
         if hasattr(value, "__array__") and not isinstance(value, Image.Image):
-            with naming(f"{MEMORY}{key}"):
+            with reading_file(f"{MEMORY}{key}"):
                 value = picture_of_array(np.asarray(value))
         if isinstance(value, Item | Container | Outline) or is_geometry(value):
             raise RecipeError(key, f"is {type(value).__name__}, not a picture; give {_PICTURES}")
@@ -256,7 +256,7 @@ class Handed:
         """
         if isinstance(value, str | os.PathLike):
             return os.fspath(value)
-        with naming(f"{MEMORY}{key}"):
+        with reading_file(f"{MEMORY}{key}"):
             return self.shelf.put(vectors_of(value), key)
 
     def _put_made(self, value: Item | Container) -> str:
@@ -269,7 +269,7 @@ class Handed:
 
     def _put_picture(self, picture: Image.Image, name: str | None) -> str:
         called = name or _stem(getattr(picture, "filename", "")) or "picture"
-        with naming(f"{MEMORY}{called}"):
+        with reading_file(f"{MEMORY}{called}"):
             return self.shelf.put(png_of_picture(picture), called, ".png")
 
     def _put_file(self, value: Any, name: str | None) -> str:
@@ -282,12 +282,12 @@ class Handed:
     def _put_geometry(self, value: Any, name: str) -> str:
         y_up = points_up(value) if self.y_up is None else self.y_up
         plain = value.region if isinstance(value, Outline) else value
-        with naming(f"{MEMORY}{name}"):
+        with reading_file(f"{MEMORY}{name}"):
             return self.shelf.put(shapes_of(plain, name, y_up=y_up, columns=self.columns), name)
 
     def _put_array(self, array: np.ndarray[Any, Any], name: str | None) -> str:
         called = name or "array"
-        with naming(f"{MEMORY}{called}"):
+        with reading_file(f"{MEMORY}{called}"):
             if array.ndim == 2 and array.shape[1] == 2 and array.dtype.kind in "iuf":
                 return self._put_geometry(Outline.of(array), name or "shape")
             made = coverage_of_array(array, called)

@@ -30,8 +30,8 @@ from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, PICTURE_ENDINGS
 from packwork.readers.pictures.developing import Negative, Photograph, Window, developed, inspected
 from packwork.readers.pictures.silhouette import outline_of_cut_out
 from packwork.readers.pictures.transparency import solidity, tell_what_is_faint
+from packwork.readers.reading import reading_file
 from packwork.readers.regions import centred, clean_union
-from packwork.readers.unfit import naming
 from packwork.scene.item import Item, PhotoArt
 from packwork.shelf import MEMORY
 from packwork.threads import thread_count
@@ -186,7 +186,7 @@ def read_photo(
     ('sea', (-160.0, -110.0, 160.0, 110.0))
     """
     data = read_bytes(file, MAX_PICTURE_BYTES)
-    with naming(file):
+    with reading_file(file):
         negative = inspected(data)
         frame = framed(data, negative, options, threshold, shape)
         whole = clean_union(frame.whole, speck=SPECK)

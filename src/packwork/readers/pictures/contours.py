@@ -15,7 +15,7 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.overlay import simplify
 from packwork.geometry.polygon import Region, oriented_rings, region, signed_area
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 
 STAIR_PX = 1.0
 """Distance within which the stairs of a straight edge lie from a chord between two of

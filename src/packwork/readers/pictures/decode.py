@@ -18,7 +18,7 @@ import numpy.typing as npt
 from PIL import ExifTags, Image, UnidentifiedImageError
 
 from packwork.errors import PackworkError
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 
 BAND_PIXELS = 4_000_000
 """Pixels that are converted at a time. Larger costs memory, smaller time. Chosen."""

@@ -22,7 +22,7 @@ from packwork.readers.pictures.decode import (
     shrunk,
     upright,
 )
-from packwork.readers.unfit import naming
+from packwork.readers.reading import reading_file
 from packwork.scene.item import VectorArt
 
 REDUCING_GAP = 2.0
@@ -200,7 +200,7 @@ class Photograph:
         left, top, right, bottom = self.window
         share = min(px_per_unit, 1.0)
         size = (max(1, math.ceil(side * share - EDGE)) for side in (right - left, bottom - top))
-        with naming(self.file):
+        with reading_file(self.file):
             return developed(data, self.window, (next(size), next(size)))
 
     def drawn(self, picture: Image.Image) -> VectorArt:

@@ -22,8 +22,8 @@ from packwork.readers.pictures.transparency import (
     tell_what_is_faint,
     without_enclosed_white,
 )
+from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.regions import NEARLY_ALL, clean_union, tell_if_full
-from packwork.readers.unfit import UnfitError, naming, notice
 
 SMALL_PX = 256
 """Longer side at which texture is looked for: noise and JPEG blocks are gone there. Chosen."""
@@ -160,7 +160,7 @@ def trace_mask(path: str | Path, alpha_threshold: float = HALF) -> TracedMask:
     600.0
     """
     data = read_bytes(path, MAX_PICTURE_BYTES)
-    with naming(str(path)):
+    with reading_file(str(path)):
         return mask_of_pixels(decode_picture(data, MASK_PX).pixels, alpha_threshold)
 
 

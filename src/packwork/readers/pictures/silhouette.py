@@ -29,8 +29,8 @@ from packwork.readers.pictures.transparency import (
     solidity,
     tell_what_is_faint,
 )
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
-from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.item import Item, PictureArt
 
 ART_PX = 2_048
@@ -104,7 +104,7 @@ def item_of_picture(data: bytes, name: str, source: str, holes: Holes = "fill") 
 
 def _read(data: bytes, name: str, source: str, holes: Holes, options: ReadOptions) -> Read:
     threshold = options.alpha_threshold
-    with naming(source):
+    with reading_file(source):
         picture = decode_picture(data, ART_PX)
         whole = picture.pixels
         object_ = whole if options.keep_page else cut_out(whole)

@@ -6,7 +6,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.readers.pictures.decode import Pixels
-from packwork.readers.unfit import notice
+from packwork.readers.reading import notice
 
 LEAST_WHITE = 240
 """Each channel of white, of 255, at least, in pictures and of sheets behind SVGs. Smaller takes

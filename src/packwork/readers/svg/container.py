@@ -17,6 +17,7 @@ from packwork.readers.gate.door import named_parts
 from packwork.readers.options import AS_DRAWN, ReadOptions
 from packwork.readers.pictures.decode import decode_picture
 from packwork.readers.pictures.mask import mask_of_pixels
+from packwork.readers.reading import UnfitError, notice, reading_file
 from packwork.readers.regions import canvas_box, clean_union, tell_if_full
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg.paint.walk import Page
@@ -26,7 +27,6 @@ from packwork.readers.svg.region.sheet import LEAST_WHITE, WHOLE_PAGE, is_near_w
 from packwork.readers.svg.render.trace import TRACE_PX, page_picture
 from packwork.readers.svg_syntax.painted import Painted, drawing_box
 from packwork.readers.svg_syntax.painting import opacity
-from packwork.readers.unfit import UnfitError, naming, notice
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
@@ -174,7 +174,7 @@ def container_of_svg(
     >>> container.width, container.height, container.unit
     (4.0, 2.0, 'cm')
     """
-    with naming(source):
+    with reading_file(source):
         drawing = read_drawing(data, alpha_threshold=reading.alpha_threshold)
         region = _inside(drawing.ink)
         unit = stated_unit(drawing.root) if side is None else None
@@ -204,7 +204,7 @@ def parts_of_svg(data: bytes, container: Container) -> list[tuple[str, Region]]:
     ReadError
         If it is no SVG or passes a limit.
     """
-    with naming(container.source):
+    with reading_file(container.source):
         found = []
         for name, document in named_parts(data):
             with contextlib.suppress(UnfitError):

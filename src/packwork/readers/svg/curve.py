@@ -16,11 +16,11 @@ from packwork.geometry.polygon import Region
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import AS_DRAWN, ReadOptions
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import canvas_box, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg_syntax.shapes import flattened_all
-from packwork.readers.unfit import UnfitError, naming
 from packwork.scene.canvas import placed_container
 from packwork.scene.container import Container
 from packwork.units import DEFAULT_SIDE, convert
@@ -76,7 +76,7 @@ def read_curve(file: str, width: float, height: float) -> tuple[FloatArray, Floa
     ReadError
         If the file cannot be used, or draws nothing that has a length.
     """
-    with naming(file):
+    with reading_file(file):
         drawing = read_drawing(read_bytes(file, MAX_BYTES))
         page = drawing.page
         box = (width, height) if page is None else (page.width, page.height)
@@ -112,7 +112,7 @@ def walled_container(
     tuple of Container and FloatArray
         Openings as ``(m, 2, 2)``: their ends, canvas units.
     """
-    with naming(source):
+    with reading_file(source):
         drawing = read_drawing(read_bytes(source, MAX_BYTES))
         page = drawing.page
         shown = [line.points for line in lines_of(drawing, 1.0)] if page is None else []

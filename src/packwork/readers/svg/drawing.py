@@ -11,12 +11,12 @@ from functools import cached_property
 from shapely.errors import GEOSException
 
 from packwork.errors import ShapeError
-from packwork.readers.account import one_budget
 from packwork.readers.budget.filters import check_tiles
 from packwork.readers.budget.work import Work, work_of
 from packwork.readers.gate.door import admit
 from packwork.readers.options import HALF
 from packwork.readers.pages import PageFate
+from packwork.readers.reading import TooRichError, UnfitError, notice, one_budget
 from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.paint.walk import painted_shapes, settle_steady
 from packwork.readers.svg.region.ink import Ink, painted_ink
@@ -34,7 +34,6 @@ from packwork.readers.svg.render.trace import (
 )
 from packwork.readers.svg_syntax.page import Page, read_page
 from packwork.readers.svg_syntax.painted import Painted, drawing_box
-from packwork.readers.unfit import TooRichError, UnfitError, notice
 
 MAX_SHAPES = 8_000
 """Shapes that are followed one by one, in about a quarter of a millisecond each; of

@@ -17,13 +17,13 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
-from packwork.readers.account import one_budget
 from packwork.readers.budget.expansion import count_expanded
 from packwork.readers.budget.filters import FILTER, drop_filters
 from packwork.readers.files import read_bytes, stem
 from packwork.readers.gate.door import MAX_BYTES
 from packwork.readers.options import ReadOptions
 from packwork.readers.pages import PageFate, Read, agreed
+from packwork.readers.reading import UnfitError, notice, one_budget, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import LARGESSE, PaintedDrawing, read_drawing
@@ -35,7 +35,6 @@ from packwork.readers.svg.render.compare import SIDES_PX, excess, side_by_side
 from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import shape_pieces
-from packwork.readers.unfit import UnfitError, naming, notice
 from packwork.scene.item import Item, VectorArt
 
 PIECES = 10
@@ -245,7 +244,7 @@ def _read(
 def _read_anew(
     data: bytes, name: str, source: str, holes: Holes, options: ReadOptions, *, is_compared: bool
 ) -> Read:
-    with naming(source), one_budget(1.0 if is_compared else LARGESSE):
+    with reading_file(source), one_budget(1.0 if is_compared else LARGESSE):
         drawing = read_drawing(
             data, is_compared=is_compared, is_on_paper=True, keep_page=options.keep_page,
             alpha_threshold=options.alpha_threshold,

@@ -23,8 +23,8 @@ from packwork.readers.budget.filters import FILTER
 from packwork.readers.budget.work import Work
 from packwork.readers.gate.door import link_declaration
 from packwork.readers.pictures.decode import decode_picture
+from packwork.readers.reading import TooRichError, UnfitError, notice
 from packwork.readers.svg_syntax.painted import Painted, whole_box
-from packwork.readers.unfit import TooRichError, UnfitError, notice
 from packwork.scene.item import VectorArt
 from packwork.scene.notation import decimals, matrix_text, path_data
 

@@ -16,13 +16,13 @@ from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import silhouette
+from packwork.readers.reading import UnfitError
 from packwork.readers.regions import Holes, clean_union, without_holes
 from packwork.readers.svg.art import vector_art
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg.paint.walk import painted_shapes
 from packwork.readers.svg.region.ink import PaintedInk
 from packwork.readers.svg_syntax.painted import drawing_box
-from packwork.readers.unfit import UnfitError
 from packwork.scene.item import Item, VectorArt
 
 LINES_SHARE = 0.75

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.units import NUMBER as NUMBER
 from packwork.units import PER_INCH, split_length
 
@@ -102,7 +102,7 @@ def refuse_not_finite(text: str) -> None:
     --------
     >>> refuse_not_finite("M 0 NaN")
     Traceback (most recent call last):
-    packwork.readers.unfit.UnfitError: holds the coordinate NaN; give finite numbers
+    packwork.readers.reading.UnfitError: holds the coordinate NaN; give finite numbers
     """
     match = _NOT_FINITE.search(text)
     if match is not None:

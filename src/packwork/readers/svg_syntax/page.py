@@ -7,10 +7,10 @@ from dataclasses import dataclass
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.lengths import MAX_COORDINATE, parse_length, parse_numbers
 from packwork.readers.svg_syntax.shapes import Viewport
 from packwork.readers.svg_syntax.transforms import view_matrix
-from packwork.readers.unfit import UnfitError
 
 PLAIN_VIEWPORT: Viewport = (100.0, 100.0)
 """What percentages refer to in a drawing that states no size."""

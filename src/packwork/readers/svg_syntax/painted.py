@@ -15,11 +15,11 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
 from packwork.readers.svg_syntax.painting import Painting
 from packwork.readers.svg_syntax.path_data import SubPath
 from packwork.readers.svg_syntax.shapes import Viewport
-from packwork.readers.unfit import UnfitError
 
 
 @dataclass(frozen=True, eq=False)

@@ -12,7 +12,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.account import spend
+from packwork.readers.reading import UnfitError, spend
 from packwork.readers.svg_syntax.lengths import (
     MAX_COORDINATE,
     NUMBER,
@@ -20,7 +20,6 @@ from packwork.readers.svg_syntax.lengths import (
     parse_numbers,
     refuse_not_finite,
 )
-from packwork.readers.unfit import UnfitError
 
 Point: TypeAlias = tuple[float, float]
 Step: TypeAlias = tuple[Point, Point, Point]

@@ -19,9 +19,9 @@ from packwork.geometry.snapping import CLEFT
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.glyph_ink import ClearInk
 from packwork.readers.fonts.lettering import MOST_WORDS, GlyphPicture, Lettering
+from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import Holes, centred, clean_union
 from packwork.readers.tables.format import TableFormat
-from packwork.readers.unfit import UnfitError, naming
 from packwork.readers.words.options import WeightIs, Word, WordOptions, lines_of
 from packwork.readers.words.source import ranked_words
 from packwork.readers.words.together import related
@@ -233,7 +233,7 @@ def shaped_word(word: Word, fonts: Fonts, holes: Holes = "fill") -> ShapedWord:
         raise UnfitError("has no letters")
     drawn = fonts.lettering(lines)
     name = " ".join(lines)
-    with naming(name):
+    with reading_file(name):
         outline, ink, place = _placed(drawn, holes)
     return ShapedWord(word, name, drawn, outline, ink, place, fonts.language)
 

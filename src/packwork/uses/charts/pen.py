@@ -11,7 +11,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.lettering import Lettering
-from packwork.readers.unfit import UnfitError
+from packwork.readers.reading import UnfitError
 from packwork.scene.notation import path_data
 from packwork.scene.note import Note
 

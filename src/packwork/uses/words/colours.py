@@ -16,7 +16,7 @@ from packwork.readers.pictures.decode import (
     PICTURE_ENDINGS,
     decode_picture,
 )
-from packwork.readers.unfit import naming
+from packwork.readers.reading import reading_file
 from packwork.readers.words.items import WordsRead
 from packwork.readers.words.options import ColourOf, Word, WordOptions
 from packwork.recipe import Recipe
@@ -179,7 +179,7 @@ def _covering(file: str, shape: tuple[int, int]) -> FloatArray:
     """``(rows, columns, 4)`` of a picture that covers the canvas, its middle kept."""
     from PIL import Image, ImageOps
 
-    with naming(file):
+    with reading_file(file):
         picture = decode_picture(read_bytes(file, MAX_PICTURE_BYTES), 2 * PICTURE_PX)
     fitted = ImageOps.fit(Image.fromarray(picture.pixels), (shape[1], shape[0]))
     return np.asarray(fitted, dtype=np.float64)

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from packwork.geometry.polygon import region
 from packwork.readers.budget.crossings import Allowance
+from packwork.readers.reading import TooRichError
 from packwork.readers.svg.item import item_of_svg
 from packwork.readers.svg.region.centre_lines import dashed
 from packwork.readers.svg.region.follow import filled
-from packwork.readers.unfit import TooRichError
 
 PAGE = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100">{}</svg>'
 RING = '<circle cx="50" cy="50" r="40" fill="none" stroke="#000" stroke-width="4" {}/>'

@@ -10,6 +10,7 @@ import shapely
 from packwork.errors import ReadError
 from packwork.readers.budget.work import LEAST_PX, Work, work_of
 from packwork.readers.gate.door import admit
+from packwork.readers.reading import TooRichError
 from packwork.readers.svg import drawing as drawing_module
 from packwork.readers.svg.drawing import read_drawing
 from packwork.readers.svg.item import item_of_svg, read_svg
@@ -17,7 +18,6 @@ from packwork.readers.svg.paint.solid import solid_twin
 from packwork.readers.svg.region.ink import PaintedInk, TracedInk
 from packwork.readers.svg.render.compare import Comparison, excess, side_by_side
 from packwork.readers.svg_syntax.page import read_page
-from packwork.readers.unfit import TooRichError
 
 SPACES = 'xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink"'
 CLEAR = '<linearGradient id="g"><stop stop-opacity="0"/></linearGradient>'

@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias, final
 
-from packwork.readers.account import spend
+from packwork.readers.reading import spend
 
 
 @final

@@ -13,7 +13,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias, final
 
-from packwork.readers.account import spend
 from packwork.readers.gate.css.declarations import COMMENT, Declarations, parse_declarations
 from packwork.readers.gate.css.selectors import (
     TOO_MANY,
@@ -24,8 +23,8 @@ from packwork.readers.gate.css.selectors import (
     parse_selector,
     split_outside,
 )
+from packwork.readers.reading import UnfitError, spend
 from packwork.readers.svg_syntax.lengths import parse_length
-from packwork.readers.unfit import UnfitError
 
 MAX_RULES = 20_000
 """Style rules of one drawing. Chosen."""

@@ -9,7 +9,7 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.account import spend
+from packwork.readers.reading import spend
 from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.svg_syntax.shapes import Viewport, flattened_all, shape_pieces
 from packwork.readers.svg_syntax.transforms import parse_transform

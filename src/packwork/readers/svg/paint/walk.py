@@ -17,6 +17,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.geometry.overlay import intersection
 from packwork.geometry.polygon import Region
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.lengths import parse_length
 from packwork.readers.svg_syntax.page import PLAIN_VIEWPORT, root_viewport, view_box
 from packwork.readers.svg_syntax.page import Page as Page
@@ -27,7 +28,6 @@ from packwork.readers.svg_syntax.references import elements_by_id, paint_server
 from packwork.readers.svg_syntax.shapes import Viewport, diagonal, shape_pieces
 from packwork.readers.svg_syntax.transforms import parse_transform, view_matrix
 from packwork.readers.svg_syntax.vocabulary import HREF, NEVER_DRAWN, SHAPES
-from packwork.readers.unfit import UnfitError
 
 
 def painted_shapes(root: ET.Element, page: Page | None, most: int = MAX_SEGMENTS) -> list[Painted]:

@@ -19,13 +19,13 @@ from packwork.geometry import affine
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.overlay import buffered, intersection, union
 from packwork.geometry.polygon import FillRule, Region, enclosed, polygon_parts, region, signed_area
-from packwork.readers.account import spend
 from packwork.readers.budget.crossings import (
     MAX_CROSSINGS,
     MAX_UNION_CROSSINGS,
     Allowance,
     check_nesting,
 )
+from packwork.readers.reading import spend
 from packwork.readers.svg.region.centre_lines import FinePoints, piece_strokes
 from packwork.readers.svg_syntax.painted import Clip, Painted, is_inside, stretch, whole_box
 from packwork.readers.svg_syntax.painting import StrokeStyle

@@ -12,10 +12,10 @@ from shapely.geometry import Polygon
 
 from packwork.geometry.bezier import FLATTENING, MAX_STEPS
 from packwork.geometry.polygon import Region
+from packwork.readers.reading import TooRichError
 from packwork.readers.svg.region.follow import Follower
 from packwork.readers.svg_syntax.painted import Painted, drawing_box, is_inside, shown_box
 from packwork.readers.svg_syntax.shapes import step_counts
-from packwork.readers.unfit import TooRichError
 
 MAX_POINTS = 500_000
 """Vertices of one drawing after flattening. Chosen."""

@@ -9,10 +9,10 @@ from shapely.errors import GEOSException
 
 from packwork.readers.pages import PageFate
 from packwork.readers.pictures.transparency import LEAST_WHITE as LEAST_WHITE
+from packwork.readers.reading import TooRichError
 from packwork.readers.svg.region.ink import painted_ink
 from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import Box, Painted, drawing_box
-from packwork.readers.unfit import TooRichError
 from packwork.scene.colour import css_colour
 
 WHOLE_PAGE = 0.999

@@ -19,7 +19,7 @@ import shapely
 from packwork.fonts import replaced_families
 from packwork.geometry import affine
 from packwork.geometry.polygon import Region, oriented_rings
-from packwork.readers.account import left, spend
+from packwork.readers.reading import left, notice, spend
 from packwork.readers.svg.paint.walk import placed_texts
 from packwork.readers.svg.render.resvg import FIND_PX, View, coverage, inked
 from packwork.readers.svg_syntax.lengths import parse_length, parse_numbers
@@ -27,7 +27,6 @@ from packwork.readers.svg_syntax.page import Page
 from packwork.readers.svg_syntax.painted import PlacedText
 from packwork.readers.svg_syntax.references import elements_by_id, referenced_ids
 from packwork.readers.svg_syntax.vocabulary import NEVER_DRAWN
-from packwork.readers.unfit import notice
 
 PAINTS = frozenset(
     {"fill", "fill-opacity", "stroke", "stroke-opacity", "stroke-width", "stroke-dasharray"}

@@ -12,8 +12,8 @@ from packwork.arrays import FloatArray
 from packwork.raster.drawing import drawn_png
 from packwork.readers.gate.door import document
 from packwork.readers.pictures.decode import decode_picture
+from packwork.readers.reading import UnfitError
 from packwork.readers.svg_syntax.page import Page
-from packwork.readers.unfit import UnfitError
 
 TRACE_PX = 1_000
 """Longer side of the rendering that is traced: the outline is good to about 1/10,000 of
