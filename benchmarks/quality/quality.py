@@ -28,9 +28,8 @@ from benchmarks.quality import many
 from packwork import precompile, uses
 from packwork.metrics.exact import exact_metrics
 from packwork.pipeline.job import Clock
+from packwork.pipeline.run import RunContext, run_steps
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import run_steps
-from packwork.pipeline.watch import RunContext
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item

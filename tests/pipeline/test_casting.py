@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.errors import RecipeError
-from packwork.pipeline.plan.cast import Cast, expand_copies, turns
+from packwork.pipeline.plan.copies import Cast, expand_copies, turns
 from packwork.recipe import make_recipe
 from packwork.scene.item import Item
 from scenes import disc, flat_item
@@ -51,7 +51,7 @@ def test_counts_are_exact_and_the_rest_is_shared_evenly(
 
 def test_without_rules_items_repeat_in_turn() -> None:
     assert names(made(count=6)) == ["bear", "bird", "cat", "owl", "bear", "bird"]
-    assert all(not one.voices for one in made(count=6).asked)
+    assert all(not one.sources for one in made(count=6).asked)
 
 
 def test_counted_items_are_there_as_often_as_asked() -> None:
@@ -77,8 +77,8 @@ def test_the_later_rule_holds_for_what_it_says() -> None:
     assert [dict(asked.pin) for asked in one.asked] == [
         {"angle": 30}, {"angle": 30, "size": 10}, {}, {},
     ]  # fmt: skip
-    assert one.asked[1].voices["color"].place == "rule 2: "
-    assert one.asked[1].voices["pin.size"].place == "rule 3: "
+    assert one.asked[1].sources["color"].place == "rule 2: "
+    assert one.asked[1].sources["pin.size"].place == "rule 3: "
 
 
 def test_a_pinned_point_is_for_one_copy_with_all_that_the_rule_says() -> None:

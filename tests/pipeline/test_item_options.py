@@ -20,7 +20,7 @@ from packwork.progress import NOBODY, Step, never
 from packwork.recipe import make_recipe
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
-from packwork.steps.dress.neighbours import beside, same_kind_beside
+from packwork.steps.appearance import beside, same_kind_beside
 from packwork.steps.place import Setting
 from scenes import disc, flat_item, square, square_container
 

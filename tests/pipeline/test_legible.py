@@ -12,7 +12,7 @@ from PIL import Image
 import packwork as pw
 from packwork.scene.contrast import contrast, contrast_over, readable_over
 from packwork.scene.swatch import representative_colour
-from packwork.steps.dress.legible import TEXT, ground_luminance, luminances_under
+from packwork.steps.appearance import TEXT, ground_luminance, luminances_under
 from packwork.writers.svg import svg_text
 
 QUICK = {"effort": "draft", "levels": "50", "seed": 0}

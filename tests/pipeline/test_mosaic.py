@@ -19,8 +19,7 @@ from packwork.recipe import make_recipe
 from packwork.scene.light import channels_of
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture
-from packwork.steps.dress.likeness import best_ground
-from packwork.steps.dress.recognised import LEAST, likeness
+from packwork.steps.mosaic import LEAST, best_ground, correlation_with
 from packwork.uses import fill, read
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft", "seed": 0}
@@ -341,7 +340,9 @@ def test_too_few_items_for_a_picture_are_told_of(checks: str, seed: int) -> None
 def test_shuffled_items_are_like_no_picture(checks: str) -> None:
     layout = pw.fill("square", "square", count=300, picture=checks, **QUICK)
     target = read_target(checks, layout.container)
-    assert likeness(layout, target) > LEAST
+    assert correlation_with(layout, target) > LEAST
     for seed in range(4):
         order = np.random.default_rng(seed).permutation(len(layout.items))
-        assert abs(likeness(replace(layout, poses=layout.poses.subset(order)), target)) < 0.4
+        assert (
+            abs(correlation_with(replace(layout, poses=layout.poses.subset(order)), target)) < 0.4
+        )

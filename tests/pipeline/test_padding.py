@@ -12,7 +12,7 @@ from packwork.errors import RecipeError
 from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
-from packwork.pipeline.plan.padding import check_padding
+from packwork.pipeline.plan.limits import check_padding
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.uses import fill, words_recipe

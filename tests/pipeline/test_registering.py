@@ -93,7 +93,7 @@ def test_few_new_items_make_nobody_jump(tmp_path: Path) -> None:
 
 
 def _who(after: pw.Layout, before: pw.Layout) -> list[int]:
-    from packwork.pipeline.earlier import matched
+    from packwork.pipeline.registration import matched
 
     names = ([item.name for item in layout.items] for layout in (after, before))
     return [int(k) for k in matched(*names)]

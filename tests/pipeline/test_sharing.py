@@ -10,7 +10,7 @@ from PIL import Image
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.pipeline.plan.shares import kinds_of
+from packwork.pipeline.plan.copies import kinds_of
 from packwork.recipe.pictures import share_of_kinds
 from packwork.uses import read, words_recipe
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from packwork.pipeline.job import Job
+from packwork.pipeline.run import RunContext
 from packwork.pipeline.state import RunState
-from packwork.pipeline.watch import RunContext
 from packwork.recipe import make_recipe
 from packwork.scene.pose import Poses
 from packwork.steps.finish import DWARF, TellOfSmall, dwarfs_told_apart

@@ -9,7 +9,7 @@ import pytest
 
 import packwork as pw
 from packwork.errors import RecipeError
-from packwork.pipeline.earlier import matched
+from packwork.pipeline.registration import matched
 
 NAMES = ["owl", "fox", "bear", "wolf", "hare"]
 WEIGHTS = {name: 40.0 / (k + 1) ** 0.5 for k, name in enumerate(NAMES)}

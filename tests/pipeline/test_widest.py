@@ -7,8 +7,8 @@ import pytest
 import shapely
 
 from packwork.geometry.outline import Outline
-from packwork.pipeline import widest
-from packwork.pipeline.widest import widest_cu
+from packwork.pipeline.plan import counts as widest
+from packwork.pipeline.plan.counts import widest_cu
 from packwork.readers.container import read_container
 
 

@@ -23,7 +23,7 @@ from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.recipe import read_recipe
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import EPOCHS, MAX_COUNT, Recipe, Rotation, make_recipe
-from packwork.recipe.levels import parse_levels
+from packwork.recipe.presets import parse_levels
 from packwork.recipe.rules import Rule
 from packwork.solve.options import MAX_RESOLUTION, MIN_RESOLUTION
 from packwork.writers import recipe_bytes

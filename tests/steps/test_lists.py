@@ -10,9 +10,8 @@ import pytest
 from PIL import Image
 
 from packwork import uses
+from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep, run_steps, share_of
-from packwork.pipeline.watch import RunContext
 from packwork.progress import Step
 from packwork.recipe import make_recipe
 from packwork.steps.control import BestOf, Replan, Retry, UnlessTight

@@ -15,7 +15,7 @@ import pytest
 from packwork.live.commands.any_command import AnyCommand
 from packwork.live.face.exporting import FILM_FORMATS, FORMATS
 from packwork.live.face.opening import Opening
-from packwork.recipe.film import FilmOptions
+from packwork.recipe.verbs import FilmOptions
 from packwork.studio import wire
 from packwork.studio.app import guarded
 from packwork.studio.desk import Desk

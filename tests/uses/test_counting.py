@@ -14,18 +14,18 @@ from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
 from packwork.metrics.shape import ShapeMetrics
 from packwork.pipeline.plan.counts import LEAST, MOST, items_needed
+from packwork.pipeline.run import RunContext
 from packwork.pipeline.state import RunState
-from packwork.pipeline.watch import RunContext
 from packwork.recipe import Recipe, make_recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.steps.advice import Advise, advice
 from packwork.uses.charts.recipe import chart_recipe
+from packwork.uses.icons import KnownContainer
 from packwork.uses.piles.recipe import pile_recipe
-from packwork.uses.room import KnownContainer
 from packwork.uses.words.recipe import words_recipe
-from packwork.uses.words.report import RemarkWords
+from packwork.uses.words.use import RemarkWords
 from scenes import round_container, square_container
 
 TAILLESS = ShapeMetrics(bare=0.1, shape=0.7, parts=1, bare_parts=0)

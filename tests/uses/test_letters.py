@@ -8,8 +8,8 @@ import pytest
 import packwork as pw
 from packwork.readers.words.items import EM_PX
 from packwork.uses import fill, read, words_recipe
-from packwork.uses.words.letters import Letters, readable_count
-from packwork.uses.words.use import WordsUse, heaviest_of
+from packwork.uses.words.sizes import Letters, heaviest_of, readable_count
+from packwork.uses.words.use import WordsUse
 
 QUICK = {"levels": "50", "epochs": 20, "effort": "draft"}
 WEIGHTS = {f"word{k}": 1.0 / k for k in range(1, 13)}

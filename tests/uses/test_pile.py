@@ -280,6 +280,6 @@ def test_without_a_size_all_find_room_and_the_pile_is_two_thirds_high(container:
 def test_a_pile_of_very_many_says_beforehand_that_it_takes_long(
     most: int, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
 ) -> None:
-    monkeypatch.setattr("packwork.uses.piles.pile.MANY", most)
+    monkeypatch.setattr("packwork.uses.piles.use.MANY", most)
     _run("square", count=4, size="12%")
     assert ("a pile of 4 items takes minutes" in caplog.text) == (most < 4)

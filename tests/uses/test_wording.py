@@ -22,7 +22,7 @@ from packwork.readers.recipe import read_recipe
 from packwork.recipe import make_recipe
 from packwork.scene.contrast import contrast, oklab
 from packwork.uses import fill, words_recipe
-from packwork.uses.words.cast import BOX_OVER_INK
+from packwork.uses.words.copies import BOX_OVER_INK
 from packwork.writers.recipe import recipe_bytes
 
 QUICK = {"levels": "50", "epochs": 20}

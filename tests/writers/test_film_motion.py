@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from packwork.errors import RecipeError, WriteError
-from packwork.recipe.film import film_options
+from packwork.recipe.verbs import film_options
 from packwork.scene.layout import Layout
 from packwork.scene.track import numbers_of, track_of
 from packwork.writers.film.film import Film

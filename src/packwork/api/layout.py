@@ -29,8 +29,8 @@ from packwork.metrics.exact import exact_metrics
 from packwork.metrics.measure import Metrics, measure
 from packwork.pipeline import tell_coarse
 from packwork.readers.layouts.read import is_session, read_written
-from packwork.recipe.film import film_options
 from packwork.recipe.refusals import refusal
+from packwork.recipe.verbs import film_options
 from packwork.scene import item as scene_item
 from packwork.scene import layout as scene
 from packwork.writers.film.options import FilmOptions

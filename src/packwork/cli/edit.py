@@ -213,8 +213,8 @@ def _opened(path: Path, items: Specs) -> tuple[NamedSession, Disk | None]:
     from packwork.live.file.disk import Disk
     from packwork.live.named import NamedSession
     from packwork.metrics.certificate import changed_since
+    from packwork.pipeline.drawings import with_drawings
     from packwork.pipeline.registration import drawn_by
-    from packwork.pipeline.sources import with_drawings
     from packwork.readers.layouts.dxf import LINES_ALONE
     from packwork.readers.layouts.read import is_drawn, is_session, read_written
 

@@ -30,10 +30,10 @@ from packwork.errors import PackworkError, WriteError
 from packwork.inputs import check_no_input
 from packwork.readers.layouts.read import SESSION, is_session
 from packwork.recipe import Recipe
-from packwork.recipe.film import film_options
 from packwork.recipe.refusals import validated
+from packwork.recipe.verbs import film_options
 from packwork.scene.layout import Layout
-from packwork.uses.room import NO_CONTAINER
+from packwork.uses.icons import NO_CONTAINER
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 

@@ -18,11 +18,11 @@ from packwork.live.document import Document
 from packwork.live.pins import pin_of
 from packwork.live.running import Shown, run_shown
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import ItemRules, RuleSource
+from packwork.pipeline.plan.copies import ItemRules, RuleSource
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.progress import Stop, never
 from packwork.recipe import Recipe, make_recipe
-from packwork.recipe.meaning import FROM_TEXT
+from packwork.recipe.order import FROM_TEXT
 from packwork.recipe.rules import Pin, Rule
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
@@ -82,7 +82,7 @@ def _asked(document: Document) -> tuple[ItemRules, ...]:
     """Rules that holds make for each item, as pins do."""
     rules = [pin_of(document, k) for k in range(len(document))]
     return tuple(
-        ItemRules().heard(Rule(items=(item.name,), pin=Pin.model_validate(pin)), HOLD)
+        ItemRules().merged(Rule(items=(item.name,), pin=Pin.model_validate(pin)), HOLD)
         if pin
         else ItemRules()
         for item, pin in zip(document.items, rules, strict=True)

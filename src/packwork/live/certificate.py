@@ -11,7 +11,7 @@ from packwork.live.document import Document
 from packwork.metrics.certificate import Promise, off_shares
 from packwork.metrics.standing import Standing
 from packwork.metrics.violations import Violation
-from packwork.steps.left_out import reason
+from packwork.steps.measure import reason
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ from packwork.live.commands.together import Together
 from packwork.live.document import Document
 from packwork.readers.target import read_target
 from packwork.scene.item import PhotoArt
-from packwork.steps.dress.likeness import colours_under
+from packwork.steps.mosaic import colours_under
 
 
 def showing(document: Document, source: str) -> Together:

@@ -2,8 +2,8 @@
 
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Clock, Job
-from packwork.pipeline.plan.cast import item_weights
-from packwork.pipeline.plan.padding import padded
+from packwork.pipeline.plan.copies import item_weights
+from packwork.pipeline.plan.limits import padded
 from packwork.pipeline.plan.resolution import coarse_photos, tell_coarse
 from packwork.pipeline.result import Run, find_unplaced
 from packwork.pipeline.run import run

@@ -22,7 +22,7 @@ from packwork.geometry.outline import Outline
 from packwork.geometry.overlay import buffered, difference
 from packwork.geometry.polygon import Region
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import ItemRules, RuleSource
+from packwork.pipeline.plan.copies import ItemRules, RuleSource
 from packwork.pipeline.plan.limits import pinned_scales
 from packwork.raster.membership import centre_count
 from packwork.recipe.rules import Pin, Rotation, Rule
@@ -57,7 +57,7 @@ def placed_hero(job: Job) -> Job:
 
     Where all items are of the hero's kind, one of them is the hero. Words are not looked at.
     """
-    heroes = [k for k, one in enumerate(job.asked) if one.voices.get("pin.size") == HERO]
+    heroes = [k for k, one in enumerate(job.asked) if one.sources.get("pin.size") == HERO]
     if not heroes or job.earlier is not None or job.items[heroes[0]].text is not None:
         return job
     if any(job.asked[k].is_put for k in heroes):
@@ -70,14 +70,14 @@ def placed_hero(job: Job) -> Job:
     if found is not None:
         x, y, angle = found
         pin = Pin(x=f"{x:.9f}", y=f"{y:.9f}", angle=math.degrees(angle))
-        asked[heroes[0]] = asked[heroes[0]].heard(Rule(items=("*",), pin=pin), HERO)
+        asked[heroes[0]] = asked[heroes[0]].merged(Rule(items=("*",), pin=pin), HERO)
     return replace(job, asked=tuple(asked))
 
 
 def _plain(one: ItemRules) -> ItemRules:
     """The same without what makes it the hero."""
-    pin = {key: v for key, v in one.pin.items() if one.voices.get(f"pin.{key}") != HERO}
-    return replace(one, pin=pin, voices={k: v for k, v in one.voices.items() if v != HERO})
+    pin = {key: v for key, v in one.pin.items() if one.sources.get(f"pin.{key}") != HERO}
+    return replace(one, pin=pin, sources={k: v for k, v in one.sources.items() if v != HERO})
 
 
 def _place(job: Job, k: int) -> tuple[float, float, float] | None:

@@ -1,32 +1,126 @@
-"""A recipe and all that it names, read and found usable: what the road takes."""
+"""A recipe and all that it names, read and found usable; and the role of its use."""
 
 from __future__ import annotations
 
 import time
+from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.errors import PackworkError
+from packwork.errors import PackworkError, RecipeError
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
-from packwork.pipeline.plan.asked import ItemRules
+from packwork.pipeline.plan.copies import ItemRules, RuleSource
 from packwork.pipeline.plan.forces import forces_of
 from packwork.pipeline.plan.plan import Plan
-from packwork.pipeline.plan.regions import Region
 from packwork.pipeline.plan.vectors import ItemVectors
-from packwork.pipeline.use import Use
 from packwork.recipe import Recipe
+from packwork.recipe.order import unknown_measure
 from packwork.scene.container import Container
 from packwork.scene.item import Item, PhotoArt
 from packwork.scene.layout import Layout
+from packwork.scene.limits import Zone
 from packwork.scene.target import TargetPicture
 from packwork.solve.stand_ins import stand_ins
+
+if TYPE_CHECKING:
+    from packwork.pipeline.run import RunStep
+    from packwork.scene.item import Item
+    from packwork.scene.layout import Layout
+
+
+class Use(ABC):
+    """Use of the program: its way with a job, and what it has besides items and weights."""
+
+    palette_tints: bool = True
+    """Whether drawings of several colours take on shades of the palette's."""
+
+    has_nearest: bool = True
+    """Whether drawings of several colours may take on the palette's nearest colours."""
+
+    matches_by_name: bool = False
+    """Whether a run that begins from an earlier layout tells its items by their names."""
+
+    @abstractmethod
+    def steps(self, job: Job) -> Sequence[RunStep]:
+        """All steps of a run, in their order.
+
+        Raises
+        ------
+        RecipeError
+            If an option has no meaning for this job.
+        """
+
+    @abstractmethod
+    def report(self, job: Job) -> Sequence[RunStep]:
+        """The last of them: what measures, dresses and describes items in their places."""
+
+    @property
+    def inner(self) -> Use:
+        """The use that read the items: itself, but for a pile of what another one read."""
+        return self
+
+    @property
+    def words(self) -> Sequence[Item]:
+        """Those of the items that are read as words."""
+        return ()
+
+    def subset(self, kept: IntArray) -> Use:
+        """The same of some of the items, by their indices ``(m,)``."""
+        del kept
+        return self
+
+    def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
+        """Colours that data give to items; None if palette and rules give them."""
+        del job, layout
+        return None
+
+    def column(self, job: Job, name: str) -> FloatArray:
+        """``(n,)`` numbers of the items in a column of the data that the use reads.
+
+        Raises
+        ------
+        RecipeError
+            If there is no such column.
+        """
+        del job
+        raise unknown_measure(name)
+
+    def remedy(self, job: Job) -> str | None:
+        """Remedy for a shape that does not show, in words of the options; None if as for icons."""
+        del job
+        return None
+
+    def vectors(self, recipe: Recipe) -> ItemVectors:
+        """Vectors that say which items are alike, made by the use itself."""
+        del recipe
+        raise RecipeError("embeddings", "auto is of words of a text; give a file of vectors")
+
+    def redrawn(self, job: Job, gone: Sequence[Item]) -> tuple[Item, ...]:
+        """Drawings of items of an earlier layout that are no more, as this run would have them."""
+        del job, gone
+        return ()
+
+
+@dataclass(frozen=True, eq=False)
+class Region:
+    """A zone, and the option that asked for it.
+
+    Parameters
+    ----------
+    zone
+        The part of the container, and which items stay in it.
+    """
+
+    zone: Zone
+    source: RuleSource
+    words: str
 
 
 @dataclass
@@ -87,7 +181,7 @@ class Job:
         """Whether anything is asked of single items."""
         plan = self.plan
         return (
-            plan.keeps_apart or plan.least_dpi is not None or any(one.voices for one in self.asked)
+            plan.keeps_apart or plan.least_dpi is not None or any(one.sources for one in self.asked)
         )
 
     @cached_property
@@ -123,7 +217,7 @@ class Job:
         """Items that change places until their colours show the picture; none without one."""
         if self.target is None:
             return np.arange(0)
-        is_free = np.array([not one.voices for one in self.asked], dtype=bool)
+        is_free = np.array([not one.sources for one in self.asked], dtype=bool)
         return np.flatnonzero(is_free & (self.tints < 1))
 
     @property

@@ -4,38 +4,91 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
+import shapely
 
-from packwork.errors import PackworkError, ReadError, RecipeError
+from packwork.errors import PackworkError, ReadError, RecipeError, ShapeError
+from packwork.geometry import polygon
+from packwork.geometry.outline import Outline
+from packwork.geometry.overlay import intersection
 from packwork.pipeline.hero import placed_hero
-from packwork.pipeline.job import Clock, Job
-from packwork.pipeline.plan.asked import voices
-from packwork.pipeline.plan.cast import Cast
+from packwork.pipeline.job import Clock, Job, Region, Use
+from packwork.pipeline.plan.copies import Cast, ItemRules, rules_by_source, shared_out
 from packwork.pipeline.plan.own_losses import check_ablations, losses_with_a_say
 from packwork.pipeline.plan.plan import Plan
-from packwork.pipeline.plan.regions import read_regions
-from packwork.pipeline.plan.shares import shared_out
 from packwork.pipeline.plan.vectors import ItemVectors, Key, key_of, read_item_vectors
 from packwork.pipeline.region_labels import labelled
 from packwork.pipeline.registration import registered
-from packwork.pipeline.use import Use
 from packwork.readers.container import read_container
 from packwork.readers.folders import Sample
 from packwork.readers.items import is_several, read_items
 from packwork.readers.layouts.read import is_drawn, read_written
+from packwork.readers.options import AS_DRAWN
 from packwork.readers.photos.read import read_photos
 from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency import QuietOptions
 from packwork.recipe import Recipe
-from packwork.recipe.meaning import FROM_TEXT
+from packwork.recipe.order import FROM_TEXT
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
+from packwork.scene.limits import Zone
 from packwork.scene.pose import Poses
 from packwork.scene.target import TargetPicture
 from packwork.shelf import shelved
+from packwork.units import CanvasSize, parse_length
+
+
+def read_regions(asked: Sequence[ItemRules], container: Container) -> tuple[Region, ...]:
+    """Regions of all copies that have one, one for each that is named.
+
+    Raises
+    ------
+    ReadError
+        If a region's file or name cannot be used.
+    RecipeError
+        If a region and the container have no part in common.
+    """
+    members: dict[Any, list[int]] = {}
+    for k, one in enumerate(asked):
+        if "region" in one.values:
+            members.setdefault(one.values["region"], []).append(k)
+    found = []
+    for given, items in members.items():
+        source = asked[items[0]].sources["region"]
+        outline = _common(_region(given, container), container)
+        words = given if isinstance(given, str) else ", ".join(map(_plain_length, given))
+        if outline is None:
+            raise source.error(f"region: {words} and the container have no part in common")
+        found.append(Region(Zone(outline, np.array(items)), source, words))
+    return tuple(found)
+
+
+def _plain_length(length: str | float) -> str:
+    return length if isinstance(length, str) else f"{length:g}"
+
+
+def _region(given: str | tuple[str | float, ...], container: Container) -> polygon.Region:
+    if isinstance(given, str):
+        size = CanvasSize(container.width, container.height, container.unit)
+        return read_container(given, size, reading=AS_DRAWN).outline.region
+    wholes = (container.width, container.height) * 2
+    left, top, width, height = (
+        parse_length(str(side), container.unit, whole)
+        for side, whole in zip(given, wholes, strict=True)
+    )
+    return shapely.box(left, top, left + width, top + height)
+
+
+def _common(region: polygon.Region, container: Container) -> Outline | None:
+    try:
+        return Outline.from_region(intersection(region, container.outline.region))
+    except ShapeError:
+        return None
+
 
 AUTO = "auto"
 """What people write for a number of items that is found."""
@@ -105,7 +158,7 @@ def sample_of(recipe: Recipe) -> Sample | None:
     """Sample of more items than are needed; None where all are taken."""
     if recipe.words is not None or not isinstance(recipe.count, int):
         return None
-    wanted = tuple(pattern for _, rule in voices(recipe) for pattern in rule.items)
+    wanted = tuple(pattern for _, rule in rules_by_source(recipe) for pattern in rule.items)
     return Sample(recipe.count, recipe.seed if recipe.items_from == "seed" else None, wanted)
 
 

@@ -23,7 +23,7 @@ from packwork.geometry.overlay import buffered
 from packwork.geometry.polygon import Region
 from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import ItemRules, RuleSource
+from packwork.pipeline.plan.copies import ItemRules, RuleSource
 from packwork.pipeline.plan.vectors import ItemVectors
 from packwork.readers.container import read_parts
 from packwork.readers.fonts.fallback import Fonts, open_fonts
@@ -65,7 +65,7 @@ PLACES, SIZES = 25, 5
 Chosen."""
 
 DIGITS = 6
-VOICE = RuleSource("label_regions")
+LABEL_RULE = RuleSource("label_regions")
 
 
 def labelled(job: Job) -> Job:
@@ -243,5 +243,5 @@ def _asked(job: Job, plate: _Plate, em: float, at: tuple[float, float] | None = 
     pin = {"size": f"{plate.longest * em:.17g}{unit}"}
     if at is not None:
         pin |= {"x": f"{at[0]:.17g}{unit}", "y": f"{at[1]:.17g}{unit}"}
-    voices = dict.fromkeys(("rotate", "color", *(f"pin.{key}" for key in pin)), VOICE)
-    return ItemRules({"rotate": "none", "color": OWN_COLOURS}, pin, voices, is_central=at is None)
+    sources = dict.fromkeys(("rotate", "color", *(f"pin.{key}" for key in pin)), LABEL_RULE)
+    return ItemRules({"rotate": "none", "color": OWN_COLOURS}, pin, sources, is_central=at is None)

@@ -1,29 +1,66 @@
-"""Poses of items in a layout that holds shapes only, as drawings and cut sheets do.
+"""Items of an earlier layout matched with those of a run; poses where a file has shapes only.
 
-Shape registration by moments and the radial signature: the centroid gives the place, the area the
-size, and the turn is that at which the distances of the outline from its centroid agree best, by
-direction (a circular cross-correlation), refined by iterative closest points (Besl and McKay 1992;
-to lines, as Chen and Medioni did). So it does not matter what a program that saved the file again
-has made of transforms, groups and copies.
+Matching goes by names. Drawings and cut sheets hold shapes: shape registration by moments and the
+radial signature gives place (centroid), size (area) and turn, the one at which the distances of the
+outline from its centroid agree best by direction (a circular cross-correlation), refined by
+iterative closest points (Besl and McKay 1992; to lines, as Chen and Medioni did). So it does not
+matter what a program that saved the file again has made of transforms, groups and copies.
 """
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 import shapely
 
-from packwork.arrays import FloatArray
+from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.bezier import FLATTENING
 from packwork.geometry.outline import Outline
-from packwork.pipeline.earlier import matched
+from packwork.pipeline.job import Job
 from packwork.scene.colour import hex_colour
 from packwork.scene.item import FlatArt, Item
 from packwork.scene.layout import Layout
 from packwork.scene.recolour import one_colour, recoloured
 from packwork.scene.swatch import representative_colour
+
+
+def matched(now: Sequence[str], then: Sequence[str]) -> IntArray:
+    """``(n,)`` which item of then each item of now is; -1 for one that is new.
+
+    Copies of one name are taken in turn: the first for the first.
+
+    Examples
+    --------
+    >>> matched(["owl", "bear", "owl", "fox"], ["bear", "owl", "cat"]).tolist()
+    [1, 0, -1, -1]
+    """
+    places: dict[tuple[str, int], int] = {}
+    seen: Counter[str] = Counter()
+    for k, name in enumerate(then):
+        places[name, seen[name]] = k
+        seen[name] += 1
+    seen.clear()
+    found = []
+    for name in now:
+        found.append(places.get((name, seen[name]), -1))
+        seen[name] += 1
+    return np.array(found, dtype=np.int64)
+
+
+def match_items(job: Job, earlier: Layout) -> IntArray:
+    """``(n,)`` which item of an earlier layout each is; -1 for one that is new."""
+    return matched([item.name for item in job.items], [item.name for item in earlier.items])
+
+
+def new_items(job: Job) -> IntArray:
+    """Items that an earlier layout does not have; none if there is no such layout."""
+    if job.earlier is None:
+        return np.arange(0)
+    return np.flatnonzero(match_items(job, job.earlier) < 0)
+
 
 DIRECTIONS = 1_440
 """Directions of a signature, a quarter of a degree apart. More tell turns finer than a finish

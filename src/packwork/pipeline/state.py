@@ -40,7 +40,7 @@ class RunState:
         ``(n,)`` what items are called by in progress and in ``unplaced``.
     is_tight
         Whether nothing overlaps, and the levels have nothing to add.
-    goes_on
+    is_warm_start
         Whether items keep their order, as those of an earlier layout that is no mere heap do.
     is_only_refined
         Whether nothing meets in exact geometry, gap included, but for pixels that are only grazed:
@@ -76,7 +76,7 @@ class RunState:
     numbers: IntArray
     method: str = ""
     is_tight: bool = False
-    goes_on: bool = False
+    is_warm_start: bool = False
     is_only_refined: bool = False
     ending: Ending = Ending.DONE
     levels: tuple[LevelReport, ...] = ()
@@ -124,7 +124,7 @@ class RunState:
     @property
     def is_refined(self) -> bool:
         """Whether an earlier layout is gone on from that has to be refined only."""
-        return self.is_tight and self.goes_on
+        return self.is_tight and self.is_warm_start
 
     @property
     def largest(self) -> FloatArray:

@@ -21,12 +21,10 @@ from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
 from packwork.readers.charts.options import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
-from packwork.recipe.arrangement import Ordered
-from packwork.recipe.levels import checked_levels
-from packwork.recipe.meaning import EmbeddingOptions
-from packwork.recipe.mosaic import MosaicOptions
-from packwork.recipe.pictures import Pictured, check_no_names, known_palette
+from packwork.recipe.order import EmbeddingOptions, Ordered
+from packwork.recipe.pictures import MosaicOptions, Pictured, check_no_names, known_palette
 from packwork.recipe.piles import Moving
+from packwork.recipe.presets import checked_levels
 from packwork.recipe.reading import Interpreted
 from packwork.recipe.refusals import length_asked, length_of, validated
 from packwork.recipe.rules import (

@@ -19,6 +19,7 @@ from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
 from packwork.recipe.piles import PileOptions
+from packwork.recipe.refusals import validated
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 
@@ -148,3 +149,32 @@ def default_of(verb: Verbs, option: Offered) -> Any:
     ('0.3%', '0')
     """
     return VERBS[verb].defaults.get(option.name, option.default)
+
+
+def film_options(recipes: FilmOptions | None = None, /, **given: Any) -> FilmOptions:
+    """Options of a film: those given, then the recipe's, then the defaults.
+
+    Parameters
+    ----------
+    recipes
+        What the recipe says; None if nothing.
+    given
+        Options by name; None is as good as not given.
+
+    Raises
+    ------
+    RecipeError
+        Naming the option, what was met and what would do.
+
+    Examples
+    --------
+    >>> film_options(FilmOptions(fps=12, hold=3), fps=60, hold=None)
+    FilmOptions(fps=60.0, seconds=5.0, hold=3.0, loop=True, easing='smooth', film_pixels=800)
+    >>> film_options(film_pixels=0)
+    Traceback (most recent call last):
+        ...
+    packwork.errors.RecipeError: film_pixels: must be at least 16, not 0
+    """
+    known = {} if recipes is None else recipes.model_dump(exclude_unset=True)
+    said = {key: value for key, value in given.items() if value is not None}
+    return validated(FilmOptions, known | said)

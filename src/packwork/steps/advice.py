@@ -9,12 +9,10 @@ import numpy as np
 
 from packwork.metrics.shape import ShapeMetrics
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.counts import items_needed
+from packwork.pipeline.plan.counts import items_needed, lines_width
 from packwork.pipeline.plan.plan import VoidPlan
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import RunContext
-from packwork.pipeline.widest import lines_width
 
 MOST_BARE = 0.05
 """Share of the container far from any item from which its shape is said not to show. Larger

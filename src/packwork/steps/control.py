@@ -6,9 +6,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import Any, TypeAlias, final
 
+from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep, run_steps, share_of
-from packwork.pipeline.watch import RunContext
 
 Choice: TypeAlias = Callable[[Sequence[RunState], RunContext], RunState]
 """Takes what came of several lists, gives the best."""

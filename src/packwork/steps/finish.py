@@ -23,18 +23,15 @@ from packwork.geometry.overlay import difference, union
 from packwork.phrasing import number_of
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.leaning import job_leanings
-from packwork.pipeline.plan.padding import check_found
+from packwork.pipeline.plan.limits import check_found, job_leanings
+from packwork.pipeline.run import LEVELS, RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import LEVELS, RunContext
 from packwork.progress import Observer, Step, until_over
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
 from packwork.solve.solver import scale_bounds
-from packwork.steps.dress.line_weights import evened
-from packwork.steps.earlier_layout import needs_no_levels
-from packwork.steps.left_out import reason
+from packwork.steps.measure import reason
+from packwork.steps.warm_start import needs_no_levels
 
 _LOG = logging.getLogger(__name__)
 
@@ -114,21 +111,6 @@ class Finish(RunStep):
             if not (self._may_fail or job.plan.stays or watch.stop()):
                 check_found(job.container, job.plan.gap, found.conflicts, len(found.poses))
             return found
-
-
-@final
-class FinishThinner(RunStep):
-    """Line drawings with lines of one width, which leave room for all to grow into."""
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """State whose drawings are thinner, grown; as it is where no line gets thinner."""
-        job = state.job
-        with job.clock.time("finish"):
-            thinner = job if watch.stop() else evened(job, state.poses, tells=False)
-            if thinner is job:
-                return state
-            state = replace(state, job=thinner, asked_for=thinner)
-            return finished(state, watch, grows=True)
 
 
 @final
@@ -258,7 +240,7 @@ def _options(
     # Put together so closely, items have nowhere to go: a tenth of a point in twice the time.
     is_settled = state.is_tight and plan.effort != "best"
     # What goes on from an earlier layout keeps its order, unless much effort is asked for.
-    keeps_order = plan.stays or (state.goes_on and plan.effort != "best")
+    keeps_order = plan.stays or (state.is_warm_start and plan.effort != "best")
     return FinishOptions(
         gap_cu=gap_with_bulge(job, items, largest),
         sizes=plan.size_mode,

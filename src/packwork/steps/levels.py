@@ -5,47 +5,22 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import final
 
-import numpy as np
-
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.leaning import job_leanings
+from packwork.pipeline.plan.limits import job_leanings, padded
 from packwork.pipeline.plan.own_losses import in_colours, sees_colours
-from packwork.pipeline.plan.padding import padded
+from packwork.pipeline.run import LEVELS, RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import LEVELS, RunContext
-from packwork.recipe.levels import refined_levels
+from packwork.recipe.presets import refined_levels
 from packwork.scene.layout import Layout
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import solve
-from packwork.steps.alike import with_similarity_bond
-from packwork.steps.dress.colours import colours_seen
-from packwork.steps.earlier_layout import as_it_was, calmed, with_homes
+from packwork.steps.appearance import colours_seen
+from packwork.steps.assign_by_embedding import with_similarity_bond
+from packwork.steps.warm_start import calmed, with_homes
 
 LEVELS_SHARE = 0.6
 """Share of the time left after the start that the levels may take; the finish, measuring
 and writing need the rest. Chosen."""
-
-
-@final
-class StartRecording(RunStep):
-    """A recorder of the way of the items, which keeps the first poses.
-
-    Of what was put one by one it keeps the largest first.
-    """
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """State with a recorder, if the run is recorded."""
-        recorder, poses = watch.recorder(), state.poses
-        if not recorder.is_on:
-            return state
-        if state.method == "first-fit":
-            areas = np.array([outline.area for outline in state.job.solid_outlines])
-            order = np.argsort(-areas * poses.scale**2)
-            for put in range(len(order)):
-                recorder.keep(poses.subset(order[:put]), order[:put])
-        recorder.keep(as_it_was(state.job, poses))
-        return replace(state, recorder=recorder)
 
 
 @final
@@ -61,7 +36,7 @@ class Levels(RunStep):
             options = _solve_options(job)
             if sees_colours(job.plan.losses):
                 options = _with_colours(options, state)
-            if state.goes_on:
+            if state.is_warm_start:
                 options = calmed(options)
             forces = with_homes(state) if job.plan.stays else with_similarity_bond(job, forces)
             outcome = solve(

@@ -13,18 +13,26 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.leaning import job_leanings
-from packwork.pipeline.plan.limits import check_poses, item_limits, pinned_scales
-from packwork.pipeline.plan.padding import check_padding, padded
-from packwork.pipeline.plan.sizes import given_scales
+from packwork.pipeline.plan.limits import (
+    check_padding,
+    check_poses,
+    given_scales,
+    item_limits,
+    job_leanings,
+    padded,
+    pinned_scales,
+)
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import RunContext
 from packwork.progress import Stop
 from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
+from packwork.solve.detail import seen_posed
+from packwork.solve.level import Level
+from packwork.solve.relocate_trapped import violation_shares
 from packwork.start.angles import start_angles
+from packwork.start.relocate_buried import relocated
 from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
 
 NOMINAL_COVERAGE = 0.82
@@ -80,7 +88,7 @@ class Setting:
             largest = int(np.nanargmax(true * pinned**2))
             raise (
                 job.asked[largest]
-                .voices["pin.size"]
+                .sources["pin.size"]
                 .error(
                     f"pins {job.items[largest].name} so large that no room is left in the container"
                 )
@@ -164,3 +172,30 @@ def allowed_angles(job: Job, choose: Callable[[IntArray, Rotation], FloatArray])
         if "angle" in one.pin:
             angles[k] = np.radians(one.pin["angle"])
     return angles
+
+
+BURIED_PX = 200
+"""Pixels on the longer side of the image on which buried items are found. Chosen."""
+
+BURIED_SHARE = 0.5
+"""Share of an item under others or outside from which it is moved before a run that did
+not choose its own start. Smaller undoes more of that start. Chosen."""
+
+
+def unburied(setting: Setting, poses: Poses, limits: Limits) -> tuple[Poses, FloatArray]:
+    """Poses in which buried items have been moved into voids.
+
+    Returns
+    -------
+    poses
+        Of all items.
+    violation
+        ``(n,)`` share of each item that lay under others or outside before.
+    """
+    seen = seen_posed(setting.outlines, poses, BURIED_PX / setting.region.side)
+    level = Level(setting.region, seen, BURIED_PX, limits=limits)
+    violation = violation_shares(level, poses, level.density(poses))
+    buried = np.flatnonzero(violation > BURIED_SHARE)
+    if len(buried):
+        poses = relocated(setting.region, setting.outlines, poses, buried, setting.rng, limits)
+    return poses, violation

@@ -13,12 +13,11 @@ from packwork.compaction.objective import SIZE_TOLERANCE
 from packwork.phrasing import enumerated, number_of
 from packwork.pipeline.hero import HERO
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import ItemRules
+from packwork.pipeline.plan.copies import ItemRules
+from packwork.pipeline.plan.counts import lines_width, widest_cu
 from packwork.pipeline.plan.limits import pinned_scales
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import RunContext
-from packwork.pipeline.widest import lines_width, widest_cu
 from packwork.scene.layout import Layout
 
 WIDEST_TOLERANCE = 0.01
@@ -71,7 +70,7 @@ def shortfalls(state: RunState) -> tuple[str, ...]:
 
 def _no_place(one: ItemRules) -> str:
     """Reason why an item has no place at its size, for the pinned hero; else empty."""
-    is_free_hero = one.voices.get("pin.size") == HERO and not one.is_put
+    is_free_hero = one.sources.get("pin.size") == HERO and not one.is_put
     return "it has no place at that size, turned as it may be; " if is_free_hero else ""
 
 

@@ -23,9 +23,8 @@ from packwork.fields.boxes import box_mean
 from packwork.finish.finish import COMMON_COARSE
 from packwork.forces.forces import PRESSURE, FieldForce
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.leaning import job_leanings
-from packwork.pipeline.plan.limits import held_to
-from packwork.pipeline.plan.shares import kinds_of
+from packwork.pipeline.plan.copies import kinds_of
+from packwork.pipeline.plan.limits import held_to, job_leanings
 from packwork.pipeline.state import RunState
 from packwork.progress import until_over
 from packwork.scene.contrast import oklabs_of_light
@@ -45,10 +44,9 @@ from packwork.start.first_poses import (
     start_resolution,
 )
 from packwork.start.stippling import stippled
-from packwork.steps.alike import homes_alike
-from packwork.steps.arranging import homes_in_order
-from packwork.steps.buried import unburied
-from packwork.steps.place import Setting, Start
+from packwork.steps.assign_by_embedding import homes_alike
+from packwork.steps.assign_in_order import homes_in_order
+from packwork.steps.place import Setting, Start, unburied
 
 ATTEMPTS = {"draft": 1, "normal": 4, "best": 24}
 """Orders tried for each size, by effort. More find a little more, ever less so. Tried."""

@@ -16,10 +16,9 @@ from packwork.finish.finish import finish
 from packwork.finish.options import FinishOptions
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Filling
-from packwork.pipeline.plan.asked import ItemRules
+from packwork.pipeline.plan.copies import ItemRules
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import RunContext
 from packwork.progress import Observer, Stop, until_over
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses

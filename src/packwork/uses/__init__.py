@@ -1,6 +1,6 @@
 """Five uses of one road: icons, words, photographs, charts and piles; here runs begin.
 
-Each use reads what it places, and answers the questions of ``pipeline.use.Use`` in which it
+Each use reads what it places, and answers the questions of ``pipeline.job.Use`` in which it
 differs from the others. What one use alone needs is loaded when it is asked for.
 """
 
@@ -21,9 +21,8 @@ from packwork.progress import NOBODY, Observer, Stop, never
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.steps.arranging import check_arranged
-from packwork.uses.icons import read_icons
-from packwork.uses.room import NO_CONTAINER, KnownContainer
+from packwork.steps.assign_in_order import check_arranged
+from packwork.uses.icons import NO_CONTAINER, KnownContainer, read_icons
 
 if TYPE_CHECKING:
     from packwork.uses.charts.recipe import chart_recipe
@@ -98,9 +97,8 @@ def _material(
     recipe: Recipe, items: Sequence[Item] | None, container: Container | None
 ) -> Material:
     if recipe.pile is not None:
-        from packwork.uses.piles.pile import Heap
         from packwork.uses.piles.room import PileRoom
-        from packwork.uses.piles.use import PileUse
+        from packwork.uses.piles.use import Heap, PileUse
 
         room = PileRoom.of_recipe(recipe, recipe.pile, container)
         material = _content(recipe, room, items)
@@ -118,7 +116,7 @@ def _content(recipe: Recipe, room: KnownContainer, items: Sequence[Item] | None)
 
         return read_marks(recipe, recipe.chart, room.container)
     if recipe.words is not None:
-        from packwork.uses.words.reading import read_cloud
+        from packwork.uses.words.use import read_cloud
 
         return read_cloud(recipe, recipe.words, room, items)
     if recipe.photos is not None:

@@ -13,28 +13,27 @@ import numpy as np
 
 from packwork.pipeline.job import Job
 from packwork.pipeline.recorder import Recorder
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import RunContext
 from packwork.recipe.rules import Rotation
 from packwork.steps.advice import Advise
+from packwork.steps.appearance import CountBeside, Dress, StandOut
+from packwork.steps.assign_by_colour import AssignByColour
+from packwork.steps.assign_by_embedding import AssignByEmbedding
+from packwork.steps.assign_in_order import AssignInOrder
 from packwork.steps.control import BestOf, Replan, UnlessTight
-from packwork.steps.earlier_layout import FromLayout, needs_no_levels
-from packwork.steps.exchanges import (
-    AssignByEmbedding,
-    AssignInOrder,
-    ExchangeByForces,
-    KindsApart,
-)
-from packwork.steps.finish import Finish, FinishThinner, TellOfSmall, finished
-from packwork.steps.levels import Levels, StartRecording
-from packwork.steps.looks import Dress, KeepTrack, RemarkCount, ShowPicture, StandOut
-from packwork.steps.measure import CountBeside, EvenLines, Measure
+from packwork.steps.exchanges import ExchangeByForces, KindsApart
+from packwork.steps.finish import Finish, TellOfSmall, finished
+from packwork.steps.levels import Levels
+from packwork.steps.line_weights import EvenLines, FinishThinner
+from packwork.steps.measure import Measure
+from packwork.steps.mosaic import ShowPicture
 from packwork.steps.place import Place
-from packwork.steps.seating import AssignByColour
 from packwork.steps.shortfalls import TellShortfalls
 from packwork.steps.starts import new_starts
+from packwork.steps.track import KeepTrack, RemarkCount, StartRecording
 from packwork.steps.voids import FillerScales, FillVoids, as_planned
+from packwork.steps.warm_start import FromLayout, needs_no_levels
 
 AS_LARGE = 0.97
 """Area that an item has upright, as a share of what it has turned, from which it is left upright.

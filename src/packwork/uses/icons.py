@@ -3,18 +3,111 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import final
 
-from packwork.pipeline.job import Job
-from packwork.pipeline.plan.cast import expand_copies
-from packwork.pipeline.read import Material, drawn_first, read_named
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.use import Use
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.assignment.local_search import cheapest
+from packwork.pipeline.job import Job, Use
+from packwork.pipeline.plan.copies import Cast, expand_copies
+from packwork.pipeline.plan.counts import items_needed, no_container
+from packwork.pipeline.read import AUTO, Material, drawn_first, read_named
+from packwork.pipeline.run import RunStep
+from packwork.raster.coverage import coverage
+from packwork.readers.target import read_target
 from packwork.recipe import Recipe
-from packwork.scene.item import Item
+from packwork.scene.container import Container
+from packwork.scene.contrast import oklabs_of_light
+from packwork.scene.item import Item, PhotoArt
+from packwork.scene.swatch import mean_lights
+from packwork.scene.target import TargetPicture, blurred
 from packwork.steps.starts import fits_first
 from packwork.uses.collage import filling, placing, reporting
-from packwork.uses.room import KnownContainer
+
+NO_CONTAINER = "none"
+"""Name for no container at all: a pile lies anywhere, a chart's groups are bars."""
+
+
+@dataclass(frozen=True, eq=False)
+class KnownContainer:
+    """The container of a run."""
+
+    container: Container | None
+
+    @property
+    def known(self) -> Container:
+        """The container.
+
+        Raises
+        ------
+        RecipeError
+            If there is none that could tell how many items it takes.
+        """
+        if self.container is None:
+            raise no_container()
+        return self.container
+
+    def of(self, cast: Cast) -> Container:
+        """Container that these items are placed in."""
+        del cast
+        return self.known
+
+    def needed(self, recipe: Recipe, items: Sequence[Item]) -> int:
+        """Number of items at which the container's shape shows."""
+        needed = items_needed(self.known, recipe.sizes, recipe.size_ratio).count
+        return max(needed, len(items))
+
+    def counted(self, recipe: Recipe, items: Sequence[Item]) -> int | None:
+        """Copies in all where the recipe has the run find that; None where it says."""
+        return self.needed(recipe, items) if recipe.count == AUTO else None
+
+
+def suited_first(recipe: Recipe, container: Container, items: tuple[Item, ...]) -> tuple[Item, ...]:
+    """Items in the order in which they are taken: those that show the picture best come first.
+
+    As they are where none is left out, or none keeps colours of its own.
+    """
+    count, tint = recipe.count, recipe.tint
+    are_photos = all(isinstance(item.art, PhotoArt) for item in items)
+    keeps_none = tint == 1.0 or (tint is None and not are_photos)
+    if recipe.picture is None or keeps_none or not isinstance(count, int) or count >= len(items):
+        return items
+    target = read_target(recipe.picture, container, recipe.read_options)
+    best = best_suited(mean_lights(items), _wanted(target, container, count))
+    rest = np.setdiff1d(np.arange(len(items)), best)
+    return tuple(items[k] for k in (*best, *rest))
+
+
+def best_suited(lights: FloatArray, wanted: FloatArray) -> IntArray:
+    """``(m,)`` ascending indices of the items by which wanted colours are met best, one by each.
+
+    Parameters
+    ----------
+    lights
+        ``(n, 3)`` light of items.
+    wanted
+        ``(m, 3)`` light, no more than items.
+
+    Examples
+    --------
+    >>> lights = np.array([[1.0, 0, 0], [0, 0, 1.0], [0.9, 0, 0], [0, 1.0, 0]])
+    >>> best_suited(lights, np.array([[1.0, 0, 0], [0.9, 0, 0]])).tolist()
+    [0, 2]
+    """
+    own, asked = oklabs_of_light(lights), oklabs_of_light(wanted)
+    away = ((own[None] - asked[:, None]) ** 2).sum(axis=2)
+    return np.sort(cheapest(away))
+
+
+def _wanted(target: TargetPicture, container: Container, count: int) -> FloatArray:
+    """``(count, 3)`` light of the picture at places all over the container."""
+    outline = container.outline
+    shape = target.light.shape[:2]
+    inside = coverage(outline.points * target.px_per_cu, outline.starts, shape) > 0.5
+    light = blurred(target.light, 1.0, count)[inside]
+    return np.asarray(light[np.linspace(0, len(light) - 1, count).astype(int)])
 
 
 @final
@@ -44,7 +137,7 @@ def material_of(
     items = named.items
     if recipe.picture is not None:
         # Only what is asked for loads the picture library.
-        from packwork.uses.suited import suited_first
+        from packwork.uses.icons import suited_first
 
         items = suited_first(recipe, room.known, items)
     if given is None and items is named.items:

@@ -16,7 +16,7 @@ from packwork.geometry.overlay import valid
 from packwork.live.commands.command import FARTHEST, Command, Library, Number, known
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.options import LiveOptions
-from packwork.pipeline.plan.padding import check_padding
+from packwork.pipeline.plan.limits import check_padding
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
 from packwork.start.angles import nearest_allowed

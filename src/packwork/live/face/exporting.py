@@ -17,7 +17,7 @@ from packwork.live.file.session_file import session_bytes
 from packwork.live.file.things import Things
 from packwork.live.kept import Kept
 from packwork.live.session import Session
-from packwork.recipe.film import film_options
+from packwork.recipe.verbs import film_options
 from packwork.scene.layout import Layout
 from packwork.temporary import TemporaryFolder
 from packwork.writers import Film, WriteOptions, encoded, film_bytes, write_options

@@ -14,7 +14,7 @@ import numpy as np
 from packwork.compaction.covers import Covers
 from packwork.geometry.affine import stretched
 from packwork.geometry.outline import Outline
-from packwork.pipeline.plan.padding import padded
+from packwork.pipeline.plan.limits import padded
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.solve.detail import MARGIN_RUNGS, Seen, seen_posed

@@ -17,8 +17,7 @@ from packwork.forces.field import Bond, Field
 from packwork.forces.forces import BondForce, FieldForce, Forces
 from packwork.forces.inward import Inward
 from packwork.forces.spec import ForceSpec, parse_force
-from packwork.pipeline.plan.asked import RuleSource, matching
-from packwork.pipeline.plan.cast import kinds
+from packwork.pipeline.plan.copies import RuleSource, kinds, matching
 from packwork.readers.svg.curve import read_curve
 from packwork.scene.container import Container
 from packwork.scene.item import Item

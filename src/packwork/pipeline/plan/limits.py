@@ -1,7 +1,9 @@
-"""Limits of rules on single items, in numbers; and whether they can be met."""
+"""Limits of single items in numbers, whether they can be met; the room that a padding leaves."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import combinations
 
@@ -9,16 +11,67 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray
+from packwork.compaction.conflicts import Conflict
+from packwork.errors import RecipeError
 from packwork.geometry.overlay import difference, intersection
 from packwork.geometry.polygon import Region
+from packwork.geometry.simplify import grown
+from packwork.phrasing import number_of
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import RuleSource
-from packwork.pipeline.plan.cast import kinds
+from packwork.pipeline.plan.copies import RuleSource, kinds
 from packwork.pipeline.plan.resolution import largest_scales
 from packwork.scene.container import Container
+from packwork.scene.item import Item, PhotoArt
+from packwork.scene.leaning import leanings
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
-from packwork.units import parse_length
+from packwork.units import Unit, convert, parse_length
+
+
+def given_scales(
+    items: Sequence[Item],
+    weights: FloatArray,
+    unit: Unit,
+    side: float,
+    size: str | float | None = None,
+) -> FloatArray:
+    """``(n,)`` scales of items of given sizes.
+
+    Parameters
+    ----------
+    weights
+        ``(n,)`` share of area of each.
+    unit, side
+        Of the canvas, and its longer side.
+    size
+        Longer side of an item of weight 1, a length; None for sizes as in the files.
+    """
+    if size is None:
+        # Items are in px, as their files say; the canvas may be in mm.
+        return np.full(len(items), convert(1.0, "px", unit))
+    length = parse_length(str(size), unit, side)
+    return np.array([length / item.outline.extent for item in items]) * np.sqrt(weights)
+
+
+def job_leanings(job: Job) -> FloatArray:
+    """``(n,)`` least tilts of photos that may turn within a limit, 0 of all others.
+
+    Icons are not held: they balance by themselves, since no common angle makes them fit better.
+    """
+    rotation = job.plan.rotation
+    found = np.zeros(len(job.items))
+    is_narrow = rotation.farthest < math.pi / 2 and not rotation.choices
+    if not (job.plan.leans and is_narrow) or rotation.is_still:
+        return found
+    is_leaning = np.array(
+        [
+            isinstance(item.art, PhotoArt) and one.rotation is None and "angle" not in one.pin
+            for item, one in zip(job.items, job.asked, strict=True)
+        ]
+    )
+    found[is_leaning] = leanings(int(is_leaning.sum()), rotation.farthest)
+    return found
+
 
 STICKS_OUT = 1e-3
 """Share of a pinned item that may lie outside the container: the flattening of two curves
@@ -111,12 +164,12 @@ def _check_place(job: Job, k: int, home: Region, words: str, limits: Limits) -> 
     one, name = job.asked[k], job.items[k].name
     x, y = float(limits.x[k]), float(limits.y[k])
     if one.is_placed and not shapely.intersects_xy(home, x, y):
-        raise one.voices["pin.x"].error(f"pins {name} at {x:g}, {y:g}, outside {words}")
+        raise one.sources["pin.x"].error(f"pins {name} at {x:g}, {y:g}, outside {words}")
     low, high = -job.container.side, 2 * job.container.side
     for axis, ends in (("x", [(x, low), (x, high)]), ("y", [(low, y), (high, y)])):
         if axis in one.pin and not shapely.LineString(ends).intersects(home):
             at = x if axis == "x" else y
-            raise one.voices[f"pin.{axis}"].error(
+            raise one.sources[f"pin.{axis}"].error(
                 f"pins {name} at {axis} = {at:g}, outside {words}"
             )
 
@@ -131,7 +184,7 @@ def _check_room(job: Job, k: int, home: Region, words: str, poses: Poses, limits
         beyond = difference(placed, home).area
     if beyond > STICKS_OUT * area:
         share = f"{100 * beyond / area:.2g} % of it lies outside {words}"
-        raise one.voices["pin.size"].error(
+        raise one.sources["pin.size"].error(
             f"pins {item.name} so that {share}; make it smaller or move it"
         )
 
@@ -145,9 +198,9 @@ def _check_pairs(job: Job, poses: Poses, limits: Limits) -> None:
         shared = intersection(regions[a], regions[b]).area
         allowed = STICKS_OUT if limits.held[[a, b], :4].all() else COVERED
         if shared > allowed * min(regions[a].area, regions[b].area):
-            voice, other = (job.asked[k].voices["pin.x"] for k in (b, a))
-            first = "" if other == voice else f" of {(other.place or other.key).strip(' :')}"
-            raise voice.error(
+            source, other = (job.asked[k].sources["pin.x"] for k in (b, a))
+            first = "" if other == source else f" of {(other.place or other.key).strip(' :')}"
+            raise source.error(
                 f"pins {job.items[b].name} onto {job.items[a].name}{first}; move one of them"
             )
 
@@ -176,7 +229,7 @@ def _scale_ranges(
 def _below_the_hero(job: Job, nominal: FloatArray) -> FloatArray:
     """``(n,)`` scales at which items stay well below the hero, if there is one."""
     extents = np.array([item.outline.extent for item in job.items])
-    heroes = [one.voices.get("pin.size", RuleSource("")).key == "hero" for one in job.asked]
+    heroes = [one.sources.get("pin.size", RuleSource("")).key == "hero" for one in job.asked]
     sizes = (nominal * extents)[heroes]
     return np.where(heroes, np.inf, np.min(LEAD * sizes, initial=np.inf) / extents)
 
@@ -188,4 +241,84 @@ def _places(job: Job, axis: str, whole: float) -> FloatArray:
             parse_length(str(one.pin[axis]), unit, whole) if axis in one.pin else np.nan
             for one in job.asked
         ]
+    )
+
+
+BEARABLE = 0.2
+"""Padding that is proposed, over the side of an item's share of the container. Larger leaves
+items that can hardly be seen. Chosen."""
+
+MOST_STUCK = 0.5
+"""Share of the items that may have found no room and the layout be shown all the same. Larger
+shows specks, smaller refuses what could be mended by hand. Chosen."""
+
+
+def padded(container: Container, padding: float) -> Container:
+    """Container drawn in by half the padding; the items' own margins are the other half."""
+    return replace(container, outline=grown(container.outline, -padding / 2))
+
+
+def check_padding(container: Container, padding: float, count: int, whose: str = "") -> None:
+    """Refuse a padding with which not even items as small as points could be placed.
+
+    Points that keep a distance from each other are centres of discs of half that size, which
+    do not overlap and keep half of it from the edge; their area cannot be more than there is.
+
+    Parameters
+    ----------
+    padding
+        Canvas units.
+    whose
+        What is said of the container; `` of a group`` for one of several.
+
+    Raises
+    ------
+    RecipeError
+        If there is no such room.
+
+    Examples
+    --------
+    >>> from packwork.geometry.outline import Outline
+    >>> tile = Outline.from_rings([np.array([[0.0, 0], [100, 0], [100, 100], [0, 100]])])
+    >>> square = Container("square", "square", tile, 100.0, 100.0)
+    >>> check_padding(square, 10.0, 25)
+    >>> check_padding(square, 20.0, 25)
+    Traceback (most recent call last):
+    packwork.errors.RecipeError: padding: 20 px is too much for 25 items: ...
+    """
+    if padding <= 0:
+        return
+    unit, outline = container.unit, container.outline
+    if grown(outline, -padding) is outline:
+        raise RecipeError(
+            "padding",
+            f"{padding:g} {unit} leaves nothing of the container{whose}; use a smaller one, "
+            "or a larger canvas",
+        )
+    if count * np.pi * (padding / 2) ** 2 > grown(outline, -padding / 2).area:
+        raise _too_much(container, padding, count, "even as points they would not find room")
+
+
+def check_found(
+    container: Container, padding: float, conflicts: Sequence[Conflict], count: int
+) -> None:
+    """Refuse a padding with which most items found no room, however small they were made.
+
+    Raises
+    ------
+    RecipeError
+        If that is so.
+    """
+    stuck = len({found.item for found in conflicts})
+    if padding > 0 and stuck > MOST_STUCK * count:
+        why = f"{stuck} of {count} found no room, however small"
+        raise _too_much(container, padding, count, why)
+
+
+def _too_much(container: Container, padding: float, count: int, why: str) -> RecipeError:
+    unit, better = container.unit, BEARABLE * np.sqrt(container.outline.area / count)
+    return RecipeError(
+        "padding",
+        f"{padding:g} {unit} is too much for {number_of(count, 'item')}: {why}; "
+        f"use {better:.2g} {unit} or less, or fewer items",
     )

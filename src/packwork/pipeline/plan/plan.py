@@ -9,12 +9,11 @@ from typing import Any, Literal, TypeAlias
 
 from packwork.errors import RecipeError
 from packwork.options import SizeMode
-from packwork.pipeline.widest import widest_cu
+from packwork.pipeline.plan.counts import widest_cu
 from packwork.readers.regions import Holes
 from packwork.recipe import APART, EPOCHS, Effort, Recipe
-from packwork.recipe.levels import parse_levels
 from packwork.recipe.pictures import Shades
-from packwork.recipe.presets import DEFAULT, PRESETS, Preset
+from packwork.recipe.presets import DEFAULT, PRESETS, Preset, parse_levels
 from packwork.recipe.refusals import validated
 from packwork.recipe.rules import Rotation
 from packwork.scene.container import Container

@@ -15,7 +15,7 @@ from packwork.errors import ReadError
 from packwork.phrasing import enumerated, number_of
 from packwork.readers.vectors import Vectors, groups_in_order, in_order, read_vectors
 from packwork.recipe import Recipe
-from packwork.recipe.meaning import parse_anchor
+from packwork.recipe.order import parse_anchor
 from packwork.scene.item import Item
 
 _LOG = logging.getLogger("packwork")

@@ -15,7 +15,7 @@ from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.watch import RunContext
+from packwork.pipeline.run import RunContext
 from packwork.progress import NOBODY, Observer, Stop
 from packwork.readers.charts.chart import ChartRead
 from packwork.readers.charts.columns import MISSING, as_number

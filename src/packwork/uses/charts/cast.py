@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from packwork.errors import RecipeError
-from packwork.pipeline.plan.cast import Cast, expand_copies
+from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.readers.charts.chart import ChartRead
 from packwork.recipe import Recipe
 
@@ -24,8 +24,8 @@ def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:
         untrue += ["size"] if "size" in one.pin else []
         if untrue:
             key = untrue[0]
-            voice = one.voices.get(key) or one.voices["pin.size"]
-            raise voice.error(f"sets a {key}, but the data say how large marks are")
+            source = one.sources.get(key) or one.sources["pin.size"]
+            raise source.error(f"sets a {key}, but the data say how large marks are")
     if list(chosen.items) != list(chart.items):
         raise RecipeError("rules", "count marks, but the data say how many there are")
     return replace(chosen, weights=chart.areas)

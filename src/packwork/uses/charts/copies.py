@@ -14,10 +14,9 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.padding import check_padding
+from packwork.pipeline.plan.limits import check_padding
+from packwork.pipeline.run import RunContext, run_steps
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import run_steps
-from packwork.pipeline.watch import RunContext
 from packwork.progress import Step, Stop
 from packwork.recipe import Effort
 from packwork.scene.container import Container

@@ -7,9 +7,8 @@ from typing import final
 
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import RunContext
 from packwork.scene.limits import Limits
 from packwork.solve.solver import Ending
 from packwork.uses.charts.bars import fill_bars

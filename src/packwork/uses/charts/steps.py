@@ -15,13 +15,13 @@ from packwork.pipeline.read import Material, job_of, read_room
 from packwork.readers.charts.chart import ChartRead, read_chart
 from packwork.readers.charts.columns import MISSING
 from packwork.recipe import Recipe
-from packwork.steps.arranging import check_arranged
+from packwork.steps.assign_in_order import check_arranged
 from packwork.uses.charts.cast import cast_chart
 from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.colours import chart_colours, check_palette
 from packwork.uses.charts.layout import spread_out
 from packwork.uses.charts.use import ChartUse
-from packwork.uses.room import NO_CONTAINER
+from packwork.uses.icons import NO_CONTAINER
 
 
 @dataclass(frozen=True, eq=False)

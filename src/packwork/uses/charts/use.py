@@ -8,13 +8,11 @@ from typing import final
 
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
-from packwork.pipeline.job import Job
+from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.counts import LEAST, items_needed
 from packwork.pipeline.read import Material
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.use import Use
-from packwork.pipeline.watch import RunContext
 from packwork.readers.charts.chart import read_chart
 from packwork.readers.charts.options import ChartOptions
 from packwork.recipe import Recipe

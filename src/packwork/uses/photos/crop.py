@@ -16,13 +16,12 @@ from packwork.geometry.overlay import buffered
 from packwork.metrics.certificate import HAIR
 from packwork.pipeline.findings import Filling, Unplaced
 from packwork.pipeline.job import Job
-from packwork.pipeline.plan.asked import ItemRules
-from packwork.pipeline.plan.padding import check_padding
+from packwork.pipeline.plan.copies import ItemRules
+from packwork.pipeline.plan.limits import check_padding
 from packwork.pipeline.plan.plan import void_plan
 from packwork.pipeline.recorder import Recorder
+from packwork.pipeline.run import RunContext, RunStep, run_steps, share_of
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep, run_steps, share_of
-from packwork.pipeline.watch import RunContext
 from packwork.progress import Observer, Step
 from packwork.recipe import Recipe
 from packwork.scene.container import Container

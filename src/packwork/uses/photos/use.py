@@ -6,16 +6,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import final
 
-from packwork.pipeline.job import Job
+from packwork.pipeline.job import Job, Use
 from packwork.pipeline.read import Material
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.use import Use
+from packwork.pipeline.run import RunStep
 from packwork.recipe import Recipe
 from packwork.scene.item import Item
 from packwork.uses.collage import filling, placing, reporting
-from packwork.uses.icons import material_of
+from packwork.uses.icons import KnownContainer, material_of
 from packwork.uses.photos.crop import CropAtEdge, crops
-from packwork.uses.room import KnownContainer
 
 PHOTO_STARTS = ("distance-field", "medial-axis", "scatter")
 """Starts that are tried of photos. Each takes 0.7 s of 60; what a short finish makes of its

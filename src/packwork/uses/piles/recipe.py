@@ -9,7 +9,7 @@ from packwork.errors import RecipeError
 from packwork.recipe import Recipe, make_recipe
 from packwork.recipe.piles import PileOptions
 from packwork.recipe.refusals import validated
-from packwork.uses.room import NO_CONTAINER
+from packwork.uses.icons import NO_CONTAINER
 
 DEFAULT_FORCE, DEFAULT_FORCE_ALONE = "down", "towards centre"
 """What heaps items in a container, and where there is none."""

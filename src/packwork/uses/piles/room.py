@@ -9,8 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from packwork.arrays import FloatArray
-from packwork.pipeline.plan.cast import Cast
-from packwork.pipeline.plan.sizes import given_scales
+from packwork.pipeline.plan.copies import Cast
+from packwork.pipeline.plan.counts import MOST
+from packwork.pipeline.plan.limits import given_scales
 from packwork.pipeline.read import read_room
 from packwork.readers.svg.curve import walled_container
 from packwork.recipe import Recipe
@@ -20,9 +21,8 @@ from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.scene.item import Item
 from packwork.units import DEFAULT_SIDE, CanvasSize, Unit
+from packwork.uses.icons import NO_CONTAINER, KnownContainer
 from packwork.uses.piles.opening import nowhere
-from packwork.uses.piles.sizes import heap_needed
-from packwork.uses.room import NO_CONTAINER, KnownContainer
 
 WIDER = 4
 """Times that a sheet is made wider for its padding, which may be a share of it. More comes nearer
@@ -94,3 +94,15 @@ def _brought_along(points: FloatArray, before: Container, after: Container) -> F
     scale = after.outline.extent / before.outline.extent
     old, new = (np.array(c.outline.bounds[:2]) for c in (before, after))
     return np.asarray(new + (points - old) * scale)
+
+
+HEAP = 0.4
+"""Area of a pile's items over the container's: it stands about two thirds high. Chosen."""
+
+
+def heap_needed(container: Container, asked: PileOptions, items: Sequence[Item]) -> int:
+    """Items of given sizes that heap up about two thirds high."""
+    weights = np.ones(len(items))
+    scales = given_scales(items, weights, container.unit, container.side, asked.size)
+    own = np.array([item.outline.area for item in items]) * scales**2
+    return int(np.clip(HEAP * container.outline.area / own.mean(), 1, MOST))

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
+from typing import final
 
 import numpy as np
 
@@ -19,7 +20,10 @@ from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
 from packwork.geometry.affine import similarity
 from packwork.pipeline.job import Job
-from packwork.pipeline.widest import lines_width
+from packwork.pipeline.plan.counts import lines_width
+from packwork.pipeline.plan.limits import check_padding
+from packwork.pipeline.run import RunContext, RunStep
+from packwork.pipeline.state import RunState
 from packwork.progress import Stop, never
 from packwork.readers.words.items import EM_PX
 from packwork.recipe.rules import Rotation
@@ -29,7 +33,11 @@ from packwork.start.angles import spread_angles, start_angles
 from packwork.start.first_fit.graded import Graded, graded_fit
 from packwork.start.first_fit.grading import Candidate
 from packwork.steps.starts import needs_levels
-from packwork.uses.words.letters import Letters
+from packwork.uses.words.copies import words_of
+from packwork.uses.words.sizes import (
+    Letters,
+    without,
+)
 
 FULL = 0.62
 """Share of the container that words would cover in proportion to the first. Larger gives the
@@ -271,3 +279,38 @@ def angles_of(rotation: Rotation, rng: np.random.Generator) -> tuple[float, ...]
         others = dict.fromkeys(float(angle) for angle in rotation.choices or () if angle != first)
         return (first, *others)
     return tuple(spread_angles(ANGLES, rotation.limit, rng).tolist())
+
+
+@final
+class GradedPlaces(RunStep):
+    """Words whose sizes give way: each as large as it finds a place in its turn."""
+
+    def __init__(self, letters: Letters) -> None:
+        self._letters = letters
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State of the words that find a place; the others count as not drawn."""
+        job, words = state.job, words_of(state.job)
+        with job.clock.time("start"):
+            places = graded_places(job, self._letters, watch.stop)
+        gone = np.setdiff1d(np.arange(len(job.items)), places.placed)
+        kept = places.placed[places.placed < len(words.read.items)]
+        reason = "finds no place at a size that could be read; use fewer words or a larger canvas"
+        undrawn = {job.items[k].name: reason for k in gone}
+        read = replace(
+            words.read,
+            items=tuple(words.read.items[k] for k in kept),
+            areas=words.read.areas[kept],
+            words=tuple(words.read.words[k] for k in kept),
+            undrawn={**undrawn, **words.read.undrawn},
+        )
+        smaller = replace(
+            job.subset(places.placed),
+            use=replace(words, read=read, gives_way=True),
+            fillers=without(job.fillers, [job.items[k] for k in gone]),
+        )
+        check_padding(job.container, job.plan.gap, len(smaller.items))
+        return replace(
+            RunState.of(smaller), poses=places.poses, nominal=places.poses.scale,
+            limits=places.limits, method="first-fit", is_tight=True, is_only_refined=True,
+        )  # fmt: skip

@@ -8,10 +8,9 @@ import numpy as np
 
 from packwork.compaction.options import HAIR
 from packwork.pipeline.findings import Filling
-from packwork.pipeline.plan.asked import ItemRules
+from packwork.pipeline.plan.copies import ItemRules
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import RunContext
 from packwork.progress import Stop, until_over
 from packwork.readers.words.items import EM_PX, INK
 from packwork.recipe.rules import OWN_COLOURS
@@ -22,7 +21,7 @@ from packwork.start.first_fit.graded import fit_between
 from packwork.start.first_fit.grading import Candidate
 from packwork.steps.voids import joined_by
 from packwork.uses.words.graded import LEGIBLE, angles_of
-from packwork.uses.words.letters import Letters
+from packwork.uses.words.sizes import Letters
 
 REPEATED = 0.75
 """Height of a repeated word over that of the word itself, at most: so no weight is told

@@ -2,55 +2,55 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from itertools import count
-from typing import TypeAlias, final
+from typing import final
 
 import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.errors import PackworkError
 from packwork.offers import Verbs
-from packwork.pipeline.job import Job
-from packwork.pipeline.plan.padding import check_padding
-from packwork.pipeline.plan.regions import read_regions
-from packwork.pipeline.plan.shares import shared_out
+from packwork.phrasing import enumerated, number_of
+from packwork.pipeline.findings import Unplaced, WordsFound
+from packwork.pipeline.job import Job, Use
+from packwork.pipeline.plan.plan import found_sizes
 from packwork.pipeline.plan.vectors import ItemVectors
-from packwork.pipeline.read import AUTO
+from packwork.pipeline.read import AUTO, Material, read_named
 from packwork.pipeline.result import Run
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep, run_steps, share_of
-from packwork.pipeline.use import Use
-from packwork.pipeline.watch import RunContext
 from packwork.readers.vectors import Vectors
-from packwork.readers.words.items import EM_PX, WordsRead, read_word_items
+from packwork.readers.words.items import EM_PX, MOST_SHOWN, WordsRead, read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe
-from packwork.recipe.arrangement import unknown_measure
-from packwork.recipe.meaning import parse_anchor
+from packwork.recipe.order import FROM_TEXT, parse_anchor, unknown_measure
 from packwork.recipe.verbs import VERBS
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.steps.advice import MOST_BARE, smaller_copies
 from packwork.steps.control import Replan, Retry
 from packwork.uses.collage import filling, placing, reporting
-from packwork.uses.words.cast import cast_words
-from packwork.uses.words.colours import word_colours
-from packwork.uses.words.columns import column_values, columns_there
-from packwork.uses.words.counts import words_needed
-from packwork.uses.words.graded import can_give_way, graded_places
-from packwork.uses.words.heroes import BelowHero, LedByHero
-from packwork.uses.words.letters import (
+from packwork.uses.icons import KnownContainer
+from packwork.uses.photos.crop import crops
+from packwork.uses.words.colours import check_colours, word_colours
+from packwork.uses.words.copies import (
+    cast_words,
+    column_values,
+    columns_there,
+    words_counted,
+    words_needed,
+    words_of,
+)
+from packwork.uses.words.graded import GradedPlaces, can_give_way
+from packwork.uses.words.repeats import REPEATED, RepeatWords
+from packwork.uses.words.sizes import (
+    BelowHero,
+    FewerWords,
+    LedByHero,
     Letters,
     LettersAtMost,
-    heaviest,
-    hopeful_sizes,
-    letters_of,
-    readable_count,
 )
-from packwork.uses.words.repeats import REPEATED, RepeatWords
-from packwork.uses.words.report import RemarkGap, RemarkWords, ReportWords, words_of
 
 MANY = 40
 """Words of which a container is to look full. Fewer leave it bare whatever their sizes, and are
@@ -263,109 +263,79 @@ def fuller(tried: Sequence[RunState], watch: RunContext) -> RunState:
     return graded if is_fuller and is_kept else found
 
 
-@final
-class GradedPlaces(RunStep):
-    """Words whose sizes give way: each as large as it finds a place in its turn."""
-
-    def __init__(self, letters: Letters) -> None:
-        self._letters = letters
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """State of the words that find a place; the others count as not drawn."""
-        job, words = state.job, words_of(state.job)
-        with job.clock.time("start"):
-            places = graded_places(job, self._letters, watch.stop)
-        gone = np.setdiff1d(np.arange(len(job.items)), places.placed)
-        kept = places.placed[places.placed < len(words.read.items)]
-        reason = "finds no place at a size that could be read; use fewer words or a larger canvas"
-        undrawn = {job.items[k].name: reason for k in gone}
-        read = replace(
-            words.read,
-            items=tuple(words.read.items[k] for k in kept),
-            areas=words.read.areas[kept],
-            words=tuple(words.read.words[k] for k in kept),
-            undrawn={**undrawn, **words.read.undrawn},
-        )
-        smaller = replace(
-            job.subset(places.placed),
-            use=replace(words, read=read, gives_way=True),
-            fillers=without(job.fillers, [job.items[k] for k in gone]),
-        )
-        check_padding(job.container, job.plan.gap, len(smaller.items))
-        return replace(
-            RunState.of(smaller), poses=places.poses, nominal=places.poses.scale,
-            limits=places.limits, method="first-fit", is_tight=True, is_only_refined=True,
-        )  # fmt: skip
+def nesting(asked: WordOptions, recipe: Recipe, room: KnownContainer) -> WordOptions:
+    """Options that say whether words stand in counters: unless asked, where sizes give way."""
+    if asked.nest is not None or room.container is None:
+        return asked
+    return asked.model_copy(update={"nest": found_sizes(recipe, room.container) == "graded"})
 
 
-Listed: TypeAlias = Callable[[Job], Sequence[RunStep]]
-"""Steps that place the words of a job."""
-
-
-@final
-class FewerWords(RunStep):
-    """Fewer and fewer words, the heaviest, until all letters are as large as asked.
-
-    Parameters
-    ----------
-    smallest
-        Least font size, canvas units.
-    """
-
-    def __init__(self, listed: Listed, job: Job, smallest: float) -> None:
-        self._listed, self._smallest = listed, smallest
-        self.share = share_of(listed(job))
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """State of the words whose letters are large enough; others count as not drawn."""
-        use = words_of(state.job)
-        # Some could not even be large enough in the fullest cloud.
-        sizes = hopeful_sizes(use.read, use.letters, state.job.container.outline.area)
-        hopeful = int(np.count_nonzero(sizes >= self._smallest))
-        job = heaviest_of(state.job, hopeful, sizes, self._smallest)
-        for attempt in count(1):
-            found = run_steps(self._listed(job), RunState.of(job), watch)
-            read = words_of(found.job).read
-            sizes = letters_of(found.poses, len(read.items))
-            enough = readable_count(read, self._smallest, sizes, attempt)
-            if watch.stop() or enough == len(read.items):
-                break
-            job = heaviest_of(job, enough, sizes, self._smallest)
-        return found
-
-
-def heaviest_of(job: Job, number: int, sizes: FloatArray, smallest: float) -> Job:
-    """Job of fewer words, what rules ask of them, and what is mixed in.
-
-    Parameters
-    ----------
-    sizes
-        ``(n,)`` what the letters of each would measure.
-    smallest
-        Least font size, canvas units.
-    """
-    use = words_of(job)
-    if number == len(use.read.items):
-        return job
-    words = heaviest(use.read, number, sizes, smallest, job.container.unit)
-    others = without(job.items, use.read.items)
-    chosen = cast_words(job.recipe, words, list(dict.fromkeys(others)))
-    gone = without(use.read.items, words.items)
-    weights = chosen.weights
-    if job.plan.share is not None:
-        weights = shared_out(chosen.items, weights, words.items, job.plan.share)
-    return replace(
-        job,
-        use=replace(use, read=words),
-        items=chosen.items,
-        asked=chosen.asked,
-        weights=weights,
-        regions=read_regions(chosen.asked, job.container),
-        fillers=without(job.fillers, gone),
+def read_cloud(
+    recipe: Recipe, asked: WordOptions, room: KnownContainer, given: Sequence[Item] | None
+) -> Material:
+    """Words of a recipe, and the items and photographs among them."""
+    # Refuses cut photographs among words.
+    crops(recipe)
+    asked = nesting(asked, recipe, room)
+    is_related = recipe.embeddings == FROM_TEXT
+    counted = words_counted(asked, room)
+    words = read_word_items(counted, recipe.holes, recipe, is_related=is_related)
+    check_colours(recipe, words)
+    named = read_named(recipe, given)
+    chosen = cast_words(recipe, words, named.items)
+    container = room.of(chosen)
+    return Material(
+        use=WordsUse(words, asked, Letters.of(asked, container, recipe.sizes)),
+        container=container,
+        cast=chosen,
+        fillers=words.items,
+        given=None if words.order is None else (*words.order, *named.keys),
+        skipped=(*named.skipped, *words.told),
     )
 
 
-def without(items: Sequence[Item], gone: Sequence[Item]) -> tuple[Item, ...]:
-    """Items but those that are gone: a word that is not there is not repeated either."""
-    known = set(gone)
-    return tuple(item for item in items if item not in known)
+@final
+class ReportWords(RunStep):
+    """Words that the source holds, and those that could not be drawn."""
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State with these among what is unplaced, numbered after the items."""
+        use, (layout, _) = words_of(state.job), state.measured
+        undrawn = tuple(
+            Unplaced(word[:MOST_SHOWN], index, reason)
+            for index, (word, reason) in enumerate(use.read.undrawn.items(), start=state.placed)
+        )
+        asked = len(use.read.items) + len(use.read.undrawn)
+        words = WordsFound(use.read.found, asked, use.of_true(layout))
+        return replace(state, unplaced=(*state.unplaced, *undrawn), words=words)
+
+
+@final
+class RemarkWords(RunStep):
+    """Sentences about words that were left out since they say little, and sizes that give way."""
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State with the remarks."""
+        job, use, said = state.job, words_of(state.job), list[str]()
+        if use.options.count == AUTO:
+            said.append(f"auto chose {number_of(len(job.items), 'word')}")
+        if words := use.read.stopped:
+            many = number_of(len(words), "function word is", "function words are")
+            said.append(f"{many} left out ({enumerated(words)}); --language none keeps them")
+        if use.gives_way and job.recipe.sizes == AUTO:
+            is_thin = found_sizes(job.recipe, job.container) == "graded"
+            why = "the container is thin" if is_thin else "in proportion they would leave it bare"
+            said.append(f"{why}, so sizes of words give way; --sizes shared keeps proportions")
+        return replace(state, remarks=(*state.remarks, *said))
+
+
+@final
+class RemarkGap(RunStep):
+    """A sentence about a gap that is narrower than usual, for there are so many words."""
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State with the remark."""
+        job, unit = state.job, state.job.container.unit
+        usual = job.recipe.padding_cu(job.container)
+        said = f"so many words stand {job.plan.gap:.2g} {unit} apart, not {usual:g} {unit}"
+        return replace(state, remarks=(*state.remarks, f"{said}; another --padding is kept"))

@@ -21,15 +21,14 @@ from packwork.assignment.colour import GRID, order_by_colour
 from packwork.assignment.local_search import cheapest
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
+from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.pipeline.step import RunStep
-from packwork.pipeline.watch import RunContext
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights, patch_of
 from packwork.scene.target import TargetPicture, blurred
-from packwork.steps.places import exchanged, shapes
+from packwork.steps.exchanges import shape_features, with_places_of
 
 UNLIKE = 0.06
 """What the squared logarithm of a factor in shape weighs beside squared distances in Oklab. Larger
@@ -67,7 +66,7 @@ class AssignByColour(RunStep):
         if len(movable) < FEWEST:
             return state
         order = _order(job, poses.subset(movable), movable, self._target)
-        return replace(state, poses=exchanged(job, poses, movable, movable[order]))
+        return replace(state, poses=with_places_of(job, poses, movable, movable[order]))
 
 
 def _order(job: Job, places: Poses, movable: IntArray, target: TargetPicture) -> IntArray:
@@ -76,7 +75,7 @@ def _order(job: Job, places: Poses, movable: IntArray, target: TargetPicture) ->
     own = oklabs_of_light(mean_lights(items))
     wanted = oklabs_of_light(_light_at(target, places, len(job.items)))
     away = ((own[None] - wanted[:, None]) ** 2).sum(axis=2)
-    own_shapes = shapes(job, movable)
+    own_shapes = shape_features(job, movable)
     unlike = ((own_shapes[None] - own_shapes[:, None]) ** 2).sum(axis=2)
     weights = (hull_areas([one.outline for one in items]) * places.scale**2)[:, None]
     order = cheapest((away + UNLIKE * unlike) * weights)

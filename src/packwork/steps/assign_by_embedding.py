@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import final
 
 import numpy as np
 
@@ -23,11 +24,13 @@ from packwork.forces.ties import Ties
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.vectors import ItemVectors
+from packwork.pipeline.run import RunContext, RunStep
+from packwork.pipeline.state import RunState
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.start.first_fit.homes import Homes
 from packwork.start.first_poses import disc_radii
-from packwork.steps.places import even_points
+from packwork.steps.exchanges import even_points
 
 FACTOR, KEPT_FACTOR = 1.6, 1.3
 """Factor between the radii of an item and of its new place that costs as much as lying a spacing
@@ -149,3 +152,16 @@ def _anchored(
         drawn = np.column_stack([drawn, like / most if most > 0 else like])
         along = np.column_stack([along, far])
     return drawn, along
+
+
+@final
+class AssignByEmbedding(RunStep):
+    """Items change places so that what is alike lies together."""
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State with places given out anew."""
+        job = state.job
+        with job.clock.time("start"):
+            rng = np.random.default_rng(job.plan.seed)
+            poses = assign_by_embedding(job, job.solid_outlines, state.poses, rng)
+            return replace(state, poses=poses)

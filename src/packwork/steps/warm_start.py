@@ -16,9 +16,9 @@ from packwork.errors import RecipeError
 from packwork.forces.bonds import Home
 from packwork.forces.forces import BondForce, Forces
 from packwork.geometry.overlay import symmetric_difference
-from packwork.pipeline.earlier import match_items, new_items
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.limits import held_to
+from packwork.pipeline.registration import match_items, new_items
 from packwork.pipeline.state import RunState
 from packwork.recipe.rules import Rotation
 from packwork.scene.canvas import brought_over
@@ -28,8 +28,7 @@ from packwork.solve.options import SolveOptions
 from packwork.solve.solver import scale_bounds
 from packwork.start.angles import nearest_allowed
 from packwork.start.relocate_buried import relocated
-from packwork.steps.buried import BURIED_SHARE, unburied
-from packwork.steps.place import Setting, Start, allowed_angles
+from packwork.steps.place import BURIED_SHARE, Setting, Start, allowed_angles, unburied
 
 ROUGH_SHARE, ROUGH_ITEMS = 0.1, 0.1
 """Share of an item under others or outside, and share of the items of which so much is, from which
@@ -70,11 +69,13 @@ class FromLayout(Start):
         if job.plan.stays:
             new = new_items(job)
             poses = relocated(setting.region, setting.outlines, poses, new, setting.rng, limits)
-            return replace(setting.placed(poses, "layout", limits), goes_on=True)
+            return replace(setting.placed(poses, "layout", limits), is_warm_start=True)
         poses, violation = unburied(setting, poses, limits)
-        goes_on = float(np.mean(violation > BURIED_SHARE)) <= ROUGH_ITEMS
-        is_tight = goes_on and _suffices(job, violation)
-        return replace(setting.placed(poses, "layout", limits, is_tight=is_tight), goes_on=goes_on)
+        is_warm_start = float(np.mean(violation > BURIED_SHARE)) <= ROUGH_ITEMS
+        is_tight = is_warm_start and _suffices(job, violation)
+        return replace(
+            setting.placed(poses, "layout", limits, is_tight=is_tight), is_warm_start=is_warm_start
+        )
 
 
 def needs_no_levels(job: Job) -> bool:

@@ -5,14 +5,18 @@ from __future__ import annotations
 import logging
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import final
 
 import numpy as np
 
 from packwork.phrasing import enumerated
 from packwork.pipeline.job import Job
+from packwork.pipeline.run import RunContext, RunStep
+from packwork.pipeline.state import RunState
 from packwork.readers.svg.thinner import LineDrawing, has_traced_lines, line_drawing
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
+from packwork.steps.finish import finished
 
 _LOG = logging.getLogger("packwork")
 
@@ -74,3 +78,29 @@ def _tell_of_traced(items: Sequence[Item]) -> None:
             "stroke_width: drawings that are traced from their pictures keep their lines as wide "
             "as they are: %s", enumerated(list(names)),
         )  # fmt: skip
+
+
+@final
+class EvenLines(RunStep):
+    """Line drawings of all sizes with lines of one width, and notices of those that keep theirs."""
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State whose drawings are thinner."""
+        with state.job.clock.time("finish"):
+            job = evened(state.job, state.poses)
+        return replace(state, job=job, has_thinner_lines=job.items is not state.job.items)
+
+
+@final
+class FinishThinner(RunStep):
+    """Line drawings with lines of one width, which leave room for all to grow into."""
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State whose drawings are thinner, grown; as it is where no line gets thinner."""
+        job = state.job
+        with job.clock.time("finish"):
+            thinner = job if watch.stop() else evened(job, state.poses, tells=False)
+            if thinner is job:
+                return state
+            state = replace(state, job=thinner, asked_for=thinner)
+            return finished(state, watch, grows=True)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import final
 
 import numpy as np
 
@@ -19,15 +20,17 @@ from packwork.errors import ReadError, RecipeError
 from packwork.fields.geodesic import lengthwise
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
+from packwork.pipeline.run import RunContext, RunStep
+from packwork.pipeline.state import RunState
 from packwork.readers.tables.pairs import read_pairs
-from packwork.recipe.arrangement import FILES, MEASURES, Ordering, parse_arrangement
+from packwork.recipe.order import FILES, MEASURES, Ordering, parse_arrangement
 from packwork.scene.container import Container
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights
 from packwork.start.first_fit.homes import Homes
 from packwork.start.first_poses import container_image
-from packwork.steps.places import even_points, exchanged, shapes
+from packwork.steps.exchanges import even_points, shape_features, with_places_of
 
 MOST_BYTES = 5_000_000
 """Size of a file of numbers. Chosen."""
@@ -115,7 +118,7 @@ def assign_in_order(job: Job, poses: Poses, nominal: FloatArray) -> Poses:
     movable = np.flatnonzero(np.logical_not(is_put))
     if len(movable) < 2:
         return poses
-    changed = exchanged(job, poses, movable, movable[_order(job, asked, poses, movable)])
+    changed = with_places_of(job, poses, movable, movable[_order(job, asked, poses, movable)])
     if job.plan.sizes != "free":
         return replace(changed, angle=poses.angle, scale=poses.scale)
     ratio = job.plan.size_ratio
@@ -145,7 +148,7 @@ def _order(job: Job, asked: Ordering, poses: Poses, movable: IntArray) -> IntArr
     areas = hulls * poses.scale[movable] ** 2
     points = np.column_stack([poses.x, poses.y])[movable]
     away = _away(job, asked, points, areas, areas, movable)
-    own = shapes(job, movable)
+    own = shape_features(job, movable)
     unlike = UNLIKE * ((own[None] - own[:, None]) ** 2).sum(axis=2)
     if job.plan.sizes != "free":
         sizes = np.log(areas) / 2
@@ -261,3 +264,13 @@ def _of_file(job: Job, file: str) -> FloatArray:
             "arrange", f"{file} has no number for {missing[0][:40]!r}; there are {there}"
         )
     return np.array([table[item.name] for item in job.items])
+
+
+@final
+class AssignInOrder(RunStep):
+    """Items change places so that they lie in the order asked for."""
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State with places given out anew."""
+        with state.job.clock.time("start"):
+            return replace(state, poses=assign_in_order(state.job, state.poses, state.nominal))

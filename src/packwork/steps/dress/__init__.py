@@ -1,1 +1,0 @@
-"""Appearance of placed items: colours, line weights, halos, labels."""
