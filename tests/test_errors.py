@@ -8,11 +8,13 @@ import multiprocessing
 import pickle
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
+from itertools import product
 from pathlib import Path
 
 import pytest
 
 import packwork as pw
+from each import for_each
 from packwork import errors
 from packwork.errors import PackworkError, ReadError, RecipeError, RowsLostError, WriteError
 from packwork.readers.files import read_bytes
@@ -35,8 +37,7 @@ def _made(kind: type[PackworkError]) -> PackworkError:
     return error
 
 
-@pytest.mark.parametrize("kind", ALL)
-@pytest.mark.parametrize("protocol", range(pickle.HIGHEST_PROTOCOL + 1))
+@for_each(product(ALL, range(pickle.HIGHEST_PROTOCOL + 1)))
 def test_errors_are_pickled(kind: type[PackworkError], protocol: int) -> None:
     error = _made(kind)
     again = pickle.loads(pickle.dumps(error, protocol))  # noqa: S301
@@ -44,8 +45,7 @@ def test_errors_are_pickled(kind: type[PackworkError], protocol: int) -> None:
     assert (str(again), again.args, vars(again)) == (str(error), error.args, vars(error))
 
 
-@pytest.mark.parametrize("kind", ALL)
-@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
+@for_each(product(ALL, [copy.copy, copy.deepcopy]))
 def test_errors_are_copied(kind: type[PackworkError], copied: Callable) -> None:
     error = _made(kind)
     again = copied(error)

@@ -18,13 +18,14 @@ from benchmarks.kit import manifests
 from benchmarks.kit.published import COMPARISONS
 from benchmarks.pages import overview, pages
 from benchmarks.peers import peer_pages, peering
+from each import for_each
 
 ROOT = Path(__file__).parents[1]
 MANIFESTS = manifests.known()
 RENDERED = pages.rendered()
 
 
-@pytest.mark.parametrize("name", RENDERED)
+@for_each(RENDERED)
 def test_a_page_is_what_its_manifest_says(name: str) -> None:
     assert (ROOT / "docs" / "benchmarks" / name).read_text(encoding="utf-8") == RENDERED[name]
 
@@ -52,7 +53,7 @@ def test_what_is_empty_on_a_page_is_found(text: str) -> None:
     assert empty_places(text)
 
 
-@pytest.mark.parametrize("name", RENDERED)
+@for_each(RENDERED)
 def test_no_part_of_a_page_is_empty(name: str) -> None:
     assert empty_places(RENDERED[name]) == []
 
@@ -62,7 +63,7 @@ def test_every_page_of_figures_has_its_manifest() -> None:
     assert pages_there == set(RENDERED)
 
 
-@pytest.mark.parametrize("name", MANIFESTS)
+@for_each(MANIFESTS)
 def test_a_manifest_says_by_what_command_it_came_about(name: str) -> None:
     stamps = MANIFESTS[name].get("sections", {"": MANIFESTS[name]}).values()
     for stamp in stamps:
@@ -81,7 +82,7 @@ def pictures_in(value: Any) -> list[dict[str, str]]:
 PICTURES = [one for manifest in MANIFESTS.values() for one in pictures_in(manifest)]
 
 
-@pytest.mark.parametrize("picture", PICTURES, ids=lambda picture: picture["file"])
+@for_each(PICTURES, name=lambda picture: picture["file"])
 def test_a_picture_is_that_of_the_run(picture: dict[str, str]) -> None:
     data = (ROOT / "docs" / picture["file"]).read_bytes()
     assert hashlib.sha256(data).hexdigest() == picture["sha256"]

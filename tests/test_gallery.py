@@ -11,6 +11,8 @@ from typing import Any
 import pytest
 from PIL import Image
 
+from each import for_each
+
 ROOT = Path(__file__).parents[1]
 PAGE = (ROOT / "docs" / "gallery.md").read_text(encoding="utf-8")
 FOLDERS = sorted(page.parent for page in ROOT.glob("examples/*/README.md"))
@@ -40,7 +42,7 @@ def test_the_page_is_what_the_script_writes_now(gallery: Any) -> None:
     assert gallery.written() == PAGE, "run: make gallery"
 
 
-@pytest.mark.parametrize("folder", FOLDERS, ids=[folder.name for folder in FOLDERS])
+@for_each(FOLDERS, name=lambda folder: folder.name)
 def test_every_example_is_on_the_page_once(folder: Path) -> None:
     assert PAGE.count(f"](../examples/{folder.name}/README.md)") == 1
 

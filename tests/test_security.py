@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import packwork as pw
+from each import for_each
 from packwork.batches import cluster
 from packwork.errors import PackworkError
 
@@ -69,7 +70,7 @@ def _names(file: str) -> set[str]:
     return {node.name for node in ast.walk(tree) if isinstance(node, ast.FunctionDef)}
 
 
-@pytest.mark.parametrize("said", [said for said, tried in TABLE.items() if tried != "page"])
+@for_each(said for said, tried in TABLE.items() if tried != "page")
 def test_what_is_promised_is_tried(said: str) -> None:
     for test in TABLE[said].split():
         file, _, name = test.partition("::")

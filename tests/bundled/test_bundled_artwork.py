@@ -17,6 +17,7 @@ from defusedxml import ElementTree
 from PIL import Image
 
 import packwork.bundled
+from each import for_each
 
 ROOT = Path(packwork.bundled.__file__).parent
 ICONS = sorted((ROOT / "icons").glob("*.svg"))
@@ -36,7 +37,7 @@ PALETTE = {
     "plum": "#7b3b5e",
 }
 
-any_picture = pytest.mark.parametrize("path", ICONS + CONTAINERS, ids=lambda path: path.stem)
+any_picture = for_each(ICONS + CONTAINERS, name=lambda path: path.stem)
 
 
 def view_box(path: Path) -> tuple[float, ...]:
@@ -75,7 +76,7 @@ def test_icons_have_a_square_of_100_units() -> None:
     assert {view_box(path) for path in ICONS} == {(0.0, 0.0, 100.0, 100.0)}
 
 
-@pytest.mark.parametrize("path", CONTAINERS, ids=lambda path: path.stem)
+@for_each(CONTAINERS, name=lambda path: path.stem)
 def test_container_is_one_filled_path(path: Path) -> None:
     shapes = [e for e in ElementTree.parse(path).iter() if local_name(e) not in {"svg", "title"}]
     assert view_box(path)[:2] == (0.0, 0.0)

@@ -15,6 +15,8 @@ import pytest
 from PIL import Image
 from typer.testing import Result
 
+from each import for_each
+
 Command = Callable[..., Result]
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -111,7 +113,7 @@ def test_the_command_of_an_example_writes_what_it_names(
     assert [one for found in files.values() for one in found if not one.stat().st_size] == []
 
 
-@pytest.mark.parametrize("page", PAGES, ids=[page.parent.name for page in PAGES])
+@for_each(PAGES, name=lambda page: page.parent.name)
 def test_pictures_of_an_example_are_small_and_shown(page: Path) -> None:
     for picture in page.parent.glob("*.png"):
         assert picture.stat().st_size <= MOST_BYTES
@@ -120,7 +122,7 @@ def test_pictures_of_an_example_are_small_and_shown(page: Path) -> None:
         assert picture.name in page.read_text(encoding="utf-8")
 
 
-@pytest.mark.parametrize("page", PAGES, ids=[page.parent.name for page in PAGES])
+@for_each(PAGES, name=lambda page: page.parent.name)
 def test_films_of_an_example_are_there_small_and_shown(page: Path) -> None:
     for arguments in commands(page):
         for flag, name in pairwise(arguments):

@@ -10,6 +10,7 @@ import pytest
 import typer
 from typer.testing import CliRunner
 
+from each import for_each
 from packwork.cli.flags import flag, typed
 from packwork.cli.options import by_name
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
@@ -101,7 +102,7 @@ def test_what_is_typed_follows_from_the_type(name: str, kind: Any) -> None:
     assert typed(OPTIONS[name]) == kind
 
 
-@pytest.mark.parametrize("option", offered(Recipe), ids=lambda option: option.name)
+@for_each(offered(Recipe), name=lambda option: option.name)
 def test_every_neighbour_that_a_recipes_option_names_is_there(option: Any) -> None:
     assert option.offer.after in {None, *(other.name for other in offered(Recipe))}
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from each import for_each
 from packwork.errors import ReadError, RecipeError
 from packwork.readers import builtin
 from packwork.readers.container import read_container
@@ -23,7 +24,7 @@ def svg_file(tmp_path):
     return save
 
 
-@pytest.mark.parametrize("name", builtin.container_names())
+@for_each(builtin.container_names())
 def test_builtin_containers_lie_on_their_canvas(name):
     container = read_container(name, canvas=300)
     left, top, right, bottom = container.outline.bounds

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from each import for_each
 from packwork.errors import ReadError
 from packwork.readers import builtin
 from packwork.readers.items import read_items
@@ -140,7 +141,7 @@ def test_reading_icons_is_quick():
     assert all(isinstance(item.art, VectorArt) for item in items)
 
 
-@pytest.mark.parametrize("name", builtin.item_names())
+@for_each(builtin.item_names())
 def test_builtin_items_are_usable(name):
     item = builtin.builtin_item(name)
     assert item.name == name
@@ -148,7 +149,7 @@ def test_builtin_items_are_usable(name):
     assert np.hypot(*item.outline.centroid) < 1e-6 * item.outline.extent
 
 
-@pytest.mark.parametrize("name", builtin.icon_names())
+@for_each(builtin.icon_names())
 def test_bundled_icons_look_like_their_ink(name, art_iou):
     assert art_iou(builtin.builtin_item(name)) > 0.98
 

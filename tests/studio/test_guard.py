@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 from starlette.routing import Mount, Route, WebSocketRoute
 
+from each import for_each
 from packwork.live.face.opening import Opening
 from packwork.studio.app import Studio
 from packwork.studio.desk import Desk
@@ -94,13 +95,13 @@ def test_the_scan_sees_the_socket_and_all_that_is_posted() -> None:
     assert OPEN == ("/", "/static/", "/proof/")
 
 
-@pytest.mark.parametrize(("kind", "method", "path"), ASKED)
+@for_each(ASKED)
 def test_the_own_page_is_let_through(kind: str, method: str, path: str) -> None:
     assert not is_refused(answer(kind, method, path, headers_of(kind, method, path)))
 
 
-@pytest.mark.parametrize(("kind", "method", "path"), CLOSED)
 @pytest.mark.parametrize("token", [None, "", "other", TOKEN[:-1], TOKEN + "x", "token.", "é"])
+@for_each(CLOSED)
 def test_without_the_token_all_but_the_page_is_refused(
     kind: str, method: str, path: str, token: str | None
 ) -> None:
@@ -111,28 +112,28 @@ def test_without_the_token_all_but_the_page_is_refused(
     assert is_refused(answer(kind, method, path, headers_of(kind, method, path, **changed)))
 
 
-@pytest.mark.parametrize(("kind", "method", "path"), ASKED)
 @pytest.mark.parametrize(
     "host",
     [None, "", "evil.example", "evil.example:8123", "localhost:8123", "127.0.0.1", "127.0.0.1:80",
      "127.0.0.1:8123.evil.example", "127.0.0.1:8123 "],
 )  # fmt: skip
+@for_each(ASKED)
 def test_another_host_is_refused_even_for_the_page(
     kind: str, method: str, path: str, host: str | None
 ) -> None:
     assert is_refused(answer(kind, method, path, headers_of(kind, method, path, host=host)))
 
 
-@pytest.mark.parametrize(("kind", "method", "path"), ASKED)
 @pytest.mark.parametrize(
     "origin",
     ["http://evil.example", "null", "https://127.0.0.1:8123", "http://127.0.0.1:81234", ""],
 )
+@for_each(ASKED)
 def test_another_origin_is_refused(kind: str, method: str, path: str, origin: str) -> None:
     assert is_refused(answer(kind, method, path, headers_of(kind, method, path, origin=origin)))
 
 
-@pytest.mark.parametrize(("kind", "method", "path"), ASKED)
+@for_each(ASKED)
 def test_a_name_that_was_bound_to_this_machine_is_refused(
     kind: str, method: str, path: str
 ) -> None:
