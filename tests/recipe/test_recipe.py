@@ -18,7 +18,7 @@ from pydantic import BaseModel
 import packwork as pw
 from packwork.errors import RecipeError
 from packwork.pipeline.plan.plan import Plan
-from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.recipe import read_recipe
 from packwork.readers.words.options import WordOptions

@@ -12,7 +12,7 @@ import shapely
 import packwork as pw
 from packwork import pipeline, uses
 from packwork.readers.layouts.read import read_written
-from packwork.uses.charts.cells import bars, copies
+from packwork.uses.charts.layout import bars, copies
 
 QUICK: dict[str, Any] = {"epochs": 30, "levels": "32,64", "effort": "draft"}
 NUMBERS = [3.7, 12.0, 0.9, 5.5, 1.3, 2.0, 2.0, 0.4]

@@ -19,7 +19,6 @@ from benchmarks.robustness.hostile.originals import PICTURE_PX, TABLE, originals
 from packwork import pipeline, uses, writers
 from packwork.errors import PackworkError
 from packwork.metrics.measure import measure
-from packwork.readers.charts.chart import read_chart
 from packwork.readers.container import read_container
 from packwork.readers.items import read_items
 from packwork.readers.layouts.read import read_written
@@ -30,6 +29,7 @@ from packwork.readers.svg.curve import walled_container
 from packwork.readers.tables.pairs import read_weights
 from packwork.readers.words.items import read_word_items
 from packwork.recipe import make_recipe
+from packwork.uses.charts.marks import read_chart
 from packwork.uses.charts.recipe import chart_recipe
 from packwork.uses.words.recipe import words_recipe
 

@@ -18,7 +18,7 @@ from pydantic import (
 
 from packwork.errors import RecipeError
 from packwork.offers import NOT_OFFERED, Group, Offer, Verbs
-from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WordOptions
 from packwork.recipe.order import EmbeddingOptions, Ordered

@@ -14,7 +14,7 @@ from typing import Any
 
 from packwork.offers import Group, Offered, Verbs
 from packwork.options import Options, offered
-from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts import ChartOptions
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.words.options import WordOptions
 from packwork.recipe import Recipe

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import base64
 from dataclasses import dataclass, fields
 from typing import Protocol, TypeAlias
 
@@ -62,6 +63,15 @@ class PictureArt:
     height: int
     matrix: FloatArray
     is_traced: bool = False
+
+    @property
+    def markup(self) -> str:
+        """The picture as an SVG element, in units that ``matrix`` maps."""
+        data = base64.b64encode(self.png).decode("ascii")
+        return (
+            f'<image width="{self.width}" height="{self.height}" preserveAspectRatio="none"'
+            f' xlink:href="data:image/png;base64,{data}"/>'
+        )
 
 
 class Original(Protocol):

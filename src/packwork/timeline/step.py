@@ -18,7 +18,7 @@ from packwork.readers.words.options import Word
 from packwork.scene.palette import palette_colours
 from packwork.uses.charts.grouped import unit_scales
 from packwork.uses.charts.recipe import chart_recipe
-from packwork.uses.charts.steps import read_steps
+from packwork.uses.charts.series import read_steps
 from packwork.uses.words.recipe import PALETTE, words_recipe
 from packwork.uses.words.use import WordsUse
 

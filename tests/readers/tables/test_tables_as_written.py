@@ -10,8 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from packwork.errors import ReadError, RecipeError, RowsLostError
-from packwork.readers.charts.chart import ChartRead, read_chart
-from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.decoding import decoded
 from packwork.readers.tables.delimited import delimiter_of
 from packwork.readers.tables.format import TableFormat
@@ -22,6 +21,7 @@ from packwork.readers.words.items import read_word_items
 from packwork.readers.words.options import WordOptions
 from packwork.readers.words.source import read_words
 from packwork.recipe import make_recipe
+from packwork.uses.charts.marks import ChartRead, read_chart
 
 EXCEL = "Land;Menge\r\n\r\nPerú;1.234,5\r\nMalí;12,25\r\n;;\r\nKenia;0,75;\r\n"
 AMOUNTS = {"Perú": 1234.5, "Malí": 12.25, "Kenia": 0.75}

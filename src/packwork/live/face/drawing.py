@@ -6,7 +6,6 @@ import hashlib
 from dataclasses import dataclass
 
 from packwork.geometry.outline import Outline
-from packwork.readers.charts.part import markup_of
 from packwork.scene.colour import css_colour
 from packwork.scene.item import FlatArt, Item, PhotoArt
 from packwork.scene.notation import decimals, matrix_text, path_data
@@ -69,7 +68,7 @@ def drawing_of(item: Item) -> Drawing:
     if isinstance(art, FlatArt):
         fill, ink = _seen(art.fill), path_of(item.ink, INK_FINENESS)
     else:
-        svg = _document(f'<g transform="{matrix_text(art.matrix)}">{markup_of(art)}</g>', box)
+        svg = _document(f'<g transform="{matrix_text(art.matrix)}">{art.markup}</g>', box)
     said = "\0".join((outline, fill, ink, svg)).encode()
     key = hashlib.sha256(said).hexdigest()[:24]
     return Drawing(key=key, outline=outline, box=box, fill=fill, ink=ink, svg=svg)

@@ -22,7 +22,6 @@ from packwork.live.document import Document
 from packwork.live.file.disk import Disk
 from packwork.live.pins import pin_of
 from packwork.live.session import Session
-from packwork.readers.charts.part import markup_of
 from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.item import FlatArt, Item, PhotoArt
@@ -166,7 +165,7 @@ def _drawing(item: Item) -> bytes:
         inside = f'<path fill="{art.fill}" fill-rule="evenodd" d="{path_data(item.ink, 9)}"/>'
     else:
         matrix = " ".join(f"{value:.17g}" for value in art.matrix.T.ravel())
-        inside = f'<g transform="matrix({matrix})">{markup_of(art)}</g>'
+        inside = f'<g transform="matrix({matrix})">{art.markup}</g>'
     return _document(inside, item.outline.bounds)
 
 

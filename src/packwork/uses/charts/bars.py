@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -17,18 +18,24 @@ from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext
 from packwork.progress import NOBODY, Observer, Stop
-from packwork.readers.charts.chart import ChartRead
-from packwork.readers.charts.columns import MISSING, as_number
+from packwork.readers.tables.columns import MISSING, as_number
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.options import SettleOptions
 from packwork.settle.pile import Arrival, pile
 from packwork.steps.finish import gap_with_bulge
 from packwork.steps.place import first_angles
-from packwork.uses.charts.cells import SNUG_SHARE, Cell, joined_rooms
-from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
-from packwork.uses.charts.heights import COVER, is_alike_and_round, rows_in_hollows
+from packwork.uses.charts.layout import (
+    COVER,
+    SNUG_SHARE,
+    Cell,
+    Chart,
+    is_alike_and_round,
+    joined_rooms,
+    rows_in_hollows,
+)
+from packwork.uses.charts.marks import ChartRead
 
 NEAR_FULL = 0.95
 """Share of the height at hand that the highest bar has at least, unless its widest mark bounds the
@@ -230,7 +237,8 @@ def _ranks(job: Job, chart: Chart) -> IntArray:
         return np.asarray(np.argsort(np.argsort(numbers, kind="stable"), kind="stable"))
     if read.colour_of is None:
         return np.zeros(len(read.items), dtype=np.int64)
-    named = sorted(read.keys.order, key=lambda name: name == MISSING)
+    frequent = [name for name, _ in Counter(read.colour_of).most_common()]
+    named = sorted(frequent, key=lambda name: name == MISSING)
     order = {name: k for k, name in enumerate(named)}
     return np.array([order[name] for name in read.colour_of], dtype=np.int64)
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
+import numpy as np
+
+from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.phrasing import number_of
-from packwork.readers.charts.chart import ChartKeys, ChartRead
-from packwork.readers.charts.columns import MISSING, as_number, is_missing
+from packwork.readers.tables.columns import MISSING, as_number, is_missing, names_of_all
 from packwork.recipe import Recipe
 from packwork.scene.contrast import between, readable
 from packwork.scene.palette import check_named, own_colours, palette_colours
+from packwork.uses.charts.marks import ChartRead
 
 CATEGORIES = "okabe-ito"
 """Colours of categories that are given none. Its black goes last: it reads as ink."""
@@ -48,33 +51,49 @@ class ChartColours:
     ramp: tuple[str, ...] = ()
     ends: tuple[float, float] = (0.0, 0.0)
 
+    def subset(self, marks: IntArray) -> ChartColours:
+        """The same of some of the marks, by their indices ``(m,)``."""
+        return replace(self, marks=tuple(self.marks[k] for k in marks))
+
 
 def chart_colours(recipe: Recipe, chart: ChartRead) -> ChartColours:
-    """Colours of all marks.
+    """Colours of all marks; names to which the palette gives some in vain are told.
 
     Raises
     ------
     RecipeError
-        If there are more categories than the palette has colours.
+        If there are more categories than the palette has colours, or it gives them to names and
+        marks have none.
     """
-    paper, column = chart.options.paper, chart.options.color_by
-    if chart.is_ramp and column is not None:
-        return _ramp(recipe, chart, column)
-    if chart.colour_of is None:
+    column, known = chart.options.color_by, tuple[str, ...]()
+    if column is not None and chart.is_ramp:
+        colours = _ramp(recipe, chart, column)
+    elif column is not None and chart.colour_of is not None:
+        known = names_of_all(chart.table, column, chart.colour_of)
+        colours = _by_category(recipe, chart.colour_of, known, chart.options.paper)
+    else:
         first = None if recipe.palette is None else palette_colours(recipe.palette)[0]
-        return ChartColours((first,) * len(chart.items))
-    return _by_category(recipe, chart.colour_of, chart.keys, paper)
+        colours = ChartColours((first,) * len(chart.items))
+    if isinstance(recipe.palette, Mapping):
+        named = (*known, *(chart.colour_of or ()))
+        if not named:
+            why = "which column's? --color-by"
+            if column:
+                why = "its numbers run along a list of colours"
+            raise RecipeError("palette", f"gives colours to names: {why}")
+        check_named(recipe.palette, column or "", named)
+    return colours
 
 
 def _by_category(
-    recipe: Recipe, names: Sequence[str], known: ChartKeys, paper: str
+    recipe: Recipe, categories: tuple[str, ...], known: tuple[str, ...], paper: str
 ) -> ChartColours:
-    own = own_colours(recipe.palette)
-    there = [name for name in known.names if name in known.order]
+    own, there = own_colours(recipe.palette), set(categories)
+    shown = [name for name in known if name in there]
     # Of the whole column, so that a value keeps its colour where others are left out.
-    for order in (known.names, there):
+    for order in (known, shown):
         others = [name for name in order if name.casefold() not in own]
-        palette = _palette(recipe, CATEGORIES) if not own else palette_colours(CATEGORIES)
+        palette = palette_colours(CATEGORIES) if own else _palette(recipe, CATEGORIES)
         if recipe.palette is None or own:
             palette = tuple(readable(colour, paper, LEAST_CONTRAST) for colour in palette)
         palette = tuple(colour for colour in palette if colour not in own.values())
@@ -87,40 +106,22 @@ def _by_category(
             "colour by a column of fewer, or give a --palette of as many",
         )
     colours = {**dict(zip(others, palette, strict=False)), MISSING: UNKNOWN}
-    colours |= {name: own[name.casefold()] for name in known.order if name.casefold() in own}
-    keys = {name: colours[name] for name in (*there, MISSING) if name in known.order}
-    return ChartColours(tuple(keys[name] for name in names), tuple(keys.items()))
-
-
-def check_palette(recipe: Recipe, chart: ChartRead) -> None:
-    """Refuse a palette that does not fit the data; tell of names that it gives in vain.
-
-    Raises
-    ------
-    RecipeError
-        If there are too few colours, or they are given to names and the marks have none.
-    """
-    chart_colours(recipe, chart)
-    if not isinstance(recipe.palette, Mapping):
-        return
-    known, column = (*chart.keys.names, *chart.keys.order), chart.options.color_by
-    if not known:
-        why = "its numbers run along a list of colours" if column else "which column's? --color-by"
-        raise RecipeError("palette", f"gives colours to names: {why}")
-    check_named(recipe.palette, column or "", known)
+    colours |= {name: own[name.casefold()] for name in there if name.casefold() in own}
+    keys = {name: colours[name] for name in (*shown, MISSING) if name in there}
+    return ChartColours(tuple(keys[name] for name in categories), tuple(keys.items()))
 
 
 def _ramp(recipe: Recipe, chart: ChartRead, column: str) -> ChartColours:
     cells = [row.get(column) for row in chart.rows]
     numbers = [as_number(cell) for cell in cells]
-    low, high = chart.keys.ends
+    low, high = float(np.nanmin(numbers)), float(np.nanmax(numbers))
     ramp = _palette(recipe, RAMP)
     span = high - low or 1.0
     marks = tuple(
         UNKNOWN if is_missing(cell) else between(ramp, (number - low) / span)
         for cell, number in zip(cells, numbers, strict=True)
     )
-    keys = ((MISSING, UNKNOWN),) if chart.keys.has_gaps else ()
+    keys = ((MISSING, UNKNOWN),) if any(map(is_missing, cells)) else ()
     return ChartColours(marks, keys, ramp, (low, high))
 
 

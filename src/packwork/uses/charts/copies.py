@@ -23,8 +23,8 @@ from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.steps.finish import finished, unfinished
 from packwork.steps.starts import fits_first
-from packwork.uses.charts.chart import Chart
 from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales
+from packwork.uses.charts.layout import Chart
 from packwork.uses.collage import placing
 
 ALMOST = 0.999

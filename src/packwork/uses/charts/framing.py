@@ -9,13 +9,12 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
-from packwork.readers.charts.chart import ChartRead
-from packwork.readers.charts.options import ChartOptions
-from packwork.recipe import Recipe
+from packwork.readers.charts import ChartOptions
 from packwork.scene.canvas import on_canvas
 from packwork.scene.container import Container
 from packwork.units import CanvasSize
-from packwork.uses.charts.colours import chart_colours
+from packwork.uses.charts.colours import ChartColours
+from packwork.uses.charts.marks import ChartRead
 from packwork.uses.charts.pen import Pen
 
 EM_SHARE = 0.03
@@ -66,27 +65,15 @@ class LegendFrame:
     em: float
 
 
-@dataclass(frozen=True, eq=False)
-class Framed:
-    """A container with room about it.
-
-    Parameters
-    ----------
-    place
-        2 x 3 map from the units that the container had before.
-    """
-
-    container: Container
-    frame: LegendFrame
-    place: FloatArray
-
-
 def framed(
-    container: Container, recipe: Recipe, chart: ChartRead, size: CanvasSize | None
-) -> Framed:
-    """Container with room above and below it, on a canvas of the size asked for."""
+    container: Container, chart: ChartRead, colours: ChartColours, size: CanvasSize | None
+) -> tuple[Container, LegendFrame, FloatArray]:
+    """Container with room above and below it, on a canvas of the size asked for.
+
+    Beside it the room, and a 2 x 3 map from the units that the container had before.
+    """
     em = EM_SHARE * container.width
-    above, below, margin = (ems * em for ems in frame_ems(recipe, chart, container))
+    above, below, margin = (ems * em for ems in frame_ems(chart, colours, container))
     into = affine.similarity(margin, above, 0.0, 1.0)
     moved = replace(
         container,
@@ -102,24 +89,24 @@ def framed(
     bottom = top + (above + container.height) * scale
     frame = LegendFrame(left, container.width * scale, top, bottom, em * scale)
     onto = affine.similarity((placed.width - moved.width * scale) / 2, top, 0.0, scale)
-    return Framed(placed, frame, affine.compose(onto, into))
+    return placed, frame, affine.compose(onto, into)
 
 
 def frame_ems(
-    recipe: Recipe, chart: ChartRead, container: Container | None = None
+    chart: ChartRead, colours: ChartColours, container: Container | None = None
 ) -> tuple[float, float, float]:
     """Room above and below a container and free edges, in ems; an em is ``EM_SHARE`` of it.
 
     Where the container is not known yet, as much as may be needed.
     """
     above = TITLE_EM if chart.options.title else 0.0
-    below = legend_ems(recipe, chart, container)
+    below = legend_ems(chart, colours, container)
     if not (above or below or chart.groups):
         return 0.0, 0.0, 0.0
     return above, max(below, MARGIN_EM), MARGIN_EM
 
 
-def legend_ems(recipe: Recipe, chart: ChartRead, container: Container | None) -> float:
+def legend_ems(chart: ChartRead, colours: ChartColours, container: Container | None) -> float:
     """Height of the legend, in ems; 0 for none."""
     options = chart.options
     if not options.legend:
@@ -130,7 +117,7 @@ def legend_ems(recipe: Recipe, chart: ChartRead, container: Container | None) ->
         ems += room + ABOUT_KEYS_EM if options.unit is None else UNIT_EM
     if chart.is_ramp:
         ems += RAMP_EM
-    ems += LINE_EM * len(in_lines(key_names(recipe, chart), 1 / EM_SHARE))
+    ems += LINE_EM * len(in_lines(key_names(chart, colours), 1 / EM_SHARE))
     return ems + MARGIN_EM if ems else 0.0
 
 
@@ -151,13 +138,13 @@ def has_sizes(options: ChartOptions) -> bool:
     return options.size_by is not None or options.unit is not None
 
 
-def key_names(recipe: Recipe, chart: ChartRead) -> list[str]:
+def key_names(chart: ChartRead, colours: ChartColours) -> list[str]:
     """Categories that have keys, in their order: those of colours, then those of marks alone."""
     options = chart.options
     names: dict[str, None] = {}
     # Names of groups stand beside them.
     if options.color_by is not None and options.color_by != options.by:
-        names |= dict.fromkeys(name for name, _ in chart_colours(recipe, chart).keys)
+        names |= dict.fromkeys(name for name, _ in colours.keys)
     if options.mark_by is not None and options.mark_by != options.by:
         names |= dict.fromkeys(chart.marks)
     return list(names)

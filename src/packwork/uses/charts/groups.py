@@ -1,77 +1,212 @@
-"""A chart in groups: a container each or a bar each, all marks at one scale, one layout."""
+"""Rows of a chart in groups: by the values of a column, or by steps of its numbers."""
 
 from __future__ import annotations
 
-from dataclasses import replace
-from typing import final
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 from packwork.errors import RecipeError
-from packwork.pipeline.job import Job
-from packwork.pipeline.run import RunContext, RunStep
-from packwork.pipeline.state import RunState
-from packwork.scene.limits import Limits
-from packwork.solve.solver import Ending
-from packwork.uses.charts.bars import fill_bars
-from packwork.uses.charts.chart import Chart
-from packwork.uses.charts.copies import fill_copies
+from packwork.phrasing import enumerated, number_of
+from packwork.readers.charts import ChartOptions
+from packwork.readers.tables.columns import (
+    as_number,
+    categories,
+    is_missing,
+    is_numeric,
+    shown,
+)
+from packwork.readers.tables.pairs import MOST_NAMED
+from packwork.readers.tables.table import Table
+
+MOST_GROUPS = 60
+"""Groups of one chart: on a canvas of 600 px each has 10 px. More could not be told apart.
+Derived."""
+
+YEARS = (1000, 2999)
+"""Whole numbers that count as years, whose tens are called decades: the 1990s. Chosen."""
+
+ROUNDING = 1e-9
+"""Steps by which a number may miss the edge of one: 0.3 / 0.1 is less than 3. Derived."""
+
+MOST_STEPS = 1e12
+"""Steps from 0 to a number at most: beyond, rounding decides in which one it is. Derived."""
+
+LARGE = 10**9
+"""Counts from which on only about how many is said. Chosen."""
+
+_DATE = re.compile(r"\d{4}-\d{2}(-\d{2}([T ][\d:.,+Z-]*)?)?")
 
 
-@final
-class FillGroups(RunStep):
-    """All groups of a chart, one after another, then at one scale."""
+@dataclass(frozen=True, eq=False)
+class Groups:
+    """Rows that belong together.
 
-    share = 1.0
+    Parameters
+    ----------
+    names
+        In the order in which they are shown; steps without rows are among them.
+    of_row
+        Number of each row's group; -1 for those in none.
+    has_steps
+        Whether they are steps of a scale, on which empty ones show.
+    is_ordered
+        Whether they ascend.
+    notices
+        Sentences about what was left out or put together, and whether that says something of a
+        group.
+    """
 
-    def __init__(self, chart: Chart) -> None:
-        self._chart = chart
-
-    def run(self, state: RunState, watch: RunContext) -> RunState:
-        """State of the marks that have a place."""
-        job, chart = state.job, self._chart
-        recorder = watch.recorder()
-        watch = watch.heard_by(recorder)
-        if chart.single is None:
-            with job.clock.time("finish"):
-                done = fill_bars(job, chart, watch)
-        else:
-            done = fill_copies(job, chart, chart.single, watch)
-        kept, total = done.kept, len(job.items)
-        faults: tuple[str, ...] = ()
-        if len(kept) < total:
-            faults = (f"{len(kept)} of {total} marks have a place",)
-        return replace(
-            state,
-            job=replace(job.subset(kept), container=done.container),
-            poses=done.poses.subset(kept),
-            method=done.method,
-            ending=Ending.STOPPED if watch.stop() else Ending.DONE,
-            levels=tuple(done.levels),
-            numbers=kept,
-            recorder=recorder,
-            limits=Limits.free(len(kept)),
-            unplaced=done.unplaced,
-            left_out=total - len(kept),
-            faults=faults,
-        )
+    names: tuple[str, ...]
+    of_row: tuple[int, ...]
+    has_steps: bool
+    is_ordered: bool
+    notices: dict[str, bool]
 
 
-def check_groups(job: Job, chart: Chart) -> None:
-    """Refuse what groups cannot keep.
+def read_groups(table: Table, options: ChartOptions) -> Groups | None:
+    """Groups that a chart asks for; None if it asks for none.
+
+    Numbers and dates ascend, all else comes as it first stands in the table.
 
     Raises
     ------
     RecipeError
-        If something asked has no meaning for groups.
+        If the column has no numbers for the steps, or there are too many groups.
+
+    Examples
+    --------
+    >>> rows = ({"year": 1999}, {"year": 1962}, {"year": 1995}, {"year": None})
+    >>> asked = ChartOptions(data=rows, by="year", by_step=10)
+    >>> groups = read_groups(Table("data", ("year",), rows), asked)
+    >>> groups.names, groups.of_row
+    (('1960s', '1970s', '1980s', '1990s'), (3, 0, 3, -1))
+    >>> groups.notices
+    {'left out 1 row of 4 whose year is missing: row 4': False}
     """
-    if job.earlier is not None:
-        raise RecipeError("start", "groups of --by begin anew; leave the layout out")
-    if job.plan.forces:
-        raise RecipeError("force", "groups of --by have their own; leave it out")
-    if chart.has_bars and job.plan.losses:
-        raise RecipeError("losses", "bars are heaps, which are made by no losses; leave them out")
-    if chart.has_bars and not job.plan.is_exact:
-        raise RecipeError("finish", "bars are settled in exact geometry; use exact")
-    if job.plan.voids.fills:
-        raise RecipeError("filler", "has no meaning in groups of --by; leave it out")
-    for one in job.asked:
-        one.refuse(("pin", "region"), "groups of --by")
+    column = options.by
+    if column is None:
+        return None
+    if options.by_step is not None:
+        return _steps(table, column, options.by_step, options.label_by)
+    missing = [k for k, row in enumerate(table.rows) if is_missing(row.get(column))]
+    has_numbers, told = is_numeric(table.rows, column), list[str]()
+    if has_numbers:
+        named = [f"{as_number(row.get(column)):.12g}" for row in table.rows]
+    else:
+        named, told = categories(table.rows, column)
+    for k in missing:
+        named[k] = ""
+    names = tuple(dict.fromkeys(filter(None, named)))
+    if not names:
+        raise RecipeError("by", f"column {column!r} holds nothing; group by another")
+    _check_count(len(names), table, column)
+    is_ordered = has_numbers or all(_DATE.fullmatch(name) for name in names)
+    if is_ordered:
+        names = tuple(sorted(names, key=float if has_numbers else None))
+    numbers = {"": -1} | {name: number for number, name in enumerate(names)}
+    said = [left_out(table, column, "is missing", missing, options.label_by)] if missing else []
+    of_row = tuple(numbers[name] for name in named)
+    return Groups(names, of_row, False, is_ordered, dict.fromkeys([*said, *told], False))
+
+
+def _steps(table: Table, column: str, step: float, label_by: str | None) -> Groups:
+    """Groups of numbers from one multiple of the step up to the next."""
+    numbers = [as_number(row.get(column)) for row in table.rows]
+    held = [number for number in numbers if not math.isnan(number)]
+    if not held:
+        texts = [row.get(column) for row in table.rows if not is_missing(row.get(column))]
+        if not texts:
+            raise RecipeError("by", f"column {column!r} holds nothing; group by another")
+        met = shown(texts[0])[:30]
+        raise RecipeError(
+            "by_step", f"needs numbers; column {column!r} holds {met!r}: leave the step out"
+        )
+    farthest = max(map(abs, held))
+    if not farthest / step < MOST_STEPS:
+        raise RecipeError(
+            "by_step", f"{step:g} is too small for numbers up to {farthest:.2g}; use a larger one"
+        )
+    first, last = (math.floor(end / step + ROUNDING) for end in (min(held), max(held)))
+    _check_count(last - first + 1, table, column)
+    names = tuple(_step_name(k * step, step, held) for k in range(first, last + 1))
+    of_row = tuple(
+        -1 if math.isnan(number) else math.floor(number / step + ROUNDING) - first
+        for number in numbers
+    )
+    said = {}
+    for why, is_so in (("is missing", True), ("is no number", False)):
+        which = [
+            k
+            for k, number in enumerate(of_row)
+            if number < 0 and is_missing(table.rows[k].get(column)) == is_so
+        ]
+        if which:
+            said[left_out(table, column, why, which, label_by)] = not is_so
+    return Groups(names, of_row, True, True, said)
+
+
+def _step_name(begin: float, step: float, numbers: Sequence[float]) -> str:
+    """Name of the numbers from one multiple of the step up to the next.
+
+    Examples
+    --------
+    >>> _step_name(1990, 10, [1991, 1999]), _step_name(20, 5, [21]), _step_name(0.5, 0.5, [0.7])
+    ('1990s', '20–24', '0.5–1')
+    """
+    if not all(number.is_integer() for number in map(float, [*numbers, step])):
+        return f"{begin:.6g}–{begin + step:.6g}"
+    if step == 10 and YEARS[0] <= min(numbers) and max(numbers) <= YEARS[1]:
+        return f"{begin:.0f}s"
+    return f"{begin:.12g}" if step == 1 else f"{begin:.12g}–{begin + step - 1:.12g}"
+
+
+def _check_count(count: int, table: Table, column: str) -> None:
+    """Refuse more groups than can be told apart, saying what would do."""
+    if count <= MOST_GROUPS:
+        return
+    numbers = [as_number(row.get(column)) for row in table.rows]
+    held = [number for number in numbers if not math.isnan(number)]
+    advice = "group by a column of fewer values"
+    if is_numeric(table.rows, column) and math.isfinite(max(held) - min(held)):
+        # A step more than divides it: the first need not begin at the smallest number.
+        least = round_up((max(held) - min(held)) / (MOST_GROUPS - 1))
+        advice = f"use --by-step {least:.12g} or more"
+    said = f"{count:,}" if count < LARGE else f"{count:.2g}"
+    raise RecipeError(
+        "by",
+        f"column {column!r} makes {said} groups; at most {MOST_GROUPS} can be told apart: "
+        + advice,
+    )
+
+
+def left_out(
+    table: Table, column: str, why: str, which: Sequence[int], label_by: str | None
+) -> str:
+    """Sentence about rows that are not shown.
+
+    Examples
+    --------
+    >>> rows = ({"land": "Peru"}, {"land": ""})
+    >>> left_out(Table("data", ("land",), rows), "land", "is missing", [1], None)
+    'left out 1 row of 2 whose land is missing: row 2'
+    """
+    names = [
+        f"row {k + 1}" if label_by is None else shown(table.rows[k].get(label_by))[:40]
+        for k in which
+    ]
+    count = f"{number_of(len(which), 'row')} of {len(table.rows)}"
+    return f"left out {count} whose {column} {why}: {enumerated(names, MOST_NAMED)}"
+
+
+def round_up(value: float) -> float:
+    """The next of 1, 2, 5, 10, 20 ...
+
+    Examples
+    --------
+    >>> round_up(21.0), round_up(0.7)
+    (50.0, 1.0)
+    """
+    power = 10.0 ** math.floor(math.log10(value))
+    return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if step * power >= value * 0.999999)

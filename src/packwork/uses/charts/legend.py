@@ -1,20 +1,18 @@
-"""Legend of a chart: title, and keys of sizes, colours and forms."""
+"""Notes about the marks of a chart: title, names of groups, keys of sizes, colours and forms."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from packwork.geometry.outline import Outline
-from packwork.readers.charts.groups import ROUNDING
-from packwork.readers.charts.options import ChartOptions
-from packwork.recipe import Recipe
+from packwork.readers.charts import ChartOptions
 from packwork.scene.contrast import between, readable
 from packwork.scene.layout import Layout
 from packwork.scene.note import Note
-from packwork.uses.charts.chart import Chart
-from packwork.uses.charts.colours import UNKNOWN, ChartColours, chart_colours
+from packwork.uses.charts.colours import UNKNOWN, ChartColours
 from packwork.uses.charts.framing import (
     EM_SHARE,
     KEY_ROOM_EM,
@@ -30,9 +28,16 @@ from packwork.uses.charts.framing import (
     key_names,
     key_text,
 )
-from packwork.uses.charts.group_notes import write_groups
-from packwork.uses.charts.numbers import spoken
-from packwork.uses.charts.pen import Pen
+from packwork.uses.charts.groups import ROUNDING
+from packwork.uses.charts.layout import (
+    FULL,
+    MOST_TURNED_EM,
+    SMALLEST_EM,
+    TURNED_EM,
+    Cell,
+    Chart,
+)
+from packwork.uses.charts.pen import Pen, shortened, spoken
 
 INK = "#2d3748"
 LEAST_CONTRAST = 7.0
@@ -51,7 +56,23 @@ LARGEST_UNIT_EM = 1.3
 """Height of the mark that is the key to a unit, at most. Chosen by eye."""
 
 
-def legend_notes(recipe: Recipe, chart: Chart, layout: Layout) -> tuple[Note, ...]:
+NUMBER_EM, NUMBER_GAP_EM = 0.8, 0.45
+"""Letters of numbers over bars, and how far over them. Chosen by eye."""
+
+GAP_EM = 0.5
+"""Between a name and a number. Chosen by eye."""
+
+RULE_EM = 0.09
+"""Width of the line that bars stand on. Chosen by eye."""
+
+PALE = 0.3
+"""How much paper is in the ink of what is less important. Chosen by eye."""
+
+PALE_CONTRAST = 4.5
+"""Of that ink and the paper: WCAG 2.2, 1.4.3, level AA."""
+
+
+def legend_notes(chart: Chart, layout: Layout) -> tuple[Note, ...]:
     """Title, names of groups and legend of a chart."""
     options, read, frame = chart.options, chart.read, chart.frame
     pen = Pen(readable(INK, options.paper, LEAST_CONTRAST))
@@ -59,18 +80,117 @@ def legend_notes(recipe: Recipe, chart: Chart, layout: Layout) -> tuple[Note, ..
         em = min(1.5 * frame.em, frame.width / max(pen.width(options.title, 1.0), 1.0))
         pen.write(options.title, frame.left, frame.top + 0.75 * TITLE_EM * frame.em, em)
     if chart.cells:
-        write_groups(pen, chart, layout)
+        _groups(pen, chart, layout)
     if not options.legend:
         return tuple(pen.notes)
-    colours = chart_colours(recipe, read)
     y = frame.below
     if has_sizes(options):
         y += (_sizes if options.unit is None else _unit)(pen, chart, layout, y)
-    if colours.ramp and options.color_by:
-        _ramp(pen, colours, options.color_by, frame, y, read.decimal)
+    if chart.colours.ramp and options.color_by:
+        _ramp(pen, chart.colours, options.color_by, frame, y, read.decimal)
         y += RAMP_EM * frame.em
-    _categories(pen, recipe, chart, colours, y)
+    _categories(pen, chart, y)
     return tuple(pen.notes)
+
+
+def _groups(pen: Pen, chart: Chart, layout: Layout) -> None:
+    """Names of all groups, and their sums; under bars, or over containers."""
+    frame, options, cells = chart.frame, chart.options, chart.cells
+    sums, decimal = _sums(layout), chart.read.decimal
+    written = {cell.name: spoken(sums.get(cell.name, 0.0), decimal) for cell in cells}
+    pale = readable(between((pen.ink, options.paper), PALE), options.paper, PALE_CONTRAST)
+    if not chart.has_bars:
+        _over_copies(pen, cells, written, frame.em, pale)
+        return
+    tops = _tops(layout)
+    numbers = {name: text for name, text in written.items() if name in tops}
+    em = min(NUMBER_EM * frame.em, *(_fitting(text, cells[0].width) for text in numbers.values()))
+    for cell in cells:
+        if cell.name in tops and em >= SMALLEST_EM * NUMBER_EM * frame.em:
+            y = tops[cell.name] - NUMBER_GAP_EM * frame.em
+            pen.write_about(numbers[cell.name], cell.middle, y, em, pale)
+    foot = cells[0].room.bounds[3]
+    _under_bars(pen, cells, frame, chart.read.is_ordered)
+    low, high = frame.left, frame.left + frame.width
+    line = Outline.box(low, 0.0, high, RULE_EM * frame.em)
+    pen.shape(line, 0.0, foot, 1.0, pale)
+    middle = frame.left + frame.width / 2
+    pen.write_about(options.by or "", middle, cells[0].line + 1.5 * frame.em, 0.85 * frame.em, pale)
+
+
+def _over_copies(
+    pen: Pen, cells: Sequence[Cell], numbers: Mapping[str, str], largest_em: float, pale: str
+) -> None:
+    """Names over containers, all of one size; sums beside them if there is room for all."""
+    room = FULL * cells[0].width
+    least = SMALLEST_EM * largest_em
+
+    def largest(widths: Sequence[float]) -> float:
+        return min(largest_em, room / max(widths))
+
+    names = [pen.width(cell.name, 1.0) for cell in cells]
+    both = [
+        pen.width(cell.name, 1.0) + GAP_EM + NUMBER_EM * pen.width(numbers[cell.name], 1.0)
+        for cell in cells
+    ]
+    has_sums = largest(both) >= least
+    em = largest(both) if has_sums else max(largest(names), least)
+    for cell, width in zip(cells, both, strict=True):
+        if not has_sums:
+            pen.write_about(shortened(cell.name, em, room), cell.middle, cell.line, em)
+            continue
+        end = pen.write(cell.name, cell.middle - em * width / 2, cell.line, em)
+        pen.write(numbers[cell.name], end + GAP_EM * em, cell.line, NUMBER_EM * em, pale)
+
+
+def _under_bars(pen: Pen, cells: Sequence[Cell], frame: LegendFrame, is_ordered: bool) -> None:
+    """Names of bars, all of one size; of a scale only as many as there is room for."""
+    largest_em = frame.em
+    if cells[0].is_turned:
+        em = min(TURNED_EM * largest_em, cells[0].width)
+        for cell in cells:
+            text = shortened(cell.name, em, MOST_TURNED_EM * largest_em)
+            pen.write_upwards(text, cell.middle, cells[0].room.bounds[3] + 0.5 * largest_em, em)
+        return
+    names = [cell.name for cell in cells]
+    em = min(largest_em, *(_fitting(name, cells[0].width) for name in names))
+    every = 1
+    if em < SMALLEST_EM * largest_em:
+        em = SMALLEST_EM * largest_em
+        if is_ordered:
+            widest = max(pen.width(name, em) for name in names)
+            every = int(np.ceil(widest / (FULL * cells[0].width)))
+    due = 0
+    for k, cell in enumerate(cells):
+        text = shortened(cell.name, em, every * FULL * cell.width)
+        half = pen.width(text, em) / 2
+        free = min(cell.middle - frame.left, frame.left + frame.width - cell.middle)
+        if k >= due and (every == 1 or half <= free):
+            pen.write_about(text, cell.middle, cell.line, em)
+            due = k + every
+
+
+def _fitting(text: str, width: float) -> float:
+    """Height of an em at which a text is as wide as it may be."""
+    return FULL * width / max(Pen.width(text, 1.0), 1e-9)
+
+
+def _sums(layout: Layout) -> Mapping[str, float]:
+    found: dict[str, float] = {}
+    for item in layout.items:
+        if item.datum is not None:
+            found[item.datum.group] = found.get(item.datum.group, 0.0) + item.datum.value
+    return found
+
+
+def _tops(layout: Layout) -> Mapping[str, float]:
+    """End of the highest mark of each group."""
+    found: dict[str, float] = {}
+    for item, outline in zip(layout.items, layout.outlines, strict=True):
+        if item.datum is not None:
+            group = item.datum.group
+            found[group] = min(found.get(group, np.inf), outline.bounds[1])
+    return found
 
 
 def _unit(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
@@ -93,7 +213,7 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
     """Marks of round numbers, at the chart's own scale; the height of all."""
     read, options, frame, em = chart.read, chart.options, chart.frame, chart.frame.em
     mark = next(iter(read.marks.values())).outline
-    numbers = round_numbers(read.keys.smallest, read.keys.largest)
+    numbers = round_numbers(*read.ends)
     height = mark.bounds[3] - mark.bounds[1]
     scales = {number: _scale(options, layout, mark, number) for number in numbers}
     fitting = [
@@ -108,7 +228,7 @@ def _sizes(pen: Pen, chart: Chart, layout: Layout, y: float) -> float:
     heading = options.size_by or "rows"
     if not chosen:
         # Marks are larger than a key may be, or specks.
-        ends = dict.fromkeys((read.keys.smallest, read.keys.largest))
+        ends = dict.fromkeys(read.ends)
         heading += f": {' – '.join(spoken(end, read.decimal) for end in ends)}"
     pen.write(heading, frame.left, y + 1.2 * em, em)
     x = frame.left
@@ -182,13 +302,13 @@ def _ramp(
     pen.write(texts[1], right, y + 3.6 * em, 0.85 * em)
 
 
-def _categories(pen: Pen, recipe: Recipe, chart: Chart, colours: ChartColours, y: float) -> None:
+def _categories(pen: Pen, chart: Chart, y: float) -> None:
     """Names beside marks in their colours, line by line."""
     frame, em = chart.frame, chart.frame.em
-    marks, fills = chart.read.marks, dict(colours.keys)
+    marks, fills = chart.read.marks, dict(chart.colours.keys)
     first = next(iter(marks.values()))
     line = y + 1.2 * em
-    for names in in_lines(key_names(recipe, chart.read), 1 / EM_SHARE):
+    for names in in_lines(key_names(chart.read, chart.colours), 1 / EM_SHARE):
         x = frame.left
         for name in names:
             ink = marks.get(name, first).ink

@@ -13,13 +13,13 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.phrasing import number_of
-from packwork.readers.charts.columns import MISSING
+from packwork.readers.tables.columns import MISSING
 from packwork.scene.contrast import contrast
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.note import Note
 from packwork.scene.recolour import one_colour
-from packwork.uses.charts.chart import Chart
+from packwork.uses.charts.layout import Chart
 from packwork.uses.charts.pen import Pen, lettering
 
 _LOG = logging.getLogger("packwork")

@@ -1,4 +1,4 @@
-"""Text and shapes drawn beside the marks of a chart, as notes."""
+"""Text, numbers and shapes drawn beside the marks of a chart, as notes."""
 
 from __future__ import annotations
 
@@ -30,6 +30,10 @@ DIGITS = 6
 ROUNDING = 1e-9
 MIDDLE_EM = 0.35
 """From the line that letters stand on to the middle of theirs."""
+
+
+LARGEST_NAMED, SMALLEST_PLAIN = 1e15, 1e-6
+"""Numbers from which on, and below which, powers of ten are written. Chosen."""
 
 
 class Pen:
@@ -155,3 +159,39 @@ def shortened(text: str, em: float, room: float) -> str:
         if Pen.width(short, em) <= room:
             return short
     return "…"
+
+
+def spoken(number: float, decimal: str = ".") -> str:
+    """Number as people say it, or as the table that it comes from would write it.
+
+    Parameters
+    ----------
+    decimal
+        What parts the fraction: with a comma points group thousands, and no English names stand
+        for large numbers.
+
+    Examples
+    --------
+    >>> spoken(5e8), spoken(2000), spoken(0.5), spoken(2e-5), spoken(3e20)
+    ('500 million', '2,000', '0.5', '0.00002', '3e20')
+    >>> spoken(5e8, ","), spoken(2000, ","), spoken(0.5, ",")
+    ('500.000.000', '2.000', '0,5')
+    """
+    text = _english(number, is_named=decimal == ".")
+    return text if decimal == "." else text.translate(str.maketrans(".,", ",."))
+
+
+def _english(number: float, *, is_named: bool) -> str:
+    size = abs(number)
+    if size and not SMALLEST_PLAIN <= size < LARGEST_NAMED:
+        digits, _, power = f"{number:.4g}".partition("e")
+        return f"{digits}e{int(power)}" if power else f"{number:.4g}"
+    for name, unit in (("billion", 1e9), ("million", 1e6)):
+        if size >= unit and is_named:
+            return f"{number / unit:,.4g} {name}"
+    if size >= 1e6:
+        return f"{float(f'{number:.6g}'):,.0f}"
+    if 0 < size < 1e-4:
+        return f"{number:.9f}".rstrip("0")
+    # Numbers of four digits may be years.
+    return f"{number:,.6g}" if size >= 1e3 else f"{number:.4g}"

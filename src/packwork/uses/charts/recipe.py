@@ -6,7 +6,7 @@ from typing import Any
 
 from packwork.errors import RecipeError
 from packwork.offers import Verbs
-from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts import ChartOptions
 from packwork.readers.options import check_colour
 from packwork.readers.tables.frames import index_of_frame
 from packwork.recipe import Recipe, make_recipe

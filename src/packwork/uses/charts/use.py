@@ -9,23 +9,25 @@ from typing import final
 from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job, Use
+from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.pipeline.plan.counts import LEAST, items_needed
 from packwork.pipeline.read import Material
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.readers.charts.chart import read_chart
-from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts import ChartOptions
 from packwork.recipe import Recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
+from packwork.scene.limits import Limits
+from packwork.solve.solver import Ending
 from packwork.steps.starts import fits_first
-from packwork.uses.charts.cast import cast_chart
-from packwork.uses.charts.chart import Chart
-from packwork.uses.charts.colours import chart_colours, check_palette
-from packwork.uses.charts.groups import FillGroups, check_groups
-from packwork.uses.charts.layout import spread_out
+from packwork.uses.charts.bars import fill_bars
+from packwork.uses.charts.colours import chart_colours
+from packwork.uses.charts.copies import fill_copies
+from packwork.uses.charts.layout import Chart, spread_out
 from packwork.uses.charts.legend import legend_notes
 from packwork.uses.charts.mark_labels import mark_labels
+from packwork.uses.charts.marks import ChartRead, read_chart
 from packwork.uses.collage import filling, placing, reporting
 
 
@@ -61,8 +63,8 @@ class ChartUse(Use):
 
     def colours(self, job: Job, layout: Layout) -> Sequence[str | None] | None:
         """Colours that stand for data; None if marks keep their own."""
-        del layout
-        colours = chart_colours(job.recipe, self.chart.read).marks
+        del job, layout
+        colours = self.chart.colours.marks
         return list(colours) if any(colours) else None
 
     def remedy(self, job: Job) -> str:
@@ -80,9 +82,70 @@ class Annotate(RunStep):
         """State whose layout has these notes."""
         use, (layout, _) = state.job.use.inner, state.measured
         assert isinstance(use, ChartUse)  # noqa: S101 - it is on lists of charts alone
-        legend = legend_notes(state.job.recipe, use.chart, layout)
+        legend = legend_notes(use.chart, layout)
         notes = (*mark_labels(use.chart, layout), *legend)
         return replace(state, layout=replace(layout, notes=notes))
+
+
+@final
+class FillGroups(RunStep):
+    """All groups of a chart, one after another, then at one scale."""
+
+    share = 1.0
+
+    def __init__(self, chart: Chart) -> None:
+        self._chart = chart
+
+    def run(self, state: RunState, watch: RunContext) -> RunState:
+        """State of the marks that have a place."""
+        job, chart = state.job, self._chart
+        recorder = watch.recorder()
+        watch = watch.heard_by(recorder)
+        if chart.single is None:
+            with job.clock.time("finish"):
+                done = fill_bars(job, chart, watch)
+        else:
+            done = fill_copies(job, chart, chart.single, watch)
+        kept, total = done.kept, len(job.items)
+        faults: tuple[str, ...] = ()
+        if len(kept) < total:
+            faults = (f"{len(kept)} of {total} marks have a place",)
+        return replace(
+            state,
+            job=replace(job.subset(kept), container=done.container),
+            poses=done.poses.subset(kept),
+            method=done.method,
+            ending=Ending.STOPPED if watch.stop() else Ending.DONE,
+            levels=tuple(done.levels),
+            numbers=kept,
+            recorder=recorder,
+            limits=Limits.free(len(kept)),
+            unplaced=done.unplaced,
+            left_out=total - len(kept),
+            faults=faults,
+        )
+
+
+def check_groups(job: Job, chart: Chart) -> None:
+    """Refuse what groups cannot keep.
+
+    Raises
+    ------
+    RecipeError
+        If something asked has no meaning for groups.
+    """
+    if job.earlier is not None:
+        raise RecipeError("start", "groups of --by begin anew; leave the layout out")
+    if job.plan.forces:
+        raise RecipeError("force", "groups of --by have their own; leave it out")
+    if chart.has_bars and job.plan.losses:
+        raise RecipeError("losses", "bars are heaps, which are made by no losses; leave them out")
+    if chart.has_bars and not job.plan.is_exact:
+        raise RecipeError("finish", "bars are settled in exact geometry; use exact")
+    if job.plan.voids.fills:
+        raise RecipeError("filler", "has no meaning in groups of --by; leave it out")
+    for one in job.asked:
+        one.refuse(("pin", "region"), "groups of --by")
 
 
 def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> Material:
@@ -101,13 +164,34 @@ def read_marks(recipe: Recipe, asked: ChartOptions, room: Container | None) -> M
         )
     read = read_chart(asked, recipe.holes, recipe, recipe.read_options)
     # Refuses too few colours before anything is run.
-    check_palette(recipe, read)
+    colours = chart_colours(recipe, read)
     chosen = cast_chart(recipe, read)
-    spread = spread_out(recipe, read, room)
+    chart, container = spread_out(recipe, read, colours, room)
     return Material(
-        use=ChartUse(Chart(read, spread.frame, spread.cells, spread.single)),
-        container=spread.container,
+        use=ChartUse(chart),
+        container=container,
         cast=chosen,
         fillers=(),
         skipped=read.told,
     )
+
+
+def cast_chart(recipe: Recipe, chart: ChartRead) -> Cast:
+    """Marks of a chart, each once, as large as its data say.
+
+    Raises
+    ------
+    RecipeError
+        As for :func:`expand_copies`, and if a rule would make sizes or numbers of marks untrue.
+    """
+    chosen = expand_copies(recipe, chart.items)
+    for one in chosen.asked:
+        untrue = [key for key in ("weight", "scale") if key in one.values]
+        untrue += ["size"] if "size" in one.pin else []
+        if untrue:
+            key = untrue[0]
+            source = one.sources.get(key) or one.sources["pin.size"]
+            raise source.error(f"sets a {key}, but the data say how large marks are")
+    if list(chosen.items) != list(chart.items):
+        raise RecipeError("rules", "count marks, but the data say how many there are")
+    return replace(chosen, weights=chart.areas)

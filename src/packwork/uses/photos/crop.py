@@ -29,8 +29,8 @@ from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.scene.track import SCALE, Track, numbers_of, poses_of
 from packwork.units import parse_length
+from packwork.uses.cutting import Cut, cut
 from packwork.uses.photos.rim import spread_to
-from packwork.uses.photos.windows import Cut, cut
 
 DEPTHS = (0.45, 0.35, 0.25)
 """Widths by which the container is grown before items are placed, over the side of a typical

@@ -1,4 +1,4 @@
-"""A chart's steps: the same container and keys for each, and of all marks those of its rows."""
+"""Series of a chart: the same container and keys for each step, and the marks of its rows."""
 
 from __future__ import annotations
 
@@ -12,15 +12,13 @@ from packwork.arrays import IntArray
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Clock, Job
 from packwork.pipeline.read import Material, job_of, read_room
-from packwork.readers.charts.chart import ChartRead, read_chart
-from packwork.readers.charts.columns import MISSING
+from packwork.readers.tables.columns import MISSING
 from packwork.recipe import Recipe
 from packwork.steps.assign_in_order import check_arranged
-from packwork.uses.charts.cast import cast_chart
-from packwork.uses.charts.chart import Chart
-from packwork.uses.charts.colours import chart_colours, check_palette
-from packwork.uses.charts.layout import spread_out
-from packwork.uses.charts.use import ChartUse
+from packwork.uses.charts.colours import chart_colours
+from packwork.uses.charts.layout import Chart, spread_out
+from packwork.uses.charts.marks import ChartRead, read_chart
+from packwork.uses.charts.use import ChartUse, cast_chart
 from packwork.uses.icons import NO_CONTAINER
 
 
@@ -66,12 +64,11 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
         raise RecipeError("series", f"column {asked.by!r} says one step; 2 or more go")
     # Groups are no groups of one chart here: no copies of the container, no names beside them.
     read = replace(grouped, groups=(), options=asked.model_copy(update={"by": None}))
-    check_palette(recipe, read)
-    spread = spread_out(recipe, read, read_room(recipe, None))
-    chart = Chart(read, spread.frame, (), None)
+    colours = chart_colours(recipe, read)
+    chart, container = spread_out(recipe, read, colours, read_room(recipe, None))
     material = Material(
         use=ChartUse(chart),
-        container=spread.container,
+        container=container,
         cast=cast_chart(recipe, read),
         fillers=(),
         skipped=read.told,
@@ -86,7 +83,8 @@ def read_steps(recipe: Recipe) -> list[ChartStep]:
 
 def _step(whole: Job, chart: Chart, label: str, column: str, marks: IntArray) -> ChartStep:
     """One step of a job of all marks, whose recipe gives its layout alone."""
-    job, own = whole.subset(marks), chart.read.subset(marks)
+    job, chart = whole.subset(marks), chart.subset(marks)
+    own = chart.read
     title = own.options.title
     if title is not None:
         title = title.replace(f"{{{column}}}", label)
@@ -95,16 +93,16 @@ def _step(whole: Job, chart: Chart, label: str, column: str, marks: IntArray) ->
     recipe = job.recipe.model_copy(
         update={
             "chart": options.model_copy(update={"data": rows, "by_step": None}),
-            "palette": _colours_of_all(job.recipe, own),
+            "palette": _colours_of_all(job.recipe, chart),
         }
     )
     use = ChartUse(replace(chart, read=replace(own, options=options)))
     return ChartStep(label, replace(job, recipe=recipe, use=use), mark_names(own))
 
 
-def _colours_of_all(recipe: Recipe, chart: ChartRead) -> Any:
+def _colours_of_all(recipe: Recipe, chart: Chart) -> Any:
     """Palette with the colour of each category; of a step alone it would give others."""
-    keys = () if chart.is_ramp else chart_colours(recipe, chart).keys
+    keys = () if chart.read.is_ramp else chart.colours.keys
     named = {name: colour for name, colour in keys if name != MISSING}
     return named or recipe.palette
 

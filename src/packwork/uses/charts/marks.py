@@ -1,9 +1,8 @@
-"""A table to marks: of each, its meaning and its size."""
+"""Marks of a unit chart, read from a table: of each, its meaning and its size."""
 
 from __future__ import annotations
 
 import logging
-from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -12,29 +11,20 @@ import numpy as np
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import ReadError, RecipeError, RowsLostError
 from packwork.phrasing import number_of
-from packwork.readers.charts.amounts import marks_of, read_amounts
-from packwork.readers.charts.columns import (
-    MISSING,
-    as_number,
-    categories,
-    is_missing,
-    is_numeric,
-    names_of_all,
-    shown,
-)
-from packwork.readers.charts.groups import Groups, read_groups
-from packwork.readers.charts.options import ChartOptions
-from packwork.readers.charts.part import part_of
-from packwork.readers.charts.rows import NUMBERS, oddities, read_chart_table
+from packwork.readers.charts import ChartOptions
 from packwork.readers.items import read_items
 from packwork.readers.options import ReadOptions
 from packwork.readers.regions import Holes
+from packwork.readers.tables.columns import MISSING, categories, is_numeric, names_of_all, shown
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table
 from packwork.readers.tables.written import shown_decimal
 from packwork.scene.datum import Datum
 from packwork.scene.item import Item
 from packwork.scene.label import MAX_LENGTH, Label
+from packwork.uses.charts.groups import Groups, read_groups
+from packwork.uses.charts.rows import NUMBERS, marks_of, oddities, read_amounts, read_chart_table
+from packwork.uses.cutting import part_of
 
 _LOG = logging.getLogger("packwork")
 
@@ -43,32 +33,6 @@ WIDEST = 1e6
 
 SHAPES = ("circle", "square", "triangle", "diamond", "star", "cross", "hexagon", "drop")
 """Marks of categories that were given none."""
-
-
-@dataclass(frozen=True)
-class ChartKeys:
-    """Values that a chart's colours and keys go by: of all its marks, whichever are shown.
-
-    Parameters
-    ----------
-    order
-        Categories of colours, the most frequent first.
-    names
-        All categories that the column of colours has, by the alphabet, but the one of no value.
-    ends
-        Smallest and largest number of a ramp of colours; 0 where there is none.
-    has_gaps
-        Whether some mark has no number on the ramp.
-    smallest, largest
-        Of the numbers that marks stand for.
-    """
-
-    order: tuple[str, ...]
-    names: tuple[str, ...]
-    ends: tuple[float, float]
-    has_gaps: bool
-    smallest: float
-    largest: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,6 +65,8 @@ class ChartRead:
         What was left out, put together or is odd, a sentence each.
     lost
         Those of them about rows with data that are left out.
+    ends
+        Smallest and largest number that marks stand for, of all, whichever are shown.
     decimal
         What parts fractions of its numbers, as in the table.
     """
@@ -120,7 +86,7 @@ class ChartRead:
     is_ordered: bool
     notices: tuple[str, ...]
     lost: tuple[str, ...]
-    keys: ChartKeys
+    ends: tuple[float, float]
     decimal: str = "."
 
     @property
@@ -182,11 +148,11 @@ def read_chart(
     items = _items(
         rows, owner, shares, [marks[kind] for kind in kinds or [""] * len(rows)], options
     )
-    colour_of = _per_mark(colours, owner)
-    of_rows = (*table.notices, *shown_rows.notices, *(groups.notices if groups else ()))
-    everything = tuple(dict.fromkeys((*of_rows, *oddities(table, options), *more, *told)))
-    lost = tuple(dict.fromkeys((*shown_rows.lost, *(groups.lost if groups else ()))))
-    for notice in everything:
+    colour_of = None if colours is None else tuple(colours[k] for k in owner)
+    of_groups = {} if groups is None else groups.notices
+    of_rows = dict.fromkeys(table.notices, False) | shown_rows.notices | of_groups
+    notices = of_rows | dict.fromkeys((*oddities(table, options), *more, *told), False)
+    for notice in notices:
         _LOG.warning("%s", f"{table.name}: {notice}" if notice in table.notices else notice)
     values = amounts[owner] if options.unit is None else options.unit * shares
     names, group_of = _groups_of_marks(groups, shown_rows.groups[owner])
@@ -209,24 +175,11 @@ def read_chart(
         groups=names,
         group_of=group_of,
         is_ordered=groups is not None and groups.is_ordered,
-        notices=everything,
-        lost=lost,
-        keys=ChartKeys(
-            order=tuple(name for name, _ in Counter(colour_of or ()).most_common()),
-            names=names_of_all(table, options.color_by or "", colour_of) if colour_of else (),
-            ends=_ends(rows, options.color_by) if is_ramp else (0.0, 0.0),
-            has_gaps=is_ramp and any(is_missing(row.get(options.color_by or "")) for row in rows),
-            smallest=float(values.min()),
-            largest=float(values.max()),
-        ),
+        notices=tuple(notices),
+        lost=tuple(notice for notice, is_lost in notices.items() if is_lost),
+        ends=(float(values.min()), float(values.max())),
         decimal=(asked and asked.decimal) or shown_decimal(_number_cells(table, options)),
     )
-
-
-def _ends(rows: Sequence[Row], column: str | None) -> tuple[float, float]:
-    """Smallest and largest number of a column."""
-    numbers = [as_number(row.get(column or "")) for row in rows]
-    return float(np.nanmin(numbers)), float(np.nanmax(numbers))
 
 
 def _number_cells(table: Table, options: ChartOptions) -> Iterator[object]:
@@ -245,10 +198,6 @@ def _groups_of_marks(groups: Groups | None, member: IntArray) -> tuple[tuple[str
     there = np.unique(member)
     kept = np.arange(there[0], there[-1] + 1) if groups.has_steps else there
     return tuple(groups.names[k] for k in kept), np.searchsorted(kept, member)
-
-
-def _per_mark(names: Sequence[str] | None, owner: Sequence[int]) -> tuple[str, ...] | None:
-    return None if names is None else tuple(names[k] for k in owner)
 
 
 def _categories(rows: Sequence[Row], column: str | None) -> tuple[list[str] | None, Sequence[str]]:

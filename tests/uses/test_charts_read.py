@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from packwork.errors import PackworkError, ReadError, RecipeError
-from packwork.readers.charts.chart import ChartRead, read_chart
-from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts import ChartOptions
 from packwork.readers.tables.table import read_table
 from packwork.recipe.refusals import validated
 from packwork.uses import chart_recipe
+from packwork.uses.charts.marks import ChartRead, read_chart
 
 LANDS = ({"land": "Peru", "kg": 25, "kind": "Red"}, {"land": "Kenya", "kg": 10, "kind": "blue"})
 

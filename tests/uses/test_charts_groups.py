@@ -9,9 +9,9 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from packwork.errors import PackworkError, RecipeError
-from packwork.readers.charts.chart import ChartRead, read_chart
-from packwork.readers.charts.columns import is_missing
-from packwork.readers.charts.options import ChartOptions
+from packwork.readers.charts import ChartOptions
+from packwork.readers.tables.columns import is_missing
+from packwork.uses.charts.marks import ChartRead, read_chart
 
 
 def chart(cells: list[Any], **options: Any) -> ChartRead:

@@ -1,1 +1,0 @@
-"""Rows of a table to the marks of a unit chart."""

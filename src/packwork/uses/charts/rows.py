@@ -1,0 +1,287 @@
+"""Rows of a chart's table: checked columns, what each row stands for, and what has to be told."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from packwork.arrays import FloatArray, IntArray
+from packwork.errors import RecipeError
+from packwork.phrasing import enumerated, number_of
+from packwork.readers.charts import ChartOptions
+from packwork.readers.tables.columns import (
+    FARTHEST,
+    any_number,
+    as_number,
+    is_missing,
+    is_numeric,
+    shown,
+)
+from packwork.readers.tables.format import TableFormat
+from packwork.readers.tables.pairs import MOST_NAMED
+from packwork.readers.tables.table import Row, Table, read_table, total_row
+from packwork.readers.tables.written import is_date
+from packwork.uses.charts.groups import LARGE, Groups, left_out, round_up
+
+COLUMNS = ("size_by", "color_by", "mark_by", "label_by", "by")
+"""Options that name columns."""
+
+NUMBERS = ("size_by", "color_by", "by")
+"""Those of them whose columns may be numbers."""
+
+MOST_MARKS = 5_000
+"""Marks of one chart: on a canvas of 600 px each would be 5 px wide. More could not be told
+apart. Derived."""
+
+MOST_COMPARED = 4 * MOST_MARKS
+"""Rows at most that are compared with each other: of more, most are empty."""
+
+SPECK = 1e-3
+"""Share of a mark below which a remainder is rounding of the numbers, not a part. Chosen."""
+
+
+def read_chart_table(options: ChartOptions, asked: TableFormat) -> Table:
+    """Table of a chart, the texts of whose number columns know their numbers.
+
+    Raises
+    ------
+    ReadError
+        If it cannot be read, or how numbers are written is not plain.
+    RecipeError
+        If a column is not there.
+
+    Examples
+    --------
+    >>> rows = ({"land": "Peru", "t": "2,5"}, {"land": "Kenya", "t": "1"})
+    >>> table = read_chart_table(ChartOptions(data=rows, size_by="t"), TableFormat())
+    >>> [row["t"].number for row in table.rows]
+    [2.5, 1.0]
+    """
+    named = {key: column for key in COLUMNS if (column := getattr(options, key)) is not None}
+    table = read_table(options.data, asked, named.values())
+    for key, column in named.items():
+        table.check_column(key, column)
+    for column in dict.fromkeys(named[key] for key in NUMBERS if key in named):
+        table = table.with_numbers(column, asked.decimal, whole=column != options.size_by)
+    return table
+
+
+def oddities(table: Table, options: ChartOptions) -> list[str]:
+    """Sentences about rows that are shown, but may not have been meant.
+
+    Examples
+    --------
+    >>> rows = ({"a": "x", "n": 2}, {"a": "y", "n": 1}, {"a": "x", "n": 2}, {"a": "Total", "n": 5})
+    >>> for text in oddities(*(lambda o: (read_chart_table(o, TableFormat()), o))(
+    ...     ChartOptions(data=rows, size_by="n", label_by="a"))):
+    ...     print(text)
+    1 row says the same as another in all columns, and is shown too: x
+    row 4 (Total) looks like the sum of the others, and is shown as they are
+    """
+    if options.size_by is None or options.label_by is None or len(table.rows) > MOST_COMPARED:
+        return []
+    names = [shown(row.get(options.label_by)) for row in table.rows]
+    seen: Counter[tuple[str, ...]] = Counter()
+    twice = []
+    for row, name in zip(table.rows, names, strict=True):
+        key = tuple(f"{column}\0{cell}" for column, cell in row.items())
+        seen[key] += 1
+        if seen[key] > 1:
+            twice.append(name[:40])
+    told = []
+    if twice:
+        rows = number_of(len(twice), "row says", "rows say")
+        others, shows = ("another", "is") if len(twice) == 1 else ("others", "are")
+        told.append(
+            f"{rows} the same as {others} in all columns, and {shows} shown too: "
+            f"{enumerated(twice, MOST_NAMED)}"
+        )
+    total = total_row(names, [as_number(row.get(options.size_by)) for row in table.rows])
+    if total is not None:
+        told.append(
+            f"row {total + 1} ({names[total][:40]}) looks like the sum of the others, "
+            "and is shown as they are"
+        )
+    return told
+
+
+def sizes(
+    table: Table, column: str, label_by: str | None
+) -> tuple[dict[int, float], dict[str, bool]]:
+    """Positive number of each row that has one; sentences about the others, and which tell of data.
+
+    Raises
+    ------
+    RecipeError
+        If no row has one.
+
+    Examples
+    --------
+    >>> rows = ({"a": 2}, {"a": 0}, {"a": -1}, {"a": "n"})
+    >>> numbers, notices = sizes(Table("data", ("a",), rows), "a", None)
+    >>> numbers, list(notices.items())[:2] == [
+    ...     ("left out 1 row of 4 whose a is 0: row 2", False),
+    ...     ("left out 1 row of 4 whose a is negative: row 3", True)]
+    ({0: 2.0}, True)
+    """
+    found: dict[int, float] = {}
+    odd: dict[str, list[int]] = {}
+    for k, row in enumerate(table.rows):
+        why, value = _size(row.get(column))
+        if why:
+            odd.setdefault(why, []).append(k)
+        else:
+            found[k] = value
+    if not found:
+        raise RecipeError("size_by", _why_none(table, column, odd))
+    return found, {
+        left_out(table, column, why, which, label_by): why not in {"is missing", "is 0"}
+        for why, which in odd.items()
+    }
+
+
+def _size(cell: Any) -> tuple[str, float]:
+    """Why a cell gives no size, empty if it does; and the size."""
+    if is_missing(cell):
+        return "is missing", math.nan
+    value = any_number(cell)
+    if math.isnan(value):
+        return "is a date" if is_date(str(cell)) else "is no number", value
+    if value == 0:
+        return "is 0", value
+    if not 1 / FARTHEST <= abs(value) <= FARTHEST:
+        return f"is beyond {FARTHEST:g}", value
+    return ("is negative", value) if value < 0 else ("", value)
+
+
+def _why_none(table: Table, column: str, odd: Mapping[str, Sequence[int]]) -> str:
+    if set(odd) <= {"is no number", "is missing", "is a date"} and "is no number" in odd:
+        met = shown(table.rows[odd["is no number"][0]].get(column))[:30]
+        numeric = [name for name in table.columns if is_numeric(table.rows, name)]
+        hint = f"those of numbers are {', '.join(numeric[:12])}" if numeric else "none has numbers"
+        return f"column {column!r} holds text such as {met!r}, no numbers; {hint}"
+    return f"no row can be shown: {column!r} " + ", ".join(
+        f"{why} in {number_of(len(which), 'row')}" for why, which in odd.items()
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Amounts:
+    """Rows that are shown, and how much each stands for.
+
+    Parameters
+    ----------
+    rows
+        As in the table, or one for all that are shown alike.
+    amounts
+        ``(n,)`` in the unit of the size column, or numbers of rows.
+    groups
+        ``(n,)`` number of each one's group; zeros where there are none.
+    notices
+        Sentences about what was left out, and whether they are about rows with data.
+    """
+
+    rows: list[Row]
+    amounts: FloatArray
+    groups: IntArray
+    notices: dict[str, bool]
+
+
+def read_amounts(table: Table, options: ChartOptions, groups: Groups | None) -> Amounts:
+    """Rows of a table that are shown; those in no group are not.
+
+    Raises
+    ------
+    RecipeError
+        If none can be.
+    """
+    member = [0] * len(table.rows) if groups is None else groups.of_row
+    notices: dict[str, bool] = {}
+    found = dict.fromkeys(range(len(table.rows)), 1.0)
+    if options.size_by is not None:
+        found, notices = sizes(table, options.size_by, options.label_by)
+    which = [k for k in found if member[k] >= 0]
+    if not which:
+        raise RecipeError("by", f"no row has both a group in {options.by!r} and a size")
+    if options.size_by is None and options.unit is not None:
+        return _counted(table, options, groups, which)
+    return Amounts(
+        [table.rows[k] for k in which],
+        np.array([found[k] for k in which]),
+        np.array([member[k] for k in which], dtype=np.int64),
+        notices,
+    )
+
+
+def _counted(
+    table: Table, options: ChartOptions, groups: Groups | None, which: Sequence[int]
+) -> Amounts:
+    """Rows that are shown alike as one, with their number."""
+    shown_of = (options.color_by, options.mark_by, options.label_by)
+    columns = list(dict.fromkeys(column for column in shown_of if column is not None))
+    counts = Counter(
+        (
+            0 if groups is None else groups.of_row[k],
+            tuple(shown(table.rows[k].get(column)) for column in columns),
+        )
+        for k in which
+    )
+    rows = [
+        dict(zip(columns, cells, strict=True)) | {"rows": n} for (_, cells), n in counts.items()
+    ]
+    if groups is not None and options.by is not None and options.by not in columns:
+        for row, (group, _) in zip(rows, counts, strict=True):
+            row[options.by] = groups.names[group]
+    amounts = np.array(list(counts.values()), dtype=np.float64)
+    return Amounts(rows, amounts, np.array([group for group, _ in counts]), {})
+
+
+def marks_of(amounts: FloatArray, options: ChartOptions) -> tuple[list[int], FloatArray]:
+    """Row of each mark, and its share of a whole one, of amounts ``(n,)`` of rows.
+
+    Raises
+    ------
+    RecipeError
+        If there are too many to be told apart.
+    """
+    unit = options.unit
+    if unit is None:
+        total = float(len(amounts))
+    else:
+        with np.errstate(over="ignore"):  # of a tiny unit: too many in any case
+            total = float(np.ceil(amounts / unit - SPECK).sum())
+    if total > MOST_MARKS:
+        said = f"{total:,.0f}" if total < LARGE else f"more than {LARGE:,}"
+        least = round_up((total if unit is None else float(amounts.sum())) / MOST_MARKS)
+        raise RecipeError(
+            "unit",
+            f"there would be {said} marks; at most {MOST_MARKS:,} can be told apart: "
+            f"use --unit {_least_unit(amounts, least, options):.12g} or more",
+        )
+    if unit is None:
+        return list(range(len(amounts))), np.ones(len(amounts))
+    owner: list[int] = []
+    shares: list[float] = []
+    for k, amount in enumerate((amounts / unit).tolist()):
+        whole = math.floor(amount + SPECK)
+        rest = amount - whole
+        parts = [1.0] * whole + ([rest] if rest > SPECK else [])
+        # A row that is less than a speck of a mark is still a row.
+        parts = parts or [amount]
+        owner += [k] * len(parts)
+        shares += parts
+    return owner, np.array(shares)
+
+
+def _least_unit(amounts: FloatArray, first: float, options: ChartOptions) -> float:
+    """A round unit that makes few enough marks, remainders counted."""
+    counted = amounts if options.size_by or options.unit else np.array([float(len(amounts))])
+    unit = first
+    while len(counted) <= MOST_MARKS and np.ceil(counted / unit - SPECK).sum() > MOST_MARKS:
+        unit = round_up(unit * 1.5)
+    return unit
