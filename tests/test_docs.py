@@ -16,8 +16,7 @@ from packwork.cli.files import Choosing, LayoutFiles, Serial, SerialMarks, SideF
 from packwork.losses.registry import LOSSES
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics
-from packwork.metrics.pixel import PixelMetrics
-from packwork.metrics.shape import ShapeMetrics
+from packwork.metrics.pixel import PixelMetrics, ShapeMetrics
 from packwork.offers import Offered
 from packwork.options import offered
 from packwork.recipe import Recipe

@@ -17,7 +17,7 @@ import shapely
 from PIL import Image, ImageDraw
 
 import packwork as pw
-from packwork.losses.fused import FusedAdjoint, FusedWeights
+from packwork.losses.image import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.pose import Poses
 from packwork.solve.detail import seen_posed

@@ -24,8 +24,8 @@ from packwork import precompile, threads
 from packwork.arrays import FloatArray, Image
 from packwork.raster.colour import ColourImage
 from packwork.raster.coverage import Rasteriser
+from packwork.scene.contrast import channels_of
 from packwork.scene.item import FlatArt
-from packwork.scene.light import channels_of
 from packwork.scene.swatch import mean_lights
 from packwork.solve.detail import seen_at
 from packwork.solve.ensemble import Ensemble

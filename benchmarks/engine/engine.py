@@ -27,7 +27,7 @@ from benchmarks.kit.measuring import (
 from benchmarks.kit.runs import EA, EXACT_OO, LC, LNU, OO, SECONDS, on_frozen_set
 from packwork import precompile
 from packwork.arrays import FloatArray
-from packwork.losses.fused import FusedAdjoint, FusedWeights
+from packwork.losses.image import FusedAdjoint, FusedWeights
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.pose import Poses
 from packwork.solve.detail import seen_at

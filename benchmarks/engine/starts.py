@@ -32,11 +32,9 @@ from packwork.solve.detail import seen_at
 from packwork.solve.level import Level
 from packwork.solve.relocate_trapped import violation_shares
 from packwork.solve.solver import solve
-from packwork.start.angles import start_angles
-from packwork.start.first_poses import first_poses
+from packwork.start.angles_and_sizes import nominal_scales, start_angles, yielding_scales
+from packwork.start.first_poses import first_poses, relocated
 from packwork.start.options import StartOptions
-from packwork.start.relocate_buried import relocated
-from packwork.start.sizes import nominal_scales, yielding_scales
 from packwork.steps.place import NOMINAL_COVERAGE
 
 METHODS = ("distance-field", "medial-axis", "auto", "scatter")

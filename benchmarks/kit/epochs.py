@@ -17,9 +17,9 @@ from packwork.solve.detail import seen_at
 from packwork.solve.level import Level
 from packwork.solve.motion import Motion
 from packwork.solve.options import SolveOptions
+from packwork.start.angles_and_sizes import nominal_scales
 from packwork.start.first_poses import first_poses
 from packwork.start.options import StartOptions
-from packwork.start.sizes import nominal_scales
 
 EDGES = 6_000
 RESOLUTION = 600

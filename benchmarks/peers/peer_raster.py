@@ -28,7 +28,7 @@ from packwork.recipe import make_recipe
 from packwork.scene.container import Container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
-from packwork.start.sizes import nominal_scales
+from packwork.start.angles_and_sizes import nominal_scales
 
 COUNTS, RESOLUTIONS = (10, 100, 1_000), (50, 200, 600)
 WEIGHTS = {"containment": 5.0, "overlap": 5.0, "filling": 1.0, "evenness": 0.0}

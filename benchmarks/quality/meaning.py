@@ -27,13 +27,12 @@ from benchmarks.kit.manifests import write_page
 from benchmarks.kit.measuring import markdown_table
 from packwork import precompile, uses, writers
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment.colour import GRID, order_by_colour
+from packwork.assignment.orders import GRID, order_by_colour
 from packwork.raster.coverage import coverage
 from packwork.readers.target import read_target
 from packwork.recipe import Recipe, make_recipe
-from packwork.scene.contrast import oklabs_of_light
+from packwork.scene.contrast import channels_of, light_of, oklabs_of_light
 from packwork.scene.layout import Layout
-from packwork.scene.light import channels_of, light_of
 from packwork.scene.recolour import recoloured
 from packwork.scene.swatch import patch_of
 from packwork.scene.target import blurred

@@ -14,7 +14,7 @@ from scipy import ndimage
 from benchmarks.kit.manifests import Manifest
 from packwork import uses
 from packwork.geometry.outline import joined
-from packwork.metrics.shape import REACH
+from packwork.metrics.pixel import REACH
 from packwork.raster.membership import centre_count
 from packwork.readers.container import read_container
 from packwork.readers.words.options import WordOptions

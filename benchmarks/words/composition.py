@@ -9,7 +9,7 @@ import numpy.typing as npt
 from scipy import ndimage
 
 from benchmarks.kit.manifests import Manifest
-from packwork.metrics.shape import REACH
+from packwork.metrics.pixel import REACH
 
 WIDEST = 0.9
 """Clearance, as a share of the largest, from which on a pixel is of the region of greatest

@@ -10,7 +10,7 @@ import numpy as np
 from benchmarks.kit.manifests import Manifest
 from benchmarks.kit.measuring import lasting, markdown_table, plainly
 from benchmarks.words.composition import BLUR
-from packwork.metrics.shape import REACH
+from packwork.metrics.pixel import REACH
 
 NONE = "-"
 SLOWER, FLATTER, FULLER = 4.0, 0.8, 1.1

@@ -11,7 +11,7 @@ from benchmarks.kit.measuring import lasting, markdown_table, plainly
 from benchmarks.words import examples_page
 from benchmarks.words.clouds import CANVAS_PX, SIDE_PX, SIZE_RATIO, ZIPF
 from benchmarks.words.drop_in import ROUNDS
-from packwork.metrics.shape import REACH
+from packwork.metrics.pixel import REACH
 
 NONE = "-"
 

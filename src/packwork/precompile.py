@@ -32,7 +32,7 @@ from packwork.fields.distance_transform import distance_to, parts_of
 from packwork.geometry.affine import similarity
 from packwork.geometry.distance import clearance
 from packwork.geometry.outline import Outline, joined
-from packwork.losses.evenness import Windows
+from packwork.losses.image import Windows
 from packwork.offspring import END_WITH_PARENT
 from packwork.pipeline.result import find_unplaced
 from packwork.raster.membership import centre_count

@@ -16,11 +16,11 @@ import packwork as pw
 from numerics import assert_gradient
 from packwork.adapters.torch import torch_loss
 from packwork.arrays import FloatArray, Image
-from packwork.losses.overlap import overlap
+from packwork.losses.image import overlap
 from packwork.losses.registry import takes_colour
 from packwork.pipeline.plan.own_losses import background_of
+from packwork.scene.contrast import channels_of
 from packwork.scene.item import FlatArt
-from packwork.scene.light import channels_of
 from packwork.scene.swatch import mean_lights
 from scenes import box
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from packwork.assignment.balance import balanced_order, parts_of
+from packwork.assignment.orders import balanced_order, parts_of
 from packwork.geometry.outline import Outline
 
 PARTS = np.repeat([0, 1, 2], [20, 10, 30])

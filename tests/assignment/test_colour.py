@@ -9,11 +9,10 @@ import pytest
 from PIL import Image
 
 from packwork.arrays import FloatArray
-from packwork.assignment.colour import GRID, order_by_colour
+from packwork.assignment.orders import GRID, order_by_colour
 from packwork.readers.photos.options import PhotoOptions
 from packwork.readers.photos.read import read_photos
-from packwork.scene.contrast import oklabs_of_light
-from packwork.scene.light import light_of
+from packwork.scene.contrast import light_of, oklabs_of_light
 from packwork.scene.swatch import mean_light, patch_of
 
 MANY = 6

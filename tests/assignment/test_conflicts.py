@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from packwork.assignment.conflicts import min_conflicts_order
+from packwork.assignment.orders import min_conflicts_order
 from packwork.scene.neighbours import neighbour_pairs
 from strategies import generators
 

@@ -5,10 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment.clusters import clusters
-from packwork.assignment.diffusion import likeness
 from packwork.assignment.embedding import assigned
-from packwork.assignment.graph import NeighbourGraph
+from packwork.assignment.graph import NeighbourGraph, clusters, likeness
 
 
 def _planted(count: int) -> tuple[IntArray, FloatArray]:

@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 from packwork.arrays import FloatArray, IntArray
 from packwork.assignment import _kernels
 from packwork.assignment._kernels import Blend, DistancePrices
-from packwork.assignment.local_search import cheapest, improved
-from packwork.assignment.problem import Assignment, neighbour_flow
+from packwork.assignment.quadratic import Assignment, cheapest, improved, neighbour_flow
 from strategies import generators
 
 COUNT = 14

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from packwork.forces import distance as distance_module
-from packwork.forces.distance import FEW_PIECES, Distance
+from packwork.forces import field as distance_module
+from packwork.forces.field import FEW_PIECES, Distance
 
 
 @pytest.mark.parametrize("pieces", [FEW_PIECES, FEW_PIECES + 1, 300])

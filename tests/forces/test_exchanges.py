@@ -8,8 +8,8 @@ import pytest
 from packwork.arrays import FloatArray
 from packwork.forces import exchanges
 from packwork.forces.bonds import Alignment, Balance
-from packwork.forces.direction import Direction
 from packwork.forces.exchanges import exchanged
+from packwork.forces.field import Direction
 from packwork.forces.forces import BondForce, FieldForce, Forces
 
 SIDE, COUNT = 100.0, 40

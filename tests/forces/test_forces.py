@@ -8,12 +8,8 @@ import pytest
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.forces.bonds import Alignment, Balance, Home, TogetherBond
-from packwork.forces.direction import Direction
-from packwork.forces.distance import Distance
-from packwork.forces.fading import Fading
-from packwork.forces.field import Bond, Field
+from packwork.forces.field import Bond, Direction, Distance, Fading, Field, Inward
 from packwork.forces.forces import BondForce, FieldForce, Forces
-from packwork.forces.inward import Inward
 from scenes import disc, star
 
 SIDE = 100.0

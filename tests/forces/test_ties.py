@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray
+from packwork.forces.bonds import SimilarityBond
 from packwork.forces.field import ItemGroup
-from packwork.forces.ties import Ties
 
 
-def _tied(count: int) -> tuple[Ties, FloatArray, FloatArray]:
+def _tied(count: int) -> tuple[SimilarityBond, FloatArray, FloatArray]:
     rng = np.random.default_rng(3)
     ties = rng.uniform(-1, 1, (count, count))
     ties = (ties + ties.T) / 2
     np.fill_diagonal(ties, 0.0)
     # Close enough that none is beyond the reach of any other.
-    return Ties(ties), rng.uniform(0, 2.0, (count, 2)), rng.uniform(0.5, 1.5, count)
+    return SimilarityBond(ties), rng.uniform(0, 2.0, (count, 2)), rng.uniform(0.5, 1.5, count)
 
 
 def _group(points: FloatArray, areas: FloatArray) -> ItemGroup:
@@ -44,7 +44,7 @@ def test_changes_are_differences_of_the_height() -> None:
 
 
 def test_what_is_far_is_not_felt() -> None:
-    bond = Ties(np.array([[0.0, 1.0], [1.0, 0.0]]))
+    bond = SimilarityBond(np.array([[0.0, 1.0], [1.0, 0.0]]))
     parts, slopes = bond(_group(np.array([[0.0, 0.0], [9.0, 0.0]]), np.ones(2)))
     assert not parts.any()
     assert not slopes.any()

@@ -7,7 +7,7 @@ import pytest
 
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
-from packwork.losses.apart import REACH, apart
+from packwork.losses.pose import REACH, apart
 from packwork.losses.term import PosedItems
 from scenes import poses
 

@@ -9,7 +9,7 @@ import pytest
 
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
-from packwork.losses.area_shares import area_shares
+from packwork.losses.pose import area_shares
 from packwork.losses.term import PosedItems
 from scenes import poses
 

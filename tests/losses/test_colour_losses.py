@@ -12,8 +12,8 @@ import pytest
 import packwork as pw
 from numerics import assert_gradient
 from packwork.arrays import FloatArray, Image
-from packwork.losses.colour import SeenInColour
 from packwork.losses.registry import takes_colour
+from packwork.losses.term import SeenInColour
 from packwork.pipeline.plan.own_losses import background_of
 from packwork.scene.item import FlatArt
 from packwork.solve.level import Level

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from packwork.losses.evenness import MOST_BLOCKS, Windows, evenness
+from packwork.losses.image import MOST_BLOCKS, Windows, evenness
 
 
 def test_adjoint_is_the_derivative_at_reduced_resolution(rng: np.random.Generator) -> None:

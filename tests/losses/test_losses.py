@@ -13,8 +13,7 @@ from hypothesis import strategies as st
 from numerics import assert_gradient
 from packwork.arrays import Image
 from packwork.errors import RecipeError
-from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
-from packwork.losses.overlap import SLACK
+from packwork.losses.image import FUSED, SLACK, FusedAdjoint, FusedWeights
 from packwork.losses.registry import LOSSES, find_loss
 from packwork.losses.term import ImageLoss, Term
 from strategies import SHAPES, generators
@@ -173,7 +172,7 @@ def test_built_in_losses_are_found(name: str) -> None:
         ("", "no loss is called ''"),
         ("no_such_module_here:f", "module 'no_such_module_here' cannot be imported"),
         ("packwork.losses.term:nothing", "module 'packwork.losses.term' has no function"),
-        ("packwork.losses.overlap:SLACK", "is not a function"),
+        ("packwork.losses.image:SLACK", "is not a function"),
         (":f", "module '' cannot be imported"),
         (".term:Term", "module '.term' cannot be imported"),
         ("packwork.losses.term:", "has no function ''"),

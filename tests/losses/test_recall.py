@@ -7,7 +7,7 @@ import pytest
 
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
-from packwork.losses.recall import Recall
+from packwork.losses.pose import Recall
 
 PX_PER_CU = 0.5
 CONTAINER = np.zeros((9, 11))

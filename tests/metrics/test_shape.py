@@ -6,7 +6,7 @@ import pytest
 import shapely
 
 from packwork.geometry.outline import Outline
-from packwork.metrics.shape import REACH, shape_metrics
+from packwork.metrics.pixel import REACH, shape_metrics
 from packwork.scene.container import Container
 from scenes import box, square_container
 

@@ -16,7 +16,7 @@ from packwork.readers.builtin import builtin_container
 from packwork.readers.options import ReadOptions
 from packwork.readers.target import read_target
 from packwork.recipe import make_recipe
-from packwork.scene.light import channels_of
+from packwork.scene.contrast import channels_of
 from packwork.scene.swatch import mean_lights
 from packwork.scene.target import TargetPicture
 from packwork.steps.mosaic import LEAST, best_ground, correlation_with

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from packwork.scene.canvas import brought_over, on_canvas
-from packwork.scene.container import Container
+from packwork.scene.container import Container, brought_over, on_canvas
 from packwork.units import canvas_size
 from scenes import box, poses, square_container
 

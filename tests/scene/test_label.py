@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from packwork.errors import RecipeError
-from packwork.scene.label import MAX_LENGTH, Label
+from packwork.scene.item import MAX_LENGTH, Label
 
 GOOD = [
     "", "https://example.org/a?b=1&c=2#d", "HTTP://example.org", "mailto:someone@example.org",

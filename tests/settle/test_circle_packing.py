@@ -8,13 +8,12 @@ import pytest
 from numerics import assert_gradient
 from packwork.arrays import FloatArray
 from packwork.compiled import as_python
-from packwork.forces.distance import Distance
+from packwork.forces.field import Distance
 from packwork.forces.forces import FieldForce, Forces
 from packwork.scene.pose import Poses
-from packwork.settle.circle_packing import packed_circles
 from packwork.settle.kernels import circle_packing as kernels
-from packwork.settle.options import SettleOptions
-from packwork.settle.pile import Arrival, pile
+from packwork.settle.pile import Arrival, SettleOptions, pile
+from packwork.settle.round_pack import packed_circles
 from scenes import disc, overlap_area, placed, square, square_container
 
 

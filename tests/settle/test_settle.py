@@ -8,16 +8,13 @@ import shapely
 from shapely import affinity
 
 from packwork.arrays import FloatArray
-from packwork.forces.direction import Direction
-from packwork.forces.distance import Distance
-from packwork.forces.field import Field
+from packwork.forces.field import Direction, Distance, Field
 from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import Step
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.settle.options import SettleOptions
-from packwork.settle.pile import Arrival, Piled, pile
+from packwork.settle.pile import Arrival, Piled, SettleOptions, pile
 from scenes import box, disc, square, square_container, star
 
 SIDE = 100.0

@@ -11,14 +11,11 @@ import pytest
 from numerics import assert_gradient, compare
 from packwork.arrays import FloatArray, Image
 from packwork.errors import RecipeError
-from packwork.forces.direction import Direction
+from packwork.forces.field import Direction
 from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
-from packwork.losses.containment import containment
-from packwork.losses.evenness import evenness
-from packwork.losses.filling import filling
-from packwork.losses.overlap import overlap
+from packwork.losses.image import containment, evenness, filling, overlap
 from packwork.losses.term import ImageLoss, Term
 from packwork.raster.coverage import Rasteriser, coverage, coverage_pullback
 from packwork.raster.pyramid import region_image

@@ -7,9 +7,9 @@ import pytest
 
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
-from packwork.start.choice import suitable
 from packwork.start.first_poses import first_poses
 from packwork.start.options import StartOptions
+from packwork.start.places import suitable
 from scenes import box, disc, round_container
 
 

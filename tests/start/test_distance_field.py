@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from packwork.arrays import FloatArray
-from packwork.start.distance_field import distance_field
+from packwork.start.places import distance_field
 from strategies import generators
 
 

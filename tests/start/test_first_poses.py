@@ -12,7 +12,7 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.angles import nearest_allowed, start_angles
+from packwork.start.angles_and_sizes import nearest_allowed, start_angles
 from packwork.start.first_poses import first_poses, poses_apart, start_resolution
 from packwork.start.options import StartOptions
 from scenes import box, disc, placed, round_container, share_inside, square, star

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.fields.clearance import Clearance
-from packwork.start.greedy import JITTER, place_discs
+from packwork.start.places import JITTER, place_discs
 
 
 def _room() -> Clearance:

@@ -7,7 +7,7 @@ import pytest
 
 from packwork.arrays import FloatArray
 from packwork.fields.clearance import distance_inside
-from packwork.start.medial_axis import medial_axis
+from packwork.start.places import medial_axis
 
 
 def wedge(rows: int = 60, columns: int = 160) -> FloatArray:

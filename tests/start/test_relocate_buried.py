@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from packwork.scene.pose import Poses
-from packwork.start.relocate_buried import relocated
+from packwork.start.first_poses import relocated
 from scenes import disc, overlap_area, placed, poses, round_container, share_inside
 
 

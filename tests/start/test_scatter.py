@@ -6,7 +6,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from packwork.start.scatter import scatter
+from packwork.start.places import scatter
 from strategies import generators
 
 

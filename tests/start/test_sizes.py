@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
+from packwork.start.angles_and_sizes import nominal_scales, shared_scales, yielding_scales
 from strategies import generators
 
 

@@ -9,8 +9,7 @@ import shapely
 from packwork.fields.clearance import distance_inside
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
-from packwork.start.fitting import SECTORS, fitted
-from packwork.start.voids import copies_for_voids, free_rays, void_centres
+from packwork.start.voids import SECTORS, copies_for_voids, fitted, free_rays, void_centres
 from scenes import disc, square, star
 
 ANY = np.ones(SECTORS, dtype=bool)

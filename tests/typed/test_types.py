@@ -16,8 +16,7 @@ import pytest
 
 from packwork.metrics.exact import ExactMetrics
 from packwork.metrics.measure import LayoutMetrics, Metrics
-from packwork.metrics.pixel import PixelMetrics
-from packwork.metrics.shape import ShapeMetrics
+from packwork.metrics.pixel import PixelMetrics, ShapeMetrics
 
 ROOT = Path(__file__).resolve().parents[2]
 CALLS = Path(__file__).with_name("calls.py")

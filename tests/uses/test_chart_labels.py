@@ -12,7 +12,7 @@ import shapely
 import packwork as pw
 from packwork.readers.layouts.read import read_written
 from packwork.scene.contrast import contrast
-from packwork.scene.note import Note
+from packwork.scene.layout import Note
 from packwork.scene.swatch import representative_colour
 from packwork.uses.charts.mark_labels import LEAST_CONTRAST, SMALLEST_SHARE
 from packwork.uses.charts.pen import lettering

@@ -12,7 +12,7 @@ import shapely
 from packwork import uses
 from packwork.errors import RecipeError
 from packwork.geometry.outline import Outline
-from packwork.metrics.shape import ShapeMetrics
+from packwork.metrics.pixel import ShapeMetrics
 from packwork.pipeline.plan.counts import LEAST, MOST, items_needed
 from packwork.pipeline.run import RunContext
 from packwork.pipeline.state import RunState

@@ -21,8 +21,7 @@ from PIL import Image, ImageSequence
 
 from packwork.errors import WriteError
 from packwork.scene.layout import Layout
-from packwork.scene.leaving import Leaving
-from packwork.scene.track import track_of
+from packwork.scene.track import Leaving, track_of
 from packwork.writers.film.film import Film
 from packwork.writers.film.gif import gif_bytes
 from packwork.writers.film.options import FilmOptions

@@ -8,9 +8,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from packwork.scene.item import FlatArt, Item, VectorArt
+from packwork.scene.item import FlatArt, Item, LiveText, VectorArt
 from packwork.scene.layout import Layout
-from packwork.scene.live_text import LiveText
 from packwork.scene.swatch import small_png
 from packwork.writers import halos
 from packwork.writers.halos import faint_items, faint_told, haloed

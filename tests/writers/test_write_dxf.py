@@ -19,7 +19,7 @@ from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.geometry.polygon import region, silhouette
 from packwork.readers.builtin import builtin_item
-from packwork.scene.canvas import brought_over, on_canvas
+from packwork.scene.container import brought_over, on_canvas
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.units import canvas_size, convert

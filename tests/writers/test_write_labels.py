@@ -17,8 +17,7 @@ from hypothesis import strategies as st
 
 import packwork as pw
 from packwork.errors import ReadError
-from packwork.scene.item import Item
-from packwork.scene.label import Label
+from packwork.scene.item import Item, Label
 from packwork.scene.layout import Layout
 from packwork.writers import geojson_text, svg_text
 from packwork.writers.labels import item_ids

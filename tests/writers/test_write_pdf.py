@@ -17,7 +17,7 @@ from packwork.errors import WriteError
 from packwork.geometry.polygon import silhouette
 from packwork.readers.builtin import builtin_item
 from packwork.readers.svg.item import item_of_svg
-from packwork.scene.canvas import brought_over, on_canvas
+from packwork.scene.container import brought_over, on_canvas
 from packwork.scene.item import Item, PictureArt, VectorArt
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

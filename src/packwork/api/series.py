@@ -23,10 +23,8 @@ from packwork.readers.tables.frames import is_frame, rows_of_frame
 from packwork.readers.words.options import check_weight
 from packwork.readers.words.steps import read_word_steps, steps_of_rows
 from packwork.timeline.film import filmed
-from packwork.timeline.naming import step_files
-from packwork.timeline.report import report
-from packwork.timeline.solve import Solved, solved
-from packwork.timeline.step import chart_steps, word_steps
+from packwork.timeline.solve import Solved, report, solved
+from packwork.timeline.step import chart_steps, step_files, word_steps
 
 
 @dataclass(frozen=True, eq=False, repr=False)

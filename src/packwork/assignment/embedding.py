@@ -12,9 +12,9 @@ import numpy as np
 from packwork.arrays import BoolArray, FloatArray, IntArray
 from packwork.assignment._kernels import FlowPrices
 from packwork.assignment.graph import NeighbourGraph, unit_rows
-from packwork.assignment.local_search import improved
-from packwork.assignment.problem import (
+from packwork.assignment.quadratic import (
     Assignment,
+    improved,
     kind_distance,
     neighbour_flow,
     point_distance,

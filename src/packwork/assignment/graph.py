@@ -1,10 +1,19 @@
-"""Graph of nearest neighbours among vectors, weighted by how near they are.
+"""Similarity of items by their vectors: neighbour graph, diffusion distance, clusters.
 
-The fuzzy neighbour graph of L. McInnes, J. Healy and J. Melville, "UMAP: Uniform manifold
+The fuzzy neighbour graph is that of L. McInnes, J. Healy and J. Melville, "UMAP: Uniform manifold
 approximation and projection for dimension reduction" (2018), arXiv:1802.03426: weights fall from 1
 at an item's nearest neighbour, so fast that they sum to the logarithm of how many there are. Ours
 are multiplied by the cosine, so that what is unlike pulls nothing, and scaled to a sum of 1 for
 each item, so that none pulls harder than others.
+
+Diffusion maps without the map: R. R. Coifman and S. Lafon, "Diffusion maps", Applied and
+Computational Harmonic Analysis 21 (2006), 5-30. Items of one cluster are all alike by it, as walks
+forget within a cluster where they began; of a continuous row those near each other are. No number
+of clusters is asked for.
+
+Spherical k-means: I. S. Dhillon and D. S. Modha, "Concept decompositions for large sparse text data
+using clustering", Machine Learning 42 (2001), 143-175; begun as D. Arthur and S. Vassilvitskii,
+"k-means++" (SODA 2007, 1027-1035).
 """
 
 from __future__ import annotations
@@ -160,3 +169,78 @@ def _falling(away: FloatArray) -> FloatArray:
         is_much = weights.sum(axis=1) > wanted
         high, low = np.where(is_much, middle, high), np.where(is_much, low, middle)
     return np.asarray(np.exp(-beyond / np.maximum(high, 1e-300)[:, None]))
+
+
+STEPS = 3
+"""Steps of each walk. More make clusters of chance neighbours alike too; fewer follow chance.
+Tried."""
+
+
+def likeness(graph: NeighbourGraph, steps: int = STEPS) -> FloatArray:
+    """``(n, n)`` from 0 for walks that meet nowhere to 1: the cosine between where they end.
+
+    Zeros for what the graph ties to nothing.
+
+    Examples
+    --------
+    >>> vectors = np.array([[1.0, 0], [1, 0.1], [1, 0.2], [0, 1], [0.1, 1], [0.2, 1]])
+    >>> graph = NeighbourGraph.of(vectors, np.random.default_rng(0), 2)
+    >>> found = likeness(graph)
+    >>> bool(found[0, 2] > 0.9), float(found[0, 3])
+    (True, 0.0)
+    """
+    # The library of sparse matrices is needed where items are tied alone.
+    from scipy.sparse import csr_array
+
+    count = len(graph.starts) - 1
+    ties = csr_array((graph.weights, graph.partners, graph.starts), shape=(count, count))
+    sums = np.asarray(ties.sum(axis=1)).ravel()
+    walk = ties.multiply(1 / np.where(sums > 0, sums, 1.0)[:, None]).tocsr()
+    ends = walk
+    for _ in range(steps - 1):
+        ends = ends @ walk
+    lengths = np.sqrt(np.asarray(ends.multiply(ends).sum(axis=1)).ravel())
+    ends = ends.multiply(1 / np.where(lengths > 0, lengths, 1.0)[:, None]).tocsr()
+    return np.asarray((ends @ ends.T).toarray())
+
+
+STARTS = 8
+"""First centres that are tried. More find a little more. Chosen."""
+
+
+def clusters(vectors: FloatArray, count: int, rng: np.random.Generator) -> IntArray:
+    """``(n,)`` number of each vector's cluster, the largest one 0.
+
+    Examples
+    --------
+    >>> vectors = np.array([[1.0, 0], [0, 1], [1, 0.1], [0.1, 1], [1, 0.2]])
+    >>> clusters(vectors, 2, np.random.default_rng(0)).tolist()
+    [0, 1, 0, 1, 0]
+    """
+    # Needed where items are to be told apart by colour alone.
+    from scipy.cluster.vq import ClusterError, kmeans2
+
+    units = unit_rows(vectors)
+    count = min(count, len(np.unique(units, axis=0)))
+    best, least = np.zeros(len(units), dtype=np.int64), np.inf
+    for _ in range(STARTS):
+        try:
+            first = _apart(units, count, rng)
+            centres, numbers = kmeans2(units, first, minit="matrix", missing="raise")
+        except ClusterError:
+            continue
+        away = float(((units - centres[numbers]) ** 2).sum())
+        if away < least:
+            best, least = numbers, away
+    order = np.argsort(-np.bincount(best, minlength=count), kind="stable")
+    return np.asarray(np.argsort(order)[best])
+
+
+def _apart(units: FloatArray, count: int, rng: np.random.Generator) -> FloatArray:
+    """First centres: each by chance, likelier the farther it is from those before."""
+    chosen = [int(rng.integers(len(units)))]
+    away = ((units - units[chosen[0]]) ** 2).sum(axis=1)
+    while len(chosen) < count:
+        chosen.append(int(rng.choice(len(units), p=away / away.sum())))
+        away = np.minimum(away, ((units - units[chosen[-1]]) ** 2).sum(axis=1))
+    return units[chosen]

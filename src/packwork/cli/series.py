@@ -29,10 +29,8 @@ from packwork.readers.words.steps import named_column, read_word_steps
 from packwork.recipe.refusals import validated
 from packwork.recipe.verbs import film_options
 from packwork.timeline.film import filmed
-from packwork.timeline.naming import step_files
-from packwork.timeline.report import report
-from packwork.timeline.solve import Solved, solved
-from packwork.timeline.step import chart_steps, word_steps
+from packwork.timeline.solve import Solved, report, solved
+from packwork.timeline.step import chart_steps, step_files, word_steps
 from packwork.writers.film.options import FilmOptions
 from packwork.writers.options import DrawingOptions
 

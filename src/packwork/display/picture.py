@@ -37,7 +37,7 @@ def notebook_svg(layout: Layout) -> str | None:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> 'width="600" height="300" viewBox="0 0 200 100"' in notebook_svg(blank(200.0, 100.0, "mm"))
     True
     """
@@ -61,7 +61,7 @@ def notebook_png(layout: Layout) -> tuple[bytes, dict[str, int]] | None:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> notebook_png(blank()) is None
     True
     """

@@ -1,4 +1,4 @@
-"""Forces between the items of a group: alignment, balance, keeping together, keeping near home."""
+"""Forces between the items of a group: alignment, balance, togetherness, homes, similarity."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
+from packwork.forces import _kernels
 from packwork.forces.field import ItemGroup
 
 NARROW = 0.1
@@ -190,3 +191,60 @@ class Balance:
     def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
         """``(m,)`` heights, canvas units, of points ``(m, 2)``: by distance from point or axis."""
         return _alone(np.nan_to_num(points - self.point), side)
+
+
+SIMILARITY_REACH = 1.1
+"""Reach of a tie, over the side of a square of an item's mean area: next neighbours feel it most.
+Larger draws whole clusters together and apart, and covers less. Tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class SimilarityBond:
+    """Each two items drawn together or apart, as a Gaussian of their distance.
+
+    All count alike, whatever their sizes.
+
+    Parameters
+    ----------
+    ties
+        ``(n, n)`` symmetric, zeros on the diagonal: positive for those that are to be neighbours,
+        negative for those that are not.
+
+    Examples
+    --------
+    >>> two = ItemGroup(np.array([[0.0, 0], [1, 0]]), np.ones(2), np.zeros(2, int), 10.0)
+    >>> [SimilarityBond(np.array([[0.0, s], [s, 0]]))(two)[1].round(3).tolist() for s in (1, -1)]
+    [[[-0.066, 0.0], [0.066, 0.0]], [[0.066, 0.0], [-0.066, 0.0]]]
+    """
+
+    ties: FloatArray
+
+    def __call__(self, group: ItemGroup) -> tuple[FloatArray, FloatArray]:
+        """Less where like items lie near, more where unlike ones do."""
+        points = np.ascontiguousarray(group.points)
+        parts, slopes = np.zeros(len(points)), np.zeros((len(points), 2))
+        order = np.argsort(points[:, 0], kind="stable")
+        _kernels.add_ties(points, order, self.ties, _reach(group), parts, slopes)
+        unit = float(group.areas.mean()) / group.side
+        return unit * parts, unit * slopes
+
+    def changes(self, group: ItemGroup, places: FloatArray) -> FloatArray:
+        """Changes ``(n, m)``, area times canvas units, by items at each of places ``(m, 2)``."""
+        reach = _reach(group)
+        here, there = (self.ties @ _felt(group.points, at, reach) for at in (group.points, places))
+        unit = float(group.areas.mean()) / group.side * reach**2
+        return np.asarray(unit * (np.diagonal(here)[:, None] - there))
+
+    def alone(self, points: FloatArray, anchor: FloatArray, side: float) -> FloatArray:
+        """``(m,)`` zeros at points ``(m, 2)``: all others are as many like as unlike ones."""
+        return np.zeros(len(points))
+
+
+def _reach(group: ItemGroup) -> float:
+    return SIMILARITY_REACH * float(np.sqrt(group.areas.mean()))
+
+
+def _felt(points: FloatArray, places: FloatArray, reach: float) -> FloatArray:
+    """``(n, m)`` how much of each point is felt at each of some places."""
+    squares = ((places - points[:, None]) ** 2).sum(axis=2)
+    return np.asarray(np.exp(-0.5 * squares / reach**2))

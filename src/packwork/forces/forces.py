@@ -8,8 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.forces.distance import Distance
-from packwork.forces.field import Bond, Field, ItemGroup
+from packwork.forces.field import Bond, Distance, Field, ItemGroup
 
 FORCE_WEIGHT = 30.0
 """Weight of a force of strength 1: an item that is drawn across the whole canvas pays for
@@ -86,7 +85,7 @@ class Forces:
 
     Examples
     --------
-    >>> from packwork.forces.direction import Direction
+    >>> from packwork.forces.field import Direction
     >>> down = FieldForce(Direction(np.pi / 2), np.array([1.0, 2.0]))
     >>> forces = Forces([down], [], np.zeros(2, int), 10.0)
     >>> pull = forces(np.array([[1.0, 3], [2, 4]]), np.array([1.0, 1.0]))
@@ -128,7 +127,7 @@ class Forces:
 
         Examples
         --------
-        >>> from packwork.forces.distance import Distance
+        >>> from packwork.forces.field import Distance
         >>> middle = Distance.from_points(np.array([[1.0, 2.0]]))
         >>> def drawn(strengths):
         ...     return Forces([FieldForce(middle, strengths)], [], np.zeros(2, int), 10.0)
@@ -154,7 +153,7 @@ class Forces:
 
         Examples
         --------
-        >>> from packwork.forces.direction import Direction
+        >>> from packwork.forces.field import Direction
         >>> down = FieldForce(Direction(np.pi / 2), np.array([1.0, 2.0]))
         >>> forces = Forces([down], [], np.zeros(2, int), FORCE_WEIGHT)
         >>> points = np.array([[1.0, 3], [2, 4]])

@@ -9,8 +9,7 @@ import numpy as np
 from packwork.live.change import Change, Stale, differing
 from packwork.live.document import Document
 from packwork.metrics.certificate import Promise, off_shares
-from packwork.metrics.standing import Standing
-from packwork.metrics.violations import Violation
+from packwork.metrics.violations import Violation, ViolationSet
 from packwork.steps.measure import reason
 
 
@@ -42,7 +41,7 @@ class Certificate:
 
     def __init__(self) -> None:
         self._seen: Document | None = None
-        self._standing: Standing | None = None
+        self._standing: ViolationSet | None = None
 
     def violations(self, document: Document) -> tuple[Violation, ...]:
         """Conflicts of a document, items by their numbers."""
@@ -59,14 +58,14 @@ class Certificate:
             said.append(f"{name} {reason(placed, document.items, document.container.unit)}")
         return (*said, *off_shares(promise_of(document), document.layout))
 
-    def _brought_to(self, now: Document) -> Standing:
+    def _brought_to(self, now: Document) -> ViolationSet:
         """Look at what has changed since it was last looked at."""
         before, standing = self._seen, self._standing
         if now is before and standing is not None:
             return standing
         if standing is None or before is None or _is_all_stale(before, now):
             gap = promise_of(now).least_gap(now.container.side)
-            standing, before = Standing(now.container.outline, gap), None
+            standing, before = ViolationSet(now.container.outline, gap), None
         gone, changed = _gone_and_changed(before, now)
         placed = {n: now.items[k].outline.mapped(now.poses.matrix(k)) for k, n in changed}
         standing.change({**gone, **placed})

@@ -11,8 +11,7 @@ import shapely
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.svg_syntax.path_data import parse_path
-from packwork.scene.layout import Layout
-from packwork.scene.note import Note
+from packwork.scene.layout import Layout, Note
 from packwork.scene.pose import Poses
 
 SMALLER = (1.0, 0.8, 0.64, 0.5)

@@ -13,7 +13,7 @@ from packwork.live.certificate import Certificate, promise_of
 from packwork.live.commands.command import Library, is_chart
 from packwork.live.composed import is_word
 from packwork.live.document import Document
-from packwork.metrics.shape import shape_metrics
+from packwork.metrics.pixel import shape_metrics
 from packwork.progress import Stop
 from packwork.steps.advice import LEAST_SHAPE, MOST_BARE, advice
 

@@ -11,14 +11,9 @@ from types import MappingProxyType
 from typing import Any
 
 from packwork.errors import RecipeError
-from packwork.losses.apart import apart
-from packwork.losses.area_shares import area_shares
-from packwork.losses.containment import containment
-from packwork.losses.evenness import evenness
-from packwork.losses.filling import filling
-from packwork.losses.overlap import overlap
-from packwork.losses.paper_containment import paper_containment
-from packwork.losses.paper_evenness import paper_evenness
+from packwork.losses.image import containment, evenness, filling, overlap
+from packwork.losses.paper import paper_containment, paper_evenness
+from packwork.losses.pose import apart, area_shares
 from packwork.losses.term import ImageLoss, PoseLoss, checked_pose_term
 
 LOSSES: Mapping[str, ImageLoss] = MappingProxyType(

@@ -110,7 +110,7 @@ def unclean(promise: Promise, layout: Layout, exact: ExactMetrics) -> tuple[str,
     Examples
     --------
     >>> from packwork.metrics.exact import ExactMetrics
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> found = ExactMetrics(
     ...     coverage=0.5, overlap=0.1, exceeding=0, overlap_area=3, outside_area=0, min_gap=0
     ... )

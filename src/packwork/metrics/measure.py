@@ -10,8 +10,7 @@ import numpy as np
 
 from packwork.geometry.outline import Outline
 from packwork.metrics.exact import ExactMetrics, exact_coverage, exact_metrics
-from packwork.metrics.pixel import PixelMetrics, pixel_metrics
-from packwork.metrics.shape import ShapeMetrics, shape_metrics
+from packwork.metrics.pixel import PixelMetrics, ShapeMetrics, pixel_metrics, shape_metrics
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.threads import at_once

@@ -1,7 +1,4 @@
-"""The paper's pixel measures, from the true outlines at 1,200 px.
-
-A pixel belongs to an item if its centre does (Wang and Lu 2025, section 4.1).
-"""
+"""Measures by pixels: the paper's, of the true outlines, and how well a container's shape shows."""
 
 from __future__ import annotations
 
@@ -11,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from packwork.arrays import BoolArray, IntArray
-from packwork.fields.distance_transform import distance_to
+from packwork.fields.distance_transform import distance_to, parts_of
+from packwork.fields.morphology import closed
 from packwork.geometry.outline import Outline, joined
 from packwork.raster.membership import centre_count
 from packwork.raster.pyramid import image_shape
@@ -89,3 +87,90 @@ def _non_uniformity(covered: BoolArray, inside: BoolArray) -> float:
     distance = distance_to(covered)
     in_canvas = distance[gaps] * (DISTANCE_CANVAS / RESOLUTION)
     return float(np.mean(in_canvas**2))
+
+
+SHAPE_RESOLUTION = 400
+"""Pixels on the container's longer side. Larger is slower and changes neither number by a
+hundredth. Tried."""
+
+REACH = 0.03
+"""Of the container's longer side: farther than that from any item, a place looks empty; and
+gaps up to twice as wide are closed by the eye. Larger finds a sparse layout good, smaller a
+cloud of words bad. Tried on 30 layouts, by eye."""
+
+SPECK = 1e-4
+"""Share of the container's square box below which a part of it is not looked at: it cannot be
+seen whether there is anything in it. Chosen."""
+
+
+@dataclass(frozen=True)
+class ShapeMetrics:
+    """Fidelity of a layout to its container's shape.
+
+    Parameters
+    ----------
+    bare
+        Share of the container that is farther from any item than 3 % of its longer side.
+    shape
+        Overlap of the container with the layout's morphological closing by a disc of that
+        radius: area of what both share, over that of both together. Bays of the container
+        that such a disc cannot enter count for neither.
+    parts, bare_parts
+        Separate parts of the container large enough to be seen, and how many of them hold
+        nothing.
+    """
+
+    bare: float
+    shape: float
+    parts: int
+    bare_parts: int
+
+
+def shape_metrics(outlines: Sequence[Outline], container: Container) -> ShapeMetrics:
+    """Compare items in place (canvas units) with the shape they are to fill.
+
+    Examples
+    --------
+    >>> square = Outline.from_rings([np.array([[0, 0], [8, 0], [8, 8], [0, 8.0]])])
+    >>> half = Outline.from_rings([np.array([[0, 0], [4, 0], [4, 8], [0, 8.0]])])
+    >>> found = shape_metrics([half], Container("square", "square", square, 8, 8))
+    >>> found.bare, found.shape, found.bare_parts
+    (0.47, 0.5, 0)
+    """
+    inside, covered = _images(outlines, container.outline)
+    reach_px = REACH * SHAPE_RESOLUTION
+    whole = int(np.count_nonzero(inside))
+    if whole == 0:
+        return ShapeMetrics(0.0, 1.0, 0, 0)
+    bare = inside & (distance_to(covered) > reach_px)
+    seen = closed(covered, reach_px)
+    beyond = seen & ~closed(inside, reach_px)
+    parts, empty = _parts(inside, covered)
+    return ShapeMetrics(
+        bare=int(np.count_nonzero(bare)) / whole,
+        shape=int(np.count_nonzero(seen & inside)) / (whole + int(np.count_nonzero(beyond))),
+        parts=parts,
+        bare_parts=empty,
+    )
+
+
+def _images(outlines: Sequence[Outline], container: Outline) -> tuple[BoolArray, BoolArray]:
+    """Pixels of the container, and those of the items, with a margin for what sticks out."""
+    left, top, right, bottom = container.bounds
+    px_per_cu = SHAPE_RESOLUTION / container.extent
+    margin = int(REACH * SHAPE_RESOLUTION) + 2
+    shape = tuple(int(np.ceil(v * px_per_cu)) + 2 * margin for v in (bottom - top, right - left))
+    found = []
+    for several in ([container], outlines):
+        points, starts = joined(several)
+        placed = (points - [left, top]) * px_per_cu + margin
+        found.append(centre_count(placed, starts, (shape[0], shape[1])) > 0)
+    return found[0], found[1]
+
+
+def _parts(inside: BoolArray, covered: BoolArray) -> tuple[int, int]:
+    labels, count = parts_of(inside)
+    sizes = np.bincount(labels.ravel(), minlength=count + 1)[1:]
+    held = np.bincount(labels[covered & inside], minlength=count + 1)[1:]
+    counts = sizes >= SPECK * SHAPE_RESOLUTION**2
+    return int(np.count_nonzero(counts)), int(np.count_nonzero(counts & (held == 0)))

@@ -31,8 +31,7 @@ from packwork.readers.regions import MAX_POINTS
 from packwork.readers.saliency import QuietOptions
 from packwork.recipe import Recipe
 from packwork.recipe.order import FROM_TEXT
-from packwork.scene.canvas import on_canvas
-from packwork.scene.container import Container
+from packwork.scene.container import Container, on_canvas
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Zone

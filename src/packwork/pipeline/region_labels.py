@@ -30,8 +30,7 @@ from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.lettering import Lettering
 from packwork.readers.reading import UnfitError
 from packwork.recipe.rules import OWN_COLOURS
-from packwork.scene.item import Item, VectorArt
-from packwork.scene.label import Label
+from packwork.scene.item import Item, Label, VectorArt
 from packwork.scene.notation import matrix_text, path_data
 
 _LOG = logging.getLogger("packwork")

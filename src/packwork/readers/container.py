@@ -19,9 +19,8 @@ from packwork.readers.saliency import QuietOptions, container_around
 from packwork.readers.slits import closed_slits
 from packwork.readers.svg.container import container_of_svg, parts_of_svg
 from packwork.recipe_paths import AROUND, BUILTIN
-from packwork.scene.blank import sheet
-from packwork.scene.canvas import on_canvas, placed_container
-from packwork.scene.container import Container
+from packwork.scene.container import Container, on_canvas, placed_container
+from packwork.scene.layout import sheet
 from packwork.shelf import shelved
 from packwork.units import DEFAULT_SIDE, CanvasSize, canvas_size, check_side
 

@@ -17,8 +17,8 @@ from packwork.readers.pictures.decode import MAX_PICTURE_BYTES, Pixels, decode_p
 from packwork.readers.reading import reading_file
 from packwork.readers.svg.item import item_of_svg
 from packwork.scene.container import Container
+from packwork.scene.contrast import light_of
 from packwork.scene.item import VectorArt
-from packwork.scene.light import light_of
 from packwork.scene.notation import matrix_text
 from packwork.scene.target import TargetPicture
 

@@ -25,8 +25,7 @@ from packwork.readers.fonts.lettering import TypeSetting, picture_of
 from packwork.readers.options import TEXT_PREFIX
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import clean_union
-from packwork.scene.canvas import placed_container
-from packwork.scene.container import Container
+from packwork.scene.container import Container, placed_container
 
 STAND_ALONE = frozenset({
     "Armn", "Bopo", "Brai", "Cans", "Cher", "Copt", "Cyrl", "Ethi", "Geor", "Glag", "Goth", "Grek",

@@ -1,17 +1,187 @@
-"""One thing to be placed: an outline and an appearance."""
+"""One thing to be placed: an outline, an appearance, and what is known of it."""
 
 from __future__ import annotations
 
 import base64
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from typing import Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias
+from urllib.parse import urlsplit
 
 from packwork.arrays import FloatArray
-from packwork.errors import ShapeError
+from packwork.errors import RecipeError, ShapeError
 from packwork.geometry.outline import Outline, OutlineLike
-from packwork.scene.datum import Datum, RowLabel
-from packwork.scene.label import Label
-from packwork.scene.live_text import LiveText
+
+
+@dataclass(frozen=True, eq=False)
+class Datum:
+    """Row and number behind one mark.
+
+    Parameters
+    ----------
+    row
+        Cells by column, as they were read.
+    value
+        What the mark stands for: in the unit of the size column, or a number of rows. The marks
+        of one row add up to it.
+    category
+        What its colour says; empty where colours are numbers or say nothing.
+    group
+        Which group it is in; empty where there are none.
+    """
+
+    row: Mapping[str, Any]
+    value: float
+    category: str = ""
+    group: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class RowLabel:
+    """Label of a row in the index of a data frame of geometries.
+
+    Parameters
+    ----------
+    label
+        As the index has it: of several levels a tuple.
+    names
+        Of the levels, None for one without a name.
+    """
+
+    label: Any
+    names: tuple[Any, ...] = (None,)
+
+
+SCHEMES = ("", "http", "https", "mailto")
+"""Where a link may lead; the first stands for addresses relative to the file."""
+
+MAX_LENGTH = 2_000
+"""Characters of a name, a title or a link. Chosen: what browsers take as an address."""
+
+_UNSEEN = re.compile(r"[\x00-\x20\x7f-\xa0\u2028\u2029\\]")
+"""What no address holds; browsers pass over some of it, even inside ``java script:``."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """Name, link and tooltip of one placed item; empty where there is none.
+
+    Parameters
+    ----------
+    name
+        What it is called in the file.
+    link
+        Where a click leads: http, https, mailto, or relative to the file.
+    title
+        What is shown when a pointer rests on it.
+
+    Raises
+    ------
+    RecipeError
+        Under the field's name, if a text is too long or a link leads elsewhere.
+
+    Examples
+    --------
+    >>> Label(link="javascript:alert(1)")
+    Traceback (most recent call last):
+        ...
+    packwork.errors.RecipeError: link: must begin with http:, https: or mailto:, or be relative,
+    not 'javascript:alert(1)'
+    """
+
+    name: str = ""
+    link: str = ""
+    title: str = ""
+
+    def __post_init__(self) -> None:
+        for key in ("name", "link", "title"):
+            if len(getattr(self, key)) > MAX_LENGTH:
+                raise RecipeError(key, f"may have {MAX_LENGTH} characters, not more")
+        if not _is_sound(self.link):
+            raise RecipeError(
+                "link",
+                f"must begin with http:, https: or mailto:, or be relative, not {self.link[:60]!r}",
+            )
+
+
+def _is_sound(link: str) -> bool:
+    if _UNSEEN.search(link):
+        return False
+    try:
+        return urlsplit(link).scheme in SCHEMES
+    except ValueError:  # such as an unfinished [address]
+        return False
+
+
+@dataclass(frozen=True, eq=False)
+class FontFile:
+    """One face of a font, as its file holds it.
+
+    Parameters
+    ----------
+    index
+        Which face of a collection.
+    weight
+        Where its weight axis is held; None if it has none, or stands at its default.
+    """
+
+    data: bytes
+    name: str
+    index: int = 0
+    weight: float | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class TextRun:
+    """Characters of one font and one direction.
+
+    Parameters
+    ----------
+    text
+        In the order in which it is read.
+    font
+        That draws it.
+    x, y
+        Where its base line begins, at its left end whatever its direction; units of the
+        text, y down.
+    size
+        Height of an em, in the same units.
+    steps
+        Where each glyph's origin stands, from the left, as shares of an em.
+    advance
+        From the left end to the right one, as a share of an em.
+    is_leftward
+        Whether it is read from right to left.
+    """
+
+    text: str
+    font: FontFile
+    x: float
+    y: float
+    size: float
+    steps: tuple[float, ...]
+    advance: float
+    is_leftward: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class LiveText:
+    """Text of a word, beside the curves that draw it.
+
+    Parameters
+    ----------
+    runs
+        In the order in which they are read; in the units of the word's markup.
+    path
+        SVG path data of the same letters, filled non-zero, in the same units.
+    language
+        As in ``lang``; empty if it is not known.
+    """
+
+    runs: tuple[TextRun, ...]
+    path: str
+    language: str = ""
 
 
 @dataclass(frozen=True)

@@ -1,10 +1,10 @@
-"""Container, items and poses: the result, and what is saved."""
+"""Container, items, poses and notes: the result, and what is saved."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -15,10 +15,36 @@ from packwork.errors import ShapeError
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.scene.leaving import Leaving
-from packwork.scene.note import Note
 from packwork.scene.pose import Poses
-from packwork.scene.track import Track
+from packwork.scene.track import Leaving, Track
+from packwork.units import Unit
+
+
+@dataclass(frozen=True, eq=False)
+class Note:
+    """One filled path; never packed, never measured.
+
+    Parameters
+    ----------
+    path
+        SVG path data, filled by the even-odd rule.
+    matrix
+        2 x 3 map from the path's units to canvas units.
+    fill
+        Any CSS colour.
+    says
+        What it says, for readers who do not see it; may be empty.
+    is_on_item
+        Whether it is a label on an item: what is under it can still be pointed at, and films, in
+        which items move, are without it.
+    """
+
+    path: str
+    matrix: FloatArray
+    fill: str
+    says: str = ""
+    is_on_item: bool = False
+
 
 _HEX = re.compile(r"#(?:[0-9a-f]{6}|[0-9a-f]{8})")
 
@@ -93,3 +119,37 @@ def ground_in(manifest: Mapping[str, Any]) -> str:
     """
     named = manifest.get("ground")
     return named if isinstance(named, str) and _HEX.fullmatch(named) else ""
+
+
+def sheet(name: str, width: float, height: float, unit: Unit = "px") -> Container:
+    """Container that is all of a canvas.
+
+    Examples
+    --------
+    >>> sheet("page", 200.0, 150.0, "mm").outline.bounds
+    (0.0, 0.0, 200.0, 150.0)
+    """
+    return Container(name, name, Outline.box(0.0, 0.0, width, height), width, height, unit)
+
+
+def blank(width: float = 4.0, height: float = 4.0, unit: Unit = "px") -> Layout:
+    """Layout of no items on a sheet.
+
+    Examples
+    --------
+    >>> blank().container.width, len(blank().items)
+    (4.0, 0)
+    """
+    none = np.zeros(0)
+    return Layout(sheet("sheet", width, height, unit), (), Poses(none, none, none, none), none)
+
+
+def without_items(layout: Layout) -> Layout:
+    """The same layout, its items left out.
+
+    Examples
+    --------
+    >>> without_items(blank()).container.name
+    'sheet'
+    """
+    return replace(layout, items=(), poses=blank().poses, weights=np.zeros(0))

@@ -1,20 +1,22 @@
-"""Drawings in another colour, curves and all."""
+"""Drawings in another colour, curves and all, or under a thin coat of one."""
 
 from __future__ import annotations
 
 import io
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TypeAlias
 
 import numpy as np
 from defusedxml.ElementTree import fromstring
 from PIL import Image, UnidentifiedImageError
 
+from packwork.geometry import affine
+from packwork.geometry.outline import Outline
 from packwork.scene.colour import ABSENT, css_colour, hex_colour
-from packwork.scene.item import Art, FlatArt, Item, PhotoArt, PictureArt, VectorArt
-from packwork.scene.notation import with_fresh_ids
+from packwork.scene.item import Art, FlatArt, Item, Original, PhotoArt, PictureArt, VectorArt
+from packwork.scene.notation import matrix_text, with_fresh_ids
 
 XLINK = "http://www.w3.org/1999/xlink"
 _HREF = f"{{{XLINK}}}href"
@@ -159,3 +161,49 @@ def _is_flat_picture(art: PictureArt) -> bool:
         return False
     solid = pixels[pixels[:, 3] >= _SOLID, :3]
     return len(solid) > 0 and bool((np.ptp(solid.astype(np.int64), axis=0) <= _SAME).all())
+
+
+@dataclass(frozen=True, eq=False)
+class TintedOriginal:
+    """A photograph on disk under a coat of colour, opened anew each time it is printed.
+
+    Parameters
+    ----------
+    ink
+        What is coated, item units.
+    colour, share
+        ``#rrggbb``, and its opacity.
+    """
+
+    original: Original
+    ink: Outline
+    colour: str
+    share: float
+
+    def printed(self, px_per_unit: float) -> VectorArt:
+        """The photograph with that many pixels per item unit, coated."""
+        return coated(self.original.printed(px_per_unit), self.ink, self.colour, self.share)
+
+
+def tinted_photo(item: Item, colour: str, share: float) -> Item:
+    """A photograph under a coat of ``colour`` of that opacity; what is no photograph as it is."""
+    art = item.art
+    if not isinstance(art, PhotoArt):
+        return item
+    preview = coated(art.preview, item.ink, colour, share)
+    return replace(
+        item, art=PhotoArt(preview, TintedOriginal(art.original, item.ink, colour, share))
+    )
+
+
+def coated(art: VectorArt, ink: Outline, colour: str, share: float) -> VectorArt:
+    """A drawing with ``ink`` (item units) in a colour of that opacity over it."""
+    rings = "".join(
+        "M" + " ".join(f"{v:.6g}" for v in ring.ravel().tolist()) + "Z" for ring in ink.rings
+    )
+    back = matrix_text(affine.inverse(art.matrix))
+    coat = (
+        f'<path transform="{back}" fill="{colour}" fill-opacity="{share:.3g}"'
+        f' fill-rule="evenodd" d="{rings}"/>'
+    )
+    return replace(art, markup=art.markup + coat)

@@ -17,8 +17,8 @@ from packwork.arrays import FloatArray
 from packwork.geometry.outline import Outline
 from packwork.raster.drawing import drawn_png
 from packwork.scene.colour import ABSENT, css_colour, hex_colour
+from packwork.scene.contrast import light_of
 from packwork.scene.item import Art, FlatArt, Item, PhotoArt, PictureArt, VectorArt
-from packwork.scene.light import light_of
 from packwork.scene.notation import attributes, matrix_text
 
 NEUTRAL = "#808080"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
+from typing import final
 
 import numpy as np
 import shapely
@@ -14,15 +15,14 @@ from packwork.compaction.arrangement import Arrangement
 from packwork.compaction.conflicts import find_conflicts
 from packwork.compaction.detail import FINE, Detail
 from packwork.compaction.objective import turn_ranges
-from packwork.compaction.options import HAIR
-from packwork.forces.distance import Distance
+from packwork.compaction.options import HAIR, MoveOptions
+from packwork.forces.field import Distance
 from packwork.forces.forces import Forces
 from packwork.geometry.outline import Outline
 from packwork.progress import NOBODY, Observer, Step, Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
 from packwork.settle.bottom_left import HeightOf, bottom_left
-from packwork.settle.options import SettleOptions
 from packwork.settle.pour import Source, Spout, pour
 from packwork.settle.round_pack import start_round_pack
 from packwork.settle.separate_fixed import separate_fixed
@@ -131,7 +131,7 @@ def pile(
 
     Examples
     --------
-    >>> from packwork.forces.direction import Direction
+    >>> from packwork.forces.field import Direction
     >>> from packwork.forces.forces import FieldForce
     >>> box = Outline.from_rings([np.array([[-1.0, -1], [1, -1], [1, 1], [-1, 1]])])
     >>> wall = box.mapped(np.array([[5.0, 0, 5], [0, 5.0, 5]]))
@@ -384,3 +384,8 @@ def _moved(poses: Poses, items: IntArray, places: FloatArray) -> Poses:
     x, y, turn, _ = places.T
     some = poses.subset(items)
     return poses.with_some(items, replace(some, x=x, y=y, angle=some.angle + turn))
+
+
+@final
+class SettleOptions(MoveOptions):
+    """Gap, turns and seed of one pile."""

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, Image
-from packwork.losses.colour import SeenInColour
-from packwork.losses.term import Term
+from packwork.losses.term import SeenInColour, Term
 from packwork.raster.colour import ColourImage
 from packwork.raster.coverage import Rasteriser
 from packwork.solve.ensemble import Ensemble

@@ -9,8 +9,7 @@ import numpy as np
 import shapely
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment.balance import balanced_order, parts_of
-from packwork.assignment.conflicts import min_conflicts_order
+from packwork.assignment.orders import balanced_order, min_conflicts_order, parts_of
 from packwork.forces.exchanges import exchanged
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline

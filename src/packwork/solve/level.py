@@ -10,11 +10,17 @@ import numpy as np
 from packwork.arrays import FloatArray, Image
 from packwork.forces.forces import NO_FORCES, Forces
 from packwork.geometry.outline import Outline
-from packwork.losses.colour import SeenInColour
-from packwork.losses.evenness import evenness
-from packwork.losses.fused import FUSED, FusedAdjoint, FusedWeights
+from packwork.losses.image import FUSED, FusedAdjoint, FusedWeights, evenness
 from packwork.losses.registry import by_name, find_loss, find_pose_loss
-from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, PoseTerm, Term, checked_term
+from packwork.losses.term import (
+    ImageLoss,
+    PosedItems,
+    PoseLoss,
+    PoseTerm,
+    SeenInColour,
+    Term,
+    checked_term,
+)
 from packwork.progress import ObjectiveTerms
 from packwork.raster.coverage import Rasteriser
 from packwork.scene.container import Container

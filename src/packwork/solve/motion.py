@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.scene.leaning import turn_sides
-from packwork.scene.limits import NO_LIMITS, Limits
+from packwork.scene.limits import NO_LIMITS, Limits, turn_sides
 from packwork.scene.pose import Poses
 from packwork.solve.adam import Adam
 from packwork.solve.options import SolveOptions

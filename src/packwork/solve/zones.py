@@ -8,7 +8,7 @@ import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, Image
 from packwork.geometry.outline import Outline
-from packwork.losses.recall import Recall
+from packwork.losses.pose import Recall
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import region_image
 from packwork.scene.limits import Zone

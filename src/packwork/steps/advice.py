@@ -7,7 +7,7 @@ from typing import final
 
 import numpy as np
 
-from packwork.metrics.shape import ShapeMetrics
+from packwork.metrics.pixel import ShapeMetrics
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.counts import items_needed, lines_width
 from packwork.pipeline.plan.plan import VoidPlan

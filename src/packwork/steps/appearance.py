@@ -10,8 +10,8 @@ import numpy as np
 from PIL import Image
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment.clusters import clusters
-from packwork.assignment.conflicts import min_conflicts_order
+from packwork.assignment.graph import clusters
+from packwork.assignment.orders import min_conflicts_order
 from packwork.geometry import affine
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
@@ -23,11 +23,9 @@ from packwork.raster.coverage import coverage
 from packwork.raster.drawing import drawn_png
 from packwork.recipe.rules import OWN_COLOURS
 from packwork.scene.container import Backdrop, Container
-from packwork.scene.contrast import contrast_over, luminances, readable, readable_over
-from packwork.scene.item import Art, Item, PhotoArt
-from packwork.scene.label import Label
+from packwork.scene.contrast import channels_of, contrast_over, luminances, readable, readable_over
+from packwork.scene.item import Art, Item, Label, PhotoArt
 from packwork.scene.layout import Layout
-from packwork.scene.light import channels_of
 from packwork.scene.neighbours import side_by_side
 from packwork.scene.notation import matrix_text
 from packwork.scene.palette import palette_colours

@@ -17,8 +17,8 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment.colour import GRID, order_by_colour
-from packwork.assignment.local_search import cheapest
+from packwork.assignment.orders import GRID, order_by_colour
+from packwork.assignment.quadratic import cheapest
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job
 from packwork.pipeline.run import RunContext, RunStep

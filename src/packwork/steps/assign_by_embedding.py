@@ -16,11 +16,10 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
-from packwork.assignment.diffusion import likeness
 from packwork.assignment.embedding import assigned
-from packwork.assignment.graph import NeighbourGraph, unit_rows
+from packwork.assignment.graph import NeighbourGraph, likeness, unit_rows
+from packwork.forces.bonds import SimilarityBond
 from packwork.forces.forces import BondForce, Forces
-from packwork.forces.ties import Ties
 from packwork.geometry.outline import Outline
 from packwork.pipeline.job import Job
 from packwork.pipeline.plan.vectors import ItemVectors
@@ -28,7 +27,7 @@ from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.first_fit.homes import Homes
+from packwork.start.first_fit.preferences import Homes
 from packwork.start.first_poses import disc_radii
 from packwork.steps.exchanges import even_points
 
@@ -91,7 +90,7 @@ def with_similarity_bond(job: Job, forces: Forces) -> Forces:
     known: BoolArray = np.asarray(like.any(axis=1))
     ties *= known[:, None] & known
     np.fill_diagonal(ties, 0.0)
-    tied = BondForce(Ties(ties), np.full(count, TIED))
+    tied = BondForce(SimilarityBond(ties), np.full(count, TIED))
     return Forces(forces.fields, [*forces.bonds, tied], forces.kinds, forces.side)
 
 

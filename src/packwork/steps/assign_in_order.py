@@ -15,7 +15,7 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment.local_search import cheapest
+from packwork.assignment.quadratic import cheapest
 from packwork.errors import ReadError, RecipeError
 from packwork.fields.geodesic import lengthwise
 from packwork.geometry.simplify import hull_areas
@@ -28,7 +28,7 @@ from packwork.scene.container import Container
 from packwork.scene.contrast import oklabs_of_light
 from packwork.scene.pose import Poses
 from packwork.scene.swatch import mean_lights
-from packwork.start.first_fit.homes import Homes
+from packwork.start.first_fit.preferences import Homes
 from packwork.start.first_poses import container_image
 from packwork.steps.exchanges import even_points, shape_features, with_places_of
 

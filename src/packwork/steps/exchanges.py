@@ -8,7 +8,7 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment.conflicts import min_conflicts_order
+from packwork.assignment.orders import min_conflicts_order
 from packwork.forces.exchanges import exchanged
 from packwork.geometry.simplify import hull_areas
 from packwork.pipeline.job import Job

@@ -14,13 +14,12 @@ from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.raster.coverage import coverage
 from packwork.scene.colour import css_colour, hex_colour
-from packwork.scene.contrast import between, oklabs_of_light, readable
+from packwork.scene.contrast import between, channels_of, light_of, oklabs_of_light, readable
 from packwork.scene.item import Art, Item, PhotoArt
 from packwork.scene.layout import Layout
-from packwork.scene.light import channels_of, light_of
+from packwork.scene.recolour import tinted_photo
 from packwork.scene.swatch import ShownLight, mean_lights, shown_light
 from packwork.scene.target import TargetPicture, blurred
-from packwork.scene.tinted import tinted_photo
 from packwork.writers.shading import averaging
 
 STEPS, STEP = 24, 1.2

@@ -31,9 +31,13 @@ from packwork.scene.pose import Poses
 from packwork.solve.detail import seen_posed
 from packwork.solve.level import Level
 from packwork.solve.relocate_trapped import violation_shares
-from packwork.start.angles import start_angles
-from packwork.start.relocate_buried import relocated
-from packwork.start.sizes import nominal_scales, shared_scales, yielding_scales
+from packwork.start.angles_and_sizes import (
+    nominal_scales,
+    shared_scales,
+    start_angles,
+    yielding_scales,
+)
+from packwork.start.first_poses import relocated
 
 NOMINAL_COVERAGE = 0.82
 """With free sizes: area of all items' hulls at their nominal sizes over the container's.

@@ -28,14 +28,13 @@ from packwork.pipeline.plan.limits import held_to, job_leanings
 from packwork.pipeline.state import RunState
 from packwork.progress import until_over
 from packwork.scene.contrast import oklabs_of_light
-from packwork.scene.leaning import turn_sides
-from packwork.scene.limits import Limits
+from packwork.scene.limits import Limits, turn_sides
 from packwork.scene.pose import Poses
 from packwork.scene.target import TargetPicture, blurred
-from packwork.start.angles import spread_angles
+from packwork.start.angles_and_sizes import spread_angles
 from packwork.start.erosion import is_thread, scales_within, spread_along
 from packwork.start.first_fit.first_fit import first_fit
-from packwork.start.first_fit.homes import Homes
+from packwork.start.first_fit.preferences import Homes
 from packwork.start.first_poses import (
     container_image,
     disc_radii,

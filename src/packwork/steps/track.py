@@ -15,10 +15,10 @@ from packwork.pipeline.plan.counts import items_needed
 from packwork.pipeline.registration import match_items, new_items
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
-from packwork.scene.canvas import brought_over
+from packwork.scene.container import brought_over
 from packwork.scene.item import FlatArt, Item
-from packwork.scene.leaving import Leaving, grown_in
 from packwork.scene.recolour import has_one_colour, recoloured
+from packwork.scene.track import Leaving, grown_in
 from packwork.steps.warm_start import as_it_was
 
 SAME_FORM = 1e-3

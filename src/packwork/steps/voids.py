@@ -23,9 +23,8 @@ from packwork.progress import Observer, Stop, until_over
 from packwork.scene.item import Item
 from packwork.scene.pose import Poses
 from packwork.solve.stand_ins import stand_ins
-from packwork.start.angles import nearest_allowed
-from packwork.start.fitting import SECTORS
-from packwork.start.voids import copies_for_voids
+from packwork.start.angles_and_sizes import nearest_allowed
+from packwork.start.voids import SECTORS, copies_for_voids
 from packwork.steps.finish import Closing, gap_with_bulge, scale_ranges, without
 
 ROUNDS = {"draft": 4, "normal": 8, "best": 16}

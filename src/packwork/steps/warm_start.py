@@ -21,13 +21,13 @@ from packwork.pipeline.plan.limits import held_to
 from packwork.pipeline.registration import match_items, new_items
 from packwork.pipeline.state import RunState
 from packwork.recipe.rules import Rotation
-from packwork.scene.canvas import brought_over
+from packwork.scene.container import brought_over
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.solve.options import SolveOptions
 from packwork.solve.solver import scale_bounds
-from packwork.start.angles import nearest_allowed
-from packwork.start.relocate_buried import relocated
+from packwork.start.angles_and_sizes import nearest_allowed
+from packwork.start.first_poses import relocated
 from packwork.steps.place import BURIED_SHARE, Setting, Start, allowed_angles, unburied
 
 ROUGH_SHARE, ROUGH_ITEMS = 0.1, 0.1

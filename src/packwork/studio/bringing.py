@@ -28,8 +28,7 @@ from packwork.live.face.bringing import (
 )
 from packwork.live.face.drawing import FINENESS, drawing_of, path_of
 from packwork.live.named import NamedSession
-from packwork.scene.canvas import on_canvas
-from packwork.scene.container import Container
+from packwork.scene.container import Container, on_canvas
 from packwork.scene.item import Item
 from packwork.studio import wire
 from packwork.studio.desk import Desk

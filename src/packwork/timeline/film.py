@@ -9,10 +9,8 @@ import numpy as np
 
 from packwork.arrays import FloatArray
 from packwork.scene.item import Item
-from packwork.scene.layout import Layout
-from packwork.scene.leaving import GONE, GROWN, Leaving
-from packwork.scene.note import Note
-from packwork.scene.track import SCALE, TURN, Track, numbers_of, poses_of
+from packwork.scene.layout import Layout, Note
+from packwork.scene.track import GONE, GROWN, SCALE, TURN, Leaving, Track, numbers_of, poses_of
 from packwork.timeline.solve import Solved
 from packwork.timeline.step import SeriesStep
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Literal, TypeAlias
+from typing import Any, Literal, TypeAlias
 
 import numpy as np
 
@@ -165,3 +165,22 @@ def _between(before: tuple[SeriesStep, Run], after: tuple[SeriesStep, Run]) -> F
 def _check(stop: Stop) -> None:
     if stop():
         raise PackworkError("stopped before all steps of the series were made")
+
+
+def report(series: Solved) -> dict[str, Any]:
+    """Plain values for ``--report``."""
+    moves = [round(float(np.median(one)), 6) if len(one) else None for one in series.moves]
+    every = np.concatenate(series.moves)
+    return {
+        "scale": series.size,
+        "moved": {
+            "median": float(np.median(every)) if len(every) else None,
+            "p90": float(np.quantile(every, 0.9)) if len(every) else None,
+            "medians": moves,
+        },
+        "certified": all(run.certified for run in series.runs),
+        "steps": [
+            {"step": step.label, **run.report()}
+            for step, run in zip(series.steps, series.runs, strict=True)
+        ],
+    }

@@ -1,18 +1,22 @@
-"""Steps of a series: what each is to show, and how large, on one scale for all."""
+"""Steps of a series: what each is to show, how large, on one scale for all, and its files."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from packwork import uses
+from packwork import uses, writers
 from packwork.arrays import FloatArray
+from packwork.batches.naming import identity_of, path_of
+from packwork.batches.template import ROW, columns_of
 from packwork.errors import RecipeError
 from packwork.pipeline.job import Job
+from packwork.readers.layouts.read import is_session
 from packwork.readers.words.items import height_shares
 from packwork.readers.words.options import Word
 from packwork.scene.palette import palette_colours
@@ -185,3 +189,40 @@ def _heights(job: Job) -> FloatArray:
         raise RecipeError("series", "is of words alone")
     weights = np.array([word.weight for word in use.read.words])
     return height_shares(use.read.items, weights, use.options.weight_is)
+
+
+def step_files(templates: Sequence[str], column: str, labels: Sequence[str]) -> list[list[Path]]:
+    """Files of each step, all checked before the first is made.
+
+    Parameters
+    ----------
+    templates
+        Names with a place for the column, as ``out/{year}.svg``; ``{row}`` is a step's number.
+
+    Raises
+    ------
+    RecipeError
+        If a name lacks the column, or a step cannot be part of one, or two steps have one file.
+    WriteError
+        If the ending of a file is none of ours.
+    """
+    for template in templates:
+        if not is_session(template):
+            writers.check_output(template)
+        named = set(columns_of(template))
+        if not named & {column, ROW} or not named <= {column, ROW}:
+            raise RecipeError(
+                "output",
+                f"{template} names not each step's file; write it as out/{{{column}}}.svg",
+            )
+    taken: dict[str, str] = {}
+    found = []
+    for number, label in enumerate(labels, start=1):
+        files = [path_of(one, {ROW: number, column: label}) for one in templates]
+        for path in files:
+            writers.check_writable(path)
+            other = taken.setdefault(identity_of(path), label)
+            if other != label:
+                raise RecipeError("output", f"{path} is {other}'s and {label}'s; use {{row}}")
+        found.append(files)
+    return found

@@ -9,7 +9,7 @@ from typing import final
 import numpy as np
 
 from packwork.arrays import FloatArray, IntArray
-from packwork.assignment.local_search import cheapest
+from packwork.assignment.quadratic import cheapest
 from packwork.pipeline.job import Job, Use
 from packwork.pipeline.plan.copies import Cast, expand_copies
 from packwork.pipeline.plan.counts import items_needed, no_container

@@ -83,7 +83,7 @@ def painted_pixels(data: bytes, layout: Layout, *, is_own: bool = False) -> Pain
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> from packwork.writers.svg import svg_text
     >>> painted = painted_pixels(svg_text(blank()).encode(), blank(), is_own=True)
     >>> painted.outside, painted.double

@@ -50,7 +50,7 @@ def faults_in_file(
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> faults_in_file(b"", "layout.png", blank())
     ()
     """
@@ -131,7 +131,7 @@ def on_trust_in_file(path: str | Path, layout: Layout) -> tuple[str, ...]:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> on_trust_in_file("layout.pdf", blank())
     ()
     """

@@ -20,12 +20,11 @@ from packwork.readers.pictures.mask import mask_of_shares
 from packwork.readers.reading import UnfitError
 from packwork.readers.words.items import EM_PX, WORD_SPACE, ShapedWord, shaped_word
 from packwork.readers.words.options import Word
-from packwork.scene.canvas import placed_container
-from packwork.scene.container import Container
+from packwork.scene.container import Container, placed_container
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses
 from packwork.start.first_fit.graded import graded_fit
-from packwork.start.first_fit.grading import Candidate, image_side
+from packwork.start.first_fit.greedy_board import Candidate, image_side
 
 SMALLEST_CANVAS = 4
 """Pixels on a side below which nothing is tried. Chosen."""

@@ -47,7 +47,7 @@ def diagnose_png(layout: Layout, longer_side_px: int) -> bytes:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> diagnose_png(blank(), 16)[1:4]
     b'PNG'
     """

@@ -70,7 +70,7 @@ def dxf_bytes(layout: Layout, cut: CutOptions | None = None) -> bytes:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> b"LWPOLYLINE" in dxf_bytes(blank(unit="cm"))
     True
     """

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from packwork.errors import WriteError
-from packwork.scene.live_text import FontFile, LiveText, TextRun
+from packwork.scene.item import FontFile, LiveText, TextRun
 
 RESTRICTED, WHOLE_ONLY, BITMAPS_ONLY = 0x0002, 0x0100, 0x0200
 """Bits of ``fsType`` in the table OS/2: no embedding at all, none of parts, none of curves."""

@@ -39,7 +39,7 @@ def geojson_text(layout: Layout) -> str:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> json.loads(geojson_text(blank()))["features"][0]["geometry"]["coordinates"]
     [[[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0], [0.0, 0.0]]]
     """

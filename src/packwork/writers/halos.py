@@ -19,10 +19,9 @@ from packwork.fields.morphology import eroded
 from packwork.folders import Store
 from packwork.phrasing import number_of
 from packwork.scene.colour import hex_colour, parse_colour
-from packwork.scene.contrast import oklabs_of_light
+from packwork.scene.contrast import light_of, oklabs_of_light
 from packwork.scene.item import FlatArt, Item, PhotoArt, VectorArt
 from packwork.scene.layout import Layout
-from packwork.scene.light import light_of
 from packwork.scene.swatch import small_png
 from packwork.writers.marks import shape_key
 from packwork.writers.options import HaloChoice

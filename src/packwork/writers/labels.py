@@ -5,8 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from packwork.scene.item import Item
-from packwork.scene.label import Label
+from packwork.scene.item import Item, Label
 from packwork.scene.notation import attributes, sound_text, xml_text
 
 ID_LENGTH = 60

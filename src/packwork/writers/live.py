@@ -6,8 +6,7 @@ import logging
 from collections.abc import Mapping, Sequence
 
 from packwork.scene.colour import Colour, hex_colour
-from packwork.scene.item import Art, Item, VectorArt
-from packwork.scene.live_text import FontFile, LiveText, TextRun
+from packwork.scene.item import Art, FontFile, Item, LiveText, TextRun, VectorArt
 from packwork.scene.notation import attributes, matrix_text, xml_text
 from packwork.scene.recolour import one_colour
 from packwork.writers.embedding import Embedded, embedded_fonts

@@ -59,7 +59,7 @@ def pdf_bytes(layout: Layout, options: SvgOptions | None = None, bleed: str | No
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> pdf_bytes(blank(unit="cm"))[:5]
     b'%PDF-'
     """
@@ -99,7 +99,7 @@ def drawing_text(layout: Layout, options: SvgOptions) -> str:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> drawing_text(blank(), SvgOptions(text="live")) == drawing_text(blank(), SvgOptions())
     True
     """

@@ -39,7 +39,7 @@ def png_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None = 
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> png_bytes(blank(), 16)[1:4]
     b'PNG'
     """

@@ -20,7 +20,7 @@ def promised(layout: Layout) -> tuple[str, bool]:
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> said = {"promised": {"gap": 0.5, "areas_in_shares": False}}
     >>> promised(replace(blank(), manifest=said))
     ('0.5', False)
@@ -36,7 +36,7 @@ def stated_weights(layout: Layout) -> list[str]:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> stated_weights(blank())
     []
     """
@@ -53,7 +53,7 @@ def stated_limits(layout: Layout) -> dict[str, str]:
     Examples
     --------
     >>> from dataclasses import replace
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> stated_limits(replace(blank(), manifest={"recipe": {"rotate": "none", "sizes": "free"}}))
     {'data-rotate': 'none'}
     """

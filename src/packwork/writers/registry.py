@@ -225,7 +225,7 @@ def write(layout: Layout, path: str | Path, options: WriteOptions | None = None)
     Examples
     --------
     >>> import tempfile
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     write(blank(), Path(folder, "out.svg"))
     ...     Path(folder, "out.svg").exists()
@@ -246,7 +246,7 @@ def encoded(layout: Layout, path: str | Path, options: WriteOptions | None = Non
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> encoded(blank(), "out.png")[1:4]
     b'PNG'
     """
@@ -261,7 +261,7 @@ def printed_drawing(layout: Layout, options: WriteOptions | None = None) -> tupl
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> text, bleed = printed_drawing(blank())
     >>> text[:5], bleed
     ('<?xml', 0.0)

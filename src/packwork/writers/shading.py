@@ -15,9 +15,8 @@ from PIL import Image, UnidentifiedImageError
 
 from packwork.arrays import FloatArray
 from packwork.scene.colour import ABSENT, css_colour, hex_colour
-from packwork.scene.contrast import LUMINANCE, oklab, oklabs, shade
+from packwork.scene.contrast import LUMINANCE, channels_of, light_of, oklab, oklabs, shade
 from packwork.scene.item import Art, Item, PictureArt, VectorArt
-from packwork.scene.light import channels_of, light_of
 from packwork.scene.notation import with_fresh_ids
 from packwork.scene.recolour import has_one_colour, recoloured, tree_of
 from packwork.scene.swatch import ShownLight, representative_colour

@@ -37,7 +37,7 @@ def jpeg_bytes(layout: Layout, longer_side_px: int, options: SvgOptions | None =
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> jpeg_bytes(blank(), 16)[:2], webp_bytes(blank(), 16)[8:12], tiff_bytes(blank(), 16)[:2]
     (b'\xff\xd8', b'WEBP', b'II')
     """

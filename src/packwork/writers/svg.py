@@ -18,7 +18,7 @@ from packwork.geometry import affine
 from packwork.scene.colour import hex_colour, parse_colour
 from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, VectorArt
-from packwork.scene.layout import Layout
+from packwork.scene.layout import Layout, Note
 from packwork.scene.notation import (
     attributes,
     decimals,
@@ -29,7 +29,6 @@ from packwork.scene.notation import (
     with_fresh_ids,
     xml_text,
 )
-from packwork.scene.note import Note
 from packwork.units import Unit
 from packwork.writers.cutting import CutOptions, cut_group
 from packwork.writers.frame import PictureFrame
@@ -161,7 +160,7 @@ def svg_document(layout: Layout, options: SvgOptions, sheet: SheetSize) -> str:
 
     Examples
     --------
-    >>> from packwork.scene.blank import blank
+    >>> from packwork.scene.layout import blank
     >>> sheet = SheetSize(size=(64.0, 64.0), unit="mm", view=(4.0, 4.0))
     >>> text = svg_document(blank(), SvgOptions(), sheet)
     >>> 'width="64mm" height="64mm" viewBox="0 0 4 4"' in text

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from packwork.errors import ReadError
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.readers.layouts.geojson import read_layout
-from packwork.scene.canvas import on_canvas
+from packwork.scene.container import on_canvas
 from packwork.scene.item import FlatArt
 from packwork.scene.layout import Layout
 from packwork.scene.pose import Poses

@@ -21,9 +21,8 @@ from packwork.readers.builtin import builtin_item
 from packwork.readers.layouts.read import read_written
 from packwork.readers.pictures.silhouette import item_of_picture
 from packwork.readers.svg.item import item_of_svg
-from packwork.scene.canvas import brought_over, on_canvas
-from packwork.scene.item import Item
-from packwork.scene.label import Label
+from packwork.scene.container import brought_over, on_canvas
+from packwork.scene.item import Item, Label
 from packwork.scene.layout import Layout
 from packwork.units import canvas_size, convert
 from packwork.writers import write

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from packwork.fields.distance_transform import distance_to
-from packwork.start.first_fit.bareness import Bareness
+from packwork.start.first_fit.greedy_board import Bareness
 
 
 def test_distances_are_those_of_all_items_together() -> None:

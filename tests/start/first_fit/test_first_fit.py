@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 from packwork.arrays import FloatArray
-from packwork.forces.direction import Direction
+from packwork.forces.field import Direction
 from packwork.forces.forces import FieldForce
 from packwork.geometry.outline import Outline
 from packwork.scene.container import Container

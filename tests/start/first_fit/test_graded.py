@@ -12,7 +12,7 @@ from packwork.geometry.outline import Outline
 from packwork.readers.builtin import builtin_container, builtin_item
 from packwork.scene.container import Container
 from packwork.start.first_fit.graded import Graded, graded_fit, sizes_down
-from packwork.start.first_fit.grading import Candidate
+from packwork.start.first_fit.greedy_board import Candidate
 from scenes import box
 
 

@@ -11,8 +11,7 @@ from packwork.arrays import BoolArray
 from packwork.fields.clearance import distance_inside
 from packwork.geometry.outline import Outline
 from packwork.start.first_fit import _kernels
-from packwork.start.first_fit.occupancy import Occupancy
-from packwork.start.first_fit.stencil import TALLEST, Stencil, cut, stencil_of
+from packwork.start.first_fit.occupancy import TALLEST, Occupancy, Stencil, cut, stencil_of
 
 REACH = 2
 

@@ -19,7 +19,7 @@ from packwork.live.options import LiveOptions
 from packwork.pipeline.plan.limits import check_padding
 from packwork.recipe.refusals import validated
 from packwork.scene.container import Container
-from packwork.start.angles import nearest_allowed
+from packwork.start.angles_and_sizes import nearest_allowed
 
 MOST_POINTS = 100_000
 """Points of an outline at most. Chosen."""

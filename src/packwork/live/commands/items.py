@@ -27,8 +27,7 @@ from packwork.live.commands.command import (
 from packwork.live.document import PROPERTIES, Document
 from packwork.live.file.records import Text
 from packwork.scene.colour import hex_colour, parse_colour
-from packwork.scene.item import Item
-from packwork.scene.label import MAX_LENGTH, Label
+from packwork.scene.item import MAX_LENGTH, Item, Label
 from packwork.scene.pose import Poses
 from packwork.scene.recolour import recoloured
 

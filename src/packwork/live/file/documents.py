@@ -22,7 +22,7 @@ from packwork.readers.layouts.geojson import LARGEST_SCALE, SMALLEST_SCALE, WIDE
 from packwork.readers.reading import UnfitError
 from packwork.scene.container import Container
 from packwork.scene.item import Item
-from packwork.scene.note import Note
+from packwork.scene.layout import Note
 from packwork.scene.pose import Poses
 
 PATH = r"^[MmZzLlHhVvCcSsQqTtAaeE\d\s+.,-]*$"

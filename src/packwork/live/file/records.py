@@ -9,7 +9,7 @@ from pydantic import AfterValidator, BeforeValidator, Field
 
 from packwork.options import Options
 from packwork.readers.regions import MAX_POINTS
-from packwork.scene.label import MAX_LENGTH
+from packwork.scene.item import MAX_LENGTH
 from packwork.units import Unit
 
 MOST_NAMED = 10_000

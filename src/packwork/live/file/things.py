@@ -37,10 +37,7 @@ from packwork.readers.json_text import check_size
 from packwork.readers.reading import UnfitError
 from packwork.recipe.refusals import refusal
 from packwork.scene.container import Backdrop, Container
-from packwork.scene.datum import Datum
-from packwork.scene.item import Item
-from packwork.scene.label import Label
-from packwork.scene.live_text import FontFile, LiveText, TextRun
+from packwork.scene.item import Datum, FontFile, Item, Label, LiveText, TextRun
 
 _Model = TypeVar("_Model", bound=BaseModel)
 

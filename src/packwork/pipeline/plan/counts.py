@@ -12,7 +12,7 @@ from packwork.errors import RecipeError
 from packwork.fields.clearance import distance_inside
 from packwork.fields.thickness import Thickness, thickness
 from packwork.geometry.outline import Outline
-from packwork.metrics.shape import REACH
+from packwork.metrics.pixel import REACH
 from packwork.raster.membership import centre_count
 from packwork.recipe import Sizes
 from packwork.scene.container import Container

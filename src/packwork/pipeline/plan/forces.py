@@ -10,12 +10,8 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.errors import RecipeError
 from packwork.forces.bonds import Alignment, Balance, TogetherBond
-from packwork.forces.direction import Direction
-from packwork.forces.distance import Distance
-from packwork.forces.fading import Fading
-from packwork.forces.field import Bond, Field
+from packwork.forces.field import Bond, Direction, Distance, Fading, Field, Inward
 from packwork.forces.forces import BondForce, FieldForce, Forces
-from packwork.forces.inward import Inward
 from packwork.forces.spec import ForceSpec, parse_force
 from packwork.pipeline.plan.copies import RuleSource, kinds, matching
 from packwork.readers.svg.curve import read_curve

@@ -11,7 +11,6 @@ import numpy as np
 
 from packwork.arrays import FloatArray, Image
 from packwork.errors import RecipeError
-from packwork.losses.colour import SeenInColour
 from packwork.losses.registry import (
     LOSSES,
     POSE_LOSSES,
@@ -20,7 +19,14 @@ from packwork.losses.registry import (
     loss_name,
     takes_colour,
 )
-from packwork.losses.term import ImageLoss, PosedItems, PoseLoss, checked_call, checked_term
+from packwork.losses.term import (
+    ImageLoss,
+    PosedItems,
+    PoseLoss,
+    SeenInColour,
+    checked_call,
+    checked_term,
+)
 from packwork.pipeline.plan.plan import Plan
 from packwork.raster.coverage import Rasteriser
 from packwork.raster.pyramid import image_shape, region_image

@@ -17,7 +17,7 @@ import numpy as np
 from packwork.fonts import bundled_file
 from packwork.readers.fonts.guard import MAX_SEGMENTS, check_drawing, checked_face
 from packwork.readers.reading import UnfitError
-from packwork.scene.live_text import FontFile
+from packwork.scene.item import FontFile
 
 UNKNOWN_LANGUAGE = "und"
 """What HarfBuzz is told where no language is given: it would ask the machine."""

@@ -30,7 +30,7 @@ from packwork.readers.fonts.kept_glyphs import GlyphInk, remembered_by_font
 from packwork.readers.pictures.decode import Pixels, decode_picture
 from packwork.readers.pictures.silhouette import outline_of_cut_out
 from packwork.readers.reading import UnfitError
-from packwork.scene.live_text import TextRun
+from packwork.scene.item import TextRun
 
 MOST_PX = 1_024
 """Longer side of a glyph's picture; fonts have 136 and 160. Chosen."""

@@ -27,8 +27,7 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.svg.art import KeptOriginal, kept_art, vector_art
 from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.scene.colour import css_colour, hex_colour
-from packwork.scene.item import FlatArt, Item, PhotoArt, PictureArt, VectorArt
-from packwork.scene.label import Label
+from packwork.scene.item import FlatArt, Item, Label, PhotoArt, PictureArt, VectorArt
 
 _START = re.compile(rb"""<[^<>"']*(?:"[^"]*"[^<>"']*|'[^']*'[^<>"']*)*>""")
 _ENCODED = re.compile(rb"""^\s*<\?xml[^>]*encoding\s*=\s*["'](?!utf-8["'])""", re.IGNORECASE)

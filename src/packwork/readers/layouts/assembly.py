@@ -19,8 +19,7 @@ from packwork.readers.reading import UnfitError
 from packwork.readers.regions import MAX_POINTS
 from packwork.scene.container import Backdrop, Container
 from packwork.scene.item import FlatArt, Item, PhotoArt
-from packwork.scene.layout import Layout, ground_in
-from packwork.scene.note import Note
+from packwork.scene.layout import Layout, Note, ground_in
 from packwork.scene.pose import Poses
 from packwork.units import Unit
 

@@ -23,9 +23,7 @@ from packwork.readers.regions import MAX_POINTS
 from packwork.readers.svg_syntax.lengths import MAX_COORDINATE
 from packwork.scene.colour import css_colour
 from packwork.scene.container import Container
-from packwork.scene.datum import Datum
-from packwork.scene.item import FlatArt, Item
-from packwork.scene.label import Label
+from packwork.scene.item import Datum, FlatArt, Item, Label
 from packwork.scene.layout import Layout, ground_in
 from packwork.scene.pose import Poses
 from packwork.units import UNITS, Unit

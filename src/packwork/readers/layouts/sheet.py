@@ -23,8 +23,7 @@ from packwork.readers.svg_syntax.transforms import parse_transform
 from packwork.scene.colour import css_colour, hex_colour
 from packwork.scene.container import Backdrop
 from packwork.scene.item import Item, PhotoArt
-from packwork.scene.layout import Layout
-from packwork.scene.note import Note
+from packwork.scene.layout import Layout, Note
 
 BESIDE = 0.02
 """Largest distance of a halo's middle from that of its item, in sides of the canvas. Chosen: far

@@ -15,9 +15,8 @@ from packwork.readers.options import ReadOptions
 from packwork.readers.pictures.silhouette import SPECK, outline_of_coverage
 from packwork.readers.reading import UnfitError, reading_file
 from packwork.readers.regions import Box, Holes, canvas_box, centred, clean_union
-from packwork.scene.canvas import placed_container
 from packwork.scene.colour import css_colour
-from packwork.scene.container import Container
+from packwork.scene.container import Container, placed_container
 from packwork.scene.item import FlatArt, Item, PhotoArt
 
 

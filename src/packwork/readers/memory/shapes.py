@@ -18,7 +18,7 @@ from packwork.geometry.overlay import simplify, valid
 from packwork.geometry.polygon import Region, polygon_parts, united
 from packwork.readers.reading import UnfitError, notice
 from packwork.readers.tables.frames import is_count
-from packwork.scene.datum import RowLabel
+from packwork.scene.item import RowLabel
 
 MAX_SHAPES = 20_000
 """Rows of one frame, features of one collection. Chosen."""

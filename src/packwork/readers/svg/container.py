@@ -27,8 +27,7 @@ from packwork.readers.svg.region.sheet import LEAST_WHITE, WHOLE_PAGE, is_near_w
 from packwork.readers.svg.render.trace import TRACE_PX, page_picture
 from packwork.readers.svg_syntax.painted import Painted, drawing_box
 from packwork.readers.svg_syntax.painting import opacity
-from packwork.scene.canvas import placed_container
-from packwork.scene.container import Container
+from packwork.scene.container import Container, placed_container
 from packwork.units import DEFAULT_SIDE, Unit, as_unit, convert, split_length
 
 MOST_WHITES = 2_000

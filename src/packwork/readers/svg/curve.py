@@ -21,8 +21,7 @@ from packwork.readers.regions import canvas_box, clean_union
 from packwork.readers.svg.container import stated_unit
 from packwork.readers.svg.drawing import PaintedDrawing, read_drawing
 from packwork.readers.svg_syntax.shapes import flattened_all
-from packwork.scene.canvas import placed_container
-from packwork.scene.container import Container
+from packwork.scene.container import Container, placed_container
 from packwork.units import DEFAULT_SIDE, convert
 
 CLOSED = 1e-6

@@ -25,9 +25,7 @@ from packwork.readers.tables.format import TableFormat
 from packwork.readers.words.options import WeightIs, Word, WordOptions, lines_of
 from packwork.readers.words.source import ranked_words
 from packwork.readers.words.together import related
-from packwork.scene.item import Item, VectorArt
-from packwork.scene.label import Label
-from packwork.scene.live_text import LiveText
+from packwork.scene.item import Item, Label, LiveText, VectorArt
 
 EM_PX = 100.0
 """Height of an em in an item's own units. Any number would do."""

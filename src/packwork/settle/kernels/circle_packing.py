@@ -3,7 +3,7 @@
 ``discs``: ``(n, 2)`` centres. Overlaps of discs, and what they stick out of the circle, are
 squared and summed, with the circle's own square as a pressure, and go down by L-BFGS (J. Nocedal,
 "Updating quasi-Newton matrices with limited storage", Mathematics of Computation 35 (1980),
-773-782). Sources of the whole: ``settle/circle_packing.py``.
+773-782). Sources of the whole: ``settle/round_pack.py``.
 """
 
 from __future__ import annotations

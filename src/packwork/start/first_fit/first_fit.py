@@ -25,10 +25,8 @@ from packwork.scene.container import Container
 from packwork.scene.limits import NO_LIMITS, Limits
 from packwork.scene.pose import Poses
 from packwork.start.allowed_pixels import allowed_pixels
-from packwork.start.first_fit.homes import Homes
-from packwork.start.first_fit.kind_penalty import KindPenalty
-from packwork.start.first_fit.occupancy import Occupancy
-from packwork.start.first_fit.stencil import TOUCHED, Stencil, cut
+from packwork.start.first_fit.occupancy import TOUCHED, Occupancy, Stencil, cut
+from packwork.start.first_fit.preferences import Homes, KindPenalty
 from packwork.start.first_poses import container_image
 
 Key: TypeAlias = tuple[Outline, float, float]

@@ -21,8 +21,7 @@ from packwork.geometry.outline import Outline
 from packwork.progress import Stop, never
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.start.first_fit.grading import Candidate, Grading, PoseRow
-from packwork.start.first_fit.reserve import Reserve
+from packwork.start.first_fit.greedy_board import Candidate, GreedyBoard, PoseRow
 
 STEP = 1.01
 """Factor between sizes tried, which are sought by halves. Larger leaves room: with 1.04 a word of
@@ -33,8 +32,7 @@ LEAST_SHARE = 1e-3
 
 TOUCHING = 0.5
 """Share of the items, the first, that are put where they touch most; all others go where there is
-most room. Larger leaves limbs of the container bare, smaller fills less. Tried: with 100 words in
-a bird, a cat and a boat as much ink as with 1, and half the largest gap."""
+most room. Larger leaves limbs of the container bare, smaller fills less. Tried."""
 
 LEADING, JAMMED = 10, 0.6
 """Items that are put a second time, the first of them smaller, where one of them was left so small
@@ -42,35 +40,27 @@ a share of the size that it might have had: what follows is never larger again. 
 
 LARGEST = (1.4, 1.3, 1.2, 1.1, 1.0)
 """Sizes of the first item, over a balanced one, that are tried in turn where it is bounded by
-nothing, until the next ones all find a place. Larger ones yet leave no room for the second. Tried,
-on the default cloud and examples of the ``wordcloud`` package."""
+nothing, until the next ones all find a place. Larger leave no room for the second. Tried."""
 
 FOR_ALL = 3.0
 """How many times the size at which all items that are left would find a place the first of those
 that are held down may have, falling to 1 with the last. Larger leaves out more of the last where
-there is little room, smaller leaves room bare where there is much and makes sizes alike. Tried, on
-the default cloud and on examples of the ``wordcloud`` package."""
+there is little room, smaller leaves room bare where there is much and makes sizes alike. Tried."""
 
 AMPLE = 1.5
 """Such size, as a multiple of the least, from which on items are held down. Smaller places hundreds
-of specks in place of words that fill: .17 of ink in place of .42, 903 words in place of 499."""
+of specks in place of words that fill. Tried."""
 
 SMALLER, PLAINLY = (0.85, 0.7), 0.25
 """Sizes of the first item that are tried then in turn, over the largest that it found a place at,
 and by how much the mean logarithm of sizes has to grow: less makes a shape emptier that few long
-words fill well. Larger sizes alone leave some clouds half empty, smaller ones no word that stands
-out. By eye, on nine shapes and clouds of the other package's examples."""
+words fill well. Larger sizes leave some clouds half empty, smaller ones no word that stands out. By
+eye."""
 
 
 @dataclass(frozen=True, eq=False)
 class Graded:
-    """Items that found a place.
-
-    Parameters
-    ----------
-    placed
-        ``(m,)`` which of the candidates they are, in their order.
-    """
+    """Items that found a place: ``placed`` ``(m,)`` which of the candidates they are, in order."""
 
     placed: IntArray
     poses: Poses
@@ -134,9 +124,9 @@ def graded_fit(
     >>> found.placed.tolist(), found.poses.scale.tolist()
     ([0, 1, 2, 3, 4], [24.0, 12.0, 12.0, 12.0, 12.0])
     """
-    grading = Grading(container, count, rng, margin_cu, side_px)
+    board = GreedyBoard(container, count, rng, margin_cu, side_px)
     reserve = Reserve(lengths, 2 * margin_cu)
-    empty = _Descent(grading, count, smallest, grid, drop, reserve, regained)
+    empty = GreedyPlacement(board, count, smallest, grid, drop, reserve, regained)
     source = iter(candidates)
     leading = list(islice(source, LEADING))
     if leading and not is_first_bounded:
@@ -151,12 +141,12 @@ def _graded(placed: list[int], rows: list[PoseRow]) -> Graded:
     return Graded(np.array(placed, dtype=np.int64), Poses(x, y, angle, scale))
 
 
-class _Descent:
+class GreedyPlacement:
     """Items that found a place so far, and the size that the next may have."""
 
     def __init__(
         self,
-        grading: Grading,
+        board: GreedyBoard,
         count: int,
         smallest: float,
         grid: float,
@@ -164,7 +154,7 @@ class _Descent:
         reserve: Reserve,
         regained: float,
     ) -> None:
-        self._grading, self._count, self._reserve = grading, count, reserve
+        self._board, self._count, self._reserve = board, count, reserve
         self._smallest, self.grid, self._drop = smallest, grid, drop
         self._regained = regained
         self.placed, self.rows = list[int](), list[PoseRow]()
@@ -174,24 +164,14 @@ class _Descent:
         self.least_share = 1.0
         """Smallest size over the one that an item might have had."""
 
-    def emptied(self) -> _Descent:
+    def emptied(self) -> GreedyPlacement:
         """The same before anything was put."""
-        return _Descent(
-            self._grading.emptied(),
-            self._count,
-            self._smallest,
-            self.grid,
-            self._drop,
-            self._reserve.emptied(),
-            self._regained,
-        )
+        return GreedyPlacement(
+            self._board.emptied(), self._count, self._smallest, self.grid, self._drop,
+            self._reserve.emptied(), self._regained,
+        )  # fmt: skip
 
-    def put_all(
-        self,
-        candidates: Iterable[Candidate],
-        patience: int | None,
-        stop: Stop,
-    ) -> None:
+    def put_all(self, candidates: Iterable[Candidate], patience: int | None, stop: Stop) -> None:
         """Put one after another, until too many in a row find no place."""
         for candidate in candidates:
             if (self.rows and stop()) or (patience is not None and self._missed > patience):
@@ -204,12 +184,12 @@ class _Descent:
         asked = _on_grid(self._most * candidate.step, self.grid)
         self._most = min(self._most, asked) if self._number else candidate.step
         least = self._smallest or LEAST_SHARE * (self.rows[0][3] if self.rows else self._most)
-        self._grading.is_loose = self._number >= TOUCHING * self._count
+        self._board.is_loose = self._number >= TOUCHING * self._count
         held = self._held(candidate.outline, least)
         most = min(self._most, self.rows[-1][3]) if self.rows else self._most
         downwards = sizes_down(most, max(least, self.grid), self.grid, self._drop)
         sizes = [size for size in downwards if size <= held]
-        pose = self._grading.put(candidate, sizes)
+        pose = self._board.put(candidate, sizes)
         if pose is None:
             self._missed += 1
             return
@@ -234,7 +214,7 @@ class _Descent:
             return lowest
         if not self._is_held:
             return lowest
-        for_all = self._reserve.common_size(self._number, self._grading.left)
+        for_all = self._reserve.common_size(self._number, self._board.left)
         if self._number == LEADING:
             self._is_held = AMPLE * least <= for_all < math.inf
             if not self._is_held:
@@ -242,7 +222,7 @@ class _Descent:
         times = 1 + (FOR_ALL - 1) * (1 - self._number / self._count)
         return min(lowest, max(times * for_all, least))
 
-    def is_beyond(self, other: _Descent) -> bool:
+    def is_beyond(self, other: GreedyPlacement) -> bool:
         """Whether no fewer items are placed, and plainly larger ones."""
         mine, its = (dict(zip(one.placed, one.rows, strict=True)) for one in (self, other))
         gains = [math.log(mine[k][3] / its[k][3]) for k in mine.keys() & its.keys()]
@@ -250,12 +230,12 @@ class _Descent:
 
 
 def _opened(
-    empty: _Descent,
+    empty: GreedyPlacement,
     leading: Sequence[Candidate],
     is_first_bounded: bool,
     patience: int | None,
     stop: Stop,
-) -> _Descent:
+) -> GreedyPlacement:
     """The first items in place; with the first one smaller if they jam, where that is better.
 
     One that finds a place only where it is small holds all later ones down.
@@ -275,7 +255,7 @@ def _opened(
     return best
 
 
-def _balanced(empty: _Descent, two: Sequence[Candidate], least: float) -> float:
+def _balanced(empty: GreedyPlacement, two: Sequence[Candidate], least: float) -> float:
     """Scale of the first item: the harmonic mean of those of the first two alone."""
     alone = empty.emptied()
     alone.put_all(two, None, never)
@@ -287,10 +267,10 @@ def _balanced(empty: _Descent, two: Sequence[Candidate], least: float) -> float:
 
 
 def _largest_opened(
-    empty: _Descent, leading: Sequence[Candidate], patience: int | None, stop: Stop
-) -> _Descent:
+    empty: GreedyPlacement, leading: Sequence[Candidate], patience: int | None, stop: Stop
+) -> GreedyPlacement:
     """The first items in place, the first one as large as most of them find one."""
-    best: _Descent | None = None
+    best: GreedyPlacement | None = None
     for times in LARGEST:
         first = replace(leading[0], step=_on_grid(times * leading[0].step, empty.grid))
         other = empty.emptied()
@@ -316,15 +296,9 @@ def fit_between(
 ) -> Graded:
     """Poses of copies between items that lie already, each where there is most room.
 
-    Parameters
-    ----------
-    lying
-        In place; they meet nothing.
-    candidates
-        Sorts of copies, in turn again and again, as long as one finds a place; their steps are
-        their largest scales.
-    smallest
-        ``(n,)`` scale of each sort below which it finds none.
+    Candidates are sorts of copies, in turn again and again as long as one finds a place; their
+    steps are their largest scales, ``smallest`` ``(n,)`` the least. ``lying``: in place, clear of
+    each other.
 
     Examples
     --------
@@ -337,16 +311,16 @@ def fit_between(
     >>> len(found.placed), float(found.poses.scale.max())
     (16, 9.0)
     """
-    grading = Grading(container, len(lying) + most, rng, margin_cu)
-    grading.is_loose = True
+    board = GreedyBoard(container, len(lying) + most, rng, margin_cu)
+    board.is_loose = True
     for outline in lying:
-        grading.lay(outline)
+        board.lay(outline)
     placed, rows = list[int](), list[PoseRow]()
     left = list(range(len(candidates)))
     while left and len(placed) < most and not stop():
         k = left.pop(0)
         sizes = sizes_down(candidates[k].step, float(smallest[k]))
-        pose = grading.put(candidates[k], sizes)
+        pose = board.put(candidates[k], sizes)
         if pose is not None:
             left.append(k)
             placed.append(k)
@@ -375,3 +349,51 @@ def sizes_down(most: float, least: float, grid: float = 0.0, drop: float = 0.0) 
 def _on_grid(size: float, grid: float) -> float:
     """Nearest multiple of the grid; the size itself without one."""
     return round(size / grid) * grid if grid else size
+
+
+DENSE = 0.9
+"""Share of the free room that boxes of small items are taken to fill. Larger leaves more of the
+last items out, smaller makes all smaller than they need to be. Tried."""
+
+
+class Reserve:
+    """Room that items which are still to come need, by the lengths of all; none asks for none.
+
+    ``apart_cu``: room between two of them, canvas units.
+
+    Examples
+    --------
+    >>> reserve = Reserve([3.0] * 5, 0.0)
+    >>> reserve.add(Outline.box(0.0, 0.0, 6.0, 2.0))
+    >>> reserve.common_size(1, 4 * 12.0 / DENSE)
+    1.0
+    """
+
+    def __init__(self, lengths: Sequence[float], apart_cu: float) -> None:
+        self._lengths, self._apart = np.asarray(lengths, dtype=np.float64), apart_cu
+        self._boxes = list[tuple[float, float]]()
+
+    def emptied(self) -> Reserve:
+        """The same before any item was seen."""
+        return Reserve(self._lengths.tolist(), self._apart)
+
+    def add(self, outline: Outline) -> None:
+        """See the next item."""
+        left, top, right, bottom = outline.bounds
+        self._boxes.append((right - left, bottom - top))
+
+    def common_size(self, number: int, room: float) -> float:
+        """Scale at which all items from one on have room, side by side; infinite if unknown."""
+        to_come = self._lengths[number:]
+        if len(to_come) == 0:
+            return math.inf
+        known = self._lengths[: len(self._boxes)]
+        widths, heights = np.array(self._boxes).T
+        wide = float(widths.sum() / max(known.sum(), 1.0)) * to_come
+        high = float(heights.mean())
+        # (w s + a) (h s + a), summed, is the room.
+        square, sides = float(wide.sum()) * high, float(wide.sum()) + high * len(to_come)
+        linear, rest = self._apart * sides, len(to_come) * self._apart**2 - DENSE * room
+        if rest >= 0:
+            return 0.0
+        return (math.sqrt(linear**2 - 4 * square * rest) - linear) / (2 * square)

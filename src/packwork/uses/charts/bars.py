@@ -11,7 +11,7 @@ import numpy as np
 from packwork.arrays import IntArray
 from packwork.compaction.options import HAIR
 from packwork.errors import RecipeError
-from packwork.forces.direction import Direction
+from packwork.forces.field import Direction
 from packwork.forces.forces import FieldForce, Forces
 from packwork.geometry.outline import Outline
 from packwork.pipeline.findings import Unplaced
@@ -21,8 +21,7 @@ from packwork.progress import NOBODY, Observer, Stop
 from packwork.readers.tables.columns import MISSING, as_number
 from packwork.scene.container import Container
 from packwork.scene.pose import Poses
-from packwork.settle.options import SettleOptions
-from packwork.settle.pile import Arrival, pile
+from packwork.settle.pile import Arrival, SettleOptions, pile
 from packwork.steps.finish import gap_with_bulge
 from packwork.steps.place import first_angles
 from packwork.uses.charts.grouped import Grouped, GroupSteps, moved, unit_scales

@@ -10,8 +10,7 @@ import numpy as np
 from packwork.arrays import FloatArray
 from packwork.geometry import affine
 from packwork.readers.charts import ChartOptions
-from packwork.scene.canvas import on_canvas
-from packwork.scene.container import Container
+from packwork.scene.container import Container, on_canvas
 from packwork.units import CanvasSize
 from packwork.uses.charts.colours import ChartColours
 from packwork.uses.charts.marks import ChartRead

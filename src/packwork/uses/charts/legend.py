@@ -10,8 +10,7 @@ import numpy as np
 from packwork.geometry.outline import Outline
 from packwork.readers.charts import ChartOptions
 from packwork.scene.contrast import between, readable
-from packwork.scene.layout import Layout
-from packwork.scene.note import Note
+from packwork.scene.layout import Layout, Note
 from packwork.uses.charts.colours import UNKNOWN, ChartColours
 from packwork.uses.charts.framing import (
     EM_SHARE,

@@ -16,8 +16,7 @@ from packwork.phrasing import number_of
 from packwork.readers.tables.columns import MISSING
 from packwork.scene.contrast import contrast
 from packwork.scene.item import Item
-from packwork.scene.layout import Layout
-from packwork.scene.note import Note
+from packwork.scene.layout import Layout, Note
 from packwork.scene.recolour import one_colour
 from packwork.uses.charts.layout import Chart
 from packwork.uses.charts.pen import Pen, lettering

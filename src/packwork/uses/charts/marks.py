@@ -19,9 +19,7 @@ from packwork.readers.tables.columns import MISSING, categories, is_numeric, nam
 from packwork.readers.tables.format import TableFormat
 from packwork.readers.tables.table import Row, Table
 from packwork.readers.tables.written import shown_decimal
-from packwork.scene.datum import Datum
-from packwork.scene.item import Item
-from packwork.scene.label import MAX_LENGTH, Label
+from packwork.scene.item import MAX_LENGTH, Datum, Item, Label
 from packwork.uses.charts.groups import Groups, read_groups
 from packwork.uses.charts.rows import NUMBERS, marks_of, oddities, read_amounts, read_chart_table
 from packwork.uses.cutting import part_of

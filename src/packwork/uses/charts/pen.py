@@ -12,8 +12,8 @@ from packwork.geometry.outline import Outline
 from packwork.readers.fonts.fallback import Fonts, open_fonts
 from packwork.readers.fonts.lettering import Lettering
 from packwork.readers.reading import UnfitError
+from packwork.scene.layout import Note
 from packwork.scene.notation import path_data
-from packwork.scene.note import Note
 
 _LOG = logging.getLogger("packwork")
 

@@ -20,8 +20,8 @@ from packwork.readers.container import read_container
 from packwork.readers.options import AS_DRAWN
 from packwork.readers.svg.curve import read_curve
 from packwork.recipe.piles import Emitter, PileOptions, Side, parse_emitter
-from packwork.scene.blank import sheet
 from packwork.scene.container import Container
+from packwork.scene.layout import sheet
 from packwork.settle.pour import Source
 from packwork.units import CanvasSize
 

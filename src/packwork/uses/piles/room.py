@@ -17,8 +17,7 @@ from packwork.readers.svg.curve import walled_container
 from packwork.recipe import Recipe
 from packwork.recipe.piles import PileOptions
 from packwork.recipe.refusals import length_asked
-from packwork.scene.canvas import on_canvas
-from packwork.scene.container import Container
+from packwork.scene.container import Container, on_canvas
 from packwork.scene.item import Item
 from packwork.units import DEFAULT_SIDE, CanvasSize, Unit
 from packwork.uses.icons import NO_CONTAINER, KnownContainer

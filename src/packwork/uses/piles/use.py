@@ -13,7 +13,7 @@ import shapely
 from packwork.arrays import FloatArray, IntArray
 from packwork.errors import RecipeError
 from packwork.geometry.simplify import hull_areas
-from packwork.metrics.compactness import compactness
+from packwork.metrics.exact import compactness
 from packwork.phrasing import number_of
 from packwork.pipeline.findings import Unplaced
 from packwork.pipeline.job import Job, Use
@@ -24,14 +24,13 @@ from packwork.pipeline.registration import matched
 from packwork.pipeline.run import RunContext, RunStep
 from packwork.pipeline.state import RunState
 from packwork.recipe.piles import PileOptions
-from packwork.scene.canvas import brought_over
+from packwork.scene.container import brought_over
 from packwork.scene.item import Item
 from packwork.scene.layout import Layout
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
-from packwork.settle.options import SettleOptions
-from packwork.settle.pile import Arrival, Piled, pile
-from packwork.start.angles import nearest_allowed
+from packwork.settle.pile import Arrival, Piled, SettleOptions, pile
+from packwork.start.angles_and_sizes import nearest_allowed
 from packwork.steps.advice import Advise
 from packwork.steps.finish import gap_with_bulge
 from packwork.steps.line_weights import evened

@@ -29,9 +29,9 @@ from packwork.readers.words.items import EM_PX
 from packwork.recipe.rules import Rotation
 from packwork.scene.limits import Limits
 from packwork.scene.pose import Poses
-from packwork.start.angles import spread_angles, start_angles
+from packwork.start.angles_and_sizes import spread_angles, start_angles
 from packwork.start.first_fit.graded import Graded, graded_fit
-from packwork.start.first_fit.grading import Candidate
+from packwork.start.first_fit.greedy_board import Candidate
 from packwork.steps.starts import needs_levels
 from packwork.uses.words.copies import words_of
 from packwork.uses.words.sizes import (

@@ -18,7 +18,7 @@ from packwork.scene.contrast import between, contrast
 from packwork.scene.item import Item
 from packwork.scene.recolour import recoloured
 from packwork.start.first_fit.graded import fit_between
-from packwork.start.first_fit.grading import Candidate
+from packwork.start.first_fit.greedy_board import Candidate
 from packwork.steps.voids import joined_by
 from packwork.uses.words.graded import LEGIBLE, angles_of
 from packwork.uses.words.sizes import Letters

@@ -14,8 +14,8 @@ from packwork.errors import PackworkError, WriteError
 from packwork.geometry import affine
 from packwork.raster.drawing import drawn_png
 from packwork.raster.overlay import FINENESS, Picture, Texture, premultiplied, straight, texture_of
-from packwork.scene.blank import without_items
 from packwork.scene.item import Item
+from packwork.scene.layout import without_items
 from packwork.scene.track import poses_of
 from packwork.writers.film.film import Film, Tell, tell_nobody
 from packwork.writers.frame import PictureFrame, picture_frame

@@ -1,10 +1,37 @@
-"""Penalty of places near items of one kind, while items are put one after another."""
+"""Preferences of items that are put one by one: near their homes, away from their kind."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 
 from packwork.arrays import BoolArray, FloatArray, IntArray
+
+
+@dataclass(frozen=True, eq=False)
+class Homes:
+    """Points near which items had better lie.
+
+    Parameters
+    ----------
+    points
+        ``(n, 2)``, canvas units.
+    pull
+        ``(n,)`` score that an item gives for lying the canvas' side nearer to its own.
+    is_first
+        ``(n,)`` whether it is put before all that are not, however small it is.
+    """
+
+    points: FloatArray
+    pull: FloatArray
+    is_first: BoolArray
+
+    @classmethod
+    def of(cls, points: FloatArray, pull: float) -> Homes:
+        """Points that all items are drawn to alike."""
+        return cls(points, np.full(len(points), pull), np.zeros(len(points), dtype=bool))
+
 
 PRICE = 0.5
 """Score, of 1 for a place that touches others all round, that is taken off where an item of the
